@@ -1,1 +1,70 @@
-//! Placeholder while the house is built.
+//! Figures of vibro-impact dynamics: slices in, SVG text or PNG bytes out.
+//!
+//! A [`Figure`] is plain data: [`Panel`]s with two [`Axis`] each, marks between them drawn in the
+//! order given, and a [`Legend`] beside or below that never covers data. [`Figure::to_svg`] and
+//! [`Figure::to_png`] read no file, start no thread, use no font of the machine, and give the same
+//! bytes for the same figure.
+//!
+//! ```
+//! use vibroimpact_plot::{Axis, Figure, Legend, Line, Panel, SERIES, Side, Wall};
+//!
+//! let xs: Vec<f64> = (0..100).map(|i| f64::from(i) / 10.0).collect();
+//! let ys: Vec<f64> = xs.iter().map(|x| x.sin()).collect();
+//! let line = Line::new(xs, ys, SERIES[0]);
+//! let legend = Legend::below().line(line.stroke, "response");
+//! let panel = Panel::new(Axis::new("*τ*"), Axis::new("*ξ*"))
+//!     .with(line)
+//!     .with(Wall::new(1.0, Side::Above));
+//! let svg = Figure::new(panel).legend(legend).to_svg();
+//! assert!(svg.starts_with("<svg"));
+//! ```
+//!
+//! Lengths are figure units of 1/8 mm at the nominal print width: [`COLUMN`] is 85 mm,
+//! [`DOUBLE_COLUMN`] 170 mm, and the smallest text prints at 7 pt. Values that cannot be shown
+//! (`NaN`, infinities, non-positive values on a logarithmic axis) are left out; a range that is
+//! empty is widened. Labels are written in a [tiny markup](plain): `"1/*β*"`, `"*ξ*_0"`.
+//!
+//! [`class_style`] gives every kind of motion one colour and hatch in all figures, chosen for
+//! colour-blind readers and grey print.
+
+mod axis;
+mod base64;
+mod canvas;
+mod colour;
+mod error;
+mod figure;
+mod hatch;
+mod legend;
+mod mark;
+mod markup;
+mod metrics;
+mod number;
+mod palette;
+mod panel;
+mod render;
+mod stroke;
+mod theme;
+mod ticks;
+mod vision;
+
+pub use axis::{Axis, Scale};
+pub use colour::Colour;
+pub use error::PlotError;
+pub use figure::Figure;
+pub use hatch::{Hatch, Pattern};
+pub use legend::{Entry, Key, Legend, Place};
+pub use mark::Mark;
+pub use mark::guide::{HLine, Side, VLine, Wall};
+pub use mark::line::Line;
+pub use mark::points::{PointStyle, Points, Shape};
+pub use mark::raster::Raster;
+pub use mark::rects::{Rect, Rects};
+pub use mark::region::Region;
+pub use mark::text::Text;
+pub use markup::{Anchor, plain};
+pub use palette::{ClassStyle, GROUPS, SERIES, class_style, legend_group, legend_text};
+pub use panel::Panel;
+pub use stroke::{Dash, Stroke};
+pub use theme::{COLUMN, DOUBLE_COLUMN, DPI_300};
+pub use ticks::{Tick, nice_ticks};
+pub use vision::Vision;

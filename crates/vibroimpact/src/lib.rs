@@ -1,1 +1,6 @@
-//! Placeholder while the house is built.
+//! Vibro-impact dynamics: oscillators that strike stops.
+pub mod flight;
+pub mod math;
+pub mod system;
+
+pub use system::{Frequency, Machine, Oscillator, Scales, Side, Start, Stop, SystemError};

@@ -1,2 +1,74 @@
-//! Placeholder while the house is built.
-fn main() {}
+//! `cargo xtask`: what a developer does to this repository, one command in one file.
+//!
+//! The arguments are three words and two switches, so they are read by hand: the
+//! command starts in seconds from a fresh checkout, before anything else is built.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program for the terminal: printing is what it is for"
+)]
+
+mod command;
+mod docs;
+mod licences;
+mod links;
+mod spdx;
+mod test;
+mod tools;
+mod totals;
+
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask COMMAND
+
+  test [--fast] [--long]  every check of every language; ends with `N passed, M failed`
+                          --fast  format, lints and tests only
+                          --long  the long-running tests too (VIBROIMPACT_LONG=1)
+  docs                    the API documentation, with formulas, in target/doc
+  licences                the licence of every dependency against the allow-list
+  links                   every relative link in the Markdown files
+";
+
+/// Exit status of a question that makes no sense, as in `vibro`.
+const BAD_QUESTION: u8 = 2;
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let root = command::root();
+    match words.as_slice() {
+        ["test", switches @ ..] => match test::Options::parse(switches) {
+            Ok(options) => test::run(&root, options),
+            Err(sentence) => bad_question(&sentence),
+        },
+        ["docs"] => finish(docs::build(&root)),
+        ["licences"] => finish(licences::check(&root)),
+        ["links"] => finish(links::check(&root)),
+        ["help" | "--help" | "-h"] => {
+            print!("{USAGE}");
+            ExitCode::SUCCESS
+        }
+        [] => bad_question("no command is given"),
+        other => bad_question(&format!("`{}` is not a command of xtask", other.join(" "))),
+    }
+}
+
+/// Prints what a check found, and turns it into an exit status.
+fn finish(outcome: Result<String, String>) -> ExitCode {
+    match outcome {
+        Ok(sentence) => {
+            println!("{sentence}");
+            ExitCode::SUCCESS
+        }
+        Err(sentence) => {
+            eprintln!("{sentence}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn bad_question(sentence: &str) -> ExitCode {
+    eprintln!("{sentence}\n\n{USAGE}");
+    ExitCode::from(BAD_QUESTION)
+}

@@ -1,0 +1,70 @@
+//! What can go wrong on the way from slices to a picture, as data; the sentence is made in `Display`.
+
+use std::fmt;
+
+/// A reason why a figure could not be made.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlotError {
+    /// The number of class indices is not `nx * ny`.
+    RasterSize {
+        /// Class indices given.
+        given: usize,
+        /// Columns asked for.
+        nx: usize,
+        /// Rows asked for.
+        ny: usize,
+    },
+    /// The picture would have no pixels, or more than a PNG of ours may have.
+    ImageSize {
+        /// Width in pixels, as asked.
+        width: f64,
+        /// Height in pixels, as asked.
+        height: f64,
+    },
+    /// The renderer refused our own SVG text: a defect of this crate.
+    Svg(String),
+    /// The PNG encoder failed: a defect of this crate.
+    Png(String),
+}
+
+/// The longest side of a PNG, in pixels: 170 mm at 2400 dpi.
+pub(crate) const MAX_SIDE: f64 = 16_384.0;
+
+impl fmt::Display for PlotError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::RasterSize { given, nx, ny } => write!(
+                f,
+                "a raster of {nx} x {ny} cells needs {} class indices, {given} were given",
+                nx.saturating_mul(*ny)
+            ),
+            Self::ImageSize { width, height } => write!(
+                f,
+                "an image of {width} x {height} pixels lies outside 1..={MAX_SIDE} on a side\n\
+                 hint: scale is pixels per figure unit; 1.476 gives 300 dpi"
+            ),
+            Self::Svg(why) => write!(f, "the renderer refused the figure's SVG text: {why}"),
+            Self::Png(why) => write!(f, "the figure could not be encoded as PNG: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for PlotError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sentences_name_the_numbers() {
+        let e = PlotError::RasterSize {
+            given: 5,
+            nx: 2,
+            ny: 3,
+        };
+        assert_eq!(
+            e.to_string(),
+            "a raster of 2 x 3 cells needs 6 class indices, 5 were given"
+        );
+    }
+}

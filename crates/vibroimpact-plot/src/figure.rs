@@ -1,0 +1,411 @@
+//! A figure: panels in a grid, a title and a legend, laid out and written as SVG.
+
+use crate::axis::Mapping;
+use crate::canvas::{Canvas, Frame};
+use crate::error::PlotError;
+use crate::legend::{Arranged, Legend, Place};
+use crate::markup::{self, Anchor, Placed};
+use crate::number::N;
+use crate::panel::{Margins, Panel, Prepared};
+use crate::{render, theme};
+
+/// A picture to be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Width in figure units; see [`COLUMN`](crate::COLUMN).
+    pub width: f64,
+    /// Height of title and panels in figure units; a legend below adds its own.
+    pub height: f64,
+    /// A line above everything.
+    pub title: Option<String>,
+    /// Panels, row by row.
+    pub panels: Vec<Panel>,
+    /// Panels in a row.
+    pub columns: usize,
+    /// The legend.
+    pub legend: Option<Legend>,
+    /// Prefix of the ids inside the SVG text: give each figure of one web page its own.
+    pub id: String,
+}
+
+impl Figure {
+    /// A figure of one panel, 85 mm wide in print (680 by 480 units).
+    #[must_use]
+    pub fn new(panel: Panel) -> Self {
+        Self::grid(1, vec![panel])
+    }
+
+    /// Panels row by row, `columns` in a row. One column is 85 mm wide in print, more are 170 mm.
+    #[must_use]
+    pub fn grid(columns: usize, panels: Vec<Panel>) -> Self {
+        let columns = columns.max(1);
+        let rows = panels.len().div_ceil(columns).max(1);
+        let (width, height) = if columns == 1 {
+            (
+                theme::COLUMN,
+                if rows == 1 {
+                    480.0
+                } else {
+                    330.0 * rows as f64
+                },
+            )
+        } else {
+            (theme::DOUBLE_COLUMN, 480.0 * rows as f64)
+        };
+        Self {
+            width,
+            height,
+            title: None,
+            panels,
+            columns,
+            legend: None,
+            id: "vp-".into(),
+        }
+    }
+
+    /// With another size in figure units (1/8 mm in print).
+    #[must_use]
+    pub fn size(self, width: f64, height: f64) -> Self {
+        Self {
+            width,
+            height,
+            ..self
+        }
+    }
+
+    /// With a title.
+    #[must_use]
+    pub fn title(self, markup: impl Into<String>) -> Self {
+        Self {
+            title: Some(markup.into()),
+            ..self
+        }
+    }
+
+    /// With a legend.
+    #[must_use]
+    pub fn legend(self, legend: Legend) -> Self {
+        Self {
+            legend: Some(legend),
+            ..self
+        }
+    }
+
+    /// With another prefix for ids.
+    #[must_use]
+    pub fn id(self, prefix: impl Into<String>) -> Self {
+        Self {
+            id: prefix.into(),
+            ..self
+        }
+    }
+
+    /// Width and height with everything, in figure units: PNG pixels at scale 1.
+    #[must_use]
+    pub fn outer_size(&self) -> (f64, f64) {
+        let layout = Layout::of(self);
+        (layout.width, layout.height)
+    }
+
+    /// The figure as SVG text. It never fails: what cannot be shown is left out.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        let layout = Layout::of(self);
+        let prefix: String = self
+            .id
+            .chars()
+            .filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c))
+            .collect();
+        let mut canvas = Canvas::new(&prefix);
+        if let Some(title) = &self.title {
+            let y = theme::MARGIN + theme::TITLE_TEXT;
+            let placed = Placed::new(title, layout.width / 2.0, y, theme::TITLE_TEXT);
+            canvas.push(&placed.anchor(Anchor::Middle).svg());
+        }
+        for (panel, (frame, prepared)) in self.panels.iter().zip(&layout.panels) {
+            panel.draw(&mut canvas, frame, prepared);
+        }
+        if let (Some(legend), Some((left, top, arranged))) = (&self.legend, &layout.legend) {
+            legend.draw(&mut canvas, *left, *top, arranged);
+        }
+        let (w, h) = (N(layout.width), N(layout.height));
+        let title = self.title.as_ref().map_or(String::new(), |t| {
+            format!("<title>{}</title>\n", markup::escape(&markup::strip(t)))
+        });
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
+             font-family=\"'DejaVu Sans', Verdana, sans-serif\">\n{title}<defs>\n{}</defs>\n\
+             <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+            canvas.definitions(),
+            canvas.body
+        )
+    }
+
+    /// The figure as a PNG picture with `scale` pixels per figure unit; [`DPI_300`](crate::DPI_300)
+    /// suits print.
+    ///
+    /// # Errors
+    /// When the picture would have no pixel or more than 16384 on a side.
+    pub fn to_png(&self, scale: f64) -> Result<Vec<u8>, PlotError> {
+        render::png(&self.to_svg(), scale)
+    }
+}
+
+/// Where everything goes.
+struct Layout {
+    width: f64,
+    height: f64,
+    panels: Vec<(Frame, Prepared)>,
+    /// Left, top, and the columns.
+    legend: Option<(f64, f64, Arranged)>,
+}
+
+/// Frames never become smaller than this, however little room there is.
+const SMALLEST: f64 = 20.0;
+
+impl Layout {
+    fn of(figure: &Figure) -> Self {
+        let size = |v: f64, usual: f64| {
+            if v.is_finite() {
+                v.clamp(50.0, 1e5)
+            } else {
+                usual
+            }
+        };
+        let (width, height) = (
+            size(figure.width, theme::COLUMN),
+            size(figure.height, 480.0),
+        );
+        let edge = theme::MARGIN;
+        let head = edge
+            + if figure.title.is_some() {
+                1.5 * theme::TITLE_TEXT
+            } else {
+                0.0
+            };
+        let legend = figure.legend.as_ref().filter(|l| !l.entries.is_empty());
+        let arranged =
+            legend.map(|l| (l.place, l.arrange(width - 2.0 * edge, height - head - 60.0)));
+        let beside = match &arranged {
+            Some((Place::Right, a)) => a.width + theme::GAP,
+            _ => 0.0,
+        };
+        let inner = (width - 2.0 * edge - beside, height - head - edge);
+        let panels = frames(figure, (edge, head), inner);
+        let (mut outer, mut spot) = (height, None);
+        if let Some((place, a)) = arranged {
+            let (left, top) = match place {
+                Place::Right => {
+                    let top = panels.first().map_or(head, |(f, _)| f.top);
+                    outer = outer.max(top + a.height + edge);
+                    (width - edge - a.width, top)
+                }
+                Place::Below => {
+                    outer += a.height + theme::GAP / 2.0;
+                    (
+                        ((width - a.width) / 2.0).max(edge),
+                        height + theme::GAP / 2.0 - edge,
+                    )
+                }
+            };
+            spot = Some((left, top, a));
+        }
+        Self {
+            width,
+            height: outer,
+            panels,
+            legend: spot,
+        }
+    }
+}
+
+/// Frames of equal size in a grid; rows and columns share their margins, so that axes line up.
+fn frames(
+    figure: &Figure,
+    (left, top): (f64, f64),
+    (width, height): (f64, f64),
+) -> Vec<(Frame, Prepared)> {
+    let columns = figure.columns.clamp(1, figure.panels.len().max(1));
+    let rows = figure.panels.len().div_ceil(columns);
+    let (nx, ny) = (columns as f64, rows as f64);
+    // ticks depend on the frame and the frame on the ticks' numbers: the second round settles it
+    let mut each = (width / nx - 90.0, height / ny - 70.0);
+    let mut prepared = Vec::new();
+    let mut across = vec![Margins::default(); columns];
+    let mut down = vec![Margins::default(); rows];
+    for _ in 0..2 {
+        prepared = figure
+            .panels
+            .iter()
+            .map(|p| p.prepare(each.0.max(SMALLEST), each.1.max(SMALLEST)))
+            .collect::<Vec<_>>();
+        across.fill(Margins::default());
+        down.fill(Margins::default());
+        for (i, (panel, ready)) in figure.panels.iter().zip(&prepared).enumerate() {
+            let (m, a) = (panel.margins(ready), &mut across[i % columns]);
+            (a.left, a.right) = (a.left.max(m.left), a.right.max(m.right));
+            let d = &mut down[i / columns];
+            (d.top, d.bottom) = (d.top.max(m.top), d.bottom.max(m.bottom));
+        }
+        let taken_x: f64 =
+            across.iter().map(|m| m.left + m.right).sum::<f64>() + theme::GAP * (nx - 1.0);
+        let taken_y: f64 =
+            down.iter().map(|m| m.top + m.bottom).sum::<f64>() + theme::GAP / 2.0 * (ny - 1.0);
+        each = (
+            ((width - taken_x) / nx).max(SMALLEST),
+            ((height - taken_y) / ny).max(SMALLEST),
+        );
+    }
+    let mut out = Vec::with_capacity(prepared.len());
+    for (i, (panel, ready)) in figure.panels.iter().zip(prepared).enumerate() {
+        let (column, row) = (i % columns, i / columns);
+        let x = left
+            + across[..column]
+                .iter()
+                .map(|m| m.left + m.right + each.0 + theme::GAP)
+                .sum::<f64>()
+            + across[column].left;
+        let y = top
+            + down[..row]
+                .iter()
+                .map(|m| m.top + m.bottom + each.1 + theme::GAP / 2.0)
+                .sum::<f64>()
+            + down[row].top;
+        let frame = Frame {
+            left: x,
+            top: y,
+            width: each.0,
+            height: each.1,
+            x: Mapping {
+                scale: panel.x.scale,
+                range: ready.x_range,
+                page: (x, x + each.0),
+            },
+            y: Mapping {
+                scale: panel.y.scale,
+                range: ready.y_range,
+                page: (y + each.1, y),
+            },
+            clip: format!("clip{i}"),
+        };
+        out.push((frame, ready));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mark::guide::{HLine, Side, Wall};
+    use crate::{
+        Axis, Colour, Key, Line, Points, Raster, Rects, Region, Stroke, Text, class_style,
+    };
+
+    fn every_mark(xs: &[f64], ys: &[f64]) -> Panel {
+        let (a, b) = (
+            xs.first().copied().unwrap_or(0.0),
+            ys.last().copied().unwrap_or(1.0),
+        );
+        let mut cells = Rects::new([class_style("undecided")]);
+        cells.cell((a, b), (b, a), &[0]);
+        let ring: Vec<_> = xs.iter().copied().zip(ys.iter().copied()).collect();
+        let mut panel = Panel::new(Axis::new("1/*β* <&>"), Axis::new("*ξ*_0"))
+            .caption("(a)")
+            .with(cells)
+            .with(Region::polygon(ring).fill(Colour::BLACK.alpha(0.3)))
+            .with(Line::new(xs, ys, Colour::BLACK))
+            .with(Points::new(xs, ys, Colour::BLACK))
+            .with(Text::new(a, b, "here"))
+            .with(HLine::new(b, Stroke::new(Colour::BLACK)))
+            .with(Wall::new(a, Side::Right));
+        let raster = Raster::new((a, b), (a, b), (2, 2), [0, 1, 2, 3], [Colour::BLACK; 2]);
+        if let Ok(raster) = raster {
+            panel.add(raster);
+        }
+        panel
+    }
+
+    #[test]
+    fn the_same_figure_is_the_same_bytes() -> Result<(), PlotError> {
+        let make = || Figure::new(every_mark(&[0.0, 1.0, 0.5], &[0.0, 0.3, 1.0])).title("T");
+        assert_eq!(make().to_svg(), make().to_svg());
+        assert_eq!(make().to_png(0.5)?, make().to_png(0.5)?);
+        Ok(())
+    }
+
+    #[test]
+    fn a_png_has_its_size_and_is_not_blank() -> Result<(), PlotError> {
+        let legend = Legend::below().entry(Key::Patch(class_style("inf/1")), "∞");
+        let figure = Figure::new(every_mark(&[0.0, 1.0, 0.5], &[0.0, 0.3, 1.0])).legend(legend);
+        let png = figure.to_png(1.0)?;
+        let picture = resvg::tiny_skia::Pixmap::decode_png(&png)
+            .map_err(|e| PlotError::Png(e.to_string()))?;
+        let (w, h) = figure.outer_size();
+        assert_eq!(
+            (f64::from(picture.width()), f64::from(picture.height())),
+            (w.round(), h.round())
+        );
+        let dark = picture.pixels().iter().filter(|p| p.red() < 64).count();
+        assert!(
+            dark > 1000 && dark < picture.pixels().len() / 2,
+            "{dark} dark pixels"
+        );
+        Ok(())
+    }
+
+    #[test]
+    fn whatever_is_given_becomes_a_picture() -> Result<(), PlotError> {
+        let strange: [&[f64]; 6] = [
+            &[],
+            &[1.0],
+            &[f64::NAN; 3],
+            &[0.0; 4],
+            &[-1e308, 1e308, f64::INFINITY],
+            &[5e-324, -3.0, 2.0],
+        ];
+        for xs in strange {
+            for ys in strange {
+                let plain = every_mark(xs, ys);
+                let mut log = plain.clone();
+                (log.x, log.y) = (log.x.log10(), log.y.log10().grid());
+                let figure = Figure::grid(2, vec![plain, log]).size(300.0, f64::NAN);
+                let svg = figure.to_svg();
+                assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{svg}");
+                figure.to_png(0.3)?;
+            }
+        }
+        Figure::grid(3, vec![]).to_png(0.1)?;
+        Ok(())
+    }
+
+    #[test]
+    fn impossible_sizes_are_refused() {
+        let figure = Figure::new(every_mark(&[], &[]));
+        for scale in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
+            assert!(
+                matches!(figure.to_png(scale), Err(PlotError::ImageSize { .. })),
+                "{scale}"
+            );
+        }
+    }
+
+    #[test]
+    fn text_is_escaped_and_ids_are_prefixed() {
+        let figure = Figure::new(every_mark(&[0.0, 1.0], &[0.0, 1.0]))
+            .title("a < b")
+            .id("fig7-\"><x");
+        let svg = figure.to_svg();
+        assert!(svg.contains("<title>a &lt; b</title>") && svg.contains(" &lt;&amp;&gt;"));
+        assert!(svg.contains("id=\"fig7-x") && !svg.contains("id=\"clip") && !svg.contains("<x"));
+    }
+
+    #[test]
+    fn a_legend_below_leaves_the_panels_alone() {
+        let panel = || every_mark(&[0.0, 1.0], &[0.0, 1.0]);
+        let legend = Legend::below().entry(Key::Patch(class_style("1/1")), "1/1");
+        let (without, with) = (Figure::new(panel()), Figure::new(panel()).legend(legend));
+        assert!(with.outer_size().1 > without.outer_size().1);
+        let frame = |f: &Figure| Layout::of(f).panels[0].0.height;
+        assert_eq!(frame(&without), frame(&with));
+    }
+}

@@ -1,0 +1,253 @@
+//! Separate points: impacts, Poincaré sections, named places.
+
+use std::collections::HashSet;
+
+use crate::canvas::{Canvas, Frame};
+use crate::colour::Colour;
+use crate::mark::Extent;
+use crate::number::N;
+
+/// The form of a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shape {
+    /// ●
+    #[default]
+    Circle,
+    /// ■
+    Square,
+    /// ◆
+    Diamond,
+    /// ▲
+    TriangleUp,
+    /// ▼
+    TriangleDown,
+    /// ×
+    Cross,
+    /// +
+    Plus,
+}
+
+impl Shape {
+    /// Path data about a centre; `size` is the diameter of the circle, the others have its area.
+    pub(crate) fn path(self, x: f64, y: f64, size: f64) -> String {
+        let r = size / 2.0;
+        let (nx, ny) = (N(x), N(y));
+        match self {
+            Self::Circle => {
+                let (n, d) = (N(r), N(size));
+                format!(
+                    "M{} {ny}a{n} {n} 0 1 0 {d} 0a{n} {n} 0 1 0 -{d} 0z",
+                    N(x - r)
+                )
+            }
+            Self::Square => {
+                let h = r * 0.886;
+                let side = N(2.0 * h);
+                format!("M{} {}h{side}v{side}h-{side}z", N(x - h), N(y - h))
+            }
+            Self::Diamond => {
+                let h = r * 1.253;
+                format!(
+                    "M{} {ny}L{nx} {}L{} {ny}L{nx} {}z",
+                    N(x - h),
+                    N(y - h),
+                    N(x + h),
+                    N(y + h)
+                )
+            }
+            Self::TriangleUp | Self::TriangleDown => {
+                let (h, s) = (r * 1.555, if self == Self::TriangleUp { 1.0 } else { -1.0 });
+                let (base, half) = (N(y + s * h / 2.0), h * 0.866);
+                format!(
+                    "M{nx} {}L{} {base}L{} {base}z",
+                    N(y - s * h),
+                    N(x + half),
+                    N(x - half)
+                )
+            }
+            Self::Cross => {
+                let h = r * 0.8;
+                let (l, t, b, rt) = (N(x - h), N(y - h), N(y + h), N(x + h));
+                format!("M{l} {t}L{rt} {b}M{l} {b}L{rt} {t}")
+            }
+            Self::Plus => format!(
+                "M{} {ny}H{}M{nx} {}V{}",
+                N(x - r),
+                N(x + r),
+                N(y - r),
+                N(y + r)
+            ),
+        }
+    }
+
+    fn is_open(self) -> bool {
+        matches!(self, Self::Cross | Self::Plus)
+    }
+}
+
+/// The look of points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointStyle {
+    /// The form.
+    pub shape: Shape,
+    /// Diameter in figure units.
+    pub size: f64,
+    /// The colour.
+    pub colour: Colour,
+    /// Filled, or an outline only.
+    pub filled: bool,
+    /// A rim in another colour, which keeps filled points apart from what lies below.
+    pub rim: Option<Colour>,
+}
+
+impl PointStyle {
+    /// The rim and body of the points whose path is given.
+    pub(crate) fn paint(&self, path: &str) -> String {
+        let open = self.shape.is_open();
+        let line = if open { 2.5 } else { 2.0 };
+        let mut out = String::new();
+        if let Some(rim) = self.rim {
+            let width = if open || !self.filled {
+                line + 3.0
+            } else {
+                3.0
+            };
+            out.push_str(&format!(
+                "<path d=\"{path}\" fill=\"none\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
+                N(width),
+                rim.paint("stroke")
+            ));
+        }
+        let ink = if self.filled && !open {
+            self.colour.paint("fill")
+        } else {
+            format!(
+                " fill=\"none\" stroke-width=\"{line}\"{}",
+                self.colour.paint("stroke")
+            )
+        };
+        out.push_str(&format!("<path d=\"{path}\"{ink}/>\n"));
+        out
+    }
+}
+
+/// Points of one look.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Points {
+    /// Abscissae.
+    pub xs: Vec<f64>,
+    /// Ordinates; surplus values of either list are left out.
+    pub ys: Vec<f64>,
+    /// The look.
+    pub style: PointStyle,
+}
+
+impl Points {
+    /// Filled circles of 9 units (1.1 mm).
+    pub fn new(xs: impl Into<Vec<f64>>, ys: impl Into<Vec<f64>>, colour: Colour) -> Self {
+        let style = PointStyle {
+            shape: Shape::Circle,
+            size: 9.0,
+            colour,
+            filled: true,
+            rim: None,
+        };
+        Self {
+            xs: xs.into(),
+            ys: ys.into(),
+            style,
+        }
+    }
+
+    /// With another form.
+    #[must_use]
+    pub fn shape(mut self, shape: Shape) -> Self {
+        self.style.shape = shape;
+        self
+    }
+
+    /// With another diameter in figure units.
+    #[must_use]
+    pub fn size(mut self, size: f64) -> Self {
+        self.style.size = size;
+        self
+    }
+
+    /// As outlines.
+    #[must_use]
+    pub fn hollow(mut self) -> Self {
+        self.style.filled = false;
+        self
+    }
+
+    /// With a rim.
+    #[must_use]
+    pub fn rim(mut self, colour: Colour) -> Self {
+        self.style.rim = Some(colour);
+        self
+    }
+
+    /// Points are not cut in half by the frame: one whose centre is inside is drawn whole.
+    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
+        let size = if self.style.size.is_finite() {
+            self.style.size.clamp(0.2, 200.0)
+        } else {
+            9.0
+        };
+        let mut path = String::new();
+        let mut seen = HashSet::new();
+        for (&x, &y) in self.xs.iter().zip(&self.ys) {
+            let (px, py) = frame.at(x, y);
+            // two points in one hundredth of their size look like one; a section has thousands
+            let grid = (size / 50.0).max(0.05);
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "page coordinates are within 1e6"
+            )]
+            let cell = ((px / grid).round() as i64, (py / grid).round() as i64);
+            if frame.holds((px, py)) && seen.insert(cell) {
+                path.push_str(&self.style.shape.path(px, py, size));
+            }
+        }
+        if !path.is_empty() {
+            canvas.push(&self.style.paint(&path));
+        }
+    }
+
+    pub(crate) fn extent(&self, x: &mut Extent, y: &mut Extent) {
+        x.see_all(&self.xs);
+        y.see_all(&self.ys);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canvas::test_frame;
+
+    #[test]
+    fn doubles_and_strangers_are_left_out() {
+        let (frame, mut canvas) = (test_frame((0.0, 1.0), (0.0, 1.0)), Canvas::new(""));
+        let xs = [0.5, 0.5, f64::NAN, 7.0, 1.0];
+        Points::new(xs, [0.5, 0.5, 0.5, 0.5, 0.0], Colour::BLACK)
+            .shape(Shape::Plus)
+            .draw(&mut canvas, &frame);
+        assert_eq!(canvas.body.matches('V').count(), 2, "{}", canvas.body);
+    }
+
+    #[test]
+    fn every_shape_has_a_path() {
+        use Shape::{Circle, Cross, Diamond, Plus, Square, TriangleDown, TriangleUp};
+        let all = [
+            Circle,
+            Square,
+            Diamond,
+            TriangleUp,
+            TriangleDown,
+            Cross,
+            Plus,
+        ];
+        let paths: HashSet<String> = all.iter().map(|s| s.path(5.0, 5.0, 10.0)).collect();
+        assert_eq!(paths.len(), all.len());
+    }
+}

@@ -1,0 +1,211 @@
+//! A grid of class indices as one picture: basins of attraction with a cell per pixel.
+
+use resvg::tiny_skia::{IntSize, Pixmap};
+
+use crate::axis::Scale;
+use crate::base64;
+use crate::canvas::{Canvas, Frame};
+use crate::colour::Colour;
+use crate::error::{MAX_SIDE, PlotError};
+use crate::mark::Extent;
+use crate::number::N;
+
+/// Equal cells over a rectangle, each the colour of its class.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raster {
+    x: (f64, f64),
+    y: (f64, f64),
+    nx: usize,
+    ny: usize,
+    classes: Vec<u16>,
+    palette: Vec<Colour>,
+}
+
+impl Raster {
+    /// Cells that fill `x` times `y` (outer edges); `classes` holds rows from the lowest y up,
+    /// each from the first x on. A class beyond the palette is transparent.
+    ///
+    /// # Errors
+    /// When `classes` does not hold `nx * ny` values, or a side is 0 or above 16384.
+    pub fn new(
+        x: (f64, f64),
+        y: (f64, f64),
+        (nx, ny): (usize, usize),
+        classes: impl Into<Vec<u16>>,
+        palette: impl Into<Vec<Colour>>,
+    ) -> Result<Self, PlotError> {
+        let (classes, palette) = (classes.into(), palette.into());
+        if nx.checked_mul(ny) != Some(classes.len()) {
+            return Err(PlotError::RasterSize {
+                given: classes.len(),
+                nx,
+                ny,
+            });
+        }
+        let (width, height) = (nx as f64, ny as f64);
+        if !(1.0..=MAX_SIDE).contains(&width) || !(1.0..=MAX_SIDE).contains(&height) {
+            return Err(PlotError::ImageSize { width, height });
+        }
+        Ok(Self {
+            x,
+            y,
+            nx,
+            ny,
+            classes,
+            palette,
+        })
+    }
+
+    /// The same, but `x` and `y` are the middles of the first and last cells: the grid points that
+    /// were computed.
+    ///
+    /// # Errors
+    /// As [`Raster::new`].
+    pub fn centred(
+        x: (f64, f64),
+        y: (f64, f64),
+        (nx, ny): (usize, usize),
+        classes: impl Into<Vec<u16>>,
+        palette: impl Into<Vec<Colour>>,
+    ) -> Result<Self, PlotError> {
+        let outer = |(a, b): (f64, f64), n: usize| {
+            let half = if n > 1 {
+                (b - a) / (2.0 * (n - 1) as f64)
+            } else {
+                0.5
+            };
+            (a - half, b + half)
+        };
+        Self::new(outer(x, nx), outer(y, ny), (nx, ny), classes, palette)
+    }
+
+    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
+        if [frame.x.scale, frame.y.scale].contains(&Scale::Log10) {
+            return self.draw_cells(canvas, frame);
+        }
+        let (a, b) = (frame.x.at(self.x.0), frame.x.at(self.x.1));
+        let (c, d) = (frame.y.at(self.y.0), frame.y.at(self.y.1));
+        let (width, height) = ((b - a).abs(), (d - c).abs());
+        if !(width > 0.0 && height > 0.0) {
+            return;
+        }
+        // the page's y runs down: the first row is the lowest line of the picture
+        let Some(png) = self.png(b < a, c > d) else {
+            return;
+        };
+        let clip = canvas.clip(frame);
+        canvas.push(&format!(
+            "<g{clip}><image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" \
+             image-rendering=\"optimizeSpeed\" style=\"image-rendering:pixelated\" \
+             href=\"data:image/png;base64,{}\"/></g>\n",
+            N(a.min(b)),
+            N(c.min(d)),
+            N(width),
+            N(height),
+            base64::encode(&png)
+        ));
+    }
+
+    fn colour(&self, class: u16) -> Option<Colour> {
+        self.palette.get(usize::from(class)).copied()
+    }
+
+    /// One pixel per cell; `None` never happens for the sizes `new` lets through.
+    fn png(&self, mirror: bool, upturn: bool) -> Option<Vec<u8>> {
+        let mut data = Vec::with_capacity(4 * self.classes.len());
+        for j in 0..self.ny {
+            let row = if upturn { self.ny - 1 - j } else { j } * self.nx;
+            for i in 0..self.nx {
+                let column = if mirror { self.nx - 1 - i } else { i };
+                let pixel = self.colour(self.classes[row + column]).map_or([0; 4], |c| {
+                    let m = resvg::tiny_skia::ColorU8::from_rgba(c.r, c.g, c.b, c.a).premultiply();
+                    [m.red(), m.green(), m.blue(), m.alpha()]
+                });
+                data.extend_from_slice(&pixel);
+            }
+        }
+        let size = IntSize::from_wh(u32::try_from(self.nx).ok()?, u32::try_from(self.ny).ok()?)?;
+        Pixmap::from_vec(data, size)?.encode_png().ok()
+    }
+
+    /// On a logarithmic axis cells are not equally wide: runs of one class become rectangles.
+    fn draw_cells(&self, canvas: &mut Canvas, frame: &Frame) {
+        let step = |(a, b): (f64, f64), i: usize, n: usize| a + (b - a) * i as f64 / n as f64;
+        let mut paths = vec![String::new(); self.palette.len()];
+        for (j, row) in self.classes.chunks(self.nx).enumerate() {
+            let y = (step(self.y, j, self.ny), step(self.y, j + 1, self.ny));
+            let mut i = 0;
+            for run in row.chunk_by(|a, b| a == b) {
+                let x = (
+                    step(self.x, i, self.nx),
+                    step(self.x, i + run.len(), self.nx),
+                );
+                i += run.len();
+                if let (Some(path), Some([l, t, r, b])) =
+                    (paths.get_mut(usize::from(run[0])), frame.cut(x, y))
+                {
+                    path.push_str(&format!("M{} {}H{}V{}H{}z", N(l), N(t), N(r), N(b), N(l)));
+                }
+            }
+        }
+        for (path, colour) in paths.iter().zip(&self.palette) {
+            if !path.is_empty() {
+                let fill = colour.paint("fill");
+                canvas.push(&format!(
+                    "<path d=\"{path}\" shape-rendering=\"crispEdges\"{fill}/>\n"
+                ));
+            }
+        }
+    }
+
+    pub(crate) fn extent(&self, x: &mut Extent, y: &mut Extent) {
+        x.see_all(&[self.x.0, self.x.1]);
+        y.see_all(&[self.y.0, self.y.1]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_row_is_the_lowest() -> Result<(), PlotError> {
+        let colours = [Colour::WHITE, Colour::BLACK];
+        let raster = Raster::new((0.0, 1.0), (0.0, 1.0), (2, 2), [0, 1, 0, 7], colours)?;
+        let png = raster.png(false, true).unwrap_or_default();
+        let picture = Pixmap::decode_png(&png).map_err(|e| PlotError::Png(e.to_string()))?;
+        let red_alpha: Vec<_> = picture
+            .pixels()
+            .iter()
+            .map(|p| (p.red(), p.alpha()))
+            .collect();
+        assert_eq!(red_alpha, [(255, 255), (0, 0), (255, 255), (0, 255)]);
+        Ok(())
+    }
+
+    #[test]
+    fn sizes_are_checked() {
+        let make =
+            |n, shape| Raster::new((0.0, 1.0), (0.0, 1.0), shape, vec![0; n], [Colour::BLACK]);
+        assert!(matches!(
+            make(5, (2, 3)),
+            Err(PlotError::RasterSize {
+                given: 5,
+                nx: 2,
+                ny: 3
+            })
+        ));
+        assert!(matches!(make(0, (0, 3)), Err(PlotError::ImageSize { .. })));
+        assert!(matches!(
+            make(0, (usize::MAX, 2)),
+            Err(PlotError::RasterSize { .. })
+        ));
+    }
+
+    #[test]
+    fn centred_cells_reach_half_a_step_further() -> Result<(), PlotError> {
+        let raster = Raster::centred((0.0, 2.0), (5.0, 5.0), (3, 1), [0; 3], [Colour::BLACK])?;
+        assert_eq!((raster.x, raster.y), ((-0.5, 2.5), (4.5, 5.5)));
+        Ok(())
+    }
+}

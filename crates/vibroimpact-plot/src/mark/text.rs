@@ -1,0 +1,145 @@
+//! Labels at a place of the data.
+
+use crate::canvas::{Canvas, Frame};
+use crate::colour::Colour;
+use crate::mark::Extent;
+use crate::markup::{Anchor, Placed};
+use crate::number::N;
+use crate::theme;
+
+/// A label; it is shown when its place lies inside the axes, and never cut off by them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// Its place.
+    pub x: f64,
+    /// Its place.
+    pub y: f64,
+    /// What it says, in the markup of [labels](crate::plain).
+    pub markup: String,
+    /// Which end of the text stands there.
+    pub anchor: Anchor,
+    /// How far it is moved to the right, in figure units.
+    pub dx: f64,
+    /// How far it is moved up, in figure units.
+    pub dy: f64,
+    /// Font size in figure units.
+    pub size: f64,
+    /// The colour.
+    pub colour: Colour,
+    /// A white rim, so that it reads over colour.
+    pub halo: bool,
+    /// A thin line from the place to the moved label.
+    pub leader: bool,
+}
+
+impl Text {
+    /// A label centred on its place, with a halo.
+    pub fn new(x: f64, y: f64, markup: impl Into<String>) -> Self {
+        Self {
+            x,
+            y,
+            markup: markup.into(),
+            anchor: Anchor::Middle,
+            dx: 0.0,
+            dy: 0.0,
+            size: theme::MARK_TEXT,
+            colour: Colour::BLACK,
+            halo: true,
+            leader: false,
+        }
+    }
+
+    /// Moved right and up by figure units.
+    #[must_use]
+    pub fn shift(self, dx: f64, dy: f64) -> Self {
+        Self { dx, dy, ..self }
+    }
+
+    /// Standing on another end.
+    #[must_use]
+    pub fn anchor(self, anchor: Anchor) -> Self {
+        Self { anchor, ..self }
+    }
+
+    /// With another font size.
+    #[must_use]
+    pub fn size(self, size: f64) -> Self {
+        Self { size, ..self }
+    }
+
+    /// In another colour.
+    #[must_use]
+    pub fn colour(self, colour: Colour) -> Self {
+        Self { colour, ..self }
+    }
+
+    /// Without the white rim.
+    #[must_use]
+    pub fn without_halo(self) -> Self {
+        Self {
+            halo: false,
+            ..self
+        }
+    }
+
+    /// With a thin line back to its place.
+    #[must_use]
+    pub fn leader(self) -> Self {
+        Self {
+            leader: true,
+            ..self
+        }
+    }
+
+    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
+        let place = frame.at(self.x, self.y);
+        if !frame.holds(place) {
+            return;
+        }
+        let size = if self.size.is_finite() {
+            self.size.clamp(1.0, 400.0)
+        } else {
+            theme::MARK_TEXT
+        };
+        let (x, y) = (place.0 + self.dx, place.1 - self.dy);
+        if self.leader {
+            let d = format!("M{} {}L{} {}", N(place.0), N(place.1), N(x), N(y));
+            for (width, colour) in [(4.5, Colour::WHITE), (1.5, self.colour)] {
+                canvas.push(&format!(
+                    "<path d=\"{d}\" fill=\"none\" stroke-width=\"{width}\"{}/>\n",
+                    colour.paint("stroke")
+                ));
+            }
+        }
+        // capitals are 0.73 high: half of it below the place centres them
+        let baseline = y + 0.365 * size;
+        let placed = Placed {
+            colour: self.colour,
+            halo: if self.halo { 0.16 * size } else { 0.0 },
+            ..Placed::new(&self.markup, x, baseline, size).anchor(self.anchor)
+        };
+        canvas.push(&placed.svg());
+    }
+
+    pub(crate) fn extent(&self, x: &mut Extent, y: &mut Extent) {
+        x.see(self.x);
+        y.see(self.y);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canvas::test_frame;
+
+    #[test]
+    fn labels_outside_are_not_shown() {
+        let frame = test_frame((0.0, 1.0), (0.0, 1.0));
+        let mut canvas = Canvas::new("");
+        Text::new(2.0, 0.5, "out").draw(&mut canvas, &frame);
+        Text::new(f64::NAN, 0.5, "nowhere").draw(&mut canvas, &frame);
+        assert_eq!(canvas.body, "");
+        Text::new(0.5, 0.5, "in").draw(&mut canvas, &frame);
+        assert_eq!(canvas.body.matches("<text").count(), 2, "halo and text");
+    }
+}

@@ -1,0 +1,258 @@
+//! Colours for series, and one fixed style per kind of motion.
+//!
+//! [`SERIES`] is the eight-colour set of M. Okabe and K. Ito, "Color Universal Design" (2002,
+//! 2008), `https://jfly.uni-koeln.de/color/`.
+//!
+//! Motion classes follow their kin: `m/1` motions go from light to dark blue as m grows, subharmonic
+//! `1/n` motions from yellow to red-brown, other periodic motions are green, complete chatter is
+//! pink. Hues lie on the blue-yellow axis, which red-green blindness leaves alone, and kin differ
+//! in lightness, so that they survive grey print; groups that come close in grey carry a hatch.
+//! The tests hold the main groups apart for trichromats, protanopes and deuteranopes.
+
+use crate::colour::Colour;
+use crate::hatch::{Hatch, Pattern};
+
+/// Okabe and Ito's colours for lines and points, in an order that keeps neighbours apart.
+pub const SERIES: [Colour; 8] = [
+    Colour::hex(0x00_72b2),
+    Colour::hex(0xd5_5e00),
+    Colour::hex(0x00_9e73),
+    Colour::hex(0xcc_79a7),
+    Colour::hex(0xe6_9f00),
+    Colour::hex(0x56_b4e9),
+    Colour::hex(0x00_0000),
+    Colour::hex(0xf0_e442),
+];
+
+/// How a class looks on a map and in the legend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ClassStyle {
+    /// The fill.
+    pub colour: Colour,
+    /// Lines over it. A [`Raster`](crate::Raster) has no room for them and shows the fill alone.
+    pub hatch: Option<Hatch>,
+}
+
+impl ClassStyle {
+    /// A plain fill.
+    #[must_use]
+    pub const fn plain(colour: Colour) -> Self {
+        Self {
+            colour,
+            hatch: None,
+        }
+    }
+
+    const fn hatched(colour: u32, pattern: Pattern, lines: u32) -> Self {
+        let hatch = Some(Hatch::new(pattern, Colour::hex(lines)));
+        Self {
+            colour: Colour::hex(colour),
+            hatch,
+        }
+    }
+}
+
+/// Every legend group, in the order of a legend.
+pub const GROUPS: [&str; 17] = [
+    "0",
+    "1/1",
+    "2/1",
+    "3/1",
+    "4/1",
+    "m/1",
+    "1/2",
+    "1/3",
+    "1/n",
+    "k/k",
+    "3/2",
+    "m/n",
+    "inf/n",
+    "chaotic",
+    "stuck",
+    "undecided",
+    "other",
+];
+
+/// The legend group of a motion's label: one of [`GROUPS`].
+///
+/// `0` and `0/n` are motions without impact; `m/1` gathers m >= 5, `1/n` n >= 4, `k/k` equal
+/// numbers from 2 on, `m/n` all other periodic motions; `inf/n` (also `∞/n`) is complete chatter.
+/// What follows the numbers, as in `2/1'`, is not looked at. Words that are no label are `other`.
+#[must_use]
+pub fn legend_group(label: &str) -> &'static str {
+    let label = label.trim();
+    let word = label.to_lowercase();
+    match word.as_str() {
+        "0" => return "0",
+        "chaotic" | "chaos" => return "chaotic",
+        "stuck" | "sticking" => return "stuck",
+        "undecided" | "unknown" | "" => return "undecided",
+        _ => {}
+    }
+    let Some((m, n)) = word.split_once('/') else {
+        return "other";
+    };
+    let m = m.trim();
+    if matches!(m, "inf" | "∞") {
+        return "inf/n";
+    }
+    let n: String = n
+        .trim_start()
+        .chars()
+        .take_while(char::is_ascii_digit)
+        .collect();
+    let (Ok(m), Ok(n)) = (m.parse::<u64>(), n.parse::<u64>()) else {
+        return "other";
+    };
+    match (m, n) {
+        (_, 0) => "other",
+        (0, _) => "0",
+        (1, 1) => "1/1",
+        (2, 1) => "2/1",
+        (3, 1) => "3/1",
+        (4, 1) => "4/1",
+        (_, 1) => "m/1",
+        (1, 2) => "1/2",
+        (1, 3) => "1/3",
+        (1, _) => "1/n",
+        (m, n) if m == n => "k/k",
+        (3, 2) => "3/2",
+        _ => "m/n",
+    }
+}
+
+/// The style of a motion's label, the same in every figure. The label of a group gives its style.
+#[must_use]
+pub fn class_style(label: &str) -> ClassStyle {
+    let plain = |rgb| ClassStyle::plain(Colour::hex(rgb));
+    match group_of(label) {
+        "0" => plain(0xe9_e9e9),
+        "1/1" => plain(0x9a_d6ee),
+        "2/1" => plain(0x3f_a0d0),
+        "3/1" => plain(0x1a_6fb0),
+        "4/1" => plain(0x17_3f86),
+        "m/1" => ClassStyle::hatched(0x2b_1b57, Pattern::Rising, 0xa9_9ae0),
+        "1/2" => plain(0xf2_a71b),
+        "1/3" => plain(0xd9_601a),
+        "1/n" => ClassStyle::hatched(0x9a_2f0e, Pattern::Falling, 0xf2_b79a),
+        "k/k" => ClassStyle::hatched(0xd3_e27a, Pattern::Horizontal, 0x7b_8a1e),
+        "3/2" => ClassStyle::hatched(0x0b_8f62, Pattern::Vertical, 0xb5_ead2),
+        "m/n" => ClassStyle::hatched(0x7f_d0a0, Pattern::Dots, 0x14_5c3a),
+        "inf/n" => ClassStyle::hatched(0xf2_9bc1, Pattern::Falling, 0x93_1f5c),
+        "chaotic" => plain(0x10_1010),
+        "stuck" => ClassStyle::hatched(0x5e_4636, Pattern::Horizontal, 0xd9_c3ae),
+        "undecided" => ClassStyle::hatched(0xff_ffff, Pattern::Cross, 0xd0_2020),
+        _ => ClassStyle::hatched(0x9a_9a9a, Pattern::Dots, 0xff_ffff),
+    }
+}
+
+/// The text of a label's group for a legend, in the markup of [labels](crate::plain).
+#[must_use]
+pub fn legend_text(label: &str) -> &'static str {
+    match group_of(label) {
+        "0" => "no impact",
+        "1/1" => "1/1",
+        "2/1" => "2/1",
+        "3/1" => "3/1",
+        "4/1" => "4/1",
+        "m/1" => "*m*/1, *m* ≥ 5",
+        "1/2" => "1/2",
+        "1/3" => "1/3",
+        "1/n" => "1/*n*, *n* ≥ 4",
+        "k/k" => "*k*/*k*, *k* ≥ 2",
+        "3/2" => "3/2",
+        "m/n" => "other *m*/*n*",
+        "inf/n" => "∞/*n* (chatter)",
+        "chaotic" => "chaotic",
+        "stuck" => "stuck",
+        "undecided" => "undecided",
+        _ => "other",
+    }
+}
+
+fn group_of(label: &str) -> &'static str {
+    GROUPS
+        .into_iter()
+        .find(|group| *group == label)
+        .unwrap_or_else(|| legend_group(label))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vision::Vision;
+
+    const EYES: [Vision; 3] = [Vision::Normal, Vision::Protanopia, Vision::Deuteranopia];
+
+    fn closest(groups: &[&str], eye: Vision) -> (f64, String) {
+        let seen = |g: &str| eye.see(class_style(g).colour);
+        let mut best = (f64::INFINITY, String::new());
+        for (i, a) in groups.iter().enumerate() {
+            for b in &groups[i + 1..] {
+                let d = seen(a).delta_e(seen(b));
+                if d < best.0 {
+                    best = (d, format!("{a} and {b}"));
+                }
+            }
+        }
+        best
+    }
+
+    #[test]
+    fn main_groups_are_told_apart_by_every_eye() {
+        let main = ["0", "1/1", "2/1", "3/1", "4/1", "1/2", "chaotic", "inf/n"];
+        for eye in EYES {
+            let (d, pair) = closest(&main, eye);
+            assert!(d >= 14.0, "{eye:?}: {pair} only {d:.1} apart");
+            let (d, pair) = closest(&GROUPS, eye);
+            assert!(d >= 7.0, "{eye:?}: {pair} only {d:.1} apart");
+        }
+    }
+
+    #[test]
+    fn grey_print_tells_groups_apart_by_lightness_or_hatch() {
+        for (i, a) in GROUPS.iter().enumerate() {
+            for b in &GROUPS[i + 1..] {
+                let (s, t) = (class_style(a), class_style(b));
+                let d = Vision::Grey
+                    .see(s.colour)
+                    .delta_e(Vision::Grey.see(t.colour));
+                let hatch = |c: ClassStyle| c.hatch.map(|h| h.pattern);
+                assert!(d >= 7.0 || hatch(s) != hatch(t), "{a} and {b}: {d:.1}");
+            }
+        }
+    }
+
+    #[test]
+    fn labels_find_their_group() {
+        for (label, group) in [
+            ("0", "0"),
+            ("0/1", "0"),
+            ("1/1", "1/1"),
+            (" 4/1 ", "4/1"),
+            ("5/1", "m/1"),
+            ("17/1", "m/1"),
+            ("1/2", "1/2"),
+            ("1/9", "1/n"),
+            ("2/2", "k/k"),
+            ("7/7", "k/k"),
+            ("3/2", "3/2"),
+            ("2/3", "m/n"),
+            ("2/1'", "2/1"),
+            ("inf/1", "inf/n"),
+            ("∞/2", "inf/n"),
+            ("Chaotic", "chaotic"),
+            ("stuck", "stuck"),
+            ("", "undecided"),
+            ("quasi-periodic", "other"),
+            ("1/0", "other"),
+            ("-1/2", "other"),
+        ] {
+            assert_eq!(legend_group(label), group, "{label:?}");
+            assert_eq!(class_style(label), class_style(group), "{label:?}");
+        }
+        for group in GROUPS {
+            assert!(!legend_text(group).is_empty());
+        }
+    }
+}

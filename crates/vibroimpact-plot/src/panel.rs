@@ -1,0 +1,330 @@
+//! A panel: two axes, a caption, and marks between them.
+
+use crate::axis::{Axis, Mapping};
+use crate::canvas::{Canvas, Frame};
+use crate::colour::Colour;
+use crate::mark::{Extent, Mark};
+use crate::markup::{self, Anchor, Placed};
+use crate::number::N;
+use crate::stroke::Stroke;
+use crate::theme;
+use crate::ticks::Tick;
+
+/// A pair of axes and what is drawn between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// A line above the frame at its left end: `"(a)"`, `"**(a)** *δ* = 0"`.
+    pub caption: Option<String>,
+    /// What is shown, the first lowest.
+    pub marks: Vec<Mark>,
+}
+
+impl Panel {
+    /// An empty panel.
+    #[must_use]
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self {
+            x,
+            y,
+            caption: None,
+            marks: Vec::new(),
+        }
+    }
+
+    /// With a caption.
+    #[must_use]
+    pub fn caption(self, markup: impl Into<String>) -> Self {
+        Self {
+            caption: Some(markup.into()),
+            ..self
+        }
+    }
+
+    /// One more mark, on top of the others.
+    #[must_use]
+    pub fn with(mut self, mark: impl Into<Mark>) -> Self {
+        self.marks.push(mark.into());
+        self
+    }
+
+    /// One more mark, on top of the others.
+    pub fn add(&mut self, mark: impl Into<Mark>) {
+        self.marks.push(mark.into());
+    }
+
+    /// Ranges and ticks for a frame of about this size.
+    pub(crate) fn prepare(&self, width: f64, height: f64) -> Prepared {
+        use crate::axis::Scale::Log10;
+        let (mut x, mut y) = (
+            Extent::new(self.x.scale == Log10),
+            Extent::new(self.y.scale == Log10),
+        );
+        for mark in &self.marks {
+            mark.extent(&mut x, &mut y);
+        }
+        let (x_range, y_range) = (self.x.resolve(x.range()), self.y.resolve(y.range()));
+        let room = |length: f64, each: f64| (length / each).clamp(2.0, 10.0);
+        #[expect(clippy::cast_possible_truncation, reason = "between 2 and 10")]
+        let y_ticks = self.y.resolve_ticks(y_range, room(height, 48.0) as usize);
+        // as many numbers as stand side by side with air between them
+        #[expect(clippy::cast_possible_truncation, reason = "between 2 and 10")]
+        let mut most = room(width, 50.0) as usize;
+        let mapping = Mapping {
+            scale: self.x.scale,
+            range: x_range,
+            page: (0.0, width),
+        };
+        let x_ticks = loop {
+            let ticks = self.x.resolve_ticks(x_range, most);
+            if most <= 1 || self.x.ticks.is_some() || !crowded(&ticks, &mapping) {
+                break ticks;
+            }
+            most -= 1;
+        };
+        Prepared {
+            x_range,
+            y_range,
+            x_ticks,
+            y_ticks,
+        }
+    }
+
+    /// The room that numbers, labels and caption need around the frame.
+    pub(crate) fn margins(&self, prepared: &Prepared) -> Margins {
+        let width = |t: &Tick| markup::width(&t.label, theme::TICK_TEXT);
+        let numbers = prepared.y_ticks.iter().map(width).fold(0.0, f64::max);
+        let label = |axis: &Axis| {
+            if axis.label.is_empty() {
+                0.0
+            } else {
+                1.4 * theme::LABEL_TEXT
+            }
+        };
+        let beside = theme::TICK + theme::TICK_GAP;
+        // half of the last number overhangs, if it stands at the end
+        let end = prepared
+            .x_ticks
+            .iter()
+            .filter(|_| self.x.numbers)
+            .map(width)
+            .fold(0.0, f64::max);
+        Margins {
+            left: (beside + numbers + label(&self.y)).max(end / 2.0),
+            right: end / 2.0,
+            top: if self.caption.is_some() {
+                1.5 * theme::CAPTION_TEXT
+            } else {
+                theme::TICK_TEXT / 2.0
+            },
+            bottom: beside
+                + if self.x.numbers {
+                    theme::TICK_TEXT
+                } else {
+                    0.0
+                }
+                + label(&self.x),
+        }
+    }
+
+    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
+        canvas.define_clip(frame);
+        canvas.push("<g>\n");
+        self.draw_grid(canvas, frame, prepared);
+        for mark in &self.marks {
+            mark.draw(canvas, frame);
+        }
+        canvas.push(&frame.rect(&format!(
+            " fill=\"none\"{}",
+            Stroke::new(Colour::BLACK).width(theme::FRAME).attributes()
+        )));
+        canvas.push("\n");
+        self.draw_ticks(canvas, frame, prepared);
+        self.draw_labels(canvas, frame, prepared);
+        canvas.push("</g>\n");
+    }
+
+    fn draw_grid(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
+        let mut d = String::new();
+        for tick in prepared
+            .x_ticks
+            .iter()
+            .filter(|t| self.x.grid && !t.label.is_empty())
+        {
+            d.push_str(&format!(
+                "M{} {}V{}",
+                N(frame.x.at(tick.value)),
+                N(frame.top),
+                N(frame.bottom())
+            ));
+        }
+        for tick in prepared
+            .y_ticks
+            .iter()
+            .filter(|t| self.y.grid && !t.label.is_empty())
+        {
+            d.push_str(&format!(
+                "M{} {}H{}",
+                N(frame.left),
+                N(frame.y.at(tick.value)),
+                N(frame.right())
+            ));
+        }
+        if !d.is_empty() {
+            let stroke = Stroke::new(Colour::hex(0xd8_d8d8)).width(1.0).attributes();
+            canvas.push(&format!("<path d=\"{d}\" fill=\"none\"{stroke}/>\n"));
+        }
+    }
+
+    /// Ticks point outwards, where they neither cover data nor vanish in a raster.
+    fn draw_ticks(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
+        let (left, bottom, size) = (frame.left, frame.bottom(), theme::TICK_TEXT);
+        let length = |t: &Tick| {
+            if t.label.is_empty() {
+                theme::TICK * 0.55
+            } else {
+                theme::TICK
+            }
+        };
+        let (mut d, mut numbers) = (String::new(), String::new());
+        for tick in &prepared.x_ticks {
+            let x = frame.x.at(tick.value);
+            d.push_str(&format!("M{} {}v{}", N(x), N(bottom), N(length(tick))));
+            let y = bottom + theme::TICK + theme::TICK_GAP + 0.73 * size;
+            if !tick.label.trim().is_empty() {
+                numbers.push_str(
+                    &Placed::new(&tick.label, x, y, size)
+                        .anchor(Anchor::Middle)
+                        .svg(),
+                );
+            }
+        }
+        for tick in &prepared.y_ticks {
+            let y = frame.y.at(tick.value);
+            d.push_str(&format!("M{} {}h-{}", N(left), N(y), N(length(tick))));
+            let x = left - theme::TICK - theme::TICK_GAP;
+            if !tick.label.trim().is_empty() {
+                let placed = Placed::new(&tick.label, x, y + 0.365 * size, size);
+                numbers.push_str(&placed.anchor(Anchor::End).svg());
+            }
+        }
+        let stroke = Stroke::new(Colour::BLACK).width(theme::FRAME).attributes();
+        canvas.push(&format!(
+            "<path d=\"{d}\" fill=\"none\"{stroke}/>\n{numbers}"
+        ));
+    }
+
+    fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
+        let size = theme::LABEL_TEXT;
+        let margins = self.margins(prepared);
+        let (mid_x, mid_y) = (
+            frame.left + frame.width / 2.0,
+            frame.top + frame.height / 2.0,
+        );
+        let below = frame.bottom() + margins.bottom - 0.42 * size;
+        canvas.push(
+            &Placed::new(&self.x.label, mid_x, below, size)
+                .anchor(Anchor::Middle)
+                .svg(),
+        );
+        let numbers = prepared
+            .y_ticks
+            .iter()
+            .map(|t| markup::width(&t.label, theme::TICK_TEXT));
+        let numbers = numbers.fold(0.0, f64::max);
+        // 0.6 of a size keeps subscripts of the turned label off the numbers
+        let beside = frame.left - theme::TICK - theme::TICK_GAP - numbers - 0.6 * size;
+        let upright = Placed {
+            upright: true,
+            ..Placed::new(&self.y.label, beside, mid_y, size).anchor(Anchor::Middle)
+        };
+        canvas.push(&upright.svg());
+        if let Some(caption) = &self.caption {
+            let y = frame.top - 0.45 * theme::CAPTION_TEXT;
+            canvas.push(&Placed::new(caption, frame.left, y, theme::CAPTION_TEXT).svg());
+        }
+    }
+}
+
+/// A panel's ranges and ticks.
+#[derive(Clone, Debug)]
+pub(crate) struct Prepared {
+    pub(crate) x_range: (f64, f64),
+    pub(crate) y_range: (f64, f64),
+    x_ticks: Vec<Tick>,
+    y_ticks: Vec<Tick>,
+}
+
+/// Room around a frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Margins {
+    pub(crate) left: f64,
+    pub(crate) right: f64,
+    pub(crate) top: f64,
+    pub(crate) bottom: f64,
+}
+
+/// Whether two numbers would touch.
+fn crowded(ticks: &[Tick], mapping: &Mapping) -> bool {
+    let mut spans: Vec<(f64, f64)> = ticks
+        .iter()
+        .filter(|t| !t.label.is_empty())
+        .map(|t| {
+            (
+                mapping.at(t.value),
+                markup::width(&t.label, theme::TICK_TEXT),
+            )
+        })
+        .collect();
+    spans.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let air = 0.7 * theme::TICK_TEXT;
+    spans
+        .windows(2)
+        .any(|w| w[1].0 - w[0].0 < (w[0].1 + w[1].1) / 2.0 + air)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_never_touch() {
+        for width in [40.0, 100.0, 300.0, 600.0] {
+            for (lo, hi) in [
+                (0.0, 1.0),
+                (-1234.5, 99_999.0),
+                (1.000_001, 1.000_002),
+                (0.0, 4e-7),
+            ] {
+                let panel = Panel::new(Axis::new("x").range(lo, hi), Axis::new("y"));
+                let prepared = panel.prepare(width, 300.0);
+                let mapping = Mapping {
+                    scale: panel.x.scale,
+                    range: prepared.x_range,
+                    page: (0.0, width),
+                };
+                let shown = prepared
+                    .x_ticks
+                    .iter()
+                    .filter(|t| !t.label.is_empty())
+                    .count();
+                assert!(
+                    shown <= 2 || !crowded(&prepared.x_ticks, &mapping),
+                    "{width} {lo} {hi}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn wide_numbers_get_wide_margins() {
+        let margin = |hi| {
+            let panel = Panel::new(Axis::new("x"), Axis::new("y").range(0.0, hi));
+            panel.margins(&panel.prepare(400.0, 300.0)).left
+        };
+        assert!(margin(90_000.0) > margin(9.0) + 40.0);
+    }
+}

@@ -1,0 +1,56 @@
+//! SVG text to PNG bytes by `resvg`, with `DejaVu` Sans and no other font of the machine.
+
+use std::sync::{Arc, OnceLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb};
+
+use crate::error::{MAX_SIDE, PlotError};
+
+/// The four faces a label can use, loaded once.
+fn fonts() -> Arc<fontdb::Database> {
+    static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
+    let load = || {
+        let mut fonts = fontdb::Database::new();
+        for face in [
+            dejavu::sans::regular(),
+            dejavu::sans::oblique(),
+            dejavu::sans::bold(),
+            dejavu::sans::bold_oblique(),
+        ] {
+            fonts.load_font_source(fontdb::Source::Binary(Arc::new(face)));
+        }
+        fonts.set_sans_serif_family("DejaVu Sans");
+        Arc::new(fonts)
+    };
+    Arc::clone(FONTS.get_or_init(load))
+}
+
+/// Draws SVG text with `scale` pixels per unit.
+pub(crate) fn png(svg: &str, scale: f64) -> Result<Vec<u8>, PlotError> {
+    let options = Options {
+        fontdb: fonts(),
+        font_family: "DejaVu Sans".into(),
+        ..Options::default()
+    };
+    let tree = Tree::from_str(svg, &options).map_err(|e| PlotError::Svg(e.to_string()))?;
+    let side = |v: f32| (f64::from(v) * scale).round();
+    let (width, height) = (side(tree.size().width()), side(tree.size().height()));
+    let refuse = || PlotError::ImageSize { width, height };
+    if !(1.0..=MAX_SIDE).contains(&width) || !(1.0..=MAX_SIDE).contains(&height) {
+        return Err(refuse());
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "between 1 and 16384")]
+    let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(refuse)?;
+    // the page is stretched by a fraction of a pixel so that it fills the last row and column
+    #[expect(clippy::cast_possible_truncation, reason = "the renderer works in f32")]
+    let zoom = |pixels: f64, units: f32| (pixels / f64::from(units)) as f32;
+    let transform = Transform::from_scale(
+        zoom(width, tree.size().width()),
+        zoom(height, tree.size().height()),
+    );
+    resvg::render(&tree, transform, &mut pixels.as_mut());
+    pixels
+        .encode_png()
+        .map_err(|e| PlotError::Png(e.to_string()))
+}

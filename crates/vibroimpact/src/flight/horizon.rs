@@ -1,0 +1,208 @@
+//! What can be said of a flight before searching it: that it never touches, or how far one has to look.
+//!
+//! A flight is a free part, which decays like $\rho e^{-\kappa s}$ or keeps its amplitude $\rho$, and the steady motion of
+//! amplitude $|f|$. Three decisions need no time-out:
+//!
+//! 1. $\rho e^{-\kappa s} + |f| < \delta$ from some time on: never again after it (at once when it holds at $s = 0$).
+//! 2. Undamped with $\beta = p/q$: the flight repeats after $2\pi q$, so one common period without contact is for ever.
+//!    Every double is a fraction; here $\beta$ counts as $p/q$ when $q \le 1000$ and $\beta$ is that fraction to within
+//!    two units in the last place - what $1/0.7$ is to $10/7$. The answer is exact for the fraction. For the stored
+//!    number the phase drifts by at most $4\cdot10^{-16}\,\beta$ per unit of time, some $10^{-9}$ in a million periods.
+//!    At resonance, 1/1, the flight grows instead of repeating, and the rule does not apply.
+//! 3. Otherwise contact is only a matter of time ($\rho + |f| \ge \delta$, phases incommensurate or $|f| > \delta$), and a search
+//!    that ends at its limit says so: none until then.
+
+use super::Flight;
+use crate::math::{asin, atan2, exp, hypot, ln};
+use crate::system::{Oscillator, phase};
+use core::f64::consts::{E, FRAC_PI_2, TAU};
+
+/// Why a flight never touches a stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Horizon {
+    /// The amplitudes of its free and steady parts together stay short of the stops: for ever.
+    Amplitude,
+    /// $\beta = p/q$ and one common period of force and oscillator, `2 pi q`, passed without contact: for ever.
+    CommonPeriod {
+        /// Forcing periods in the common period.
+        p: u32,
+        /// Natural periods in the common period.
+        q: u32,
+    },
+}
+
+/// How far a search for the next contact goes before it answers that there is none until then.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SearchLimits {
+    /// Forcing periods to look ahead.
+    pub periods: f64,
+    /// Evaluations of one flight. An ordinary flight takes about ten.
+    pub steps: u32,
+}
+
+impl Default for SearchLimits {
+    /// A thousand forcing periods, a hundred thousand evaluations (a few milliseconds).
+    fn default() -> Self {
+        Self { periods: 1000.0, steps: 100_000 }
+    }
+}
+
+/// Free and steady part of a flight, as amplitudes and angles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Envelope {
+    /// Amplitude of the steady part.
+    steady: f64,
+    /// Angle of the steady part at the beginning: it is `steady * sin(angle + beta s)`.
+    steady_angle: f64,
+    /// Bound of the free part at the beginning ...
+    rho: f64,
+    /// ... and its rate of decay.
+    kappa: f64,
+    /// Undamped: the free part is `rho * sin(free_angle + s)`.
+    free_angle: f64,
+    beta: f64,
+}
+
+impl Envelope {
+    /// `None` at undamped resonance, where there is no steady part.
+    pub(super) fn new(flight: &Flight) -> Option<Self> {
+        let (beta, zeta) = (flight.response().beta(), flight.response().damping());
+        let (zr, zi) = ((1.0 - beta) * (1.0 + beta), 2.0 * zeta * beta);
+        let steady = 1.0 / hypot(zr, zi);
+        if !steady.is_finite() {
+            return None;
+        }
+        let steady_angle = flight.phase - atan2(zi, zr);
+        let (xf, vf) = (flight.x - steady * libm::sin(steady_angle), flight.v - beta * steady * libm::cos(steady_angle));
+        let (rho, kappa) = if zeta == 0.0 {
+            (hypot(xf, vf), 0.0)
+        } else if zeta < 0.9 {
+            let w = ((1.0 - zeta) * (1.0 + zeta)).sqrt();
+            (hypot(xf, (vf + zeta * xf) / w), zeta)
+        } else {
+            // |free| <= (|xf| + |vf + zeta xf| s) e^{-slow s}, and s e^{-slow s} <= 2/(e slow) e^{-slow s/2}
+            let slow = if zeta < 1.0 { zeta } else { 1.0 / (zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt()) };
+            (xf.abs() + (vf + zeta * xf).abs() * 2.0 / (E * slow), 0.5 * slow)
+        };
+        Some(Self { steady, steady_angle, rho, kappa, free_angle: atan2(xf, vf), beta })
+    }
+
+    /// From this time on the flight stays short of a stop at distance `gap` from the rest position.
+    pub(super) fn clear_from(&self, gap: f64) -> Option<f64> {
+        // rounding of the amplitudes themselves; at |f| = gap exactly nothing is claimed
+        let slack = gap - self.steady - 1e-14 * (self.rho + self.steady + gap.abs());
+        if slack > self.rho {
+            Some(0.0)
+        } else if slack > 0.0 && self.kappa > 0.0 {
+            Some(ln(self.rho / slack) / self.kappa)
+        } else {
+            None
+        }
+    }
+
+    /// A time not before `s` until which a stop (`sign` +1 for the upper) at `gap` cannot be reached, because the free
+    /// part at its largest, or the steady part at its largest, would not do. Lets slow forcing (or fast, tiny forcing)
+    /// be crossed in strides.
+    pub(super) fn stride(&self, s: f64, sign: f64, gap: f64) -> f64 {
+        let margin = 1e-12 * (self.rho + self.steady + gap.abs());
+        let rho = self.rho * exp(-self.kappa * s);
+        let turned = if sign > 0.0 { 0.0 } else { 2.0 * FRAC_PI_2 };
+        let by_steady = wait(gap - rho - margin, self.steady, self.steady_angle + self.beta * s + turned) / self.beta;
+        let by_free =
+            if self.kappa == 0.0 { wait(gap - self.steady - margin, rho, self.free_angle + s + turned) } else { 0.0 };
+        s + by_steady.max(by_free)
+    }
+}
+
+/// How much `angle` has to grow until `amplitude * sin(angle)` reaches `level`; 0 when it is there already or the
+/// level is never passed for sure.
+fn wait(level: f64, amplitude: f64, angle: f64) -> f64 {
+    if !(level.abs() < amplitude) {
+        return 0.0;
+    }
+    let rising = asin(level / amplitude);
+    let ahead = phase::wrap(rising - angle);
+    // above the level between rising and pi - rising
+    if ahead > 2.0 * rising + TAU / 2.0 { 0.0 } else { ahead }
+}
+
+/// The fraction `p/q`, `q <= 1000`, that `beta` is to within two units in the last place.
+#[must_use]
+pub(super) fn as_fraction(beta: f64) -> Option<(u32, u32)> {
+    // convergents of the continued fraction
+    let (mut p0, mut q0, mut p1, mut q1) = (0.0, 1.0, 1.0, 0.0);
+    let mut rest = beta;
+    for _ in 0..20 {
+        let whole = rest.floor();
+        (p0, p1) = (p1, whole * p1 + p0);
+        (q0, q1) = (q1, whole * q1 + q0);
+        if q1 > 1000.0 || p1 > 1e9 {
+            return None;
+        }
+        if (p1 / q1 - beta).abs() <= 2.0 * f64::EPSILON * beta {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // whole numbers below 1e9
+            return Some((p1 as u32, q1 as u32));
+        }
+        rest = 1.0 / (rest - whole);
+    }
+    None
+}
+
+/// What is known in advance about the whole flight.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outlook {
+    /// Search until here ...
+    pub(super) until: f64,
+    /// ... and if nothing came by then, this is why nothing ever will; `None`: no more is known.
+    pub(super) never: Option<Horizon>,
+    pub(super) envelope: Option<Envelope>,
+}
+
+impl Outlook {
+    pub(super) fn new(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Self {
+        let envelope = Envelope::new(flight);
+        let mut outlook = Self { until: limits.periods * osc.period(), never: None, envelope };
+        let clear = envelope.and_then(|e| {
+            osc.stops().map(|(_, stop)| e.clear_from(stop.gap)).try_fold(0.0_f64, |latest, one| Some(latest.max(one?)))
+        });
+        if let Some(clear) = clear
+            && clear <= outlook.until
+        {
+            (outlook.until, outlook.never) = (clear, Some(Horizon::Amplitude));
+        } else if osc.damping() == 0.0
+            && osc.beta() != 1.0
+            && let Some((p, q)) = as_fraction(osc.beta())
+            && p != q
+            && f64::from(p) <= limits.periods
+        {
+            (outlook.until, outlook.never) = (TAU * f64::from(q), Some(Horizon::CommonPeriod { p, q }));
+        }
+        outlook
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_are_recognised() {
+        assert_eq!(as_fraction(1.0 / 0.7), Some((10, 7)));
+        assert_eq!(as_fraction(1.0 / 0.6), Some((5, 3)));
+        assert_eq!(as_fraction(1.0 / 1.11), Some((100, 111)));
+        assert_eq!(as_fraction(2.0), Some((2, 1)));
+        assert_eq!(as_fraction(1.0 / 3.0), Some((1, 3)));
+        assert_eq!(as_fraction(core::f64::consts::SQRT_2), None);
+        assert_eq!(as_fraction(1e-6), None);
+    }
+
+    #[test]
+    fn waiting_for_a_level() {
+        assert!((wait(0.5, 1.0, 0.0) - asin(0.5)).abs() < 1e-15);
+        assert_eq!(wait(0.5, 1.0, 1.0), 0.0, "already above");
+        assert!((wait(0.5, 1.0, 3.0) - (asin(0.5) + TAU - 3.0)).abs() < 1e-14);
+        assert!((wait(-0.5, 1.0, 4.5) - (TAU - asin(0.5) - 4.5)).abs() < 1e-14);
+        assert_eq!(wait(-0.5, 1.0, 0.0), 0.0);
+        assert_eq!(wait(2.0, 1.0, 0.0), 0.0);
+    }
+}

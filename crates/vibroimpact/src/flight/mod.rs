@@ -1,0 +1,19 @@
+//! Flight: the motion between impacts, and when it ends.
+//!
+//! | idea | file |
+//! |---|---|
+//! | free and forced response for every $\beta$ and $\zeta$ | [`Response`] |
+//! | the arc from a state | [`Flight`] |
+//! | what can be said before searching: never, or how far to look | [`Horizon`] |
+//! | the first contact, never missed | [`first_contact`] |
+
+mod arc;
+mod bounds;
+mod first_contact;
+mod horizon;
+mod response;
+
+pub use arc::{Flight, Point};
+pub use first_contact::{Contact, first_contact};
+pub use horizon::{Horizon, SearchLimits};
+pub use response::{Propagator, Response};

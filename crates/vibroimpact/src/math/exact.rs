@@ -1,0 +1,77 @@
+//! Error-free transformations: sums and products that keep what rounding would lose (Dekker 1971, doi:10.1007/BF01397083).
+
+/// `a + b` as a rounded sum and its exact error.
+#[inline]
+pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    let bb = s - a;
+    (s, (a - (s - bb)) + (b - bb))
+}
+
+/// `a * b` as a rounded product and its exact error, for magnitudes below about 1e291.
+///
+/// Veltkamp splitting: no fused multiply-add, so every machine does the same operations.
+#[inline]
+pub(crate) fn two_prod(a: f64, b: f64) -> (f64, f64) {
+    let (ah, al) = split(a);
+    let (bh, bl) = split(b);
+    let p = a * b;
+    (p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
+}
+
+#[inline]
+fn split(a: f64) -> (f64, f64) {
+    const SPLITTER: f64 = 134_217_729.0; // 2^27 + 1
+    let t = SPLITTER * a;
+    let hi = t - (t - a);
+    (hi, a - hi)
+}
+
+/// A running sum that carries its rounding error, so that 1e9 flight times add up without losing digits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Sum {
+    hi: f64,
+    lo: f64,
+}
+
+impl Sum {
+    /// Adds `x`.
+    #[inline]
+    pub(crate) fn add(&mut self, x: f64) {
+        let (s, e) = two_sum(self.hi, x);
+        let (hi, lo) = two_sum(s, e + self.lo);
+        self.hi = hi;
+        self.lo = lo;
+    }
+
+    /// The sum, rounded once.
+    #[inline]
+    pub(crate) fn value(self) -> f64 {
+        self.hi + self.lo
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_sum_keeps_its_digits() {
+        let mut sum = Sum::default();
+        let mut naive = 0.0;
+        for _ in 0..10_000_000 {
+            sum.add(0.1);
+            naive += 0.1;
+        }
+        // 0.1 is stored as 0.1000000000000000055511151231257827
+        assert!((sum.value() - 1e6 - 5.551_115_123e-11).abs() < 1.2e-10);
+        assert!((naive - 1e6_f64).abs() > 1e-5, "the naive sum drifts, which is why this type exists");
+    }
+
+    #[test]
+    fn product_error_is_exact() {
+        let (p, e) = two_prod(1.0 + f64::EPSILON, 1.0 - f64::EPSILON);
+        assert_eq!(p, 1.0);
+        assert_eq!(e, -f64::EPSILON * f64::EPSILON);
+    }
+}

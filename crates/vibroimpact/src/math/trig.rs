@@ -1,0 +1,168 @@
+//! Sine and cosine, together, to better than one unit in the last place.
+//!
+//! The argument is reduced to $|r| \le \pi/4$ plus a low part: for $|n| < 2^{20}$ quarter turns by three 33-bit pieces of
+//! $\pi/2$, whose products with $n$ are exact (Cody & Waite), above that by exact products with a 160-bit $\pi/2$. The
+//! two polynomials are the minimax ones of Sun's fdlibm (`k_sin.c`, `k_cos.c`, freely usable), with the low part of the
+//! reduced argument carried through.
+
+use super::{two_prod, two_sum};
+use core::f64::consts::FRAC_2_PI;
+
+/// π/2 in pieces of 33 bits: `n * piece` is exact for |n| < 2^20.
+const P1: f64 = 1.570_796_326_734_125_6;
+const P2: f64 = 6.077_100_506_303_966e-11;
+const P3: f64 = 2.022_266_248_795_950_6e-21;
+/// π/2 in three full-width pieces.
+const Q1: f64 = core::f64::consts::FRAC_PI_2;
+const Q2: f64 = 6.123_233_995_736_766e-17;
+const Q3: f64 = -1.497_384_904_859_169_8e-33;
+
+/// Up to here the fast reduction is exact.
+const FAST: f64 = 1_000_000.0;
+/// From here on neighbouring numbers are more than a radian apart and a sine means nothing; the argument is taken as
+/// it is, modulo the double nearest 2π, so that the answer is at least finite and repeatable.
+const MEANINGLESS: f64 = 9_007_199_254_740_992.0;
+
+/// `(sin x, cos x)`, each within 1 ulp for |x| < 2^53; NaN for a NaN or infinite `x`.
+///
+/// ```
+/// let (s, c) = vibroimpact::math::sin_cos(1e5);
+/// assert!((s - 1e5_f64.sin()).abs() < 2e-16 && (c - 1e5_f64.cos()).abs() < 2e-16);
+/// ```
+#[inline]
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    let (n, r, lo) = if x.abs() <= FAST { reduce_fast(x) } else { reduce_large(x) };
+    let s = kernel_sin(r, lo);
+    let c = kernel_cos(r, lo);
+    match n & 3 {
+        0 => (s, c),
+        1 => (c, -s),
+        2 => (-s, -c),
+        _ => (-c, s),
+    }
+}
+
+/// The nearest whole number, ties to even, by the classic 1.5 * 2^52 shift.
+#[inline]
+fn nearest(x: f64) -> f64 {
+    const SHIFT: f64 = 6_755_399_441_055_744.0;
+    (x + SHIFT) - SHIFT
+}
+
+#[inline]
+#[allow(clippy::cast_possible_truncation)] // |n| < 2^20
+fn reduce_fast(x: f64) -> (i64, f64, f64) {
+    let n = nearest(x * FRAC_2_PI);
+    let (r, e) = two_sum(x - n * P1, -(n * P2));
+    let lo = e - n * P3;
+    let hi = r + lo;
+    (n as i64, hi, (r - hi) + lo)
+}
+
+#[cold]
+#[allow(clippy::cast_possible_truncation)] // |n| < 2^53, or NaN which becomes 0 and stays NaN in r
+fn reduce_large(x: f64) -> (i64, f64, f64) {
+    let x = if x.abs() < MEANINGLESS { x } else { x % core::f64::consts::TAU };
+    // the product is rounded, so near a half-integer it may choose the wrong neighbour: look once more
+    let n = (x * FRAC_2_PI).round();
+    let n = n + (subtract_quarters(x, n).0 * FRAC_2_PI).round();
+    let (hi, lo) = subtract_quarters(x, n);
+    (n as i64, hi, lo)
+}
+
+/// $x - n \pi/2$ as high and low part.
+fn subtract_quarters(x: f64, n: f64) -> (f64, f64) {
+    let (p, pe) = two_prod(n, Q1);
+    let (q, qe) = two_prod(n, Q2);
+    let (r, e1) = two_sum(x - p, -pe);
+    let (r, e2) = two_sum(r, -q);
+    let lo = ((e1 + e2) - qe) - n * Q3;
+    let hi = r + lo;
+    (hi, (r - hi) + lo)
+}
+
+#[inline]
+fn kernel_sin(x: f64, lo: f64) -> f64 {
+    const S: [f64; 6] = [
+        -1.666_666_666_666_663_24e-1,
+        8.333_333_333_322_489_46e-3,
+        -1.984_126_982_985_794_93e-4,
+        2.755_731_370_707_006_77e-6,
+        -2.505_076_025_340_686_34e-8,
+        1.589_690_995_211_550_1e-10,
+    ];
+    let z = x * x;
+    let w = z * z;
+    let r = S[1] + z * (S[2] + z * S[3]) + z * w * (S[4] + z * S[5]);
+    let v = z * x;
+    x - ((z * (0.5 * lo - v * r) - lo) - v * S[0])
+}
+
+#[inline]
+fn kernel_cos(x: f64, lo: f64) -> f64 {
+    const C: [f64; 6] = [
+        4.166_666_666_666_660_19e-2,
+        -1.388_888_888_887_410_96e-3,
+        2.480_158_728_947_672_94e-5,
+        -2.755_731_435_139_066_33e-7,
+        2.087_572_321_298_174_83e-9,
+        -1.135_964_755_778_819_48e-11,
+    ];
+    let z = x * x;
+    let w = z * z;
+    let r = z * (C[0] + z * (C[1] + z * C[2])) + w * w * (C[3] + z * (C[4] + z * C[5]));
+    let hz = 0.5 * z;
+    let w = 1.0 - hz;
+    w + (((1.0 - w) - hz) + (z * r - x * lo))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Distance in units of the last place of `want`.
+    fn ulps(got: f64, want: f64) -> f64 {
+        let ulp = f64::from_bits(want.abs().to_bits() + 1) - want.abs();
+        (got - want).abs() / ulp
+    }
+
+    #[test]
+    fn agrees_with_a_second_implementation() {
+        // libm is a different code (Payne-Hanek reduction for large arguments); both are within 1 ulp, so 2 apart.
+        let mut x = 1e-9;
+        let mut k = 0_u32;
+        while x < 1e15 {
+            for x in [x, -x, x * 1.000_1] {
+                let (s, c) = sin_cos(x);
+                assert!(ulps(s, libm::sin(x)) <= 1.0, "sin {x:e}: {s:e}");
+                assert!(ulps(c, libm::cos(x)) <= 1.0, "cos {x:e}: {c:e}");
+            }
+            x *= 1.0 + 1e-3 * f64::from(k % 7 + 1);
+            k += 1;
+        }
+        assert!(k > 10_000);
+    }
+
+    #[test]
+    fn multiples_of_a_quarter_turn() {
+        // the double nearest 2^k * pi/2 is off by a known amount; libm's Payne-Hanek reduction is the referee
+        for k in 0..45 {
+            let x = core::f64::consts::FRAC_PI_2 * 2_f64.powi(k);
+            let (s, c) = sin_cos(x);
+            assert!(ulps(s, libm::sin(x)) <= 1.0, "sin 2^{k} pi/2");
+            assert!(ulps(c, libm::cos(x)) <= 1.0, "cos 2^{k} pi/2");
+        }
+    }
+
+    #[test]
+    fn strange_arguments_do_not_panic() {
+        for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let (s, c) = sin_cos(x);
+            assert!(s.is_nan() && c.is_nan());
+        }
+        let (s, c) = sin_cos(1e300);
+        assert!((s * s + c * c - 1.0).abs() < 1e-15);
+        assert_eq!(sin_cos(0.0), (0.0, 1.0));
+    }
+}

@@ -1,0 +1,76 @@
+//! Why a question about a system makes no sense: the value, the allowed range, often a hint.
+
+use thiserror::Error;
+
+/// A parameter or start that no oscillator can have. Each variant carries the offending value.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum SystemError {
+    /// The frequency ratio is not a positive finite number.
+    #[error("frequency ratio beta = {0} lies outside 0 < beta < infinity\nhint: beta = omega / omega_n; its inverse is given by --inverse-beta")]
+    Beta(f64),
+    /// The inverse frequency ratio is not a positive finite number.
+    #[error("inverse frequency ratio 1/beta = {0} lies outside 0 < 1/beta < infinity\nhint: 1/beta = omega_n / omega")]
+    InverseBeta(f64),
+    /// The gap is not finite.
+    #[error("gap delta = {0} is not a finite number\nhint: a negative gap presses the mass against the stop at rest")]
+    Gap(f64),
+    /// The restitution is outside [0, 1].
+    #[error("restitution eps = {0} lies outside 0 <= eps <= 1\nhint: eps is the ratio of velocities, not of energies")]
+    Restitution(f64),
+    /// The damping ratio is negative or not finite.
+    #[error("damping ratio zeta = {0} lies outside 0 <= zeta < infinity\nhint: zeta = c / (2 sqrt(k m))")]
+    Damping(f64),
+    /// Two stops that leave no room between them.
+    #[error(
+        "the stops at x = {upper} and x = {lower} leave the mass no room: the sum of the gaps, {width}, must be positive\nhint: the second stop stands at x = -gap of its own"
+    )]
+    NoRoom {
+        /// Position of the first stop.
+        upper: f64,
+        /// Position of the second stop.
+        lower: f64,
+        /// Their distance.
+        width: f64,
+    },
+    /// A start beyond a stop.
+    #[error("start x = {x} lies beyond the stop: x must be in [{lowest}, {highest}]")]
+    BeyondStop {
+        /// The position asked for.
+        x: f64,
+        /// Position of the second stop, or minus infinity.
+        lowest: f64,
+        /// Position of the first stop.
+        highest: f64,
+    },
+    /// A start that is not a finite number.
+    #[error("start {name} = {value} is not a finite number")]
+    StartNotFinite {
+        /// Which of `x`, `v`, `phase`.
+        name: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// A physical quantity outside its range.
+    #[error("{name} = {value} {unit} lies outside {range}\nhint: {hint}")]
+    Quantity {
+        /// Name of the quantity.
+        name: &'static str,
+        /// The value given.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// The allowed range.
+        range: &'static str,
+        /// What to do about it.
+        hint: &'static str,
+    },
+    /// A conversion whose result is not a finite positive number.
+    #[error("these quantities give {name} = {value}, which is not a usable number\nhint: check the units: kg, N/m, N, rad/s, m")]
+    Scaling {
+        /// Which nondimensional number failed.
+        name: &'static str,
+        /// What it came to.
+        value: f64,
+    },
+}

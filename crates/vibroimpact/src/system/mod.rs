@@ -1,0 +1,19 @@
+//! The system: what moves, what drives it, what it strikes.
+//!
+//! | idea | file |
+//! |---|---|
+//! | checked parameters of one oscillator | [`Oscillator`] |
+//! | a starting point allowed by the stops | [`Start`] |
+//! | kilograms, newtons and millimetres to nondimensional numbers and back | [`Machine`] |
+//! | angles of the force, kept in $[0, 2\pi)$ | [`phase`] |
+
+mod error;
+mod oscillator;
+pub mod phase;
+mod start;
+mod units;
+
+pub use error::SystemError;
+pub use oscillator::{Oscillator, Side, Stop};
+pub use start::Start;
+pub use units::{Frequency, Machine, Scales};

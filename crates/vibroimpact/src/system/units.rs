@@ -1,0 +1,189 @@
+//! From kilograms, newtons and metres to the nondimensional system, and back.
+//!
+//! $$x_{st} = \frac{F}{k},\quad \omega_n = \sqrt{k/m},\quad \xi = \frac{x}{x_{st}},\quad \tau = \omega_n t,\quad
+//!   \beta = \frac{\omega}{\omega_n},\quad \delta = \frac{d}{x_{st}},\quad \zeta = \frac{c}{2\sqrt{km}}$$
+//!
+//! Every length is measured in static deflections $x_{st}$, so a force $F = 0$ has no scale and is an error.
+
+use super::{Oscillator, SystemError};
+use core::f64::consts::TAU;
+
+/// A forcing frequency with its unit in its name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Frequency {
+    /// Angular frequency $\omega$ in rad/s.
+    RadPerS(f64),
+    /// Frequency $\omega/2\pi$ in Hz.
+    Hz(f64),
+}
+
+impl Frequency {
+    /// $\omega$ in rad/s.
+    #[must_use]
+    pub fn rad_per_s(self) -> f64 {
+        match self {
+            Self::RadPerS(omega) => omega,
+            Self::Hz(hertz) => TAU * hertz,
+        }
+    }
+}
+
+/// A machine in physical units: a mass on a spring, driven by a harmonic force, near a stop.
+///
+/// ```
+/// use vibroimpact::{Frequency, Machine};
+/// let machine = Machine {
+///     mass_kg: 2.0, damping_ns_per_m: 0.0, stiffness_n_per_m: 800.0, force_n: 4.0,
+///     frequency: Frequency::RadPerS(25.0), gap_m: 0.010, restitution: 0.5,
+/// };
+/// let (osc, scales) = machine.nondimensional()?;
+/// assert_eq!(osc.beta(), 1.25);                       // 25 rad/s over sqrt(800/2) = 20 rad/s
+/// assert_eq!(osc.gap(), 2.0);                         // 10 mm over 4/800 m = 5 mm
+/// assert_eq!(scales.length_m, 0.005);
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Machine {
+    /// Mass $m$ in kg, positive.
+    pub mass_kg: f64,
+    /// Viscous damping $c$ in N s/m, not negative.
+    pub damping_ns_per_m: f64,
+    /// Stiffness $k$ in N/m, positive.
+    pub stiffness_n_per_m: f64,
+    /// Force amplitude $F$ in N, positive.
+    pub force_n: f64,
+    /// Forcing frequency.
+    pub frequency: Frequency,
+    /// Distance $d$ of the stop from the rest position in m, negative for preload.
+    pub gap_m: f64,
+    /// Restitution in [0, 1].
+    pub restitution: f64,
+}
+
+/// What one nondimensional unit is in this machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// One unit of length, $F/k$, in m.
+    pub length_m: f64,
+    /// One unit of time, $1/\omega_n$, in s.
+    pub time_s: f64,
+}
+
+impl Scales {
+    /// One unit of velocity, in m/s.
+    #[must_use]
+    pub fn velocity_m_per_s(&self) -> f64 {
+        self.length_m / self.time_s
+    }
+}
+
+impl Machine {
+    /// The nondimensional oscillator and the scales that lead back.
+    ///
+    /// # Errors
+    /// [`SystemError`] names the quantity that cannot be: a mass or stiffness that is not positive, a force of zero
+    /// (which leaves no scale for lengths), a frequency that is not positive, a negative damping, or values whose
+    /// ratios overflow.
+    pub fn nondimensional(&self) -> Result<(Oscillator, Scales), SystemError> {
+        let omega = self.frequency.rad_per_s();
+        positive("mass m", self.mass_kg, "kg", "the mass moves, so it must weigh something")?;
+        positive("stiffness k", self.stiffness_n_per_m, "N/m", "without a spring there is no natural frequency")?;
+        positive("force F", self.force_n, "N", "lengths are measured in F/k; a force of 0 leaves no scale, and a sign belongs in the phase")?;
+        positive("frequency omega", omega, "rad/s", "give omega in rad/s or the frequency in Hz")?;
+        if !(self.damping_ns_per_m >= 0.0 && self.damping_ns_per_m.is_finite()) {
+            return Err(SystemError::Quantity {
+                name: "damping c",
+                value: self.damping_ns_per_m,
+                unit: "N s/m",
+                range: "0 <= c < infinity",
+                hint: "negative damping would feed energy in",
+            });
+        }
+        let natural = (self.stiffness_n_per_m / self.mass_kg).sqrt();
+        let scales = Scales { length_m: self.force_n / self.stiffness_n_per_m, time_s: 1.0 / natural };
+        for (name, value) in [("F/k", scales.length_m), ("omega_n", natural), ("1/omega_n", scales.time_s)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(SystemError::Scaling { name, value });
+            }
+        }
+        let zeta = self.damping_ns_per_m / (2.0 * (self.stiffness_n_per_m.sqrt() * self.mass_kg.sqrt()));
+        let osc = Oscillator::new(omega / natural, self.gap_m / scales.length_m, self.restitution)?.with_damping(zeta)?;
+        Ok((osc, scales))
+    }
+
+    /// The machine that `osc` describes when one unit of length is `scales.length_m` and one of time `scales.time_s`,
+    /// for a mass of `mass_kg`.
+    ///
+    /// # Errors
+    /// [`SystemError`] for scales or a mass that are not positive and finite.
+    pub fn from_nondimensional(osc: &Oscillator, scales: Scales, mass_kg: f64) -> Result<Self, SystemError> {
+        positive("mass m", mass_kg, "kg", "the mass moves, so it must weigh something")?;
+        positive("unit of length", scales.length_m, "m", "it is F/k")?;
+        positive("unit of time", scales.time_s, "s", "it is 1/omega_n")?;
+        let natural = 1.0 / scales.time_s;
+        let stiffness_n_per_m = mass_kg * natural * natural;
+        Ok(Self {
+            mass_kg,
+            damping_ns_per_m: 2.0 * osc.damping() * mass_kg * natural,
+            stiffness_n_per_m,
+            force_n: stiffness_n_per_m * scales.length_m,
+            frequency: Frequency::RadPerS(osc.beta() * natural),
+            gap_m: osc.gap() * scales.length_m,
+            restitution: osc.restitution(),
+        })
+    }
+}
+
+fn positive(name: &'static str, value: f64, unit: &'static str, hint: &'static str) -> Result<(), SystemError> {
+    if value > 0.0 && value.is_finite() {
+        Ok(())
+    } else {
+        Err(SystemError::Quantity { name, value, unit, range: "0 < value < infinity", hint })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MACHINE: Machine = Machine {
+        mass_kg: 0.35,
+        damping_ns_per_m: 1.2,
+        stiffness_n_per_m: 5600.0,
+        force_n: 17.0,
+        frequency: Frequency::Hz(21.0),
+        gap_m: 0.0042,
+        restitution: 0.6,
+    };
+
+    #[test]
+    fn there_and_back() {
+        let (osc, scales) = MACHINE.nondimensional().unwrap();
+        let back = Machine::from_nondimensional(&osc, scales, MACHINE.mass_kg).unwrap();
+        for (a, b) in [
+            (back.stiffness_n_per_m, MACHINE.stiffness_n_per_m),
+            (back.damping_ns_per_m, MACHINE.damping_ns_per_m),
+            (back.force_n, MACHINE.force_n),
+            (back.frequency.rad_per_s(), MACHINE.frequency.rad_per_s()),
+            (back.gap_m, MACHINE.gap_m),
+        ] {
+            assert!((a / b - 1.0).abs() < 1e-14, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn impossible_machines_are_named() {
+        let no_force = Machine { force_n: 0.0, ..MACHINE }.nondimensional().unwrap_err();
+        assert!(no_force.to_string().contains("force F = 0 N"), "{no_force}");
+        for bad in [
+            Machine { mass_kg: 0.0, ..MACHINE },
+            Machine { stiffness_n_per_m: -1.0, ..MACHINE },
+            Machine { frequency: Frequency::Hz(f64::NAN), ..MACHINE },
+            Machine { damping_ns_per_m: -0.1, ..MACHINE },
+            Machine { force_n: 1e-300, stiffness_n_per_m: 1e300, ..MACHINE },
+            Machine { gap_m: f64::INFINITY, ..MACHINE },
+        ] {
+            assert!(bad.nondimensional().is_err());
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Other programs, always started in the root of the repository and never asking anything.
+
+use std::io::{self, BufRead, BufReader, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The root of the repository this program was started in.
+pub(crate) fn root() -> PathBuf {
+    // cargo sets the variable at run time; what was compiled in serves a direct start
+    let here = std::env::var_os("CARGO_MANIFEST_DIR")
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
+    here.ancestors()
+        .nth(2)
+        .map_or(here.clone(), Path::to_path_buf)
+}
+
+/// A command written as one would type it: words parted by blanks, no quoting.
+pub(crate) fn words(root: &Path, line: &str) -> Command {
+    let mut words = line.split_whitespace();
+    let mut command = Command::new(words.next().unwrap_or_default());
+    command.args(words).current_dir(root).stdin(Stdio::null());
+    command
+}
+
+/// True where the command exists and succeeds; what it prints is dropped.
+pub(crate) fn succeeds(root: &Path, line: &str) -> bool {
+    words(root, line)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success())
+}
+
+/// Runs a command that prints for itself.
+///
+/// # Errors
+/// The sentence that says why it could not be started, or with what status it ended.
+pub(crate) fn run(mut command: Command) -> Result<(), String> {
+    let outcome = command.status();
+    verdict(&command, outcome)
+}
+
+/// Runs a command, passes every line on to the terminal at once, and shows it to `read`
+/// without its colours.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn run_reading(mut command: Command, mut read: impl FnMut(&str)) -> Result<(), String> {
+    if io::stdout().is_terminal() {
+        // behind a pipe the tools would drop their colours
+        command.env("CARGO_TERM_COLOR", "always");
+    }
+    let program = command.get_program().to_string_lossy().into_owned();
+    let broken = |error: io::Error| format!("the output of `{program}` cannot be read: {error}");
+
+    // one pipe for both streams keeps the lines in the order in which they were written
+    let (reader, writer) = io::pipe().map_err(broken)?;
+    command
+        .stdout(writer.try_clone().map_err(broken)?)
+        .stderr(writer);
+    let mut child = command
+        .spawn()
+        .map_err(|error| not_started(&command, &error))?;
+    // the command holds our writing ends, and the reading ends only when all are closed
+    drop(command);
+
+    let mut reader = BufReader::new(reader);
+    let mut line = Vec::new();
+    while reader.read_until(b'\n', &mut line).map_err(broken)? > 0 {
+        // a terminal that went away is no reason to stop counting
+        let _ = io::stdout().write_all(&line);
+        let _ = io::stdout().flush();
+        read(without_colours(&String::from_utf8_lossy(&line)).trim_end());
+        line.clear();
+    }
+    let status = child.wait().map_err(broken)?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("`{program}` ended with {status}"))
+    }
+}
+
+fn verdict(command: &Command, outcome: io::Result<std::process::ExitStatus>) -> Result<(), String> {
+    let program = command.get_program().to_string_lossy();
+    match outcome {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("`{program}` ended with {status}")),
+        Err(error) => Err(not_started(command, &error)),
+    }
+}
+
+fn not_started(command: &Command, error: &io::Error) -> String {
+    format!(
+        "`{}` cannot be started: {error}",
+        command.get_program().to_string_lossy()
+    )
+}
+
+/// The line without terminal sequences of the form `ESC [ ... letter`.
+fn without_colours(line: &str) -> String {
+    let mut plain = String::with_capacity(line.len());
+    let mut rest = line;
+    while let Some((before, after)) = rest.split_once("\u{1b}[") {
+        plain.push_str(before);
+        rest = after
+            .find(|c: char| c.is_ascii_alphabetic())
+            .map_or("", |end| &after[end + 1..]);
+    }
+    plain.push_str(rest);
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_dropped_and_the_words_kept() {
+        assert_eq!(
+            without_colours("\u{1b}[32;1m   Summary\u{1b}[0m [x]"),
+            "   Summary [x]"
+        );
+        assert_eq!(without_colours("plain"), "plain");
+        assert_eq!(without_colours("cut\u{1b}[3"), "cut");
+    }
+
+    #[test]
+    fn the_root_holds_the_workspace() {
+        assert!(root().join("Cargo.toml").is_file());
+        assert!(root().join("crates/xtask").is_dir());
+    }
+
+    #[test]
+    fn both_streams_are_read_and_a_failure_is_a_sentence() {
+        let mut seen = String::new();
+        let error = run_reading(words(&root(), "cargo --no-such-switch"), |line| {
+            seen.push_str(line);
+        });
+        assert!(seen.contains("--no-such-switch"), "{seen}");
+        assert!(error.is_err_and(|sentence| sentence.starts_with("`cargo` ended with ")));
+    }
+
+    #[test]
+    fn a_missing_program_is_named() {
+        let error = run(words(&root(), "no-such-program-anywhere --version"));
+        assert!(error.is_err_and(|sentence| sentence.contains("`no-such-program-anywhere`")));
+    }
+}

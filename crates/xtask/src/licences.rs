@@ -1,0 +1,126 @@
+//! `cargo xtask licences`: every package in the lock file, on every platform, may be passed on
+//! together with this program.
+
+use std::path::Path;
+use std::process::Stdio;
+
+use serde_json::Value;
+
+use crate::{command, spdx};
+
+/// Licences that ask for no more than to keep a notice. MPL-2.0 and the GPL family are left out:
+/// they would put conditions on those who build on this library.
+const ALLOWED: &[&str] = &[
+    "0BSD",
+    "Apache-2.0",
+    "Apache-2.0 WITH LLVM-exception",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "BSL-1.0",
+    "CC0-1.0",
+    "ISC",
+    "MIT",
+    "MIT-0",
+    "Unicode-3.0",
+    "Unlicense",
+    "Zlib",
+];
+
+/// Checks all packages that `cargo metadata` lists.
+///
+/// # Errors
+/// A sentence for each package whose licence is not allowed, cannot be read or is not stated.
+pub(crate) fn check(root: &Path) -> Result<String, String> {
+    let output = command::words(root, "cargo metadata --format-version 1")
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| format!("`cargo metadata` cannot be started: {error}"))?;
+    if !output.status.success() {
+        return Err(format!("`cargo metadata` ended with {}", output.status));
+    }
+    let metadata: Value = serde_json::from_slice(&output.stdout)
+        .map_err(|error| format!("the answer of `cargo metadata` cannot be read: {error}"))?;
+    verdict(&metadata)
+}
+
+fn verdict(metadata: &Value) -> Result<String, String> {
+    let packages = metadata["packages"]
+        .as_array()
+        .filter(|packages| !packages.is_empty())
+        .ok_or("`cargo metadata` lists no packages")?;
+    let faults: Vec<String> = packages.iter().filter_map(fault).collect();
+    if faults.is_empty() {
+        return Ok(format!(
+            "{} packages, each under an allowed licence",
+            packages.len()
+        ));
+    }
+    Err(format!(
+        "{}\nhint: choose another crate, or add the licence to ALLOWED in crates/xtask/src/licences.rs",
+        faults.join("\n")
+    ))
+}
+
+/// The sentence that names a package and what is wrong with its licence.
+fn fault(package: &Value) -> Option<String> {
+    let name = package["name"].as_str().unwrap_or("(unnamed)");
+    let version = package["version"].as_str().unwrap_or("?");
+    let Some(licence) = package["license"].as_str() else {
+        return Some(format!("crate {name} {version} states no licence"));
+    };
+    match spdx::satisfied(licence, &|licence| ALLOWED.contains(&licence)) {
+        Ok(true) => None,
+        Ok(false) => Some(format!(
+            "crate {name} {version} is under `{licence}`, which is not allowed"
+        )),
+        Err(why) => Some(format!(
+            "crate {name} {version} states the licence `{licence}`: {why}"
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn allowed_packages_are_counted() {
+        let metadata = json!({"packages": [
+            {"name": "a", "version": "1.0.0", "license": "MIT OR Apache-2.0"},
+            {"name": "b", "version": "2.0.0", "license": "GPL-3.0-only OR BSD-2-Clause"},
+        ]});
+        assert_eq!(
+            verdict(&metadata),
+            Ok("2 packages, each under an allowed licence".to_owned())
+        );
+    }
+
+    #[test]
+    fn each_faulty_package_is_named() {
+        let metadata = json!({"packages": [
+            {"name": "fine", "version": "1.0.0", "license": "ISC"},
+            {"name": "copyleft", "version": "1.2.3", "license": "GPL-3.0-only"},
+            {"name": "silent", "version": "0.1.0", "license": null},
+            {"name": "garbled", "version": "0.2.0", "license": "MIT OR"},
+        ]});
+        let sentences = verdict(&metadata).unwrap_err();
+        assert!(
+            sentences
+                .contains("crate copyleft 1.2.3 is under `GPL-3.0-only`, which is not allowed")
+        );
+        assert!(sentences.contains("crate silent 0.1.0 states no licence"));
+        assert!(
+            sentences.contains(
+                "crate garbled 0.2.0 states the licence `MIT OR`: a licence was expected"
+            )
+        );
+        assert!(!sentences.contains("fine"));
+    }
+
+    #[test]
+    fn an_empty_answer_does_not_pass() {
+        assert!(verdict(&json!({})).is_err());
+        assert!(verdict(&json!({"packages": []})).is_err());
+    }
+}

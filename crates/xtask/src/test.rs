@@ -1,0 +1,303 @@
+//! `cargo xtask test`: the list of all checks, run one after another.
+//!
+//! A failed step does not stop the ones after it: one run shows everything that is wrong. The
+//! last line is `N passed, M failed`, which continuous integration reads. It counts tests; a step
+//! that fails without naming a failed test (a lint, a build, a dead link) counts as one failure,
+//! so that the line can never say `0 failed` of a run that failed.
+
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use crate::totals::{self, Totals};
+use crate::{command, docs, licences, links, tools};
+
+/// What was asked for on the command line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Options {
+    /// Only the steps marked fast.
+    fast: bool,
+    /// The long-running tests too.
+    long: bool,
+}
+
+impl Options {
+    /// Reads the switches after `test`.
+    ///
+    /// # Errors
+    /// The sentence that names the switch that does not exist.
+    pub(crate) fn parse(switches: &[&str]) -> Result<Self, String> {
+        let mut options = Self::default();
+        for &switch in switches {
+            match switch {
+                "--fast" => options.fast = true,
+                "--long" => options.long = true,
+                other => return Err(format!("`test` knows --fast and --long, not `{other}`")),
+            }
+        }
+        Ok(options)
+    }
+}
+
+/// The variable by which a test learns that it may take long.
+const LONG: (&str, &str) = ("VIBROIMPACT_LONG", "1");
+
+enum Work {
+    /// A command that succeeds or fails.
+    Command,
+    /// A command that prints the totals of its tests.
+    Tests,
+    /// A function of this program.
+    Check(fn(&Path) -> Result<String, String>),
+}
+
+struct Step {
+    name: &'static str,
+    /// What one types to run this step alone.
+    alone: &'static str,
+    work: Work,
+    fast: bool,
+}
+
+impl Step {
+    const fn command(name: &'static str, alone: &'static str) -> Self {
+        Self {
+            name,
+            alone,
+            work: Work::Command,
+            fast: false,
+        }
+    }
+
+    const fn tests(name: &'static str, alone: &'static str) -> Self {
+        Self {
+            name,
+            alone,
+            work: Work::Tests,
+            fast: false,
+        }
+    }
+
+    const fn check(
+        name: &'static str,
+        alone: &'static str,
+        run: fn(&Path) -> Result<String, String>,
+    ) -> Self {
+        Self {
+            name,
+            alone,
+            work: Work::Check(run),
+            fast: false,
+        }
+    }
+
+    const fn fast(self) -> Self {
+        Self { fast: true, ..self }
+    }
+}
+
+/// All steps, the quickest to fail first. A test program of another language is one more line:
+/// what it prints last must be known to [`totals`].
+fn steps(nextest: bool) -> Vec<Step> {
+    let tests = if nextest {
+        "cargo nextest run --workspace --no-fail-fast"
+    } else {
+        "cargo test --workspace --lib --bins --tests --examples --no-fail-fast"
+    };
+    vec![
+        Step::check(
+            "tools",
+            "rustup component add rustfmt clippy",
+            tools::ensure,
+        )
+        .fast(),
+        Step::command("format", "cargo fmt --all --check").fast(),
+        Step::check("licences", "cargo xtask licences", licences::check),
+        Step::check("links", "cargo xtask links", links::check),
+        Step::command(
+            "lints",
+            "cargo clippy --workspace --all-targets -- -D warnings",
+        )
+        .fast(),
+        Step::tests("tests", tests).fast(),
+        Step::tests("doc tests", "cargo test --workspace --doc --no-fail-fast"),
+        Step::check("documentation", "cargo xtask docs", docs::build),
+    ]
+}
+
+/// Runs the steps, prints their outcome and the totals.
+pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
+    let mut steps = steps(tools::has_nextest(root));
+    steps.retain(|step| step.fast || !options.fast);
+    let mut totals = Totals::default();
+    let mut failed = Vec::new();
+    let begin = Instant::now();
+    for (index, step) in steps.iter().enumerate() {
+        println!(
+            "\n== {}/{} {}: {}",
+            index + 1,
+            steps.len(),
+            step.name,
+            typed(step, options)
+        );
+        let begin = Instant::now();
+        let (of_step, outcome) = take(step, root, options);
+        totals += of_step;
+        let seconds = begin.elapsed().as_secs_f64();
+        match outcome {
+            Ok(sentence) if sentence.is_empty() => println!("   ok in {seconds:.1} s"),
+            Ok(sentence) => println!("   ok in {seconds:.1} s: {sentence}"),
+            Err(sentence) => {
+                println!("{sentence}\n   FAILED in {seconds:.1} s");
+                failed.push(step);
+            }
+        }
+    }
+    println!(
+        "\n{} steps in {:.0} s",
+        steps.len(),
+        begin.elapsed().as_secs_f64()
+    );
+    for step in &failed {
+        println!(
+            "{} failed; to run it alone: {}",
+            step.name,
+            typed(step, options)
+        );
+    }
+    println!("{} passed, {} failed", totals.passed, totals.failed);
+    if failed.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+/// What one types to run the step alone in the same way.
+fn typed(step: &Step, options: Options) -> String {
+    match step.work {
+        Work::Tests if options.long => format!("{}={} {}", LONG.0, LONG.1, step.alone),
+        _ => step.alone.to_owned(),
+    }
+}
+
+/// Runs one step: the tests it counted, and a remark or the reason why it failed.
+fn take(step: &Step, root: &Path, options: Options) -> (Totals, Result<String, String>) {
+    let mut counted = None;
+    let outcome = match step.work {
+        Work::Check(run) => run(root),
+        Work::Command => command::run(command::words(root, step.alone)).map(|()| String::new()),
+        Work::Tests => {
+            let mut command = command::words(root, step.alone);
+            if options.long {
+                command.env(LONG.0, LONG.1);
+            }
+            command::run_reading(command, |line| {
+                if let Some(found) = totals::in_line(line) {
+                    *counted.get_or_insert_default() += found;
+                }
+            })
+            .map(|()| String::new())
+        }
+    };
+    settle(&step.work, counted, outcome)
+}
+
+/// Makes totals and outcome agree: a failure counts at least one, and silence is no success.
+fn settle(
+    work: &Work,
+    counted: Option<Totals>,
+    outcome: Result<String, String>,
+) -> (Totals, Result<String, String>) {
+    let mut totals = counted.unwrap_or_default();
+    let outcome = match outcome {
+        Ok(_) if matches!(work, Work::Tests) && counted.is_none() => {
+            Err("it succeeded without a line that says how many tests ran".to_owned())
+        }
+        Ok(_) if totals.failed > 0 => Err("it succeeded, yet names failed tests".to_owned()),
+        other => other,
+    };
+    if outcome.is_err() {
+        totals.failed = totals.failed.max(1);
+    }
+    (totals, outcome)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn switches_are_read() {
+        assert_eq!(
+            Options::parse(&[]),
+            Ok(Options {
+                fast: false,
+                long: false
+            })
+        );
+        assert_eq!(
+            Options::parse(&["--long", "--fast"]),
+            Ok(Options {
+                fast: true,
+                long: true
+            })
+        );
+        assert!(Options::parse(&["--quick"]).is_err_and(|sentence| sentence.contains("`--quick`")));
+    }
+
+    #[test]
+    fn a_failed_step_never_counts_as_zero_failures() {
+        let counted = |passed, failed| Some(Totals { passed, failed });
+        let check = |counted: Option<Totals>, ok: bool, expected: (u64, u64), success: bool| {
+            let outcome = if ok {
+                Ok(String::new())
+            } else {
+                Err("why".to_owned())
+            };
+            let (totals, outcome) = settle(&Work::Tests, counted, outcome);
+            assert_eq!(
+                (totals.passed, totals.failed, outcome.is_ok()),
+                (expected.0, expected.1, success)
+            );
+        };
+        check(counted(5, 0), true, (5, 0), true);
+        check(counted(5, 2), false, (5, 2), false);
+        // the build of one test failed, or the program was killed
+        check(counted(5, 0), false, (5, 1), false);
+        check(None, false, (0, 1), false);
+        // a success that cannot be true
+        check(None, true, (0, 1), false);
+        check(counted(5, 2), true, (5, 2), false);
+        let (totals, outcome) = settle(&Work::Command, None, Ok(String::new()));
+        assert_eq!((totals, outcome), (Totals::default(), Ok(String::new())));
+    }
+
+    #[test]
+    fn the_fast_steps_are_format_lints_and_tests() {
+        for nextest in [true, false] {
+            let fast: Vec<_> = steps(nextest)
+                .iter()
+                .filter(|step| step.fast)
+                .map(|step| step.name)
+                .collect();
+            assert_eq!(fast, ["tools", "format", "lints", "tests"]);
+        }
+    }
+
+    #[test]
+    fn the_long_run_is_typed_with_its_variable() {
+        let step = Step::tests("tests", "cargo test");
+        assert_eq!(
+            typed(
+                &step,
+                Options {
+                    fast: false,
+                    long: true
+                }
+            ),
+            "VIBROIMPACT_LONG=1 cargo test"
+        );
+        assert_eq!(typed(&step, Options::default()), "cargo test");
+    }
+}
