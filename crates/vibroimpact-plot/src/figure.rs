@@ -1,12 +1,13 @@
 //! A figure: panels in a grid, a title and a legend, laid out and written as SVG.
 
-use crate::axis::Mapping;
-use crate::canvas::{Canvas, Frame};
+use crate::canvas::Canvas;
 use crate::error::PlotError;
-use crate::legend::{Arranged, Legend, Place};
-use crate::markup::{self, Anchor, Placed};
+use crate::label::{Anchor, Placed};
+use crate::layout::Layout;
+use crate::legend::Legend;
+use crate::markup;
 use crate::number::N;
-use crate::panel::{Margins, Panel, Prepared};
+use crate::panel::Panel;
 use crate::{render, theme};
 
 /// A picture to be.
@@ -151,148 +152,6 @@ impl Figure {
     }
 }
 
-/// Where everything goes.
-struct Layout {
-    width: f64,
-    height: f64,
-    panels: Vec<(Frame, Prepared)>,
-    /// Left, top, and the columns.
-    legend: Option<(f64, f64, Arranged)>,
-}
-
-/// Frames never become smaller than this, however little room there is.
-const SMALLEST: f64 = 20.0;
-
-impl Layout {
-    fn of(figure: &Figure) -> Self {
-        let size = |v: f64, usual: f64| {
-            if v.is_finite() {
-                v.clamp(50.0, 1e5)
-            } else {
-                usual
-            }
-        };
-        let (width, height) = (
-            size(figure.width, theme::COLUMN),
-            size(figure.height, 480.0),
-        );
-        let edge = theme::MARGIN;
-        let head = edge
-            + if figure.title.is_some() {
-                1.5 * theme::TITLE_TEXT
-            } else {
-                0.0
-            };
-        let legend = figure.legend.as_ref().filter(|l| !l.entries.is_empty());
-        let arranged =
-            legend.map(|l| (l.place, l.arrange(width - 2.0 * edge, height - head - 60.0)));
-        let beside = match &arranged {
-            Some((Place::Right, a)) => a.width + theme::GAP,
-            _ => 0.0,
-        };
-        let inner = (width - 2.0 * edge - beside, height - head - edge);
-        let panels = frames(figure, (edge, head), inner);
-        let (mut outer, mut spot) = (height, None);
-        if let Some((place, a)) = arranged {
-            let (left, top) = match place {
-                Place::Right => {
-                    let top = panels.first().map_or(head, |(f, _)| f.top);
-                    outer = outer.max(top + a.height + edge);
-                    (width - edge - a.width, top)
-                }
-                Place::Below => {
-                    outer += a.height + theme::GAP / 2.0;
-                    (
-                        ((width - a.width) / 2.0).max(edge),
-                        height + theme::GAP / 2.0 - edge,
-                    )
-                }
-            };
-            spot = Some((left, top, a));
-        }
-        Self {
-            width,
-            height: outer,
-            panels,
-            legend: spot,
-        }
-    }
-}
-
-/// Frames of equal size in a grid; rows and columns share their margins, so that axes line up.
-fn frames(
-    figure: &Figure,
-    (left, top): (f64, f64),
-    (width, height): (f64, f64),
-) -> Vec<(Frame, Prepared)> {
-    let columns = figure.columns.clamp(1, figure.panels.len().max(1));
-    let rows = figure.panels.len().div_ceil(columns);
-    let (nx, ny) = (columns as f64, rows as f64);
-    // ticks depend on the frame and the frame on the ticks' numbers: the second round settles it
-    let mut each = (width / nx - 90.0, height / ny - 70.0);
-    let mut prepared = Vec::new();
-    let mut across = vec![Margins::default(); columns];
-    let mut down = vec![Margins::default(); rows];
-    for _ in 0..2 {
-        prepared = figure
-            .panels
-            .iter()
-            .map(|p| p.prepare(each.0.max(SMALLEST), each.1.max(SMALLEST)))
-            .collect::<Vec<_>>();
-        across.fill(Margins::default());
-        down.fill(Margins::default());
-        for (i, (panel, ready)) in figure.panels.iter().zip(&prepared).enumerate() {
-            let (m, a) = (panel.margins(ready), &mut across[i % columns]);
-            (a.left, a.right) = (a.left.max(m.left), a.right.max(m.right));
-            let d = &mut down[i / columns];
-            (d.top, d.bottom) = (d.top.max(m.top), d.bottom.max(m.bottom));
-        }
-        let taken_x: f64 =
-            across.iter().map(|m| m.left + m.right).sum::<f64>() + theme::GAP * (nx - 1.0);
-        let taken_y: f64 =
-            down.iter().map(|m| m.top + m.bottom).sum::<f64>() + theme::GAP / 2.0 * (ny - 1.0);
-        each = (
-            ((width - taken_x) / nx).max(SMALLEST),
-            ((height - taken_y) / ny).max(SMALLEST),
-        );
-    }
-    let mut out = Vec::with_capacity(prepared.len());
-    for (i, (panel, ready)) in figure.panels.iter().zip(prepared).enumerate() {
-        let (column, row) = (i % columns, i / columns);
-        let x = left
-            + across[..column]
-                .iter()
-                .map(|m| m.left + m.right + each.0 + theme::GAP)
-                .sum::<f64>()
-            + across[column].left;
-        let y = top
-            + down[..row]
-                .iter()
-                .map(|m| m.top + m.bottom + each.1 + theme::GAP / 2.0)
-                .sum::<f64>()
-            + down[row].top;
-        let frame = Frame {
-            left: x,
-            top: y,
-            width: each.0,
-            height: each.1,
-            x: Mapping {
-                scale: panel.x.scale,
-                range: ready.x_range,
-                page: (x, x + each.0),
-            },
-            y: Mapping {
-                scale: panel.y.scale,
-                range: ready.y_range,
-                page: (y + each.1, y),
-            },
-            clip: format!("clip{i}"),
-        };
-        out.push((frame, ready));
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -397,15 +256,5 @@ mod tests {
         let svg = figure.to_svg();
         assert!(svg.contains("<title>a &lt; b</title>") && svg.contains(" &lt;&amp;&gt;"));
         assert!(svg.contains("id=\"fig7-x") && !svg.contains("id=\"clip") && !svg.contains("<x"));
-    }
-
-    #[test]
-    fn a_legend_below_leaves_the_panels_alone() {
-        let panel = || every_mark(&[0.0, 1.0], &[0.0, 1.0]);
-        let legend = Legend::below().entry(Key::Patch(class_style("1/1")), "1/1");
-        let (without, with) = (Figure::new(panel()), Figure::new(panel()).legend(legend));
-        assert!(with.outer_size().1 > without.outer_size().1);
-        let frame = |f: &Figure| Layout::of(f).panels[0].0.height;
-        assert_eq!(frame(&without), frame(&with));
     }
 }

@@ -2,8 +2,9 @@
 
 use crate::canvas::Canvas;
 use crate::colour::Colour;
+use crate::label::Placed;
 use crate::mark::points::{PointStyle, Points};
-use crate::markup::{self, Placed};
+use crate::markup;
 use crate::number::N;
 use crate::palette::ClassStyle;
 use crate::stroke::Stroke;
@@ -12,7 +13,8 @@ use crate::theme;
 /// Where the legend stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Place {
-    /// To the right of the panels, which become narrower.
+    /// To the right of the panels, which become narrower; below after all where it would take
+    /// more than half of the width.
     Right,
     /// Below the panels; the figure becomes higher.
     #[default]
@@ -112,10 +114,10 @@ impl Legend {
     }
 
     /// Where every entry goes, for this much room.
-    pub(crate) fn arrange(&self, width: f64, height: f64) -> Arranged {
+    pub(crate) fn arrange(&self, place: Place, width: f64, height: f64) -> Arranged {
         let head = if self.title.is_some() { ROW } else { 0.0 };
         let n = self.entries.len();
-        let rows = match self.place {
+        let rows = match place {
             #[expect(
                 clippy::cast_possible_truncation,
                 reason = "at least 1, and far below 2^31"
@@ -243,12 +245,12 @@ mod tests {
 
     #[test]
     fn below_wraps_into_columns_that_fit() {
-        let arranged = legend(14).arrange(660.0, 400.0);
+        let arranged = legend(14).arrange(Place::Below, 660.0, 400.0);
         assert!(arranged.width <= 660.0);
         assert_eq!((arranged.rows, arranged.widths.len()), (5, 3));
-        let narrow = legend(3).arrange(10.0, 400.0);
+        let narrow = legend(3).arrange(Place::Below, 10.0, 400.0);
         assert_eq!(narrow.rows, 3, "too narrow for anything: one column");
-        assert_eq!(legend(0).arrange(660.0, 400.0).height, 0.0);
+        assert_eq!(legend(0).arrange(Place::Below, 660.0, 400.0).height, 0.0);
     }
 
     #[test]
@@ -257,7 +259,10 @@ mod tests {
             place: Place::Right,
             ..legend(14)
         };
-        assert_eq!(right.arrange(660.0, 10.0 * ROW).widths.len(), 2);
-        assert_eq!(right.arrange(660.0, -3.0).rows, 1);
+        assert_eq!(
+            right.arrange(Place::Right, 660.0, 10.0 * ROW).widths.len(),
+            2
+        );
+        assert_eq!(right.arrange(Place::Right, 660.0, -3.0).rows, 1);
     }
 }

@@ -8,19 +8,12 @@
 //! | `^2`, `^{−3}` | superscript |
 //! | `\*`, `\_` … | the character itself |
 //!
-//! Any text is accepted: an unclosed star or brace simply reaches to the end. Sub- and superscripts
-//! are shifted with `dy`, because `baseline-shift` is missing from some browsers.
+//! Any text is accepted: an unclosed star or brace simply reaches to the end.
 
-use crate::colour::Colour;
 use crate::metrics;
-use crate::number::N;
 
 /// Sub- and superscripts are drawn at this part of the size: 5 pt beside 7 pt is still legible.
-const SCRIPT: f64 = 0.72;
-
-/// How far a script is shifted, in sizes of the surrounding text (down is positive).
-const SHIFT_DOWN: f64 = 0.20;
-const SHIFT_UP: f64 = -0.36;
+pub(crate) const SCRIPT: f64 = 0.72;
 
 /// One stretch of text in one style.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,18 +30,6 @@ pub(crate) enum Level {
     Base,
     Sub,
     Sup,
-}
-
-/// Where the reference point of a text lies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Anchor {
-    /// At its left end.
-    #[default]
-    Start,
-    /// In its middle.
-    Middle,
-    /// At its right end.
-    End,
 }
 
 /// The text with every markup character escaped, so that it prints as it is.
@@ -71,10 +52,7 @@ pub(crate) fn parse(markup: &str) -> Vec<Run> {
     let mut chars = markup.chars().peekable();
     while let Some(c) = chars.next() {
         let c = match c {
-            '\\' => match chars.next() {
-                Some(next) => next,
-                None => '\\',
-            },
+            '\\' => chars.next().unwrap_or('\\'),
             '*' if chars.peek() == Some(&'*') => {
                 chars.next();
                 bold = !bold;
@@ -151,108 +129,6 @@ pub(crate) fn escape(text: &str) -> String {
     out
 }
 
-/// A label placed on the page.
-pub(crate) struct Placed<'a> {
-    pub(crate) markup: &'a str,
-    pub(crate) x: f64,
-    pub(crate) y: f64,
-    pub(crate) size: f64,
-    pub(crate) anchor: Anchor,
-    pub(crate) colour: Colour,
-    /// Turned by a quarter to the left about its reference point.
-    pub(crate) upright: bool,
-    /// Width of a white rim, or 0.
-    pub(crate) halo: f64,
-}
-
-impl<'a> Placed<'a> {
-    pub(crate) fn new(markup: &'a str, x: f64, y: f64, size: f64) -> Self {
-        Self {
-            markup,
-            x,
-            y,
-            size,
-            anchor: Anchor::Start,
-            colour: Colour::BLACK,
-            upright: false,
-            halo: 0.0,
-        }
-    }
-
-    pub(crate) fn anchor(self, anchor: Anchor) -> Self {
-        Self { anchor, ..self }
-    }
-
-    /// The SVG text; `y` is the baseline.
-    pub(crate) fn svg(&self) -> String {
-        let spans = spans(self.markup, self.size);
-        if spans.is_empty() {
-            return String::new();
-        }
-        let anchor = match self.anchor {
-            Anchor::Start => "",
-            Anchor::Middle => " text-anchor=\"middle\"",
-            Anchor::End => " text-anchor=\"end\"",
-        };
-        let (x, y) = (N(self.x), N(self.y));
-        let turn = if self.upright {
-            format!(" transform=\"rotate(-90 {x} {y})\"")
-        } else {
-            String::new()
-        };
-        let head = format!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"{anchor}{turn} xml:space=\"preserve\"",
-            N(self.size)
-        );
-        let mut out = String::new();
-        if self.halo > 0.0 {
-            // the rim is a text of its own: painted per run it would eat its left neighbour
-            out.push_str(&format!(
-                "{head} fill=\"#ffffff\" stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\">{spans}</text>\n",
-                N(2.0 * self.halo)
-            ));
-        }
-        out.push_str(&format!(
-            "{head}{}>{spans}</text>\n",
-            self.colour.paint("fill")
-        ));
-        out
-    }
-}
-
-fn spans(markup: &str, size: f64) -> String {
-    let mut out = String::new();
-    let mut shift = 0.0;
-    for run in parse(markup) {
-        let (wanted, script) = match run.level {
-            Level::Base => (0.0, false),
-            Level::Sub => (SHIFT_DOWN * size, true),
-            Level::Sup => (SHIFT_UP * size, true),
-        };
-        let mut attributes = String::new();
-        if run.italic {
-            attributes.push_str(" font-style=\"italic\"");
-        }
-        if run.bold {
-            attributes.push_str(" font-weight=\"bold\"");
-        }
-        if script {
-            attributes.push_str(&format!(" font-size=\"{}\"", N(size * SCRIPT)));
-        }
-        if wanted != shift {
-            attributes.push_str(&format!(" dy=\"{}\"", N(wanted - shift)));
-            shift = wanted;
-        }
-        let text = escape(&run.text);
-        if attributes.is_empty() {
-            out.push_str(&text);
-        } else {
-            out.push_str(&format!("<tspan{attributes}>{text}</tspan>"));
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -296,17 +172,6 @@ mod tests {
         assert_eq!(
             escape("a<b & \"c\">'\u{7}\n"),
             "a&lt;b &amp; &quot;c&quot;&gt;&#39; "
-        );
-        let svg = Placed::new("<script>", 0.0, 0.0, 20.0).svg();
-        assert!(svg.contains("&lt;script&gt;") && !svg.contains("<script>"));
-    }
-
-    #[test]
-    fn baseline_returns_after_a_script() {
-        let svg = Placed::new("a_0b", 0.0, 0.0, 10.0).svg();
-        assert!(
-            svg.contains("dy=\"2\"") && svg.contains("dy=\"-2\""),
-            "{svg}"
         );
     }
 

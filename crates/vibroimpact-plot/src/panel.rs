@@ -4,8 +4,7 @@ use crate::axis::{Axis, Mapping};
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
 use crate::mark::{Extent, Mark};
-use crate::markup::{self, Anchor, Placed};
-use crate::number::N;
+use crate::markup;
 use crate::stroke::Stroke;
 use crate::theme;
 use crate::ticks::Tick;
@@ -146,107 +145,6 @@ impl Panel {
         self.draw_labels(canvas, frame, prepared);
         canvas.push("</g>\n");
     }
-
-    fn draw_grid(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
-        let mut d = String::new();
-        for tick in prepared
-            .x_ticks
-            .iter()
-            .filter(|t| self.x.grid && !t.label.is_empty())
-        {
-            d.push_str(&format!(
-                "M{} {}V{}",
-                N(frame.x.at(tick.value)),
-                N(frame.top),
-                N(frame.bottom())
-            ));
-        }
-        for tick in prepared
-            .y_ticks
-            .iter()
-            .filter(|t| self.y.grid && !t.label.is_empty())
-        {
-            d.push_str(&format!(
-                "M{} {}H{}",
-                N(frame.left),
-                N(frame.y.at(tick.value)),
-                N(frame.right())
-            ));
-        }
-        if !d.is_empty() {
-            let stroke = Stroke::new(Colour::hex(0xd8_d8d8)).width(1.0).attributes();
-            canvas.push(&format!("<path d=\"{d}\" fill=\"none\"{stroke}/>\n"));
-        }
-    }
-
-    /// Ticks point outwards, where they neither cover data nor vanish in a raster.
-    fn draw_ticks(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
-        let (left, bottom, size) = (frame.left, frame.bottom(), theme::TICK_TEXT);
-        let length = |t: &Tick| {
-            if t.label.is_empty() {
-                theme::TICK * 0.55
-            } else {
-                theme::TICK
-            }
-        };
-        let (mut d, mut numbers) = (String::new(), String::new());
-        for tick in &prepared.x_ticks {
-            let x = frame.x.at(tick.value);
-            d.push_str(&format!("M{} {}v{}", N(x), N(bottom), N(length(tick))));
-            let y = bottom + theme::TICK + theme::TICK_GAP + 0.73 * size;
-            if !tick.label.trim().is_empty() {
-                numbers.push_str(
-                    &Placed::new(&tick.label, x, y, size)
-                        .anchor(Anchor::Middle)
-                        .svg(),
-                );
-            }
-        }
-        for tick in &prepared.y_ticks {
-            let y = frame.y.at(tick.value);
-            d.push_str(&format!("M{} {}h-{}", N(left), N(y), N(length(tick))));
-            let x = left - theme::TICK - theme::TICK_GAP;
-            if !tick.label.trim().is_empty() {
-                let placed = Placed::new(&tick.label, x, y + 0.365 * size, size);
-                numbers.push_str(&placed.anchor(Anchor::End).svg());
-            }
-        }
-        let stroke = Stroke::new(Colour::BLACK).width(theme::FRAME).attributes();
-        canvas.push(&format!(
-            "<path d=\"{d}\" fill=\"none\"{stroke}/>\n{numbers}"
-        ));
-    }
-
-    fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
-        let size = theme::LABEL_TEXT;
-        let margins = self.margins(prepared);
-        let (mid_x, mid_y) = (
-            frame.left + frame.width / 2.0,
-            frame.top + frame.height / 2.0,
-        );
-        let below = frame.bottom() + margins.bottom - 0.42 * size;
-        canvas.push(
-            &Placed::new(&self.x.label, mid_x, below, size)
-                .anchor(Anchor::Middle)
-                .svg(),
-        );
-        let numbers = prepared
-            .y_ticks
-            .iter()
-            .map(|t| markup::width(&t.label, theme::TICK_TEXT));
-        let numbers = numbers.fold(0.0, f64::max);
-        // 0.6 of a size keeps subscripts of the turned label off the numbers
-        let beside = frame.left - theme::TICK - theme::TICK_GAP - numbers - 0.6 * size;
-        let upright = Placed {
-            upright: true,
-            ..Placed::new(&self.y.label, beside, mid_y, size).anchor(Anchor::Middle)
-        };
-        canvas.push(&upright.svg());
-        if let Some(caption) = &self.caption {
-            let y = frame.top - 0.45 * theme::CAPTION_TEXT;
-            canvas.push(&Placed::new(caption, frame.left, y, theme::CAPTION_TEXT).svg());
-        }
-    }
 }
 
 /// A panel's ranges and ticks.
@@ -254,8 +152,8 @@ impl Panel {
 pub(crate) struct Prepared {
     pub(crate) x_range: (f64, f64),
     pub(crate) y_range: (f64, f64),
-    x_ticks: Vec<Tick>,
-    y_ticks: Vec<Tick>,
+    pub(crate) x_ticks: Vec<Tick>,
+    pub(crate) y_ticks: Vec<Tick>,
 }
 
 /// Room around a frame.
@@ -271,7 +169,7 @@ pub(crate) struct Margins {
 fn crowded(ticks: &[Tick], mapping: &Mapping) -> bool {
     let mut spans: Vec<(f64, f64)> = ticks
         .iter()
-        .filter(|t| !t.label.is_empty())
+        .filter(|t| !t.label.trim().is_empty())
         .map(|t| {
             (
                 mapping.at(t.value),

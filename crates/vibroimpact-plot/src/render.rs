@@ -54,3 +54,27 @@ pub(crate) fn png(svg: &str, scale: f64) -> Result<Vec<u8>, PlotError> {
         .encode_png()
         .map_err(|e| PlotError::Png(e.to_string()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_face_draws_ink() -> Result<(), PlotError> {
+        for style in ["", " font-style=\"italic\"", " font-weight=\"bold\""] {
+            let svg = format!(
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"40\">\
+                 <text x=\"5\" y=\"30\" font-size=\"30\" font-family=\"DejaVu Sans\"{style}>ξ</text></svg>"
+            );
+            let picture =
+                Pixmap::decode_png(&png(&svg, 1.0)?).map_err(|e| PlotError::Png(e.to_string()))?;
+            assert!(picture.pixels().iter().any(|p| p.alpha() > 200), "{style}");
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn bad_svg_is_an_error() {
+        assert!(matches!(png("<svg", 1.0), Err(PlotError::Svg(_))));
+    }
+}

@@ -7,6 +7,7 @@ pub(crate) mod raster;
 pub(crate) mod rects;
 pub(crate) mod region;
 pub(crate) mod text;
+mod thin;
 
 use crate::canvas::{Canvas, Frame};
 use guide::{HLine, VLine, Wall};

@@ -196,10 +196,12 @@ impl Points {
         };
         let mut path = String::new();
         let mut seen = HashSet::new();
+        // two points within a fiftieth of their size look like one; in a cloud of thousands, whose
+        // points overlap anyway, a tenth is enough and keeps the file small
+        let many = self.xs.len().min(self.ys.len()) > 5000;
+        let grid = (size / if many { 10.0 } else { 50.0 }).max(0.05);
         for (&x, &y) in self.xs.iter().zip(&self.ys) {
             let (px, py) = frame.at(x, y);
-            // two points in one hundredth of their size look like one; a section has thousands
-            let grid = (size / 50.0).max(0.05);
             #[expect(
                 clippy::cast_possible_truncation,
                 reason = "page coordinates are within 1e6"

@@ -2,8 +2,8 @@
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
+use crate::label::{Anchor, Placed};
 use crate::mark::Extent;
-use crate::markup::{Anchor, Placed};
 use crate::number::N;
 use crate::theme;
 

@@ -6,9 +6,11 @@
 //! would be a slow library call, and using it on some machines only would change the bits.
 
 mod exact;
+mod matrix;
 mod trig;
 
 pub(crate) use exact::{Sum, two_prod, two_sum};
+pub use matrix::{Matrix2, Multiplier, eigenvalues};
 pub use trig::sin_cos;
 
 /// $e^x$.

@@ -1,0 +1,218 @@
+//! Where everything on a figure goes.
+
+use crate::axis::Mapping;
+use crate::canvas::Frame;
+use crate::figure::Figure;
+use crate::legend::{Arranged, Legend, Place};
+use crate::panel::{Margins, Prepared};
+use crate::theme;
+
+/// Where everything goes.
+pub(crate) struct Layout {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) panels: Vec<(Frame, Prepared)>,
+    /// Left, top, and the columns.
+    pub(crate) legend: Option<(f64, f64, Arranged)>,
+}
+
+/// Frames never become smaller than this, however little room there is.
+const SMALLEST: f64 = 20.0;
+
+impl Layout {
+    pub(crate) fn of(figure: &Figure) -> Self {
+        let size = |v: f64, usual: f64| {
+            if v.is_finite() {
+                v.clamp(50.0, 1e5)
+            } else {
+                usual
+            }
+        };
+        let (width, height) = (
+            size(figure.width, theme::COLUMN),
+            size(figure.height, 480.0),
+        );
+        let edge = theme::MARGIN;
+        let head = edge
+            + if figure.title.is_some() {
+                1.5 * theme::TITLE_TEXT
+            } else {
+                0.0
+            };
+        let legend = figure.legend.as_ref().filter(|l| !l.entries.is_empty());
+        let arranged = legend.map(|l| arrange(l, width - 2.0 * edge, height - head - 60.0));
+        let beside = match &arranged {
+            Some((Place::Right, a)) => a.width + theme::GAP,
+            _ => 0.0,
+        };
+        let inner = (width - 2.0 * edge - beside, height - head - edge);
+        let panels = frames(figure, (edge, head), inner);
+        let (mut outer, mut spot) = (height, None);
+        if let Some((place, a)) = arranged {
+            let (left, top) = match place {
+                Place::Right => {
+                    let top = panels.first().map_or(head, |(f, _)| f.top);
+                    outer = outer.max(top + a.height + edge);
+                    (width - edge - a.width, top)
+                }
+                Place::Below => {
+                    outer += a.height + theme::GAP / 2.0;
+                    (
+                        ((width - a.width) / 2.0).max(edge),
+                        height + theme::GAP / 2.0 - edge,
+                    )
+                }
+            };
+            spot = Some((left, top, a));
+        }
+        Self {
+            width,
+            height: outer,
+            panels,
+            legend: spot,
+        }
+    }
+}
+
+/// The legend where it was wanted; one too wide to stand beside the panels goes below them.
+fn arrange(legend: &Legend, width: f64, height: f64) -> (Place, Arranged) {
+    let wanted = legend.arrange(legend.place, width, height);
+    if legend.place == Place::Right && wanted.width > WIDEST * width {
+        (Place::Below, legend.arrange(Place::Below, width, height))
+    } else {
+        (legend.place, wanted)
+    }
+}
+
+/// The part of a figure's width that a legend beside the panels may take.
+const WIDEST: f64 = 0.5;
+
+/// Frames of equal size in a grid; rows and columns share their margins, so that axes line up.
+fn frames(
+    figure: &Figure,
+    (left, top): (f64, f64),
+    (width, height): (f64, f64),
+) -> Vec<(Frame, Prepared)> {
+    let columns = figure.columns.clamp(1, figure.panels.len().max(1));
+    let rows = figure.panels.len().div_ceil(columns);
+    let (nx, ny) = (columns as f64, rows as f64);
+    // ticks depend on the frame and the frame on the ticks' numbers: the second round settles it
+    let mut each = (width / nx - 90.0, height / ny - 70.0);
+    let mut prepared = Vec::new();
+    let mut across = vec![Margins::default(); columns];
+    let mut down = vec![Margins::default(); rows];
+    for _ in 0..2 {
+        prepared = figure
+            .panels
+            .iter()
+            .map(|p| p.prepare(each.0.max(SMALLEST), each.1.max(SMALLEST)))
+            .collect::<Vec<_>>();
+        across.fill(Margins::default());
+        down.fill(Margins::default());
+        for (i, (panel, ready)) in figure.panels.iter().zip(&prepared).enumerate() {
+            let (m, a) = (panel.margins(ready), &mut across[i % columns]);
+            (a.left, a.right) = (a.left.max(m.left), a.right.max(m.right));
+            let d = &mut down[i / columns];
+            (d.top, d.bottom) = (d.top.max(m.top), d.bottom.max(m.bottom));
+        }
+        let taken_x: f64 =
+            across.iter().map(|m| m.left + m.right).sum::<f64>() + theme::GAP * (nx - 1.0);
+        let taken_y: f64 =
+            down.iter().map(|m| m.top + m.bottom).sum::<f64>() + theme::GAP / 2.0 * (ny - 1.0);
+        each = (
+            ((width - taken_x) / nx).max(SMALLEST),
+            ((height - taken_y) / ny).max(SMALLEST),
+        );
+    }
+    let mut out = Vec::with_capacity(prepared.len());
+    for (i, (panel, ready)) in figure.panels.iter().zip(prepared).enumerate() {
+        let (column, row) = (i % columns, i / columns);
+        let x = left
+            + across[..column]
+                .iter()
+                .map(|m| m.left + m.right + each.0 + theme::GAP)
+                .sum::<f64>()
+            + across[column].left;
+        let y = top
+            + down[..row]
+                .iter()
+                .map(|m| m.top + m.bottom + each.1 + theme::GAP / 2.0)
+                .sum::<f64>()
+            + down[row].top;
+        let frame = Frame {
+            left: x,
+            top: y,
+            width: each.0,
+            height: each.1,
+            x: Mapping {
+                scale: panel.x.scale,
+                range: ready.x_range,
+                page: (x, x + each.0),
+            },
+            y: Mapping {
+                scale: panel.y.scale,
+                range: ready.y_range,
+                page: (y + each.1, y),
+            },
+            clip: format!("clip{i}"),
+        };
+        out.push((frame, ready));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Axis, Key, Panel, class_style};
+
+    fn legend(text: &str) -> Legend {
+        Legend::below().entry(Key::Patch(class_style("1/1")), text)
+    }
+
+    fn panel() -> Panel {
+        Panel::new(Axis::new("x"), Axis::new("y"))
+    }
+
+    #[test]
+    fn a_legend_below_leaves_the_panels_alone() {
+        let (without, with) = (
+            Figure::new(panel()),
+            Figure::new(panel()).legend(legend("1/1")),
+        );
+        assert!(with.outer_size().1 > without.outer_size().1);
+        let height = |f: &Figure| Layout::of(f).panels[0].0.height;
+        assert_eq!(height(&without), height(&with));
+    }
+
+    #[test]
+    fn a_legend_beside_starts_right_of_the_frames() {
+        let right = |text: &str| Legend {
+            place: Place::Right,
+            ..legend(text)
+        };
+        let layout = Layout::of(&Figure::new(panel()).legend(right("1/1")));
+        let left = layout.legend.map_or(0.0, |(left, _, _)| left);
+        assert!(left >= layout.panels[0].0.right() + theme::GAP / 2.0);
+        let layout = Layout::of(&Figure::new(panel()).legend(right(&"long ".repeat(20))));
+        let top = layout.legend.map_or(0.0, |(_, top, _)| top);
+        assert!(top > layout.panels[0].0.bottom(), "too wide: below");
+    }
+
+    #[test]
+    fn frames_of_a_grid_line_up() {
+        let figure = Figure::grid(2, vec![panel(), panel().caption("(b)"), panel()]);
+        let frames: Vec<_> = Layout::of(&figure)
+            .panels
+            .into_iter()
+            .map(|(f, _)| f)
+            .collect();
+        assert_eq!(frames[0].top, frames[1].top);
+        assert_eq!(frames[0].left, frames[2].left);
+        assert!(
+            frames
+                .iter()
+                .all(|f| f.width == frames[0].width && f.height == frames[0].height)
+        );
+    }
+}

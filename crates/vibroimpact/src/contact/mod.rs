@@ -1,0 +1,21 @@
+//! Contact: what happens at a stop.
+//!
+//! An impact sends the mass back with $u_+ = -\varepsilon u_-$ (eq. 9 of the 1971 paper). Under a force into the stop
+//! the rebounds shrink geometrically and accumulate in finite time - chattering, completed here by a formula with a
+//! known error ([`chatter`]) - after which the mass sticks until the force changes sign ([`sticking`]).
+
+pub mod chatter;
+pub mod sticking;
+
+use crate::system::Side;
+use core::f64::consts::PI;
+
+/// The phase as the given stop sees it: the lower stop is an upper one for the mirrored system, in which the force is
+/// half a turn ahead.
+#[inline]
+pub(crate) fn mirrored(side: Side, phase: f64) -> f64 {
+    match side {
+        Side::Upper => phase,
+        Side::Lower => phase + PI,
+    }
+}

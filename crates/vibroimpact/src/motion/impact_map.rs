@@ -1,0 +1,161 @@
+//! The impact map: from one arrival at a stop to the next, and its exact derivative.
+//!
+//! The state is the phase $\theta$ and the arrival speed $U$ (and which stop). The flight that follows starts with
+//! $v_0 = -\sigma_0\varepsilon U_0$ and ends at $\sigma_1 x = \delta_{\sigma_1}$ after a time $s$ that depends on both. With
+//! the propagator of the flight,
+//!
+//! $$\partial_\varphi x = \cos\varphi\,K_c - \sin\varphi\,K_s,\quad \partial_{v_0} x = S,\quad
+//!   \partial_\varphi v = \cos\varphi\,(S - \beta K_s) - \sin\varphi\,\beta K_c,\quad \partial_{v_0} v = C - 2\zeta S,$$
+//!
+//! the contact condition gives $ds = -(\partial_\varphi x\,d\varphi + \partial_{v_0}x\,dv_0)/v_1$, and then
+//!
+//! $$d\theta_1 = d\varphi + \beta\,ds, \qquad
+//!   dU_1 = \sigma_1(\partial_\varphi v\,d\varphi + \partial_{v_0}v\,dv_0 + a_1\,ds).$$
+//!
+//! Its determinant is $\varepsilon^2 e^{-2\zeta s}\,U_0/U_1$ (in time and velocity), which the tests check.
+
+use super::{End, Event, EventKind, Motion};
+use crate::flight::{Flight, SearchLimits};
+use crate::math::{Matrix2, sin_cos};
+use crate::system::{Oscillator, Side, Start};
+
+/// An arrival at a stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactState {
+    /// Phase of the force, in $[0, 2\pi)$.
+    pub phase: f64,
+    /// Speed of arrival, towards the stop, not negative.
+    pub velocity: f64,
+    /// Which stop.
+    pub side: Side,
+}
+
+impl ImpactState {
+    /// The start that leaves the stop after this impact.
+    #[must_use]
+    pub fn rebound(&self, osc: &Oscillator) -> Start {
+        let (sign, stop) = (self.side.sign(), osc.stop(self.side));
+        let (gap, eps) = stop.map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
+        Start { x: sign * gap, v: -sign * eps * self.velocity, phase: self.phase }
+    }
+}
+
+/// What follows an impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mapped {
+    /// The next impact, `interval` later; grazes in between do not count.
+    Impact {
+        /// The next arrival.
+        state: ImpactState,
+        /// Time between the two.
+        interval: f64,
+    },
+    /// The mass comes to rest on a stop: the event that says so.
+    Stick(Event),
+    /// No further impact.
+    End(End),
+}
+
+/// The impact after `state`.
+///
+/// ```
+/// use vibroimpact::{Oscillator, Side, motion::{ImpactState, Mapped, impact_map}, flight::SearchLimits};
+/// // eps = 0.5, 1/beta = 1.3, delta = 0.75: the fundamental motion returns to itself
+/// let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5)?;
+/// let state = ImpactState { phase: 1.1905096137878885, velocity: 2.7973491519537674, side: Side::Upper };
+/// let Mapped::Impact { state: next, interval } = impact_map(&osc, &state, SearchLimits::default()) else { panic!() };
+/// assert!((next.velocity - state.velocity).abs() < 1e-14 && (interval - osc.period()).abs() < 1e-14);
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+#[must_use]
+pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -> Mapped {
+    let mut motion = Motion::with_limits(osc, state.rebound(osc), limits);
+    loop {
+        match motion.next() {
+            Some(event) => match event.kind {
+                EventKind::Impact { velocity_before, .. } => {
+                    let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
+                    return Mapped::Impact { state, interval: event.time };
+                }
+                EventKind::Stick { .. } => return Mapped::Stick(event),
+                EventKind::Graze { .. } | EventKind::Release => {}
+            },
+            None => return Mapped::End(motion.end().unwrap_or(End::NoneFor(0.0))),
+        }
+    }
+}
+
+/// The derivative of `(phase, velocity)` at the next impact with respect to those at `state`, given that the next
+/// impact is `next`, a time `interval` later.
+#[must_use]
+pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, interval: f64) -> Matrix2 {
+    let start = state.rebound(osc);
+    let (beta, zeta) = (osc.beta(), osc.damping());
+    let eps = osc.stop(state.side).map_or(0.0, |stop| stop.restitution);
+    let p = osc.response().at(interval);
+    let (sin, cos) = sin_cos(start.phase);
+    let (x_phase, x_v) = (cos * p.kc - sin * p.ks, p.s);
+    let (v_phase, v_v) = (cos * (p.s - beta * p.ks) - sin * beta * p.kc, p.c - 2.0 * zeta * p.s);
+    let sign = next.side.sign();
+    let v1 = sign * next.velocity;
+    let a1 = Flight::new(osc, start).at(interval).a;
+    // one column for the phase, one for the arrival speed (dv0 = -sigma eps dU)
+    let dv0 = -state.side.sign() * eps;
+    let column = |dphi: f64, dv: f64| {
+        let ds = -(x_phase * dphi + x_v * dv) / v1;
+        [dphi + beta * ds, sign * (v_phase * dphi + v_v * dv + a1 * ds)]
+    };
+    let (by_phase, by_speed) = (column(1.0, 0.0), column(0.0, dv0));
+    Matrix2([[by_phase[0], by_speed[0]], [by_phase[1], by_speed[1]]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::phase;
+
+    fn step(osc: &Oscillator, state: &ImpactState) -> (ImpactState, f64) {
+        match impact_map(osc, state, SearchLimits::default()) {
+            Mapped::Impact { state, interval } => (state, interval),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn derivative_by_differences_and_determinant() {
+        for (beta, gap, eps, zeta, lower) in [
+            (0.9, 2.0, 0.5, 0.0, None),
+            (0.6, 0.3, 0.8, 0.03, None),
+            (1.0, 1.0, 0.4, 0.0, None),
+            (0.7, 0.6, 0.7, 0.1, Some(0.8)),
+            (1.3, 0.2, 0.9, 1.2, Some(0.1)),
+        ] {
+            let mut osc = Oscillator::new(beta, gap, eps).unwrap().with_damping(zeta).unwrap();
+            if let Some(gap) = lower {
+                osc = osc.with_second_stop(gap, 0.6).unwrap();
+            }
+            let mut state = ImpactState { phase: 1.2, velocity: 1.9, side: Side::Upper };
+            for _ in 0..5 {
+                let (next, t) = step(&osc, &state);
+                let d = derivative(&osc, &state, &next, t);
+                let eps0 = osc.stop(state.side).unwrap().restitution;
+                let det = eps0 * eps0 * (-2.0 * zeta * t).exp() * state.velocity / next.velocity;
+                assert!((d.determinant() / det - 1.0).abs() < 1e-9, "{} {det}", d.determinant());
+                let h = 1e-6;
+                for (column, (dp, du)) in [(1.0, 0.0), (0.0, 1.0)].into_iter().enumerate() {
+                    let shifted = |h: f64| {
+                        step(&osc, &ImpactState { phase: state.phase + h * dp, velocity: state.velocity + h * du, ..state }).0
+                    };
+                    let (up, down) = (shifted(h), shifted(-h));
+                    let difference =
+                        [phase::difference(up.phase, down.phase) / (2.0 * h), (up.velocity - down.velocity) / (2.0 * h)];
+                    for row in 0..2 {
+                        let exact = d.0[row][column];
+                        assert!((difference[row] - exact).abs() < 1e-6 * (1.0 + exact.abs()), "{difference:?} {d:?}");
+                    }
+                }
+                state = next;
+            }
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! A motion as an iterator: legs (flights and rests) divided by events.
+//!
+//! Time is set back to zero at each event and the phase advanced instead; the total is a compensated sum. So the state
+//! a motion carries is phase and velocity at the stop, and nothing in it grows old.
+
+use super::{End, Event, EventKind};
+use crate::contact::{chatter, sticking};
+use crate::flight::{Contact, Flight, SearchLimits, first_contact};
+use crate::math::Sum;
+use crate::system::{Oscillator, Side, Start};
+
+/// What the mass does between two events.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Path {
+    /// It flies.
+    Flight(Flight),
+    /// It rests on a stop - or, for the last stretch of a chatter, hops on it too little to matter.
+    Rest(Side),
+}
+
+/// A stretch between two events.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    /// Time of its beginning since the start of the motion.
+    pub begin: f64,
+    /// Its length; infinite when nothing ends it.
+    pub duration: f64,
+    /// Phase of the force at its beginning.
+    pub phase: f64,
+    /// What the mass does.
+    pub path: Path,
+}
+
+impl Leg {
+    /// Position and velocity a time `s` after the beginning of the leg.
+    #[must_use]
+    pub fn state(&self, osc: &Oscillator, s: f64) -> (f64, f64) {
+        match &self.path {
+            Path::Flight(flight) => flight.state(s),
+            Path::Rest(side) => (side.sign() * osc.stop(*side).map_or(0.0, |stop| stop.gap), 0.0),
+        }
+    }
+}
+
+/// The events of a motion, in order; it ends when there is none any more, and [`Motion::end`] says why.
+///
+/// ```
+/// use vibroimpact::{Oscillator, Start, motion::{EventKind, Motion}};
+/// let osc = Oscillator::new(1.0 / 1.3, 0.75, 0.5)?;
+/// let impacts = Motion::new(&osc, Start::at_rest(&osc)).take(200).filter(|e| matches!(e.kind, EventKind::Impact { .. }));
+/// assert_eq!(impacts.count(), 200);
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a> {
+    osc: &'a Oscillator,
+    limits: SearchLimits,
+    time: Sum,
+    mode: Mode,
+    last: Option<Leg>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Mode {
+    Flying(Flight),
+    /// The chatter after an impact is summed: at rest after `duration`.
+    Settling { side: Side, phase: f64, duration: f64, error: f64, chatter: bool },
+    Resting { side: Side, phase: f64 },
+    Ended(End),
+}
+
+impl<'a> Motion<'a> {
+    /// The motion of `osc` from `start`.
+    #[must_use]
+    pub fn new(osc: &'a Oscillator, start: Start) -> Self {
+        Self::with_limits(osc, start, SearchLimits::default())
+    }
+
+    /// The same, searching each flight only as far as `limits`.
+    #[must_use]
+    pub fn with_limits(osc: &'a Oscillator, start: Start, limits: SearchLimits) -> Self {
+        Self { osc, limits, time: Sum::default(), mode: Mode::Flying(Flight::new(osc, start)), last: None }
+    }
+
+    /// Why there is no further event; `None` while the motion goes on.
+    #[must_use]
+    pub const fn end(&self) -> Option<End> {
+        match self.mode {
+            Mode::Ended(end) => Some(end),
+            _ => None,
+        }
+    }
+
+    /// The leg that led to the last event returned (or, after the end, the leg without end).
+    #[must_use]
+    pub const fn leg(&self) -> Option<&Leg> {
+        self.last.as_ref()
+    }
+
+    fn event(&mut self, leg: Leg, phase: f64, side: Side, kind: EventKind) -> Event {
+        self.time.add(leg.duration);
+        self.last = Some(leg);
+        Event { time: self.time.value(), phase, side, kind }
+    }
+
+    fn finish(&mut self, phase: f64, path: Path, end: End) {
+        self.last = Some(Leg { begin: self.time.value(), duration: f64::INFINITY, phase, path });
+        self.mode = Mode::Ended(end);
+    }
+
+    fn fly(&mut self, flight: Flight) -> Option<Event> {
+        let leg = |duration| Leg { begin: self.time.value(), duration, phase: flight.phase, path: Path::Flight(flight) };
+        let (duration, side, velocity) = match first_contact(self.osc, &flight, self.limits) {
+            Contact::Impact { time, side, velocity } => (time, side, velocity),
+            Contact::Contact { side } => {
+                let velocity = side.sign() * flight.v;
+                if velocity <= 0.0 {
+                    // at rest and pressed
+                    let (phase, leg) = (flight.phase, leg(0.0));
+                    self.mode = Mode::Resting { side, phase };
+                    return Some(self.event(leg, phase, side, EventKind::Stick { chatter: false, error: 0.0 }));
+                }
+                (0.0, side, velocity)
+            }
+            Contact::Grazing { time, side, depth } => {
+                let (phase, leg) = (flight.phase_at(time), leg(time));
+                self.mode = Mode::Flying(Flight::new(self.osc, self.on_stop(side, 0.0, phase)));
+                return Some(self.event(leg, phase, side, EventKind::Graze { depth }));
+            }
+            Contact::Never(why) => {
+                self.finish(flight.phase, Path::Flight(flight), End::Never(why));
+                return None;
+            }
+            Contact::NoneUntil(s) => {
+                self.finish(flight.phase, Path::Flight(flight), End::NoneFor(s));
+                return None;
+            }
+        };
+        let (phase, leg) = (flight.phase_at(duration), leg(duration));
+        let rebound = self.osc.stop(side).map_or(0.0, |stop| stop.restitution) * velocity;
+        self.mode = self.after_impact(side, phase, rebound);
+        Some(self.event(leg, phase, side, EventKind::Impact { velocity_before: velocity, velocity_after: -rebound }))
+    }
+
+    fn after_impact(&self, side: Side, phase: f64, rebound: f64) -> Mode {
+        if rebound == 0.0 {
+            // eps = 0 (or a rebound below the smallest number): at rest on the stop; held if the force presses
+            return if sticking::pressure(self.osc, side, phase) > 0.0 {
+                Mode::Settling { side, phase, duration: 0.0, error: 0.0, chatter: false }
+            } else {
+                Mode::Flying(Flight::new(self.osc, self.on_stop(side, 0.0, phase)))
+            };
+        }
+        match chatter::completion(self.osc, side, phase, rebound, chatter::DEFAULT_SMALLNESS) {
+            Some(sum) => {
+                Mode::Settling { side, phase, duration: sum.duration, error: sum.error, chatter: true }
+            }
+            None => Mode::Flying(Flight::new(self.osc, self.on_stop(side, rebound, phase))),
+        }
+    }
+
+    /// The state that leaves the stop with speed `rebound`.
+    fn on_stop(&self, side: Side, rebound: f64, phase: f64) -> Start {
+        let sign = side.sign();
+        Start { x: sign * self.osc.stop(side).map_or(0.0, |stop| stop.gap), v: -sign * rebound, phase }
+    }
+}
+
+impl Iterator for Motion<'_> {
+    type Item = Event;
+
+    fn next(&mut self) -> Option<Event> {
+        match self.mode {
+            Mode::Flying(flight) => self.fly(flight),
+            Mode::Settling { side, phase, duration, error, chatter } => {
+                let leg = Leg { begin: self.time.value(), duration, phase, path: Path::Rest(side) };
+                let phase = crate::system::phase::advance(phase, self.osc.beta(), duration);
+                self.mode = Mode::Resting { side, phase };
+                Some(self.event(leg, phase, side, EventKind::Stick { chatter, error }))
+            }
+            Mode::Resting { side, phase } => match sticking::rest(self.osc, side, phase) {
+                sticking::Rest::Until { time, phase: release } => {
+                    let leg = Leg { begin: self.time.value(), duration: time, phase, path: Path::Rest(side) };
+                    self.mode = Mode::Flying(Flight::release(self.osc, side, release));
+                    Some(self.event(leg, release, side, EventKind::Release))
+                }
+                sticking::Rest::Forever => {
+                    self.finish(phase, Path::Rest(side), End::Stuck(side));
+                    None
+                }
+            },
+            Mode::Ended(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn energy_balance_of_elastic_impacts() {
+        // eps = 1, no damping: the energy change equals the work of the force, which each flight knows exactly as the
+        // change of (x^2 + v^2)/2; at the stop v only changes sign, so impacts must not change it
+        let osc = Oscillator::new(1.7, 0.3, 1.0).unwrap();
+        let mut motion = Motion::new(&osc, Start::at_rest(&osc));
+        let mut before: Option<f64> = None;
+        for _ in 0..1000 {
+            let event = motion.next().unwrap();
+            let EventKind::Impact { velocity_before, velocity_after } = event.kind else { panic!() };
+            assert_eq!(velocity_before, -velocity_after);
+            if let Some(last) = before {
+                assert!(event.time > last);
+            }
+            before = Some(event.time);
+        }
+    }
+
+    #[test]
+    fn pressed_against_the_stop_it_chatters_sticks_and_leaves() {
+        let osc = Oscillator::new(0.9, -0.5, 0.5).unwrap();
+        let mut sticks = 0;
+        let mut time = -1.0;
+        for event in Motion::new(&osc, Start::at_rest(&osc)).take(2000) {
+            assert!(event.time >= time);
+            time = event.time;
+            if let EventKind::Stick { .. } = event.kind {
+                sticks += 1;
+            }
+            if event.kind == EventKind::Release {
+                assert!((event.phase - (core::f64::consts::PI + 0.5_f64.asin())).abs() < 1e-14);
+            }
+        }
+        assert!(sticks > 10, "{sticks}");
+    }
+
+    #[test]
+    fn plastic_impacts_and_eternal_rest() {
+        let plastic = Oscillator::new(1.0 / 1.3, 0.4, 0.0).unwrap();
+        assert!(Motion::new(&plastic, Start::at_rest(&plastic)).take(100).count() == 100);
+        let pressed = Oscillator::new(0.9, -1.5, 0.5).unwrap();
+        let mut motion = Motion::new(&pressed, Start { x: -3.0, v: 0.0, phase: 0.0 });
+        assert!(motion.by_ref().take(10_000).count() < 10_000);
+        assert_eq!(motion.end(), Some(End::Stuck(Side::Upper)));
+    }
+
+    #[test]
+    fn two_stops_are_both_struck_and_never_passed() {
+        let osc = Oscillator::new(0.8, 0.5, 0.7).unwrap().with_second_stop(0.4, 0.6).unwrap();
+        let mut struck = [0, 0];
+        let mut motion = Motion::new(&osc, Start::at_rest(&osc));
+        for _ in 0..2000 {
+            let Some(event) = motion.next() else { break };
+            struck[usize::from(event.side == Side::Lower)] += 1;
+            let leg = motion.leg().unwrap();
+            for k in 0..=20 {
+                let (x, _) = leg.state(&osc, leg.duration * f64::from(k) / 20.0);
+                assert!((-0.4 - 1e-14..=0.5 + 1e-14).contains(&x), "{x}");
+            }
+        }
+        assert!(struck[0] > 100 && struck[1] > 100, "{struck:?}");
+    }
+}
