@@ -1,23 +1,13 @@
-//! Scratch: impacts per second of the scalar path at U and S.
+//! Scratch.
 use std::time::Instant;
-use vibroimpact::{flight::*, *};
+use vibroimpact::{verdict::*, scenario};
 fn main() {
-    for (ib, gap) in [(1.11, 3.0), (1.3, 0.75), (1.8, 0.25)] {
-        let osc = Oscillator::from_inverse_beta(ib, gap, 0.5).unwrap();
-        let mut st = Start::at_rest(&osc);
+    for p in scenario::PAPER {
+        let osc = p.oscillator();
         let t = Instant::now();
-        let n = 1_000_000;
-        let mut last = [0.0; 3];
-        for _ in 0..n {
-            let f = Flight::new(&osc, st);
-            match first_contact(&osc, &f, SearchLimits::default()) {
-                Contact::Impact { time, velocity, .. } => {
-                    st = Start { x: gap, v: -0.5 * velocity, phase: f.phase_at(time) };
-                    last = [time, velocity, st.phase];
-                }
-                other => { println!("{other:?}"); break; }
-            }
-        }
-        println!("{ib} {gap}: {:.3} M/s {last:?}", n as f64 / t.elapsed().as_secs_f64() / 1e6);
+        let mut c = Census::default(); let mut imp = 0; let mut worst = (0.0, 0);
+        for i in 0..200 { let s = scattered_starts(&osc, StartBox::natural(&osc), 1, i); let t1 = Instant::now(); let r = settle(&osc, s, &SettleOptions::default()); imp += r.impacts; c.add(&r.verdict); let e = t1.elapsed().as_secs_f64(); if e > worst.0 { worst = (e, i); } }
+        println!("{} {:.3} s, {imp} impacts, worst {worst:?}", p.name, t.elapsed().as_secs_f64());
+        for f in c.by_share() { println!("   {} {:.3}", f.verdict.label(), c.share(f)); }
     }
 }

@@ -1,0 +1,172 @@
+//! The distinct steady motions of a system, and the share of starts that lead to each.
+
+use super::outcome::Verdict;
+use super::settle::{SettleOptions, settle};
+use crate::system::{Oscillator, Start};
+use core::f64::consts::TAU;
+
+/// A steady motion and how many starts led to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The motion, as the first start that led to it gave it.
+    pub verdict: Verdict,
+    /// Starts that led to it.
+    pub count: u64,
+}
+
+/// Distinct motions counted one start after another. Two cycles with one label stay two if they differ.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Census {
+    found: Vec<Found>,
+    total: u64,
+}
+
+/// Two cycles closer than this in phase and relative velocity are one; both were refined to rounding.
+const SAME: f64 = 1e-6;
+
+impl Census {
+    /// Counts one verdict and returns the number of its motion, in order of first appearance.
+    pub fn add(&mut self, verdict: &Verdict) -> usize {
+        self.total += 1;
+        if let Some(k) = self.found.iter().position(|found| found.verdict.same_as(verdict, SAME)) {
+            self.found[k].count += 1;
+            return k;
+        }
+        self.found.push(Found { verdict: verdict.clone(), count: 1 });
+        self.found.len() - 1
+    }
+
+    /// The motions in order of first appearance.
+    #[must_use]
+    pub fn motions(&self) -> &[Found] {
+        &self.found
+    }
+
+    /// The motions, the most frequent first.
+    #[must_use]
+    pub fn by_share(&self) -> Vec<&Found> {
+        let mut list: Vec<&Found> = self.found.iter().collect();
+        list.sort_by(|a, b| b.count.cmp(&a.count));
+        list
+    }
+
+    /// Starts counted.
+    #[must_use]
+    pub const fn total(&self) -> u64 {
+        self.total
+    }
+
+    /// The share of starts that led to a motion.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss)] // counts below 2^53
+    pub fn share(&self, found: &Found) -> f64 {
+        found.count as f64 / (self.total.max(1)) as f64
+    }
+}
+
+/// The box of starts that shares refer to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartBox {
+    /// Positions.
+    pub x: (f64, f64),
+    /// Velocities.
+    pub v: (f64, f64),
+    /// Phases.
+    pub phase: (f64, f64),
+}
+
+impl StartBox {
+    /// The box used where none is given: with $A = 1 + |\delta| + \min(|f|, 10)$, positions from $\delta - 2A$ (or the
+    /// second stop) to $\delta$, velocities within $\pm A(1+\beta)/2$ but at most $\pm 2A$, all phases.
+    #[must_use]
+    pub fn natural(osc: &Oscillator) -> Self {
+        let size = 1.0 + osc.gap().abs() + osc.free_amplitude().min(10.0);
+        let (lowest, highest) = Start::room(osc);
+        let speed = size * (0.5 * (1.0 + osc.beta())).min(2.0);
+        Self { x: (lowest.max(highest - 2.0 * size), highest), v: (-speed, speed), phase: (0.0, TAU) }
+    }
+}
+
+/// Start number `index` of the sequence with that `seed`: points spread evenly over the box (the additive recurrence of
+/// the generalised golden ratio in three dimensions, M. Roberts 2018, shifted by the seed). The same for every machine.
+#[must_use]
+#[allow(clippy::cast_precision_loss)] // 53 bits are kept on purpose
+pub fn scattered_starts(osc: &Oscillator, area: StartBox, seed: u64, index: u64) -> Start {
+    // 2^64 / g, 2^64 / g^2, 2^64 / g^3 with g^4 = g + 1
+    const STEP: [u64; 3] = [0xD1B5_4A32_D192_ED03, 0xABC9_8388_FB8F_AC03, 0x8CB9_2BA7_2F3D_8DD7];
+    let unit = |k: usize| {
+        let shift = mix(seed.wrapping_mul(3).wrapping_add(k as u64 + 1));
+        let turn = STEP[k].wrapping_mul(index.wrapping_add(1)).wrapping_add(shift);
+        (turn >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let at = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
+    let (lowest, highest) = Start::room(osc);
+    Start {
+        x: at(area.x, unit(0)).clamp(lowest, highest),
+        v: at(area.v, unit(1)),
+        phase: crate::system::phase::wrap(at(area.phase, unit(2))),
+    }
+}
+
+/// The finaliser of SplitMix64.
+const fn mix(seed: u64) -> u64 {
+    let z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+/// The steady motions that `starts` starts from the natural box lead to.
+///
+/// ```
+/// use vibroimpact::{Oscillator, verdict::{SettleOptions, attractors}};
+/// // S of the 1971 paper: two motions coexist
+/// let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5)?;
+/// let census = attractors(&osc, 40, 1, &SettleOptions::default());
+/// let mut labels: Vec<_> = census.motions().iter().map(|found| found.verdict.label()).collect();
+/// labels.sort();
+/// assert_eq!(labels, ["1/1", "2/1"]);
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+#[must_use]
+pub fn attractors(osc: &Oscillator, starts: u64, seed: u64, options: &SettleOptions) -> Census {
+    let area = StartBox::natural(osc);
+    let mut census = Census::default();
+    for index in 0..starts {
+        census.add(&settle(osc, scattered_starts(osc, area, seed, index), options).verdict);
+    }
+    census
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+
+    #[test]
+    fn the_papers_points() {
+        for point in scenario::PAPER {
+            let census = attractors(&point.oscillator(), 200, 1, &SettleOptions::default());
+            let mut labels: Vec<_> = census.motions().iter().map(|found| found.verdict.label().into_owned()).collect();
+            labels.sort();
+            let mut expected = point.motions.to_vec();
+            expected.sort_unstable();
+            assert_eq!(labels, expected, "{}", point.name);
+        }
+    }
+
+    #[test]
+    fn starts_fill_the_box_and_depend_on_the_seed() {
+        let osc = scenario::S.oscillator();
+        let area = StartBox::natural(&osc);
+        let mut quarters = [0_u32; 4];
+        for index in 0..1000 {
+            let start = scattered_starts(&osc, area, 7, index);
+            let right = start.x > 0.5 * (area.x.0 + area.x.1);
+            let up = start.v > 0.0;
+            quarters[usize::from(right) + 2 * usize::from(up)] += 1;
+        }
+        assert!(quarters.iter().all(|q| (235..=265).contains(q)), "{quarters:?}");
+        assert_ne!(scattered_starts(&osc, area, 7, 0), scattered_starts(&osc, area, 8, 0));
+    }
+}

@@ -1,0 +1,90 @@
+//! The name of a periodic motion: `m/n`, m impacts in n forcing periods over its smallest period.
+//!
+//! `2/2` is not `1/1`: its two impacts differ. A motion with a complete chatter in it has infinitely many impacts and
+//! is called `inf/n`. The 1971 paper calls 1/1 fundamental, m/1 of higher order, 1/n fractional and the rest super-sub.
+
+use core::fmt;
+use core::str::FromStr;
+use thiserror::Error;
+
+/// How many impacts a period has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Count {
+    /// That many.
+    Finite(u32),
+    /// Infinitely many: a complete chatter.
+    Infinite,
+}
+
+/// The label m/n of a periodic motion.
+///
+/// ```
+/// use vibroimpact::Label;
+/// let label: Label = "4/1".parse()?;
+/// assert_eq!(label.to_string(), "4/1");
+/// assert_eq!("inf/2".parse::<Label>()?.to_string(), "inf/2");
+/// assert!("3/0".parse::<Label>().is_err());
+/// # Ok::<(), vibroimpact::verdict::LabelError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Label {
+    /// Impacts per period.
+    pub impacts: Count,
+    /// Forcing periods per period, at least 1.
+    pub periods: u32,
+}
+
+impl Label {
+    /// `m/n` with finitely many impacts.
+    #[must_use]
+    pub const fn new(impacts: u32, periods: u32) -> Self {
+        Self { impacts: Count::Finite(impacts), periods }
+    }
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.impacts {
+            Count::Finite(m) => write!(f, "{m}/{}", self.periods),
+            Count::Infinite => write!(f, "inf/{}", self.periods),
+        }
+    }
+}
+
+/// A text that is no label.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("label `{given}` is not m/n with m and n whole numbers from 1 to 10000 (or inf/n)\nhint: m impacts in n forcing periods, for example 2/1")]
+pub struct LabelError {
+    given: String,
+}
+
+impl FromStr for Label {
+    type Err = LabelError;
+
+    fn from_str(text: &str) -> Result<Self, LabelError> {
+        let bad = || LabelError { given: text.chars().take(40).collect() };
+        let whole = |part: &str| match part.parse::<u32>() {
+            Ok(k @ 1..=10_000) if part.bytes().all(|b| b.is_ascii_digit()) => Ok(k),
+            _ => Err(bad()),
+        };
+        let (m, n) = text.trim().split_once('/').ok_or_else(bad)?;
+        let impacts = if m == "inf" { Count::Infinite } else { Count::Finite(whole(m)?) };
+        Ok(Self { impacts, periods: whole(n)? })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_labels_parse() {
+        for good in ["1/1", "10000/1", "inf/3"] {
+            assert_eq!(good.parse::<Label>().unwrap().to_string(), good);
+        }
+        for bad in ["3/0", "0/1", "0", "1", "1/1/1", "-1/2", "+1/2", "1.5/2", "inf/0", "inf", "", "1/99999999999", "nan/1"] {
+            let message = bad.parse::<Label>().unwrap_err().to_string();
+            assert!(message.contains(bad) && message.contains("1 to 10000"), "{message}");
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Recurrence suggests a period; the proof comes after.
+
+use crate::motion::ImpactState;
+use crate::orbit::{Cycle, Lap, cycle_distance};
+use crate::system::Oscillator;
+use core::f64::consts::TAU;
+
+/// The numbers of impacts m after which the last impacts resemble those before, smallest first, and the forcing
+/// periods n that took. `impacts` holds states and the time since the impact before; at most `longest` impacts back.
+/// The more impacts back, the likelier a chance resemblance, so the tolerance shrinks like 1/m.
+pub(super) fn candidates(
+    osc: &Oscillator,
+    impacts: &[(ImpactState, f64)],
+    longest: usize,
+    tolerance: f64,
+) -> impl Iterator<Item = (usize, u32)> {
+    let j = impacts.len() - 1;
+    let mut time = 0.0;
+    let beta = osc.beta();
+    (1..=longest.min(j / 2)).filter_map(move |m| {
+        time += impacts[j + 1 - m].1;
+        #[allow(clippy::cast_precision_loss)] // a small count
+        let close = |k: usize| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
+        let periods = (beta * time / TAU).round();
+        // the phases agree, so the time is close to whole periods
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
+        (close(j) && close(j - 1) && (1.0..1e6).contains(&periods)).then(|| (m, periods as u32))
+    })
+}
+
+/// Whether a motion that arrives at `state` is captured by the stable `cycle`: it is near, and its next turn obeys the
+/// linear law of the cycle so well that the contraction of the multipliers cannot be undone by what is left over.
+pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> bool {
+    let nearest = cycle
+        .points
+        .iter()
+        .min_by(|a, b| cycle_distance(&a.state, state).total_cmp(&cycle_distance(&b.state, state)));
+    let Some(nearest) = nearest else { return false };
+    let apart = cycle_distance(&nearest.state, state);
+    if apart > NEAR || !cycle.stable() {
+        return false;
+    }
+    let m = u32::try_from(cycle.points.len()).unwrap_or(u32::MAX);
+    let (Ok(reference), Ok(real)) = (Lap::fly(osc, nearest.state, m), Lap::fly(osc, *state, m)) else { return false };
+    if apart <= AT_ROUNDING {
+        return true;
+    }
+    let offset = |a: &ImpactState, b: &ImpactState| {
+        [crate::system::phase::difference(a.phase, b.phase), a.velocity - b.velocity]
+    };
+    let before = offset(state, &nearest.state);
+    let linear = reference.derivative.apply(before);
+    let after = offset(&real.last, &reference.last);
+    let size = |d: [f64; 2]| d[0].abs().max(d[1].abs() / nearest.state.velocity);
+    let left_over = size([after[0] - linear[0], after[1] - linear[1]]);
+    let largest = cycle.multipliers[0].modulus();
+    left_over <= 0.3 * (1.0 - largest) * size(before) + 1e-12
+}
+
+/// Distance from a cycle below which capture is tested.
+const NEAR: f64 = 1e-3;
+/// Distance at which only rounding separates the two.
+const AT_ROUNDING: f64 = 1e-10;

@@ -1,0 +1,36 @@
+//! A hundred thousand random starts.
+
+use super::case::Case;
+use super::random::Random;
+use super::referee::verdict;
+use super::tally::on_all_cores;
+use core::f64::consts::TAU;
+use vibroimpact::flight::SearchLimits;
+
+const STARTS: u64 = 100_000;
+/// Cells an ordinary question may take; fifty periods of the slower motion where they fit.
+const CELLS: f64 = 1500.0;
+
+/// Fifty periods of the slower of force and oscillator; for most questions no more than [`CELLS`] cells.
+pub(crate) fn horizon(case: &Case, long: bool) -> f64 {
+    let cell = 0.7 / (1.0 + 2.0 * case.zeta).max(case.beta.sqrt());
+    let whole = 50.0 * TAU * (1.0 / case.beta).max(1.0);
+    if long { whole } else { whole.min(CELLS * cell) }
+}
+
+#[test]
+fn random_starts() {
+    let tally = on_all_cores(STARTS, 200, |index, tally| {
+        let case = Random::new(1, index).case();
+        let horizon = horizon(&case, index % 64 == 0);
+        let mut limits = SearchLimits::default();
+        if index % 8 != 0 {
+            // looking much further than the referee does takes time and proves nothing
+            limits.periods = limits.periods.min(1.0 + 1.1 * horizon * case.beta / TAU);
+        }
+        tally.add(case, verdict(&case, limits, horizon));
+    });
+    println!("{tally}");
+    assert!(tally.total() == STARTS && tally.impacts > STARTS / 2 && tally.never > 1000 && tally.until > 100);
+    tally.expect_no_fault();
+}
