@@ -25,6 +25,14 @@ pub struct Census {
 const SAME: f64 = 1e-6;
 
 impl Census {
+    /// Counts a motion of another census with all its starts, and returns its number here.
+    pub fn add_found(&mut self, found: &Found) -> usize {
+        let number = self.add(&found.verdict);
+        self.found[number].count += found.count - 1;
+        self.total += found.count - 1;
+        number
+    }
+
     /// Counts one verdict and returns the number of its motion, in order of first appearance.
     pub fn add(&mut self, verdict: &Verdict) -> usize {
         self.total += 1;

@@ -64,7 +64,7 @@ impl Tally {
 
     /// Fails with the list of the wrong answers.
     pub(crate) fn expect_no_fault(&self) {
-        let shown: Vec<String> = self.faults.iter().take(40).map(|(case, fault)| format!("{case}\n    {fault:?}")).collect();
+        let shown: Vec<String> = self.faults.iter().take(4000).map(|(case, fault)| format!("{case}\n    {fault:?}")).collect();
         assert!(self.faults.is_empty(), "{} wrong answers:\n{}", self.faults.len(), shown.join("\n"));
     }
 }

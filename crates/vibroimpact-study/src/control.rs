@@ -1,0 +1,108 @@
+//! Tiles over threads: the one door for long work. Results come back in tile order, whatever the threads did.
+
+use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use rayon::prelude::*;
+
+/// How a long run is watched and stopped.
+pub struct Control<'a> {
+    /// Set from outside (Ctrl-C) to stop; checked between points.
+    pub stop: &'a AtomicBool,
+    /// Called now and then, from any thread, with the points done so far.
+    pub progress: &'a (dyn Fn(u64) + Sync),
+    /// Threads to use; 0 for one per core.
+    pub threads: usize,
+}
+
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+impl Default for Control<'_> {
+    /// Never stopped, not watched, one thread per core.
+    fn default() -> Self {
+        Self { stop: &NEVER, progress: &|_| {}, threads: 0 }
+    }
+}
+
+/// The run was stopped from outside before it was done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("stopped after {done} of {total} points")]
+pub struct Stopped {
+    /// Points done.
+    pub done: u64,
+    /// Points asked for.
+    pub total: u64,
+}
+
+/// Runs `work` over `total` points in tiles of `tile` points and returns the tiles' results in order.
+///
+/// `work` gets a range of points and a function to call after each of them, which says whether to stop.
+///
+/// # Errors
+/// [`Stopped`] when the stop flag was set before all tiles were done.
+///
+/// # Panics
+/// When the operating system refuses to start threads.
+#[allow(clippy::expect_used)]
+pub fn tiles<T: Send>(
+    total: u64,
+    tile: u64,
+    control: &Control<'_>,
+    work: impl Fn(core::ops::Range<u64>, &(dyn Fn() -> bool + Sync)) -> T + Sync,
+) -> Result<Vec<T>, Stopped> {
+    let done = AtomicU64::new(0);
+    let tick = || {
+        let now = done.fetch_add(1, Ordering::Relaxed) + 1;
+        if now.is_multiple_of(64) || now == total {
+            (control.progress)(now);
+        }
+        control.stop.load(Ordering::Relaxed)
+    };
+    let count = total.div_ceil(tile.max(1));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(control.threads).build().expect("threads can be started");
+    let results: Vec<Option<T>> = pool.install(|| {
+        (0..count)
+            .into_par_iter()
+            .map(|k| {
+                let range = k * tile..((k + 1) * tile).min(total);
+                (!control.stop.load(Ordering::Relaxed)).then(|| work(range, &tick))
+            })
+            .collect()
+    });
+    let stopped = Stopped { done: done.load(Ordering::Relaxed), total };
+    if stopped.done < total || control.stop.load(Ordering::Relaxed) {
+        return Err(stopped);
+    }
+    results.into_iter().collect::<Option<Vec<T>>>().ok_or(stopped)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_come_in_order_for_any_threads_and_the_flag_stops() {
+        for threads in [1, 2, 3, 8] {
+            let control = Control { threads, ..Control::default() };
+            let got = tiles(1000, 7, &control, |range, tick| {
+                let mut sum = 0;
+                for k in range {
+                    sum += k;
+                    tick();
+                }
+                sum
+            });
+            let got = got.unwrap();
+            assert_eq!((got.len(), got.iter().sum::<u64>(), got[0]), (143, 499_500, 21));
+        }
+        let stop = AtomicBool::new(false);
+        let control = Control { stop: &stop, threads: 2, ..Control::default() };
+        let end = tiles(1000, 10, &control, |range, tick| {
+            for k in range {
+                stop.fetch_or(k == 500, Ordering::Relaxed);
+                if tick() {
+                    break;
+                }
+            }
+        });
+        assert!(matches!(end, Err(Stopped { total: 1000, done }) if done < 1000));
+    }
+}

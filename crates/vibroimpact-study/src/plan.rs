@@ -1,0 +1,267 @@
+//! The question, checked: a plan holds everything a result depends on and nothing else.
+//!
+//! Threads, output files and progress bars are no part of it. Absent fields have one meaning each, stated here; unknown
+//! fields are errors, so that a misspelt parameter cannot be ignored.
+
+use crate::{PlanError, Span};
+use serde::{Deserialize, Serialize};
+use vibroimpact::{Oscillator, Start};
+
+/// Version of the plan's fields; a plan of a later version is refused.
+pub const PLAN_VERSION: u32 = 1;
+
+/// What is asked, of which system.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// [`PLAN_VERSION`].
+    pub version: u32,
+    /// The oscillator. For a map, its frequency and gap are those of the first point.
+    pub system: SystemPlan,
+    /// What is asked of it.
+    pub task: Task,
+}
+
+impl Plan {
+    /// A plan of the present version.
+    #[must_use]
+    pub const fn new(system: SystemPlan, task: Task) -> Self {
+        Self { version: PLAN_VERSION, system, task }
+    }
+
+    /// Checks everything that can be checked without running it.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first value that makes no sense.
+    pub fn check(&self) -> Result<(), PlanError> {
+        if self.version != PLAN_VERSION {
+            return Err(PlanError::Version(self.version));
+        }
+        let osc = self.system.oscillator()?;
+        let starts = |n: u64| if (1..=1_000_000_000).contains(&n) { Ok(()) } else { Err(PlanError::Starts(n)) };
+        match &self.task {
+            Task::Simulate { start, .. } | Task::Settle { start } => start.start(&osc).map(|_| ()),
+            Task::Attractors { starts: n, .. } => starts(*n),
+            Task::Orbit { .. } => Ok(()),
+            Task::Basin(basin) => basin.starts(&osc).map(|_| ()),
+            Task::Map(map) => {
+                starts(map.starts)?;
+                map.oscillators(&self.system).map(|_| ())
+            }
+        }
+    }
+}
+
+/// The oscillator: exactly one of `beta` and `inverse_beta`, one or two stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SystemPlan {
+    /// Frequency ratio.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub beta: Option<f64>,
+    /// Its inverse, the paper's abscissa.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inverse_beta: Option<f64>,
+    /// Gap.
+    pub gap: f64,
+    /// Restitution.
+    pub restitution: f64,
+    /// Damping ratio; 0 when absent.
+    #[serde(default)]
+    pub damping: f64,
+    /// A stop on the other side.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_stop: Option<SecondStop>,
+}
+
+/// A stop at `x = -gap`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SecondStop {
+    /// Its distance from the rest position.
+    pub gap: f64,
+    /// Its restitution.
+    pub restitution: f64,
+}
+
+impl SystemPlan {
+    /// The checked oscillator.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the parameter that makes no sense.
+    pub fn oscillator(&self) -> Result<Oscillator, PlanError> {
+        let osc = match (self.beta, self.inverse_beta) {
+            (Some(beta), None) => Oscillator::new(beta, self.gap, self.restitution)?,
+            (None, Some(x)) => Oscillator::from_inverse_beta(x, self.gap, self.restitution)?,
+            (Some(_), Some(_)) => return Err(PlanError::Frequency("twice")),
+            (None, None) => return Err(PlanError::Frequency("nowhere")),
+        };
+        let osc = osc.with_damping(self.damping)?;
+        Ok(match self.second_stop {
+            Some(stop) => osc.with_second_stop(stop.gap, stop.restitution)?,
+            None => osc,
+        })
+    }
+}
+
+/// Where to start; absent coordinates are 0, except `x` where the stops exclude 0: then it is on the nearest stop.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StartPlan {
+    /// Position.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x: Option<f64>,
+    /// Velocity.
+    #[serde(default)]
+    pub v: f64,
+    /// Phase of the force.
+    #[serde(default)]
+    pub phase: f64,
+}
+
+impl StartPlan {
+    /// The checked start.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a start beyond a stop or not finite.
+    pub fn start(&self, osc: &Oscillator) -> Result<Start, PlanError> {
+        let x = self.x.unwrap_or_else(|| Start::at_rest(osc).x);
+        Ok(Start::new(osc, x, self.v, self.phase)?)
+    }
+}
+
+/// What is asked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Task {
+    /// The events of a motion.
+    Simulate {
+        /// Where to start.
+        start: StartPlan,
+        /// At most so many impacts.
+        impacts: Option<u64>,
+        /// At most so many forcing periods.
+        periods: Option<f64>,
+    },
+    /// What a motion settles into.
+    Settle {
+        /// Where to start.
+        start: StartPlan,
+    },
+    /// The steady motions from scattered starts, and their shares.
+    Attractors {
+        /// How many starts.
+        starts: u64,
+        /// Which sequence of them.
+        seed: u64,
+    },
+    /// The periodic orbits of a label.
+    Orbit {
+        /// m/n.
+        label: String,
+    },
+    /// Which motion each start of a plane leads to.
+    Basin(BasinPlan),
+    /// Which motions there are at each point of a parameter plane.
+    Map(MapPlan),
+}
+
+/// The starts of a basin: a grid over position and velocity at one phase.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BasinPlan {
+    /// Positions.
+    pub x: Span,
+    /// Velocities.
+    pub v: Span,
+    /// Phase of the force at all of them.
+    #[serde(default)]
+    pub phase: f64,
+}
+
+impl BasinPlan {
+    /// Checks that all starts are allowed and returns their number.
+    ///
+    /// # Errors
+    /// [`PlanError`] when an end of the range of positions lies beyond a stop.
+    pub fn starts(&self, osc: &Oscillator) -> Result<u64, PlanError> {
+        let (a, b) = self.x.ends();
+        for x in [a, b] {
+            Start::new(osc, x, self.v.ends().0, self.phase)?;
+        }
+        Ok(u64::from(self.x.count()) * u64::from(self.v.count()))
+    }
+}
+
+/// The points of a map: a grid over inverse frequency and gap, several starts each.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapPlan {
+    /// Values of $1/\beta$.
+    pub inverse_beta: Span,
+    /// Values of $\delta$.
+    pub gap: Span,
+    /// Starts per point: the first at rest, the others scattered.
+    pub starts: u64,
+    /// Which sequence of them.
+    #[serde(default)]
+    pub seed: u64,
+}
+
+impl MapPlan {
+    /// Checks the corners and returns the number of points.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a corner that is no legal system.
+    pub fn oscillators(&self, system: &SystemPlan) -> Result<u64, PlanError> {
+        for x in [self.inverse_beta.ends().0, self.inverse_beta.ends().1] {
+            for gap in [self.gap.ends().0, self.gap.ends().1] {
+                Self::point(system, x, gap)?;
+            }
+        }
+        Ok(u64::from(self.inverse_beta.count()) * u64::from(self.gap.count()))
+    }
+
+    /// The oscillator at a point of the map; everything else as in `system`.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a point that is no legal system.
+    pub fn point(system: &SystemPlan, inverse_beta: f64, gap: f64) -> Result<Oscillator, PlanError> {
+        SystemPlan { beta: None, inverse_beta: Some(inverse_beta), gap, ..*system }.oscillator()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan() -> Plan {
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let basin = BasinPlan { x: "-3:0.75:4".parse().unwrap(), v: "-1:1:3".parse().unwrap(), phase: 0.0 };
+        Plan::new(system, Task::Basin(basin))
+    }
+
+    #[test]
+    fn a_plan_survives_json() {
+        let text = serde_json::to_string(&plan()).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan());
+        assert!(plan().check().is_ok());
+        let misspelt = text.replace("restitution", "restituton");
+        assert!(serde_json::from_str::<Plan>(&misspelt).unwrap_err().to_string().contains("restituton"));
+    }
+
+    #[test]
+    fn nonsense_is_refused_before_anything_runs() {
+        let mut beyond = plan();
+        beyond.system.gap = 0.5;
+        assert!(beyond.check().unwrap_err().to_string().contains("beyond the stop"));
+        let mut twice = plan();
+        twice.system.beta = Some(1.0);
+        assert_eq!(twice.check(), Err(PlanError::Frequency("twice")));
+        let mut later = plan();
+        later.version = 2;
+        assert_eq!(later.check(), Err(PlanError::Version(2)));
+        let none = Plan { task: Task::Attractors { starts: 0, seed: 0 }, ..plan() };
+        assert_eq!(none.check(), Err(PlanError::Starts(0)));
+    }
+}

@@ -1,0 +1,135 @@
+//! `A:B:N`: N values from A to B, both included.
+
+use crate::PlanError;
+use core::fmt;
+use core::str::FromStr;
+use serde::{Deserialize, Serialize};
+
+/// Evenly spaced values, both ends included.
+///
+/// ```
+/// use vibroimpact_study::Span;
+/// let span: Span = "0.4:2:33".parse()?;
+/// assert_eq!((span.at(0), span.at(32), span.count()), (0.4, 2.0, 33));
+/// assert!("1:2".parse::<Span>().is_err() && "2:1:0".parse::<Span>().is_err());
+/// # Ok::<(), vibroimpact_study::PlanError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Span {
+    first: f64,
+    last: f64,
+    count: u32,
+}
+
+/// The most values on one axis.
+const MOST: u64 = 1_000_000;
+
+impl Span {
+    /// `count` values from `first` to `last`.
+    ///
+    /// # Errors
+    /// [`PlanError`] for ends that are not finite or equal (with more than one value) and for a count outside
+    /// 1 to 1 000 000.
+    pub fn new(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
+        let span = Self { first, last, count };
+        if !(first.is_finite() && last.is_finite()) {
+            return Err(PlanError::Range { given: span.to_string() });
+        }
+        // one value over a distance, or many at one place, is a slip of the pen
+        let many = u64::from(count);
+        if !(1..=MOST).contains(&many) || (count == 1) != (first == last) {
+            return Err(PlanError::Count { given: span.to_string(), count: many, most: MOST });
+        }
+        Ok(span)
+    }
+
+    /// Value number `k`, counted from 0. The last one is exactly the end.
+    #[must_use]
+    pub fn at(&self, k: u32) -> f64 {
+        if k + 1 >= self.count && self.count > 1 {
+            return self.last;
+        }
+        let t = f64::from(k) / f64::from((self.count - 1).max(1));
+        self.first + (self.last - self.first) * t
+    }
+
+    /// How many values.
+    #[must_use]
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// The two ends.
+    #[must_use]
+    pub const fn ends(&self) -> (f64, f64) {
+        (self.first, self.last)
+    }
+
+    /// All values.
+    pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..self.count).map(|k| self.at(k))
+    }
+}
+
+impl fmt::Display for Span {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}", self.first, self.last, self.count)
+    }
+}
+
+impl FromStr for Span {
+    type Err = PlanError;
+
+    fn from_str(text: &str) -> Result<Self, PlanError> {
+        let bad = || PlanError::Range { given: text.chars().take(60).collect() };
+        let parts: Vec<&str> = text.split(':').collect();
+        let [first, last, count] = parts.as_slice() else { return Err(bad()) };
+        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(bad);
+        let count: u64 = count.trim().parse().map_err(|_| bad())?;
+        let (first, last) = (number(first)?, number(last)?);
+        let Ok(count) = u32::try_from(count) else {
+            return Err(PlanError::Count { given: text.to_owned(), count, most: MOST });
+        };
+        Self::new(first, last, count)
+    }
+}
+
+impl TryFrom<String> for Span {
+    type Error = PlanError;
+
+    fn try_from(text: String) -> Result<Self, PlanError> {
+        text.parse()
+    }
+}
+
+impl From<Span> for String {
+    fn from(span: Span) -> Self {
+        span.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_ranges_are_named() {
+        for bad in ["", "1", "1:2", "1:2:3:4", "a:2:3", "nan:1:3", "0:inf:3", "0:1:-3", "0:1:2.5"] {
+            let message = bad.parse::<Span>().unwrap_err().to_string();
+            assert!(message.contains("A:B:N"), "{bad}: {message}");
+        }
+        for bad in ["0:1:0", "0:1:1", "1:1:5", "0:1:99999999999"] {
+            let message = bad.parse::<Span>().unwrap_err().to_string();
+            assert!(message.contains("allowed is 1 to 1000000"), "{bad}: {message}");
+        }
+    }
+
+    #[test]
+    fn both_ends_are_exact_and_descending_is_fine() {
+        let span = Span::new(2.0, 0.3, 18).unwrap();
+        let values: Vec<f64> = span.values().collect();
+        assert_eq!((values[0], values[17], values.len()), (2.0, 0.3, 18));
+        assert_eq!(Span::new(1.5, 1.5, 1).unwrap().values().collect::<Vec<_>>(), [1.5]);
+    }
+}

@@ -1,0 +1,1 @@
+//! The 1971 paper, figure by figure.
