@@ -11,13 +11,17 @@ pub enum PlanError {
     #[error(transparent)]
     System(#[from] SystemError),
     /// A range that is not `A:B:N`.
-    #[error("range `{given}` is not A:B:N with finite A and B and a whole N >= 1\nhint: 0.4:2:33 is 33 values from 0.4 to 2, both included")]
+    #[error(
+        "range `{given}` is not A:B:N with finite A and B and a whole N >= 1\nhint: 0.4:2:33 is 33 values from 0.4 to 2, both included"
+    )]
     Range {
         /// What was typed.
         given: String,
     },
     /// A range with a number of values that is too small or too large.
-    #[error("range `{given}` asks for {count} values; allowed is 1 to {most}, and 1 only when A = B")]
+    #[error(
+        "range `{given}` asks for {count} values; allowed is 1 to {most}, and 1 only when A = B"
+    )]
     Count {
         /// What was typed.
         given: String,
@@ -27,7 +31,9 @@ pub enum PlanError {
         most: u64,
     },
     /// Neither or both of beta and its inverse.
-    #[error("the frequency is given {0}: exactly one of beta and inverse beta is needed\nhint: --beta B or --inverse-beta X, with X = 1/B")]
+    #[error(
+        "the frequency is given {0}: exactly one of beta and inverse beta is needed\nhint: --beta B or --inverse-beta X, with X = 1/B"
+    )]
     Frequency(&'static str),
     /// A number of starts that makes no sense.
     #[error("starts = {0} lies outside 1 <= starts <= 1000000000")]

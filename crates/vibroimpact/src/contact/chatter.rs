@@ -1,30 +1,30 @@
 //! The end of a chatter: infinitely many impacts in finite time, summed.
 //!
-//! After an impact with rebound speed $w$ at phase $\theta$, let $a = \sin\theta - \delta > 0$ be the acceleration into
-//! the stop, $j = \beta\cos\theta$ and $q = -\beta^2\sin\theta$ its first two time derivatives. The flight
-//! $y(s) = -ws + \tfrac12(a + 2\zeta w)s^2 + \dots$ returns after
+//! After an impact with rebound speed $`w`$ at phase $`\theta`$, let $`a = \sin\theta - \delta > 0`$ be the acceleration into
+//! the stop, $`j = \beta\cos\theta`$ and $`q = -\beta^2\sin\theta`$ its first two time derivatives. The flight
+//! $`y(s) = -ws + \tfrac12(a + 2\zeta w)s^2 + \dots`$ returns after
 //!
-//! $$s = \frac{2w}{a} - \frac{4(j+\zeta a)}{3a^3}w^2
-//!      + \frac{2\,(8j^2 + 10\zeta aj + 8\zeta^2a^2 - 3a^2 - 3aq)}{9a^5}w^3 + O(w^4)$$
+//! $$`s = \frac{2w}{a} - \frac{4(j+\zeta a)}{3a^3}w^2
+//!      + \frac{2\,(8j^2 + 10\zeta aj + 8\zeta^2a^2 - 3a^2 - 3aq)}{9a^5}w^3 + O(w^4)`$$
 //!
 //! with the speed
 //!
-//! $$u = w - \frac{2(2\zeta a - j)}{3a^2}w^2 + \frac{2\,(8\zeta^2a^2 - 2\zeta aj - 4j^2 + 3aq)}{9a^4}w^3 + O(w^4).$$
+//! $$`u = w - \frac{2(2\zeta a - j)}{3a^2}w^2 + \frac{2\,(8\zeta^2a^2 - 2\zeta aj - 4j^2 + 3aq)}{9a^4}w^3 + O(w^4).`$$
 //!
-//! The time $\tau_\infty(\theta, w)$ to the accumulation point satisfies
-//! $\tau_\infty(\theta, w) = s + \tau_\infty(\theta + \beta s, \varepsilon u)$. Inserting a power series in $w$ whose
-//! coefficients depend on $\theta$ through $a, j, q$, and comparing powers, gives with $r = 1 - \varepsilon$
+//! The time $`\tau_\infty(\theta, w)`$ to the accumulation point satisfies
+//! $`\tau_\infty(\theta, w) = s + \tau_\infty(\theta + \beta s, \varepsilon u)`$. Inserting a power series in $`w`$ whose
+//! coefficients depend on $`\theta`$ through $`a, j, q`$, and comparing powers, gives with $`r = 1 - \varepsilon`$
 //!
-//! $$\tau_\infty = \frac{2w}{ar} - \frac{4(j + \zeta a)}{3a^3r^2}w^2 +
+//! $$`\tau_\infty = \frac{2w}{ar} - \frac{4(j + \zeta a)}{3a^3r^2}w^2 +
 //!   \frac{8(2+3\varepsilon+2\varepsilon^2)j^2 - 6(1+\varepsilon)^2aq + 4(5+6\varepsilon+5\varepsilon^2)\zeta aj
-//!         + 16(1+\varepsilon^2)\zeta^2a^2 - 6r^2a^2}{9\,a^5r^3(1+\varepsilon+\varepsilon^2)}w^3 + O(w^4).$$
+//!         + 16(1+\varepsilon^2)\zeta^2a^2 - 6r^2a^2}{9\,a^5r^3(1+\varepsilon+\varepsilon^2)}w^3 + O(w^4).`$$
 //!
 //! The first two terms are those of A. B. Nordmark and P. T. Piiroinen, "Simulation and stability analysis of impacting
 //! systems with complete chattering", Nonlinear Dyn. 58 (2009) 85-106, doi:10.1007/s11071-008-9463-y. The series
-//! proceeds in powers of one small number, estimated as $\rho = \max(|\tau_2|/\tau_1, \sqrt{|\tau_3|/\tau_1})$; the sum is
-//! used only when $\rho \le 10^{-4}$, and its error is then at most about $10\,\tau_1\rho^3 \le 10^{-11}\tau_1$.
-//! The same smallness proves that the chatter completes: over $\tau_\infty$ the force changes by a fraction of order
-//! $\rho$, and each rebound is smaller than the one before.
+//! proceeds in powers of one small number, estimated as $`\rho = \max(|\tau_2|/\tau_1, \sqrt{|\tau_3|/\tau_1})`$; the sum is
+//! used only when $`\rho \le 10^{-4}`$, and its error is then at most about $`10\,\tau_1\rho^3 \le 10^{-11}\tau_1`$.
+//! The same smallness proves that the chatter completes: over $`\tau_\infty`$ the force changes by a fraction of order
+//! $`\rho`$, and each rebound is smaller than the one before.
 
 use super::mirrored;
 use crate::math::sin_cos;
@@ -46,7 +46,13 @@ pub const DEFAULT_SMALLNESS: f64 = 1e-4;
 /// The accumulation of the chatter that follows an impact with `rebound` speed on the stop at `side`; `None` while it
 /// is not certain that there is one, or when it is too far off for the sum to be accurate.
 #[must_use]
-pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smallness: f64) -> Option<Completion> {
+pub fn completion(
+    osc: &Oscillator,
+    side: Side,
+    phase: f64,
+    rebound: f64,
+    smallness: f64,
+) -> Option<Completion> {
     let stop = osc.stop(side)?;
     let (sin, cos) = sin_cos(mirrored(side, phase));
     let (w, eps, zeta, beta) = (rebound, stop.restitution, osc.damping(), osc.beta());
@@ -58,14 +64,17 @@ pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smalln
     let first = 2.0 * w / (a * r);
     // the other terms over the first
     let second = -2.0 * (j + zeta * a) * w / (3.0 * a * a * r);
-    let sum = 8.0 * (2.0 + 3.0 * eps + 2.0 * eps * eps) * j * j - 6.0 * (1.0 + eps) * (1.0 + eps) * a * q
+    let sum = 8.0 * (2.0 + 3.0 * eps + 2.0 * eps * eps) * j * j
+        - 6.0 * (1.0 + eps) * (1.0 + eps) * a * q
         + 4.0 * (5.0 + 6.0 * eps + 5.0 * eps * eps) * zeta * a * j
         + 16.0 * (1.0 + eps * eps) * zeta * zeta * a * a
         - 6.0 * r * r * a * a;
     let third = sum * w * w / (18.0 * a * a * a * a * r * r * (1.0 + eps + eps * eps));
     let rho = second.abs().max(third.abs().sqrt());
-    (rho <= smallness)
-        .then(|| Completion { duration: first * (1.0 + second + third), error: 10.0 * first * rho * rho * rho })
+    (rho <= smallness).then_some(Completion {
+        duration: first * (1.0 + second + third),
+        error: 10.0 * first * rho * rho * rho,
+    })
 }
 
 #[cfg(test)]
@@ -78,8 +87,17 @@ mod tests {
     fn summed(osc: &Oscillator, mut theta: f64, mut w: f64) -> f64 {
         let mut total = 0.0;
         while w > 1e-200 {
-            let flight = Flight::new(osc, Start { x: osc.gap(), v: -w, phase: theta });
-            let Contact::Impact { time, velocity, .. } = first_contact(osc, &flight, SearchLimits::default()) else {
+            let flight = Flight::new(
+                osc,
+                Start {
+                    x: osc.gap(),
+                    v: -w,
+                    phase: theta,
+                },
+            );
+            let Contact::Impact { time, velocity, .. } =
+                first_contact(osc, &flight, SearchLimits::default())
+            else {
                 panic!("a chatter goes on")
             };
             total += time;
@@ -95,10 +113,17 @@ mod tests {
     #[test]
     fn third_order_against_impact_by_impact() {
         let mut checked = 0;
-        for (beta, gap, eps, zeta) in
-            [(0.9, -0.5, 0.5, 0.0), (1.7, 0.2, 0.8, 0.0), (0.4, -0.9, 0.3, 0.2), (3.0, 0.0, 0.6, 1.4), (1.0, -2.0, 0.7, 0.05)]
-        {
-            let osc = Oscillator::new(beta, gap, eps).unwrap().with_damping(zeta).unwrap();
+        for (beta, gap, eps, zeta) in [
+            (0.9, -0.5, 0.5, 0.0),
+            (1.7, 0.2, 0.8, 0.0),
+            (0.4, -0.9, 0.3, 0.2),
+            (3.0, 0.0, 0.6, 1.4),
+            (1.0, -2.0, 0.7, 0.05),
+        ] {
+            let osc = Oscillator::new(beta, gap, eps)
+                .unwrap()
+                .with_damping(zeta)
+                .unwrap();
             for theta in [0.4, 1.1, 1.9, 2.4] {
                 for smallness in [1e-2, 1e-3, 1e-4] {
                     // the largest rebound the bound allows
@@ -112,7 +137,11 @@ mod tests {
                     };
                     let exact = summed(&osc, theta, w);
                     let error = (sum.duration - exact).abs();
-                    assert!(error <= sum.error + 1e-14 * exact, "beta {beta} theta {theta} rho {smallness}: {error:e} > {:e}", sum.error);
+                    assert!(
+                        error <= sum.error + 1e-14 * exact,
+                        "beta {beta} theta {theta} rho {smallness}: {error:e} > {:e}",
+                        sum.error
+                    );
                     checked += 1;
                 }
             }
@@ -123,8 +152,14 @@ mod tests {
     #[test]
     fn no_chatter_without_a_force_into_the_stop() {
         let osc = Oscillator::new(1.0, 0.5, 0.5).unwrap();
-        assert_eq!(completion(&osc, Side::Upper, 0.2, 1e-9, DEFAULT_SMALLNESS), None);
+        assert_eq!(
+            completion(&osc, Side::Upper, 0.2, 1e-9, DEFAULT_SMALLNESS),
+            None
+        );
         let elastic = Oscillator::new(1.0, -0.5, 1.0).unwrap();
-        assert_eq!(completion(&elastic, Side::Upper, 1.0, 1e-9, DEFAULT_SMALLNESS), None);
+        assert_eq!(
+            completion(&elastic, Side::Upper, 1.0, 1e-9, DEFAULT_SMALLNESS),
+            None
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! Contact: what happens at a stop.
 //!
-//! An impact sends the mass back with $u_+ = -\varepsilon u_-$ (eq. 9 of the 1971 paper). Under a force into the stop
+//! An impact sends the mass back with $`u_+ = -\varepsilon u_-`$ (eq. 9 of the 1971 paper). Under a force into the stop
 //! the rebounds shrink geometrically and accumulate in finite time - chattering, completed here by a formula with a
 //! known error ([`chatter`]) - after which the mass sticks until the force changes sign ([`sticking`]).
 

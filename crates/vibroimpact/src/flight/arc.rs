@@ -1,11 +1,11 @@
 //! One flight: the closed-form arc of the mass from a state until a stop is reached.
 //!
 //! Positions are reported as displacements from the start, so that the gap left to a stop loses no digits when the
-//! flight begins on that stop and is short - the regime of chattering, where flights of $10^{-9}$ still have to be right
-//! to their last bits. While $\mu s < 1/4$, with $\mu = \max(\beta, \zeta + \sqrt{\zeta^2+1})$ the fastest rate in the
+//! flight begins on that stop and is short - the regime of chattering, where flights of $`10^{-9}`$ still have to be right
+//! to their last bits. While $`\mu s < 1/4`$, with $`\mu = \max(\beta, \zeta + \sqrt{\zeta^2+1})`$ the fastest rate in the
 //! system, the arc is summed as its Taylor series
 //!
-//! $$x^{(k+2)} = \beta^k \sin(\varphi + k\pi/2) - x^{(k)} - 2\zeta x^{(k+1)},$$
+//! $$`x^{(k+2)} = \beta^k \sin(\varphi + k\pi/2) - x^{(k)} - 2\zeta x^{(k+1)},`$$
 //!
 //! beyond that taken from [`Response`](super::Response).
 
@@ -16,7 +16,7 @@ use crate::system::{Oscillator, Side, Start, phase};
 /// A point of a flight, a time `s` after its beginning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Displacement $x(s) - x_0$ since the beginning.
+    /// Displacement $`x(s) - x_0`$ since the beginning.
     pub displacement: f64,
     /// Velocity.
     pub v: f64,
@@ -44,7 +44,7 @@ pub struct Flight {
     pub(super) fastest: f64,
 }
 
-/// Terms of the Taylor series: at $\mu s = 1/4$ the first one left out is below $2^{-60}$ of the leading ones.
+/// Terms of the Taylor series: at $`\mu s = 1/4`$ the first one left out is below $`2^{-60}`$ of the leading ones.
 const TERMS: usize = 15;
 /// 1/k.
 const INVERSE: [f64; TERMS + 2] = {
@@ -57,7 +57,7 @@ const INVERSE: [f64; TERMS + 2] = {
     }
     inverse
 };
-/// Reach of the Taylor series in $\mu s$.
+/// Reach of the Taylor series in $`\mu s`$.
 const SERIES_REACH: f64 = 0.25;
 /// Half a unit in the last place, relative.
 const HALF_ULP: f64 = 0.5 * f64::EPSILON;
@@ -83,18 +83,25 @@ impl Flight {
     }
 
     /// The flight that follows a release from the stop on `side`: at rest on it, the force just changing sign, so the
-    /// acceleration is exactly zero whatever rounding made of $\sin\theta - \delta$.
+    /// acceleration is exactly zero whatever rounding made of $`\sin\theta - \delta`$.
     #[must_use]
     pub fn release(osc: &Oscillator, side: Side, phase: f64) -> Self {
         let x = osc.stop(side).map_or(0.0, |stop| side.sign() * stop.gap);
-        Self { a: 0.0, ..Self::new(osc, Start { x, v: 0.0, phase }) }
+        Self {
+            a: 0.0,
+            ..Self::new(osc, Start { x, v: 0.0, phase })
+        }
     }
 
     /// The point a time `s >= 0` after the beginning.
     #[inline]
     #[must_use]
     pub fn at(&self, s: f64) -> Point {
-        if s * self.fastest < SERIES_REACH { self.by_series(s) } else { self.by_response(s) }
+        if s * self.fastest < SERIES_REACH {
+            self.by_series(s)
+        } else {
+            self.by_response(s)
+        }
     }
 
     fn by_response(&self, s: f64) -> Point {
@@ -103,15 +110,23 @@ impl Flight {
         let free = self.v * p.s - self.x * p.one_minus_c;
         let forced = self.sin * p.kc + self.cos * p.ks;
         let displacement = free + forced;
-        let v = self.v * (p.c - 2.0 * zeta * p.s) - self.x * p.s + self.sin * (p.s - beta * p.ks) + self.cos * (beta * p.kc);
+        let v = self.v * (p.c - 2.0 * zeta * p.s) - self.x * p.s
+            + self.sin * (p.s - beta * p.ks)
+            + self.cos * (beta * p.kc);
         let force = self.sin * p.cos_turn + self.cos * p.sin_turn;
         let a = force - (self.x + displacement) - 2.0 * zeta * v;
         // each term carries a few roundings; each angle ws, (beta - w)s/2 is off by half an ulp, which moves the free
         // part by about s |free velocity| and the forced one by s |K'|
         let (x, v0, kc, ks) = (self.x.abs(), self.v.abs(), p.kc.abs(), p.ks.abs());
-        let terms = x * p.one_minus_c + v0 * p.s.abs() + (self.sin * p.kc).abs() + (self.cos * p.ks).abs();
+        let terms =
+            x * p.one_minus_c + v0 * p.s.abs() + (self.sin * p.kc).abs() + (self.cos * p.ks).abs();
         let angles = s * (x * p.s.abs() + v0 * p.c.abs() + p.s.abs() + beta * (kc + ks));
-        Point { displacement, v, a, rounding: HALF_ULP * (6.0 * terms + angles) }
+        Point {
+            displacement,
+            v,
+            a,
+            rounding: HALF_ULP * (6.0 * terms + angles),
+        }
     }
 
     #[inline(never)]
@@ -132,8 +147,15 @@ impl Flight {
             v = d[k] + v * s * INVERSE[k + 1];
             a = d[k + 1] + a * s * INVERSE[k + 1];
         }
-        let size = s * (self.v.abs() + 0.5 * s * (self.a.abs() + s * (d[2].abs() + s * self.fastest * d[2].abs())));
-        Point { displacement: x * s, v, a, rounding: HALF_ULP * 4.0 * size }
+        let size = s
+            * (self.v.abs()
+                + 0.5 * s * (self.a.abs() + s * (d[2].abs() + s * self.fastest * d[2].abs())));
+        Point {
+            displacement: x * s,
+            v,
+            a,
+            rounding: HALF_ULP * 4.0 * size,
+        }
     }
 
     /// Rate and bounds need the response too.
@@ -150,7 +172,9 @@ impl Flight {
 
     /// Fourth derivative at the beginning.
     pub(super) fn snap(&self) -> f64 {
-        -self.response.beta() * self.response.beta() * self.sin - self.a - 2.0 * self.response.damping() * self.jerk()
+        -self.response.beta() * self.response.beta() * self.sin
+            - self.a
+            - 2.0 * self.response.damping() * self.jerk()
     }
 
     /// Position and velocity a time `s` after the beginning.
@@ -160,7 +184,7 @@ impl Flight {
         (self.x + point.displacement, point.v)
     }
 
-    /// Phase of the force a time `s` after the beginning, in $[0, 2\pi)$.
+    /// Phase of the force a time `s` after the beginning, in $`[0, 2\pi)`$.
     #[inline]
     #[must_use]
     pub fn phase_at(&self, s: f64) -> f64 {

@@ -1,16 +1,16 @@
 //! How far a flight can go before it could possibly touch: proven bounds.
 //!
-//! Let $y = \sigma x - \delta_\sigma \le 0$ be the (negative) distance to a stop, $p = \dot y$, $q = \ddot y$. The energy
-//! radius $r = \sqrt{x^2 + v^2}$ obeys $\dot r = (v\sin\theta - 2\zeta v^2)/r \le 1$, so over a window of length $H$
+//! Let $`y = \sigma x - \delta_\sigma \le 0`$ be the (negative) distance to a stop, $`p = \dot y`$, $`q = \ddot y`$. The energy
+//! radius $`r = \sqrt{x^2 + v^2}`$ obeys $`\dot r = (v\sin\theta - 2\zeta v^2)/r \le 1`$, so over a window of length $`H`$
 //!
-//! $$|x|, |v| \le r + H, \quad |\ddot x| \le B_2 = 1 + (r+H)(1+2\zeta), \quad
-//!   |\dddot x| \le B_3 = \beta + (r+H) + 2\zeta B_2,$$
-//! $$|x^{(4)}| \le B_4 = \beta^2 + B_2 + 2\zeta B_3, \quad |x^{(5)}| \le B_5 = \beta^3 + B_3 + 2\zeta B_4.$$
+//! $$`|x|, |v| \le r + H, \quad |\ddot x| \le B_2 = 1 + (r+H)(1+2\zeta), \quad
+//!   |\dddot x| \le B_3 = \beta + (r+H) + 2\zeta B_2,`$$
+//! $$`|x^{(4)}| \le B_4 = \beta^2 + B_2 + 2\zeta B_3, \quad |x^{(5)}| \le B_5 = \beta^3 + B_3 + 2\zeta B_4.`$$
 //!
-//! These hold for every $\beta$ and $\zeta$ and stay small through resonance, where the textbook amplitudes blow up.
-//! With $c = \min(q + B_3 H, B_2)$, an upper bound of $\ddot y$ in the window,
+//! These hold for every $`\beta`$ and $`\zeta`$ and stay small through resonance, where the textbook amplitudes blow up.
+//! With $`c = \min(q + B_3 H, B_2)`$, an upper bound of $`\ddot y`$ in the window,
 //!
-//! $$y(h) \le y + p h + \tfrac12 c h^2 \qquad (0 \le h \le H),$$
+//! $$`y(h) \le y + p h + \tfrac12 c h^2 \qquad (0 \le h \le H),`$$
 //!
 //! and as long as the right side is negative the stop has not been reached. Close to a transversal contact the first
 //! zero of this bound approaches the contact quadratically, always from before.
@@ -32,7 +32,10 @@ impl Window {
         let (beta, zeta2) = (flight.response().beta(), 2.0 * flight.response().damping());
         let reach = r + span;
         let b2 = 1.0 + reach * (1.0 + zeta2);
-        Self { b2, b3: beta + reach + zeta2 * b2 }
+        Self {
+            b2,
+            b3: beta + reach + zeta2 * b2,
+        }
     }
 
     fn b4(&self, flight: &Flight) -> f64 {
@@ -46,7 +49,7 @@ impl Window {
     }
 }
 
-/// The first positive zero of $-g + p h + c h^2/2$ for `g > 0`, or infinity.
+/// The first positive zero of $`-g + p h + c h^2/2`$ for `g > 0`, or infinity.
 #[inline]
 pub(super) fn first_zero(g: f64, p: f64, c: f64) -> f64 {
     let disc = p * p + 2.0 * c * g;
@@ -79,8 +82,8 @@ const FAR: f64 = 1.0;
 
 /// For a flight that begins on a stop: a time over which it stays off it, with the contact at `s = 0` divided out.
 ///
-/// $y(h)/h \le p + q h/2 + (\dddot y_0 + B_4 H) h^2/6$, whose first positive zero is returned (at most the window). At
-/// rest ($p = 0$) the next order decides, and so on to the fourth: `None` says the mass does not leave the stop.
+/// $`y(h)/h \le p + q h/2 + (\dddot y_0 + B_4 H) h^2/6`$, whose first positive zero is returned (at most the window). At
+/// rest ($`p = 0`$) the next order decides, and so on to the fourth: `None` says the mass does not leave the stop.
 pub(super) fn leave_time(flight: &Flight, sign: f64, r: f64) -> Option<f64> {
     let (p, q) = (sign * flight.v, sign * flight.a);
     let (j, k) = (sign * flight.jerk(), sign * flight.snap());
@@ -108,7 +111,11 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, r: f64) -> Option<f64> {
     if q < 0.0 {
         // q/2 + (j + b4 H) h/6 < 0
         let c = j + bounds.b4(flight) * window;
-        return Some(if c > 0.0 { (-3.0 * q / c).min(window) } else { window });
+        return Some(if c > 0.0 {
+            (-3.0 * q / c).min(window)
+        } else {
+            window
+        });
     }
     if q == 0.0 && j < 0.0 {
         return Some((-0.5 * j / bounds.b4(flight)).min(window));
@@ -122,7 +129,13 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, r: f64) -> Option<f64> {
 /// A proof that a single transversal contact lies within `(0, span]`: the velocity towards the stop stays positive
 /// and the lower bound of `y` ends up beyond it.
 #[inline]
-pub(super) fn single_contact_within(flight: &Flight, g: f64, p: f64, q: f64, r: f64) -> Option<f64> {
+pub(super) fn single_contact_within(
+    flight: &Flight,
+    g: f64,
+    p: f64,
+    q: f64,
+    r: f64,
+) -> Option<f64> {
     if p <= 0.0 {
         return None;
     }
@@ -141,5 +154,9 @@ pub(super) fn single_contact_within(flight: &Flight, g: f64, p: f64, q: f64, r: 
 pub(super) fn radius(x: f64, v: f64) -> f64 {
     let square = x * x + v * v;
     // the square overflows only for legal but huge states
-    if square < 1e300 { square.sqrt() } else { hypot(x, v) }
+    if square < 1e300 {
+        square.sqrt()
+    } else {
+        hypot(x, v)
+    }
 }

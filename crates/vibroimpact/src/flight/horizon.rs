@@ -1,15 +1,15 @@
 //! What can be said of a flight before searching it: that it never touches, or how far one has to look.
 //!
-//! A flight is a free part, which decays like $\rho e^{-\kappa s}$ or keeps its amplitude $\rho$, and the steady motion of
-//! amplitude $|f|$. Three decisions need no time-out:
+//! A flight is a free part, which decays like $`\rho e^{-\kappa s}`$ or keeps its amplitude $`\rho`$, and the steady motion of
+//! amplitude $`|f|`$. Three decisions need no time-out:
 //!
-//! 1. $\rho e^{-\kappa s} + |f| < \delta$ from some time on: never again after it (at once when it holds at $s = 0$).
-//! 2. Undamped with $\beta = p/q$: the flight repeats after $2\pi q$, so one common period without contact is for ever.
-//!    Every double is a fraction; here $\beta$ counts as $p/q$ when $q \le 1000$ and $\beta$ is that fraction to within
-//!    two units in the last place - what $1/0.7$ is to $10/7$. The answer is exact for the fraction. For the stored
-//!    number the phase drifts by at most $4\cdot10^{-16}\,\beta$ per unit of time, some $10^{-9}$ in a million periods.
+//! 1. $`\rho e^{-\kappa s} + |f| < \delta`$ from some time on: never again after it (at once when it holds at $`s = 0`$).
+//! 2. Undamped with $`\beta = p/q`$: the flight repeats after $`2\pi q`$, so one common period without contact is for ever.
+//!    Every double is a fraction; here $`\beta`$ counts as $`p/q`$ when $`q \le 1000`$ and $`\beta`$ is that fraction to within
+//!    two units in the last place - what $`1/0.7`$ is to $`10/7`$. The answer is exact for the fraction. For the stored
+//!    number the phase drifts by at most $`4\cdot10^{-16}\,\beta`$ per unit of time, some $`10^{-9}`$ in a million periods.
 //!    At resonance, 1/1, the flight grows instead of repeating, and the rule does not apply.
-//! 3. Otherwise contact is only a matter of time ($\rho + |f| \ge \delta$, phases incommensurate or $|f| > \delta$), and a search
+//! 3. Otherwise contact is only a matter of time ($`\rho + |f| \ge \delta`$, phases incommensurate or $`|f| > \delta`$), and a search
 //!    that ends at its limit says so: none until then.
 
 use super::Flight;
@@ -22,7 +22,7 @@ use core::f64::consts::{E, FRAC_PI_2, TAU};
 pub enum Horizon {
     /// The amplitudes of its free and steady parts together stay short of the stops: for ever.
     Amplitude,
-    /// $\beta = p/q$ and one common period of force and oscillator, `2 pi q`, passed without contact: for ever.
+    /// $`\beta = p/q`$ and one common period of force and oscillator, `2 pi q`, passed without contact: for ever.
     CommonPeriod {
         /// Forcing periods in the common period.
         p: u32,
@@ -43,7 +43,10 @@ pub struct SearchLimits {
 impl Default for SearchLimits {
     /// A thousand forcing periods, a hundred thousand evaluations (a few milliseconds).
     fn default() -> Self {
-        Self { periods: 1000.0, steps: 100_000 }
+        Self {
+            periods: 1000.0,
+            steps: 100_000,
+        }
     }
 }
 
@@ -73,7 +76,10 @@ impl Envelope {
             return None;
         }
         let steady_angle = flight.phase - atan2(zi, zr);
-        let (xf, vf) = (flight.x - steady * libm::sin(steady_angle), flight.v - beta * steady * libm::cos(steady_angle));
+        let (xf, vf) = (
+            flight.x - steady * libm::sin(steady_angle),
+            flight.v - beta * steady * libm::cos(steady_angle),
+        );
         let (rho, kappa) = if zeta == 0.0 {
             (hypot(xf, vf), 0.0)
         } else if zeta < 0.9 {
@@ -81,10 +87,24 @@ impl Envelope {
             (hypot(xf, (vf + zeta * xf) / w), zeta)
         } else {
             // |free| <= (|xf| + |vf + zeta xf| s) e^{-slow s}, and s e^{-slow s} <= 2/(e slow) e^{-slow s/2}
-            let slow = if zeta < 1.0 { zeta } else { 1.0 / (zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt()) };
-            (xf.abs() + (vf + zeta * xf).abs() * 2.0 / (E * slow), 0.5 * slow)
+            let slow = if zeta < 1.0 {
+                zeta
+            } else {
+                1.0 / (zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt())
+            };
+            (
+                xf.abs() + (vf + zeta * xf).abs() * 2.0 / (E * slow),
+                0.5 * slow,
+            )
         };
-        Some(Self { steady, steady_angle, rho, kappa, free_angle: atan2(xf, vf), beta })
+        Some(Self {
+            steady,
+            steady_angle,
+            rho,
+            kappa,
+            free_angle: atan2(xf, vf),
+            beta,
+        })
     }
 
     /// From this time on the flight stays short of a stop at distance `gap` from the rest position.
@@ -107,9 +127,20 @@ impl Envelope {
         let margin = 1e-12 * (self.rho + self.steady + gap.abs());
         let rho = self.rho * exp(-self.kappa * s);
         let turned = if sign > 0.0 { 0.0 } else { 2.0 * FRAC_PI_2 };
-        let by_steady = wait(gap - rho - margin, self.steady, self.steady_angle + self.beta * s + turned) / self.beta;
-        let by_free =
-            if self.kappa == 0.0 { wait(gap - self.steady - margin, rho, self.free_angle + s + turned) } else { 0.0 };
+        let by_steady = wait(
+            gap - rho - margin,
+            self.steady,
+            self.steady_angle + self.beta * s + turned,
+        ) / self.beta;
+        let by_free = if self.kappa == 0.0 {
+            wait(
+                gap - self.steady - margin,
+                rho,
+                self.free_angle + s + turned,
+            )
+        } else {
+            0.0
+        };
         s + by_steady.max(by_free)
     }
 }
@@ -117,13 +148,17 @@ impl Envelope {
 /// How much `angle` has to grow until `amplitude * sin(angle)` reaches `level`; 0 when it is there already or the
 /// level is never passed for sure.
 fn wait(level: f64, amplitude: f64, angle: f64) -> f64 {
-    if !(level.abs() < amplitude) {
+    if level.abs() >= amplitude {
         return 0.0;
     }
     let rising = asin(level / amplitude);
     let ahead = phase::wrap(rising - angle);
     // above the level between rising and pi - rising
-    if ahead > 2.0 * rising + TAU / 2.0 { 0.0 } else { ahead }
+    if ahead > 2.0 * rising + TAU / 2.0 {
+        0.0
+    } else {
+        ahead
+    }
 }
 
 /// The fraction `p/q`, `q <= 1000`, that `beta` is to within two units in the last place.
@@ -140,7 +175,8 @@ pub(super) fn as_fraction(beta: f64) -> Option<(u32, u32)> {
             return None;
         }
         if (p1 / q1 - beta).abs() <= 2.0 * f64::EPSILON * beta {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // whole numbers below 1e9
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            // whole numbers below 1e9
             return Some((p1 as u32, q1 as u32));
         }
         rest = 1.0 / (rest - whole);
@@ -161,9 +197,15 @@ pub(super) struct Outlook {
 impl Outlook {
     pub(super) fn new(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Self {
         let envelope = Envelope::new(flight);
-        let mut outlook = Self { until: limits.periods * osc.period(), never: None, envelope };
+        let mut outlook = Self {
+            until: limits.periods * osc.period(),
+            never: None,
+            envelope,
+        };
         let clear = envelope.and_then(|e| {
-            osc.stops().map(|(_, stop)| e.clear_from(stop.gap)).try_fold(0.0_f64, |latest, one| Some(latest.max(one?)))
+            osc.stops()
+                .map(|(_, stop)| e.clear_from(stop.gap))
+                .try_fold(0.0_f64, |latest, one| Some(latest.max(one?)))
         });
         if let Some(clear) = clear
             && clear <= outlook.until
@@ -175,7 +217,8 @@ impl Outlook {
             && p != q
             && f64::from(p) <= limits.periods
         {
-            (outlook.until, outlook.never) = (TAU * f64::from(q), Some(Horizon::CommonPeriod { p, q }));
+            (outlook.until, outlook.never) =
+                (TAU * f64::from(q), Some(Horizon::CommonPeriod { p, q }));
         }
         outlook
     }

@@ -2,7 +2,7 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | free and forced response for every $\beta$ and $\zeta$ | [`Response`] |
+//! | free and forced response for every $`\beta`$ and $`\zeta`$ | [`Response`] |
 //! | the arc from a state | [`Flight`] |
 //! | what can be said before searching: never, or how far to look | [`Horizon`] |
 //! | the first contact, never missed | [`first_contact`] |

@@ -1,54 +1,54 @@
-//! The response of the mass between impacts, in closed form for every $\beta$ and every damping.
+//! The response of the mass between impacts, in closed form for every $`\beta`$ and every damping.
 //!
 //! From any state the flight is
 //!
-//! $$x(s) = x_0\,C(s) + v_0\,S(s) + \sin\varphi\,K_c(s) + \cos\varphi\,K_s(s)$$
+//! $$`x(s) = x_0\,C(s) + v_0\,S(s) + \sin\varphi\,K_c(s) + \cos\varphi\,K_s(s)`$$
 //!
-//! with $C, S$ the free responses to a unit displacement and a unit velocity ($C' = -S$, $S' = C - 2\zeta S$) and
-//! $K = K_c + iK_s = \int_0^s S(s-r)\,e^{i\beta r}\,dr$ the forced response from rest, for which $K' = S + i\beta K$.
+//! with $`C, S`$ the free responses to a unit displacement and a unit velocity ($`C' = -S`$, $`S' = C - 2\zeta S`$) and
+//! $`K = K_c + iK_s = \int_0^s S(s-r)\,e^{i\beta r}\,dr`$ the forced response from rest, for which $`K' = S + i\beta K`$.
 //!
-//! The textbook form (eq. 3 of the 1971 paper) divides by $1-\beta^2$ and loses every digit near resonance, and its
-//! resonant form (3)' holds at one point only. Here $K$ is the divided difference of the exponential over the three
-//! characteristic exponents $-\zeta \pm iw$ and $i\beta$, $w = \sqrt{1-\zeta^2}$, written so that nothing cancels. With
-//! $h = (\beta - w)s/2$, $A = ws + h$, $E = e^{-\zeta s}$:
+//! The textbook form (eq. 3 of the 1971 paper) divides by $`1-\beta^2`$ and loses every digit near resonance, and its
+//! resonant form (3)' holds at one point only. Here $`K`$ is the divided difference of the exponential over the three
+//! characteristic exponents $`-\zeta \pm iw`$ and $`i\beta`$, $`w = \sqrt{1-\zeta^2}`$, written so that nothing cancels. With
+//! $`h = (\beta - w)s/2`$, $`A = ws + h`$, $`E = e^{-\zeta s}`$:
 //!
-//! $$K = \frac{1}{2iw}\left[e^{iA}\,\frac{(1-E)\cos h + i(1+E)\sin h}{\zeta + i(\beta-w)}
-//!      - e^{ih}\,\frac{(1-E)\cos A + i(1+E)\sin A}{\zeta + i(\beta+w)}\right]$$
+//! $$`K = \frac{1}{2iw}\left[e^{iA}\,\frac{(1-E)\cos h + i(1+E)\sin h}{\zeta + i(\beta-w)}
+//!      - e^{ih}\,\frac{(1-E)\cos A + i(1+E)\sin A}{\zeta + i(\beta+w)}\right]`$$
 //!
-//! The first fraction is the only one that can be $0/0$, and only at $\zeta = 0$, $\beta = 1$ exactly, where it is $s$.
-//! Everywhere else $\beta - w = (\beta - 1) + \zeta^2/(1+w)$ carries full relative accuracy, so the quotient does too:
-//! one formula through resonance. Undamped it becomes, with $Q = \sin h/(\beta-1)$ ($= s/2$ at resonance),
+//! The first fraction is the only one that can be $`0/0`$, and only at $`\zeta = 0`$, $`\beta = 1`$ exactly, where it is $`s`$.
+//! Everywhere else $`\beta - w = (\beta - 1) + \zeta^2/(1+w)`$ carries full relative accuracy, so the quotient does too:
+//! one formula through resonance. Undamped it becomes, with $`Q = \sin h/(\beta-1)`$ ($`= s/2`$ at resonance),
 //!
-//! $$K_c = \frac{2Q\sin A}{\beta+1}, \qquad K_s = \frac{\sin A\cos h}{\beta+1} - Q\cos A.$$
+//! $$`K_c = \frac{2Q\sin A}{\beta+1}, \qquad K_s = \frac{\sin A\cos h}{\beta+1} - Q\cos A.`$$
 //!
-//! From $\zeta = 1/2$ up there is no resonance to fear ($|Z| \ge 0.86$), and $K = (e^{i\beta s} - C - i\beta S)/Z$ with
-//! $Z = 1-\beta^2+2i\zeta\beta$ serves for the rest of the underdamped range, critical damping and beyond.
+//! From $`\zeta = 1/2`$ up there is no resonance to fear ($`|Z| \ge 0.86`$), and $`K = (e^{i\beta s} - C - i\beta S)/Z`$ with
+//! $`Z = 1-\beta^2+2i\zeta\beta`$ serves for the rest of the underdamped range, critical damping and beyond.
 
 use crate::math::{exp, exp_m1, sin_cos};
 
-/// From this damping on, the plain quotient by $Z$ is used: resonance is too flat to cancel anything.
+/// From this damping on, the plain quotient by $`Z`$ is used: resonance is too flat to cancel anything.
 const HEAVY: f64 = 0.5;
 
 /// The free and forced responses after a time, from which any flight of the same oscillator is a linear combination.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Propagator {
-    /// $1 - C(s)$, without cancellation at small `s`.
+    /// $`1 - C(s)`$, without cancellation at small `s`.
     pub one_minus_c: f64,
-    /// $C(s)$, response to a unit displacement.
+    /// $`C(s)`$, response to a unit displacement.
     pub c: f64,
-    /// $S(s)$, response to a unit velocity.
+    /// $`S(s)`$, response to a unit velocity.
     pub s: f64,
-    /// $K_c(s)$, response from rest to the force $\cos\beta s$.
+    /// $`K_c(s)`$, response from rest to the force $`\cos\beta s`$.
     pub kc: f64,
-    /// $K_s(s)$, response from rest to the force $\sin\beta s$.
+    /// $`K_s(s)`$, response from rest to the force $`\sin\beta s`$.
     pub ks: f64,
-    /// $\sin\beta s$.
+    /// $`\sin\beta s`$.
     pub sin_turn: f64,
-    /// $\cos\beta s$.
+    /// $`\cos\beta s`$.
     pub cos_turn: f64,
 }
 
-/// Closed-form responses for one $\beta$ and $\zeta$, with what does not depend on time worked out once.
+/// Closed-form responses for one $`\beta`$ and $`\zeta`$, with what does not depend on time worked out once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     beta: f64,
@@ -58,11 +58,11 @@ pub struct Response {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Regime {
-    /// $\zeta = 0$: `detuning` $= \beta - 1$, `over_sum` $= 1/(\beta+1)$.
+    /// $`\zeta = 0`$: `detuning` $`= \beta - 1`$, `over_sum` $`= 1/(\beta+1)`$.
     Undamped { detuning: f64, over_sum: f64 },
-    /// $0 < \zeta < 1/2$: `w`, `detuning` $= \beta - w$.
+    /// $`0 < \zeta < 1/2`$: `w`, `detuning` $`= \beta - w`$.
     Light { w: f64, detuning: f64 },
-    /// $1/2 \le \zeta$: `root` $= \sqrt{|1-\zeta^2|}$.
+    /// $`1/2 \le \zeta`$: `root` $`= \sqrt{|1-\zeta^2|}`$.
     Heavy { root: f64 },
 }
 
@@ -70,26 +70,36 @@ impl Response {
     /// For checked parameters: `beta > 0`, `damping >= 0`, both finite.
     pub(crate) fn new(beta: f64, damping: f64) -> Self {
         let regime = if damping == 0.0 {
-            Regime::Undamped { detuning: beta - 1.0, over_sum: 1.0 / (beta + 1.0) }
+            Regime::Undamped {
+                detuning: beta - 1.0,
+                over_sum: 1.0 / (beta + 1.0),
+            }
         } else {
             let root = ((1.0 - damping) * (1.0 + damping)).abs().sqrt();
             if damping < HEAVY {
-                Regime::Light { w: root, detuning: (beta - 1.0) + damping * damping / (1.0 + root) }
+                Regime::Light {
+                    w: root,
+                    detuning: (beta - 1.0) + damping * damping / (1.0 + root),
+                }
             } else {
                 Regime::Heavy { root }
             }
         };
-        Self { beta, damping, regime }
+        Self {
+            beta,
+            damping,
+            regime,
+        }
     }
 
-    /// Frequency ratio $\beta$.
+    /// Frequency ratio $`\beta`$.
     #[inline]
     #[must_use]
     pub const fn beta(&self) -> f64 {
         self.beta
     }
 
-    /// Damping ratio $\zeta$.
+    /// Damping ratio $`\zeta`$.
     #[inline]
     #[must_use]
     pub const fn damping(&self) -> f64 {
@@ -104,11 +114,19 @@ impl Response {
             Regime::Undamped { detuning, over_sum } => {
                 let (ss, cs) = sin_cos(s);
                 let (sh, ch) = sin_cos(0.5 * detuning * s);
-                let q = if detuning == 0.0 { 0.5 * s } else { sh / detuning };
+                let q = if detuning == 0.0 {
+                    0.5 * s
+                } else {
+                    sh / detuning
+                };
                 let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
                 // beta s = A + h
                 Propagator {
-                    one_minus_c: if s < SMALL { self.one_minus_c_series(s) } else { 1.0 - cs },
+                    one_minus_c: if s < SMALL {
+                        self.one_minus_c_series(s)
+                    } else {
+                        1.0 - cs
+                    },
                     c: cs,
                     s: ss,
                     kc: 2.0 * q * (sa * over_sum),
@@ -137,7 +155,11 @@ impl Response {
         let free_s = kept * sw / w;
         let free_c = kept * cw + zeta * free_s;
         Propagator {
-            one_minus_c: if s < SMALL { self.one_minus_c_series(s) } else { 1.0 - free_c },
+            one_minus_c: if s < SMALL {
+                self.one_minus_c_series(s)
+            } else {
+                1.0 - free_c
+            },
             c: free_c,
             s: free_s,
             kc: im / (2.0 * w),
@@ -159,7 +181,12 @@ impl Response {
             // slow root zeta - root = 1/(zeta + root), spread 2 root
             let slow = exp(-s / (zeta + root));
             let spread = -exp_m1(-2.0 * root * s); // 1 - e^{-2 root s}
-            let free_s = slow * if root * s < 1e-8 { s } else { spread / (2.0 * root) };
+            let free_s = slow
+                * if root * s < 1e-8 {
+                    s
+                } else {
+                    spread / (2.0 * root)
+                };
             (slow * (1.0 - 0.5 * spread) + zeta * free_s, free_s)
         };
         let one_minus_c = if s * (1.0 + zeta) < SMALL {
@@ -171,12 +198,26 @@ impl Response {
         } else {
             1.0 - free_c
         };
-        let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * zeta * self.beta));
+        let (beta, z) = (
+            self.beta,
+            (
+                (1.0 - self.beta) * (1.0 + self.beta),
+                2.0 * zeta * self.beta,
+            ),
+        );
         let (kc, ks) = divide(((ct - 1.0) + one_minus_c, st - beta * free_s), z);
-        Propagator { one_minus_c, c: free_c, s: free_s, kc, ks, sin_turn: st, cos_turn: ct }
+        Propagator {
+            one_minus_c,
+            c: free_c,
+            s: free_s,
+            kc,
+            ks,
+            sin_turn: st,
+            cos_turn: ct,
+        }
     }
 
-    /// $1 - C$ by its Taylor series, for `s (1 + zeta) <` [`SMALL`]: $c_{k+2} = -c_k - 2\zeta c_{k+1}$.
+    /// $`1 - C`$ by its Taylor series, for `s (1 + zeta) <` [`SMALL`]: $`c_{k+2} = -c_k - 2\zeta c_{k+1}`$.
     fn one_minus_c_series(&self, s: f64) -> f64 {
         let (mut a, mut b) = (1.0, 0.0); // derivatives of C at 0
         let (mut power, mut sum) = (s, 0.0);
@@ -190,14 +231,17 @@ impl Response {
     }
 }
 
-/// Below this, $1 - C$ is summed as a series; above, the subtraction loses at most four bits.
+/// Below this, $`1 - C`$ is summed as a series; above, the subtraction loses at most four bits.
 const SMALL: f64 = 0.4;
 
 /// Complex quotient.
 #[inline]
 fn divide(n: (f64, f64), d: (f64, f64)) -> (f64, f64) {
     let norm = d.0 * d.0 + d.1 * d.1;
-    ((n.0 * d.0 + n.1 * d.1) / norm, (n.1 * d.0 - n.0 * d.1) / norm)
+    (
+        (n.0 * d.0 + n.1 * d.1) / norm,
+        (n.1 * d.0 - n.0 * d.1) / norm,
+    )
 }
 
 #[cfg(test)]
@@ -234,8 +278,34 @@ mod tests {
 
     #[test]
     fn matches_slow_integration_in_every_regime() {
-        let betas = [0.01, 0.3, 0.9, 1.0 - 1e-3, 1.0 - 1e-9, 1.0, 1.0 + 1e-12, 1.0 + 1e-5, 1.7, 8.0, 60.0];
-        let dampings = [0.0, 1e-9, 1e-3, 0.1, 0.499, 0.5, 0.9, 1.0 - 1e-13, 1.0, 1.0 + 1e-9, 1.3, 2.5, 7.0];
+        let betas = [
+            0.01,
+            0.3,
+            0.9,
+            1.0 - 1e-3,
+            1.0 - 1e-9,
+            1.0,
+            1.0 + 1e-12,
+            1.0 + 1e-5,
+            1.7,
+            8.0,
+            60.0,
+        ];
+        let dampings = [
+            0.0,
+            1e-9,
+            1e-3,
+            0.1,
+            0.499,
+            0.5,
+            0.9,
+            1.0 - 1e-13,
+            1.0,
+            1.0 + 1e-9,
+            1.3,
+            2.5,
+            7.0,
+        ];
         for beta in betas {
             for zeta in dampings {
                 let response = Response::new(beta, zeta);
@@ -244,10 +314,19 @@ mod tests {
                     let (x0, v0, phi) = (0.3, -0.8, 2.2_f64);
                     let (sp, cp) = phi.sin_cos();
                     let x = x0 * p.c + v0 * p.s + sp * p.kc + cp * p.ks;
-                    let v = -x0 * p.s + v0 * (p.c - 2.0 * zeta * p.s) + sp * (p.s - beta * p.ks) + cp * beta * p.kc;
+                    let v = -x0 * p.s
+                        + v0 * (p.c - 2.0 * zeta * p.s)
+                        + sp * (p.s - beta * p.ks)
+                        + cp * beta * p.kc;
                     let (wx, wv) = by_integration(beta, zeta, s, x0, v0, phi);
-                    assert!((x - wx).abs() < 3e-13, "beta {beta} zeta {zeta} s {s}: x {x} {wx}");
-                    assert!((v - wv).abs() < 3e-13 * (1.0 + beta), "beta {beta} zeta {zeta} s {s}: v {v} {wv}");
+                    assert!(
+                        (x - wx).abs() < 3e-13,
+                        "beta {beta} zeta {zeta} s {s}: x {x} {wx}"
+                    );
+                    assert!(
+                        (v - wv).abs() < 3e-13 * (1.0 + beta),
+                        "beta {beta} zeta {zeta} s {s}: v {v} {wv}"
+                    );
                     assert!((p.one_minus_c + p.c - 1.0).abs() < 1e-14);
                     assert!((p.sin_turn - (beta * s).sin()).abs() < 1e-13);
                     assert!((p.cos_turn - (beta * s).cos()).abs() < 1e-13);
@@ -274,7 +353,10 @@ mod tests {
             let d = 10_f64.powi(-k);
             let beta = 1.0 + d;
             let predicted = base.kc + (beta - 1.0) * slope;
-            assert!((at(beta).kc - predicted).abs() < 1e-15 + 1e3 * d * d + 1e-9 * d, "1 + 1e-{k}");
+            assert!(
+                (at(beta).kc - predicted).abs() < 1e-15 + 1e3 * d * d + 1e-9 * d,
+                "1 + 1e-{k}"
+            );
         }
     }
 }

@@ -13,12 +13,12 @@ pub(crate) use exact::{Sum, two_prod, two_sum};
 pub use matrix::{Matrix2, Multiplier, eigenvalues};
 pub use trig::sin_cos;
 
-/// $e^x$.
+/// $`e^x`$.
 pub(crate) fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// $e^x - 1$, accurate for small `x`.
+/// $`e^x - 1`$, accurate for small `x`.
 pub(crate) fn exp_m1(x: f64) -> f64 {
     libm::expm1(x)
 }
@@ -28,7 +28,7 @@ pub(crate) fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// $\arcsin x$ for `x` in [-1, 1].
+/// $`\arcsin x`$ for `x` in [-1, 1].
 pub(crate) fn asin(x: f64) -> f64 {
     libm::asin(x)
 }
@@ -38,7 +38,7 @@ pub(crate) fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
-/// $\sqrt{x^2 + y^2}$ without overflow.
+/// $`\sqrt{x^2 + y^2}`$ without overflow.
 pub(crate) fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
 }

@@ -1,7 +1,7 @@
 //! Sine and cosine, together, to better than one unit in the last place.
 //!
-//! The argument is reduced to $|r| \le \pi/4$ plus a low part: for $|n| < 2^{20}$ quarter turns by three 33-bit pieces of
-//! $\pi/2$, whose products with $n$ are exact (Cody & Waite), above that by exact products with a 160-bit $\pi/2$. The
+//! The argument is reduced to $`|r| \le \pi/4`$ plus a low part: for $`|n| < 2^{20}`$ quarter turns by three 33-bit pieces of
+//! $`\pi/2`$, whose products with $`n`$ are exact (Cody & Waite), above that by exact products with a 160-bit $`\pi/2`$. The
 //! two polynomials are the minimax ones of Sun's fdlibm (`k_sin.c`, `k_cos.c`, freely usable), with the low part of the
 //! reduced argument carried through.
 
@@ -32,7 +32,11 @@ const MEANINGLESS: f64 = 9_007_199_254_740_992.0;
 #[inline]
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    let (n, r, lo) = if x.abs() <= FAST { reduce_fast(x) } else { reduce_large(x) };
+    let (n, r, lo) = if x.abs() <= FAST {
+        reduce_fast(x)
+    } else {
+        reduce_large(x)
+    };
     let s = kernel_sin(r, lo);
     let c = kernel_cos(r, lo);
     match n & 3 {
@@ -63,7 +67,11 @@ fn reduce_fast(x: f64) -> (i64, f64, f64) {
 #[cold]
 #[allow(clippy::cast_possible_truncation)] // |n| < 2^53, or NaN which becomes 0 and stays NaN in r
 fn reduce_large(x: f64) -> (i64, f64, f64) {
-    let x = if x.abs() < MEANINGLESS { x } else { x % core::f64::consts::TAU };
+    let x = if x.abs() < MEANINGLESS {
+        x
+    } else {
+        x % core::f64::consts::TAU
+    };
     // the product is rounded, so near a half-integer it may choose the wrong neighbour: look once more
     let n = (x * FRAC_2_PI).round();
     let n = n + (subtract_quarters(x, n).0 * FRAC_2_PI).round();
@@ -71,7 +79,7 @@ fn reduce_large(x: f64) -> (i64, f64, f64) {
     (n as i64, hi, lo)
 }
 
-/// $x - n \pi/2$ as high and low part.
+/// $`x - n \pi/2`$ as high and low part.
 fn subtract_quarters(x: f64, n: f64) -> (f64, f64) {
     let (p, pe) = two_prod(n, Q1);
     let (q, qe) = two_prod(n, Q2);
@@ -85,12 +93,12 @@ fn subtract_quarters(x: f64, n: f64) -> (f64, f64) {
 #[inline]
 fn kernel_sin(x: f64, lo: f64) -> f64 {
     const S: [f64; 6] = [
-        -1.666_666_666_666_663_24e-1,
-        8.333_333_333_322_489_46e-3,
-        -1.984_126_982_985_794_93e-4,
-        2.755_731_370_707_006_77e-6,
-        -2.505_076_025_340_686_34e-8,
-        1.589_690_995_211_550_1e-10,
+        -0.166_666_666_666_666_32,
+        0.008_333_333_333_322_49,
+        -0.000_198_412_698_298_579_5,
+        2.755_731_370_707_006_8e-6,
+        -2.505_076_025_340_686_3e-8,
+        1.589_690_995_211_55e-10,
     ];
     let z = x * x;
     let w = z * z;
@@ -102,12 +110,12 @@ fn kernel_sin(x: f64, lo: f64) -> f64 {
 #[inline]
 fn kernel_cos(x: f64, lo: f64) -> f64 {
     const C: [f64; 6] = [
-        4.166_666_666_666_660_19e-2,
-        -1.388_888_888_887_410_96e-3,
-        2.480_158_728_947_672_94e-5,
-        -2.755_731_435_139_066_33e-7,
-        2.087_572_321_298_174_83e-9,
-        -1.135_964_755_778_819_48e-11,
+        0.041_666_666_666_666_6,
+        -0.001_388_888_888_887_411,
+        2.480_158_728_947_673e-5,
+        -2.755_731_435_139_066_3e-7,
+        2.087_572_321_298_175e-9,
+        -1.135_964_755_778_819_5e-11,
     ];
     let z = x * x;
     let w = z * z;

@@ -8,7 +8,7 @@ use crate::system::Side;
 pub struct Event {
     /// Time since the start of the motion.
     pub time: f64,
-    /// Phase of the force, in $[0, 2\pi)$.
+    /// Phase of the force, in $`[0, 2\pi)`$.
     pub phase: f64,
     /// Which stop.
     pub side: Side,
@@ -21,9 +21,9 @@ pub struct Event {
 pub enum EventKind {
     /// An impact: arrival with `velocity_before > 0` towards the stop, rebound with `velocity_after <= 0`.
     Impact {
-        /// Speed of arrival $u_-$.
+        /// Speed of arrival $`u_-`$.
         velocity_before: f64,
-        /// $u_+ = -\varepsilon u_-$.
+        /// $`u_+ = -\varepsilon u_-`$.
         velocity_after: f64,
     },
     /// A tangential touch, without effect; `depth` is the computed distance left.

@@ -30,7 +30,9 @@ pub fn sample(osc: &Oscillator, start: Start, until: f64, step: f64, cap: usize)
     let mut motion = Motion::new(osc, start);
     while points.len() < cap {
         let more = motion.next().is_some();
-        let Some(leg) = motion.leg().copied() else { break };
+        let Some(leg) = motion.leg().copied() else {
+            break;
+        };
         draw(osc, &leg, until, step, cap, &mut points);
         if !more || leg.begin + leg.duration >= until {
             break;
@@ -47,7 +49,11 @@ fn draw(osc: &Oscillator, leg: &Leg, until: f64, step: f64, cap: usize, points: 
         let s = length * (k / pieces);
         let (x, v) = leg.state(osc, s);
         // the last point is where it was asked for, not a rounding away
-        let time = if k == pieces && length < leg.duration { until } else { leg.begin + s };
+        let time = if k == pieces && length < leg.duration {
+            until
+        } else {
+            leg.begin + s
+        };
         points.push(Sample { time, x, v });
         k += 1.0;
     }

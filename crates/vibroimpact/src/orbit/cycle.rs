@@ -37,7 +37,7 @@ pub struct Cycle {
     /// Its rests, if it has any.
     pub rests: Vec<RestSpan>,
     /// Floquet multipliers, the larger first. Their product is known exactly,
-    /// $\varepsilon^{2m} e^{-4\pi\zeta n/\beta}$, and used; both are 0 with a rest.
+    /// $`\varepsilon^{2m} e^{-4\pi\zeta n/\beta}`$, and used; both are 0 with a rest.
     pub multipliers: [Multiplier; 2],
     /// What the return after one period misses by: phase and relative velocity, the larger.
     pub residual: f64,
@@ -55,7 +55,8 @@ impl Cycle {
     #[must_use]
     pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
         let (a, b) = (&self.points, &other.points);
-        if self.label != other.label || a.len() != b.len() || self.rests.len() != other.rests.len() {
+        if self.label != other.label || a.len() != b.len() || self.rests.len() != other.rests.len()
+        {
             return false;
         }
         let close = |p: &CyclePoint, q: &CyclePoint| distance(&p.state, &q.state) <= tolerance;
@@ -65,13 +66,21 @@ impl Cycle {
     /// The largest arrival speed.
     #[must_use]
     pub fn fastest(&self) -> f64 {
-        self.points.iter().map(|p| p.state.velocity).fold(0.0, f64::max)
+        self.points
+            .iter()
+            .map(|p| p.state.velocity)
+            .fold(0.0, f64::max)
     }
 
     /// Puts the fastest arrival first.
     pub(crate) fn rotate_to_fastest(&mut self) {
-        let first = (0..self.points.len())
-            .max_by(|&a, &b| self.points[a].state.velocity.total_cmp(&self.points[b].state.velocity).then(b.cmp(&a)));
+        let first = (0..self.points.len()).max_by(|&a, &b| {
+            self.points[a]
+                .state
+                .velocity
+                .total_cmp(&self.points[b].state.velocity)
+                .then(b.cmp(&a))
+        });
         if let Some(first) = first {
             self.points.rotate_left(first);
         }
@@ -86,5 +95,7 @@ pub(crate) fn distance(a: &ImpactState, b: &ImpactState) -> f64 {
         return f64::INFINITY;
     }
     let speed = a.velocity.max(b.velocity).max(f64::MIN_POSITIVE);
-    phase::difference(a.phase, b.phase).abs().max((a.velocity - b.velocity).abs() / speed)
+    phase::difference(a.phase, b.phase)
+        .abs()
+        .max((a.velocity - b.velocity).abs() / speed)
 }

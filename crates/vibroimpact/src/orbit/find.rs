@@ -28,7 +28,10 @@ pub struct FindOptions {
 impl Default for FindOptions {
     /// 48 phases times 24 velocities.
     fn default() -> Self {
-        Self { seeds: (48, 24), tolerance: 1e-7 }
+        Self {
+            seeds: (48, 24),
+            tolerance: 1e-7,
+        }
     }
 }
 
@@ -38,19 +41,31 @@ impl Default for FindOptions {
 /// The search is deterministic but not exhaustive: an orbit that no seed leads to is not found.
 #[must_use]
 pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> {
-    let Count::Finite(m) = label.impacts else { return Vec::new() };
+    let Count::Finite(m) = label.impacts else {
+        return Vec::new();
+    };
     let mut orbits: Vec<Orbit> = Vec::new();
     if m == 1 {
-        orbits.extend(one_impact(osc, label.periods).into_iter().map(|o| Orbit { cycle: o.cycle, physical: o.physical }));
+        orbits.extend(one_impact(osc, label.periods).into_iter().map(|o| Orbit {
+            cycle: o.cycle,
+            physical: o.physical,
+        }));
     }
     for guess in seeds(osc, options.seeds) {
         if !promising(osc, guess, m, label.periods) {
             continue;
         }
-        let Ok(cycle) = shoot(osc, guess, m, label.periods) else { continue };
-        let known = orbits.iter().any(|o| o.cycle.same_as(&cycle, options.tolerance));
+        let Ok(cycle) = shoot(osc, guess, m, label.periods) else {
+            continue;
+        };
+        let known = orbits
+            .iter()
+            .any(|o| o.cycle.same_as(&cycle, options.tolerance));
         if cycle.label == label && !known {
-            orbits.push(Orbit { cycle, physical: true });
+            orbits.push(Orbit {
+                cycle,
+                physical: true,
+            });
         }
     }
     orbits.sort_by(|a, b| a.cycle.fastest().total_cmp(&b.cycle.fastest()));
@@ -60,12 +75,17 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
 /// Arrivals spread over phase and velocity. Speeds go up to what n periods of forcing, the gap and the free response
 /// could feed, geometrically towards small ones.
 fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item = ImpactState> {
-    let top = 4.0 * (1.0 + osc.gap().abs() + osc.free_amplitude().min(10.0)) / (1.0 - osc.restitution()).max(0.1);
+    let top = 4.0 * (1.0 + osc.gap().abs() + osc.free_amplitude().min(10.0))
+        / (1.0 - osc.restitution()).max(0.1);
     let sides: Vec<Side> = osc.stops().map(|(side, _)| side).collect();
     sides.into_iter().flat_map(move |side| {
         (0..speeds).flat_map(move |k| {
             let velocity = top * libm::pow(0.8, f64::from(k));
-            (0..phases).map(move |j| ImpactState { phase: TAU * (f64::from(j) + 0.5) / f64::from(phases), velocity, side })
+            (0..phases).map(move |j| ImpactState {
+                phase: TAU * (f64::from(j) + 0.5) / f64::from(phases),
+                velocity,
+                side,
+            })
         })
     })
 }
@@ -74,8 +94,18 @@ fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item =
 fn promising(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> bool {
     let (mut state, mut time) = (guess, 0.0);
     for _ in 0..m {
-        match impact_map(osc, &state, SearchLimits { periods: 4.0 * f64::from(n), ..Default::default() }) {
-            Mapped::Impact { state: next, interval } => {
+        match impact_map(
+            osc,
+            &state,
+            SearchLimits {
+                periods: 4.0 * f64::from(n),
+                ..Default::default()
+            },
+        ) {
+            Mapped::Impact {
+                state: next,
+                interval,
+            } => {
                 state = next;
                 time += interval;
             }

@@ -5,7 +5,7 @@
 //! | checked parameters of one oscillator | [`Oscillator`] |
 //! | a starting point allowed by the stops | [`Start`] |
 //! | kilograms, newtons and millimetres to nondimensional numbers and back | [`Machine`] |
-//! | angles of the force, kept in $[0, 2\pi)$ | [`phase`] |
+//! | angles of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 
 mod error;
 mod oscillator;

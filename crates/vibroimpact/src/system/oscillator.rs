@@ -1,15 +1,15 @@
 //! One oscillator with one or two stops, its parameters checked once and for all.
 //!
-//! $$\ddot\xi + 2\zeta\dot\xi + \xi = \sin(\beta\tau + \varphi_0), \qquad \xi \le \delta \tag{2}$$
-//! $$\xi = \delta,\ u_- > 0:\quad u_+ = -\varepsilon u_- \tag{9}$$
+//! $$`\ddot\xi + 2\zeta\dot\xi + \xi = \sin(\beta\tau + \varphi_0), \qquad \xi \le \delta \tag{2}`$$
+//! $$`\xi = \delta,\ u_- > 0:\quad u_+ = -\varepsilon u_- \tag{9}`$$
 //!
 //! | symbol | name here | meaning | range |
 //! |---|---|---|---|
-//! | $\beta$ | `beta` | forcing frequency over natural frequency | $> 0$ |
-//! | $\delta$ | `gap` | distance of the stop from the rest position; negative: preload | any |
-//! | $\varepsilon$ | `restitution` | rebound speed over arrival speed | $[0, 1]$ |
-//! | $\zeta$ | `damping` | damping ratio | $\ge 0$ |
-//! | $\delta_2, \varepsilon_2$ | second stop | stands at $\xi = -\delta_2$ | $\delta + \delta_2 > 0$ |
+//! | $`\beta`$ | `beta` | forcing frequency over natural frequency | $`> 0`$ |
+//! | $`\delta`$ | `gap` | distance of the stop from the rest position; negative: preload | any |
+//! | $`\varepsilon`$ | `restitution` | rebound speed over arrival speed | $`[0, 1]`$ |
+//! | $`\zeta`$ | `damping` | damping ratio | $`\ge 0`$ |
+//! | $`\delta_2, \varepsilon_2`$ | second stop | stands at $`\xi = -\delta_2`$ | $`\delta + \delta_2 > 0`$ |
 //!
 //! Equation numbers are those of K. Fukaya and T. Irie, "On the Transient Oscillation of a Vibro-Impact System",
 //! Bull. Fac. Eng. Hokkaido Univ. 62 (1971) 31-39, <https://hdl.handle.net/2115/41063>, which has no damping and one stop.
@@ -42,9 +42,9 @@ impl Side {
 /// A rigid stop: its distance from the rest position of the mass, outwards, and its restitution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// Distance $\delta$ of the stop from the rest position, nondimensional; negative when it presses.
+    /// Distance $`\delta`$ of the stop from the rest position, nondimensional; negative when it presses.
     pub gap: f64,
-    /// Restitution $\varepsilon$ in [0, 1].
+    /// Restitution $`\varepsilon`$ in [0, 1].
     pub restitution: f64,
 }
 
@@ -74,21 +74,29 @@ impl Oscillator {
         if !(beta > 0.0 && beta.is_finite()) {
             return Err(SystemError::Beta(beta));
         }
-        Ok(Self { response: Response::new(beta, 0.0), upper: stop(gap, restitution)?, lower: None })
+        Ok(Self {
+            response: Response::new(beta, 0.0),
+            upper: stop(gap, restitution)?,
+            lower: None,
+        })
     }
 
-    /// The same with the frequency given as $1/\beta = \omega_n/\omega$, the abscissa of the 1971 paper.
+    /// The same with the frequency given as $`1/\beta = \omega_n/\omega`$, the abscissa of the 1971 paper.
     ///
     /// # Errors
     /// As [`Oscillator::new`].
-    pub fn from_inverse_beta(inverse_beta: f64, gap: f64, restitution: f64) -> Result<Self, SystemError> {
+    pub fn from_inverse_beta(
+        inverse_beta: f64,
+        gap: f64,
+        restitution: f64,
+    ) -> Result<Self, SystemError> {
         if !(inverse_beta > 0.0 && inverse_beta.is_finite() && (1.0 / inverse_beta).is_finite()) {
             return Err(SystemError::InverseBeta(inverse_beta));
         }
         Self::new(1.0 / inverse_beta, gap, restitution)
     }
 
-    /// The same oscillator with viscous damping $\zeta \ge 0$; 1 is critical.
+    /// The same oscillator with viscous damping $`\zeta \ge 0`$; 1 is critical.
     ///
     /// # Errors
     /// [`SystemError::Damping`] for a negative, infinite or NaN `damping`.
@@ -96,7 +104,10 @@ impl Oscillator {
         if !(damping >= 0.0 && damping.is_finite()) {
             return Err(SystemError::Damping(damping));
         }
-        Ok(Self { response: Response::new(self.beta(), damping), ..self })
+        Ok(Self {
+            response: Response::new(self.beta(), damping),
+            ..self
+        })
     }
 
     /// The same oscillator with a second stop at `x = -gap`.
@@ -107,34 +118,41 @@ impl Oscillator {
         let lower = stop(gap, restitution)?;
         let width = self.upper.gap + lower.gap;
         if width > 0.0 {
-            Ok(Self { lower: Some(lower), ..self })
+            Ok(Self {
+                lower: Some(lower),
+                ..self
+            })
         } else {
-            Err(SystemError::NoRoom { upper: self.upper.gap, lower: -lower.gap, width })
+            Err(SystemError::NoRoom {
+                upper: self.upper.gap,
+                lower: -lower.gap,
+                width,
+            })
         }
     }
 
-    /// Frequency ratio $\beta = \omega/\omega_n$.
+    /// Frequency ratio $`\beta = \omega/\omega_n`$.
     #[inline]
     #[must_use]
     pub const fn beta(&self) -> f64 {
         self.response.beta()
     }
 
-    /// Damping ratio $\zeta$.
+    /// Damping ratio $`\zeta`$.
     #[inline]
     #[must_use]
     pub const fn damping(&self) -> f64 {
         self.response.damping()
     }
 
-    /// Gap $\delta$ of the first stop.
+    /// Gap $`\delta`$ of the first stop.
     #[inline]
     #[must_use]
     pub const fn gap(&self) -> f64 {
         self.upper.gap
     }
 
-    /// Restitution $\varepsilon$ of the first stop.
+    /// Restitution $`\varepsilon`$ of the first stop.
     #[inline]
     #[must_use]
     pub const fn restitution(&self) -> f64 {
@@ -153,16 +171,21 @@ impl Oscillator {
 
     /// The stops there are, the first one first.
     pub fn stops(&self) -> impl Iterator<Item = (Side, Stop)> {
-        [Some((Side::Upper, self.upper)), self.lower.map(|stop| (Side::Lower, stop))].into_iter().flatten()
+        [
+            Some((Side::Upper, self.upper)),
+            self.lower.map(|stop| (Side::Lower, stop)),
+        ]
+        .into_iter()
+        .flatten()
     }
 
-    /// Forcing period $2\pi/\beta$.
+    /// Forcing period $`2\pi/\beta`$.
     #[must_use]
     pub fn period(&self) -> f64 {
         core::f64::consts::TAU / self.beta()
     }
 
-    /// Amplitude of the steady motion without stops, $|f| = 1/\sqrt{(1-\beta^2)^2 + (2\zeta\beta)^2}$; infinite at
+    /// Amplitude of the steady motion without stops, $`|f| = 1/\sqrt{(1-\beta^2)^2 + (2\zeta\beta)^2}`$; infinite at
     /// undamped resonance.
     #[must_use]
     pub fn free_amplitude(&self) -> f64 {
@@ -195,15 +218,27 @@ mod tests {
     #[test]
     fn impossible_systems_are_named() {
         for beta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(matches!(Oscillator::new(beta, 1.0, 0.5), Err(SystemError::Beta(_))));
-            assert!(matches!(Oscillator::from_inverse_beta(beta, 1.0, 0.5), Err(SystemError::InverseBeta(_))));
+            assert!(matches!(
+                Oscillator::new(beta, 1.0, 0.5),
+                Err(SystemError::Beta(_))
+            ));
+            assert!(matches!(
+                Oscillator::from_inverse_beta(beta, 1.0, 0.5),
+                Err(SystemError::InverseBeta(_))
+            ));
         }
         for eps in [-1e-9, 1.0 + 1e-9, f64::NAN] {
-            assert!(matches!(Oscillator::new(1.0, 1.0, eps), Err(SystemError::Restitution(_))));
+            assert!(matches!(
+                Oscillator::new(1.0, 1.0, eps),
+                Err(SystemError::Restitution(_))
+            ));
         }
         let osc = Oscillator::new(1.0, 1.0, 0.5).unwrap();
         assert_eq!(osc.with_damping(-0.1), Err(SystemError::Damping(-0.1)));
-        assert!(matches!(osc.with_second_stop(-1.0, 0.5), Err(SystemError::NoRoom { .. })));
+        assert!(matches!(
+            osc.with_second_stop(-1.0, 0.5),
+            Err(SystemError::NoRoom { .. })
+        ));
         assert!(osc.with_second_stop(-0.5, 0.5).is_ok());
         let sentence = SystemError::Restitution(1.4).to_string();
         assert!(sentence.starts_with("restitution eps = 1.4 lies outside 0 <= eps <= 1"));

@@ -1,22 +1,22 @@
-//! The phase of the force, $\theta = \beta\tau + \varphi_0$, kept in $[0, 2\pi)$.
+//! The phase of the force, $`\theta = \beta\tau + \varphi_0`$, kept in $`[0, 2\pi)`$.
 //!
 //! Time is set back to zero at each impact and the phase advanced instead, as the 1971 paper does. The advance
-//! $\beta s$ is formed exactly (as a product and its error) and reduced by a $2\pi$ of 107 bits, so the phase is right
+//! $`\beta s`$ is formed exactly (as a product and its error) and reduced by a $`2\pi`$ of 107 bits, so the phase is right
 //! to its last place however long the flight: nothing drifts over 1e9 impacts.
 
 use crate::math::{two_prod, two_sum};
 use core::f64::consts::TAU;
 
-/// $2\pi - $ [`TAU`].
+/// $`2\pi - `$ [`TAU`].
 const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
 
-/// `angle` modulo $2\pi$, in $[0, 2\pi)$.
+/// `angle` modulo $`2\pi`$, in $`[0, 2\pi)`$.
 #[must_use]
 pub fn wrap(angle: f64) -> f64 {
     reduce(angle, 0.0)
 }
 
-/// The phase reached from `phase` after a time `s` of forcing at `beta`, in $[0, 2\pi)$.
+/// The phase reached from `phase` after a time `s` of forcing at `beta`, in $`[0, 2\pi)`$.
 #[inline]
 #[must_use]
 pub fn advance(phase: f64, beta: f64, s: f64) -> f64 {
@@ -25,7 +25,7 @@ pub fn advance(phase: f64, beta: f64, s: f64) -> f64 {
     reduce(hi, lo + turn_low)
 }
 
-/// The angle from `b` to `a` by the shorter way, in $[-\pi, \pi]$.
+/// The angle from `b` to `a` by the shorter way, in $`[-\pi, \pi]`$.
 #[inline]
 #[must_use]
 pub fn difference(a: f64, b: f64) -> f64 {
@@ -70,7 +70,10 @@ mod tests {
         for s in [4.0, 4e6, 4e12] {
             let (sine, cosine) = sin_cos(advance(1.0, 0.75, s));
             let (want_sine, want_cosine) = sin_cos(1.0 + 0.75 * s);
-            assert!((sine - want_sine).abs() < 5e-16 && (cosine - want_cosine).abs() < 5e-16, "s = {s}");
+            assert!(
+                (sine - want_sine).abs() < 5e-16 && (cosine - want_cosine).abs() < 5e-16,
+                "s = {s}"
+            );
         }
         // and where it is not, the product's error is not lost: 1e6 forcing periods of 2 pi / 0.9, rounded
         let s = TAU * 1e6 / 0.9;

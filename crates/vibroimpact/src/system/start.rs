@@ -2,21 +2,21 @@
 
 use super::{Oscillator, SystemError, phase};
 
-/// A starting point: position `x`, velocity `v`, phase of the force in $[0, 2\pi)$.
+/// A starting point: position `x`, velocity `v`, phase of the force in $`[0, 2\pi)`$.
 ///
 /// On a stop the mass may move either way or be at rest; beyond it is an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
-    /// Position $\xi_0$, within the stops.
+    /// Position $`\xi_0`$, within the stops.
     pub x: f64,
-    /// Velocity $\dot\xi_0$.
+    /// Velocity $`\dot\xi_0`$.
     pub v: f64,
-    /// Phase $\varphi_0$ of the force, in $[0, 2\pi)$.
+    /// Phase $`\varphi_0`$ of the force, in $`[0, 2\pi)`$.
     pub phase: f64,
 }
 
 impl Start {
-    /// A start of `osc`, its phase wrapped into $[0, 2\pi)$.
+    /// A start of `osc`, its phase wrapped into $`[0, 2\pi)`$.
     ///
     /// # Errors
     /// [`SystemError::StartNotFinite`] or [`SystemError::BeyondStop`].
@@ -38,20 +38,30 @@ impl Start {
         if !(lowest..=highest).contains(&x) {
             return Err(SystemError::BeyondStop { x, lowest, highest });
         }
-        Ok(Self { x, v, phase: phase::wrap(phase) })
+        Ok(Self {
+            x,
+            v,
+            phase: phase::wrap(phase),
+        })
     }
 
     /// At rest, unstretched, at phase 0; on the stop where that place is beyond one.
     #[must_use]
     pub fn at_rest(osc: &Oscillator) -> Self {
         let (lowest, highest) = Self::room(osc);
-        Self { x: 0.0_f64.clamp(lowest, highest), v: 0.0, phase: 0.0 }
+        Self {
+            x: 0.0_f64.clamp(lowest, highest),
+            v: 0.0,
+            phase: 0.0,
+        }
     }
 
     /// The range of positions the stops allow.
     #[must_use]
     pub fn room(osc: &Oscillator) -> (f64, f64) {
-        let lowest = osc.stop(super::Side::Lower).map_or(f64::NEG_INFINITY, |stop| -stop.gap);
+        let lowest = osc
+            .stop(super::Side::Lower)
+            .map_or(f64::NEG_INFINITY, |stop| -stop.gap);
         (lowest, osc.gap())
     }
 }

@@ -87,7 +87,7 @@ impl Verdict {
     }
 
     /// Floquet multipliers where the motion has them: of a cycle, or of the motion without impacts over one forcing
-    /// period, $e^{(-\zeta \pm i\sqrt{1-\zeta^2})2\pi/\beta}$.
+    /// period, $`e^{(-\zeta \pm i\sqrt{1-\zeta^2})2\pi/\beta}`$.
     #[must_use]
     pub fn multipliers(&self, osc: &Oscillator) -> Option<[Multiplier; 2]> {
         match self {
@@ -95,7 +95,10 @@ impl Verdict {
             Self::NoImpact(_) => {
                 let p = osc.response().at(TAU / osc.beta());
                 let trace = 2.0 * (p.c - osc.damping() * p.s);
-                Some(crate::math::eigenvalues(trace, crate::math::exp(-2.0 * osc.damping() * osc.period())))
+                Some(crate::math::eigenvalues(
+                    trace,
+                    crate::math::exp(-2.0 * osc.damping() * osc.period()),
+                ))
             }
             Self::Stuck(_) => Some([Multiplier::default(); 2]),
             Self::Chaotic(_) | Self::Undecided(_) => None,

@@ -2,11 +2,11 @@
 //!
 //! After each impact j the smallest m is looked for with
 //!
-//! $$\left|\frac{z_{j-m}}{z_j} - 1\right| < \frac{p}{100} \quad\text{and}\quad \left|\frac{u_{j-m}}{u_j} - 1\right| < \frac{p}{100},
-//!   \tag{11}$$
+//! $$`\left|\frac{z_{j-m}}{z_j} - 1\right| < \frac{p}{100} \quad\text{and}\quad \left|\frac{u_{j-m}}{u_j} - 1\right| < \frac{p}{100},
+//!   \tag{11}`$$
 //!
-//! $z_j$ the interval before impact j and $u_j$ its speed; then $n = \beta(\tau_j - \tau_{j-m})/2\pi$ (12). After 100
-//! impacts without success the motion is called unstable. (The print has a stray $-1$ in the numerators of (11); as
+//! $`z_j`$ the interval before impact j and $`u_j`$ its speed; then $`n = \beta(\tau_j - \tau_{j-m})/2\pi`$ (12). After 100
+//! impacts without success the motion is called unstable. (The print has a stray $`-1`$ in the numerators of (11); as
 //! printed the ratios could not be near 1.) The rule cannot tell a slow transient from a period, nor a limit of ever
 //! gentler impacts from 1/10; [`settle`](super::settle) can.
 
@@ -17,7 +17,7 @@ use core::f64::consts::TAU;
 /// The constants of the rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperRule {
-    /// Tolerance $p$ in per cent. The paper leaves it open ("suitably chosen"); 0.1 here.
+    /// Tolerance $`p`$ in per cent. The paper leaves it open ("suitably chosen"); 0.1 here.
     pub percent: f64,
     /// Impacts after which the motion is called unstable.
     pub limit: u32,
@@ -25,7 +25,10 @@ pub struct PaperRule {
 
 impl Default for PaperRule {
     fn default() -> Self {
-        Self { percent: 0.1, limit: 100 }
+        Self {
+            percent: 0.1,
+            limit: 100,
+        }
     }
 }
 
@@ -65,9 +68,13 @@ pub fn paper_rule(osc: &Oscillator, start: Start, rule: PaperRule) -> PaperVerdi
     let mut last = 0.0;
     let mut motion = Motion::new(osc, start);
     while impacts.len() < rule.limit as usize {
-        let Some(event) = motion.next() else { return PaperVerdict::NoMoreImpacts };
+        let Some(event) = motion.next() else {
+            return PaperVerdict::NoMoreImpacts;
+        };
         match event.kind {
-            EventKind::Impact { velocity_before, .. } => impacts.push((event.time - last, velocity_before, event.time)),
+            EventKind::Impact {
+                velocity_before, ..
+            } => impacts.push((event.time - last, velocity_before, event.time)),
             EventKind::Stick { .. } => return PaperVerdict::Sticks,
             EventKind::Graze { .. } | EventKind::Release => continue,
         }

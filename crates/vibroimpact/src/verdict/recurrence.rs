@@ -20,11 +20,12 @@ pub(super) fn candidates(
     (1..=longest.min(j / 2)).filter_map(move |m| {
         time += impacts[j + 1 - m].1;
         #[allow(clippy::cast_precision_loss)] // a small count
-        let close = |k: usize| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
+        let close =
+            |k: usize| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
         let periods = (beta * time / TAU).round();
         // the phases agree, so the time is close to whole periods
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
-        (close(j) && close(j - 1) && (1.0..1e6).contains(&periods)).then(|| (m, periods as u32))
+        (close(j) && close(j - 1) && (1.0..1e6).contains(&periods)).then_some((m, periods as u32))
     })
 }
 
@@ -41,12 +42,18 @@ pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> 
         return false;
     }
     let m = u32::try_from(cycle.points.len()).unwrap_or(u32::MAX);
-    let (Ok(reference), Ok(real)) = (Lap::fly(osc, nearest.state, m), Lap::fly(osc, *state, m)) else { return false };
+    let (Ok(reference), Ok(real)) = (Lap::fly(osc, nearest.state, m), Lap::fly(osc, *state, m))
+    else {
+        return false;
+    };
     if apart <= AT_ROUNDING {
         return true;
     }
     let offset = |a: &ImpactState, b: &ImpactState| {
-        [crate::system::phase::difference(a.phase, b.phase), a.velocity - b.velocity]
+        [
+            crate::system::phase::difference(a.phase, b.phase),
+            a.velocity - b.velocity,
+        ]
     };
     let before = offset(state, &nearest.state);
     let linear = reference.derivative.apply(before);

@@ -25,6 +25,8 @@ mod exact;
 #[cfg(test)]
 mod fixed;
 #[cfg(test)]
+mod grazing;
+#[cfg(test)]
 mod random;
 #[cfg(test)]
 mod referee;

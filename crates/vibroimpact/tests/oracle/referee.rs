@@ -22,11 +22,20 @@ const HALF_ULP: f64 = 0.5 * f64::EPSILON;
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Passed {
     /// An impact, so many units off, at this time.
-    Impact { units: f64, s: f64 },
+    Impact {
+        units: f64,
+        s: f64,
+    },
     /// An impact later than the horizon: nothing came before it, and it is one.
-    Beyond { units: f64 },
+    Beyond {
+        units: f64,
+    },
     /// A grazing contact: its true depth (positive: short of the stop), time, and the depth the data leave open.
-    Grazing { depth: f64, s: f64, open: f64 },
+    Grazing {
+        depth: f64,
+        s: f64,
+        open: f64,
+    },
     Never,
     NoneUntil,
     Stays,
@@ -36,16 +45,72 @@ pub(crate) enum Passed {
 #[derive(Clone, Debug)]
 #[allow(dead_code)] // read through Debug only
 pub(crate) enum Fault {
-    /// The exact flight strikes, at `s`, and the answer is later or never; `depth` of the arch it cuts.
-    Missed { answer: Contact, s: f64, p: f64, depth: Option<f64> },
-    /// The answer is a contact where the exact flight has none.
-    Invented { answer: Contact, first: Option<f64>, nearest: Option<Apex> },
-    WrongSide { answer: Contact, side: Side },
-    Inaccurate { answer: Contact, s: f64, error: f64, units: f64, condition: f64 },
+    /// The exact flight strikes, at `s`, and the answer is later or never. The arch it cuts, if it is one.
+    Missed {
+        answer: Contact,
+        s: f64,
+        p: f64,
+        arch: Option<Arch>,
+    },
+    /// The answer is a contact where the exact flight has none; the first one it has, and the closest point nearby.
+    Invented {
+        answer: Contact,
+        first: Option<f64>,
+        arch: Option<Arch>,
+    },
+    WrongSide {
+        answer: Contact,
+        side: Side,
+    },
+    Inaccurate {
+        answer: Contact,
+        s: f64,
+        error: f64,
+        units: f64,
+        condition: f64,
+    },
     /// Called grazing although the data determine more.
-    FalseGrazing { answer: Contact, s: f64, depth: f64, open: f64 },
+    FalseGrazing {
+        answer: Contact,
+        s: f64,
+        depth: f64,
+        open: f64,
+    },
     /// A claim about all time that does not hold.
-    FalseReason { answer: Contact },
+    FalseReason {
+        answer: Contact,
+    },
+}
+
+/// A closest point: its depth (positive: short of the stop) and the depth that the data leave open.
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code)] // read through Debug only
+pub(crate) struct Arch {
+    pub(crate) s: f64,
+    pub(crate) depth: f64,
+    pub(crate) open: f64,
+}
+
+fn arch(case: &Case, exact: &Exact, apex: Option<Apex>) -> Option<Arch> {
+    apex.map(|apex| Arch {
+        s: apex.s.to_f64(),
+        depth: -apex.past,
+        open: ALLOWED * open(case, exact, apex.side, apex.s),
+    })
+}
+
+fn invented(
+    case: &Case,
+    exact: &Exact,
+    answer: Contact,
+    first: Option<f64>,
+    apex: Option<Apex>,
+) -> Fault {
+    Fault::Invented {
+        answer,
+        first,
+        arch: arch(case, exact, apex),
+    }
 }
 
 /// Half a unit of uncertainty of every datum, as an uncertainty of the distance.
@@ -70,8 +135,17 @@ pub(crate) fn verdict(case: &Case, limits: SearchLimits, horizon: f64) -> Result
 /// Judges one answer.
 pub(crate) fn judge(case: &Case, answer: Contact, horizon: f64) -> Result<Passed, Fault> {
     if case.stays() || matches!(answer, Contact::Contact { .. }) {
-        let right = case.stays() && matches!(answer, Contact::Contact { side } if Some(side) == case.begins_on());
-        return if right { Ok(Passed::Stays) } else { Err(Fault::Invented { answer, first: None, nearest: None }) };
+        let right = case.stays()
+            && matches!(answer, Contact::Contact { side } if Some(side) == case.begins_on());
+        return if right {
+            Ok(Passed::Stays)
+        } else {
+            Err(Fault::Invented {
+                answer,
+                first: None,
+                arch: None,
+            })
+        };
     }
     let exact = Exact::new(case);
     let told_until = match answer {
@@ -87,10 +161,12 @@ pub(crate) fn judge(case: &Case, answer: Contact, horizon: f64) -> Result<Passed
             if let Some(strike) = story.strike
                 && strike.s.to_f64() < told_until.min(horizon)
             {
-                return Err(missed(&exact, answer, &strike));
+                return Err(missed(case, &exact, answer, &strike));
             }
             match answer {
-                Contact::Never(reason) if !holds(case, reason) => Err(Fault::FalseReason { answer }),
+                Contact::Never(reason) if !holds(case, reason) => {
+                    Err(Fault::FalseReason { answer })
+                }
                 Contact::Never(_) => Ok(Passed::Never),
                 _ => Ok(Passed::NoneUntil),
             }
@@ -99,12 +175,28 @@ pub(crate) fn judge(case: &Case, answer: Contact, horizon: f64) -> Result<Passed
     }
 }
 
-fn missed(exact: &Exact, answer: Contact, strike: &Strike) -> Fault {
-    let depth = if strike.q < 0.0 { exact.extremum(strike.side, strike.s).map(|apex| -apex.past) } else { None };
-    Fault::Missed { answer, s: strike.s.to_f64(), p: strike.p, depth }
+fn missed(case: &Case, exact: &Exact, answer: Contact, strike: &Strike) -> Fault {
+    let apex = if strike.q < 0.0 {
+        exact.extremum(strike.side, strike.s)
+    } else {
+        None
+    };
+    Fault::Missed {
+        answer,
+        s: strike.s.to_f64(),
+        p: strike.p,
+        arch: arch(case, exact, apex),
+    }
 }
 
-fn impact(case: &Case, exact: &Exact, story: &Story, answer: Contact, time: f64, side: Side) -> Result<Passed, Fault> {
+fn impact(
+    case: &Case,
+    exact: &Exact,
+    story: &Story,
+    answer: Contact,
+    time: f64,
+    side: Side,
+) -> Result<Passed, Fault> {
     let Some(strike) = story.strike else {
         if story.searched < time {
             // later than the horizon: it must at least be a root
@@ -114,15 +206,34 @@ fn impact(case: &Case, exact: &Exact, story: &Story, answer: Contact, time: f64,
             return if units <= ALLOWED {
                 Ok(Passed::Beyond { units })
             } else {
-                Err(Fault::Inaccurate { answer, s: strike.s.to_f64(), error, units, condition })
+                Err(Fault::Inaccurate {
+                    answer,
+                    s: strike.s.to_f64(),
+                    error,
+                    units,
+                    condition,
+                })
             };
         }
-        return Err(Fault::Invented { answer, first: None, nearest: exact.extremum(side, Fixed::from_f64(time)) });
+        return Err(invented(
+            case,
+            exact,
+            answer,
+            None,
+            exact.extremum(side, Fixed::from_f64(time)),
+        ));
     };
     let (error, units, condition) = off(case, exact, &strike, time);
     let s = strike.s.to_f64();
     if units <= ALLOWED {
-        return if strike.side == side { Ok(Passed::Impact { units, s }) } else { Err(Fault::WrongSide { answer, side: strike.side }) };
+        return if strike.side == side {
+            Ok(Passed::Impact { units, s })
+        } else {
+            Err(Fault::WrongSide {
+                answer,
+                side: strike.side,
+            })
+        };
     }
     // the closest point of the arch, where the root is one side of a shallow arch: within the depth that the data leave
     // open its two roots and their condition mean nothing, and the arch itself is the answer
@@ -136,34 +247,62 @@ fn impact(case: &Case, exact: &Exact, story: &Story, answer: Contact, time: f64,
         }
     }
     if error > 0.0 && error > 1e-6 * s {
-        Err(missed(exact, answer, &strike))
+        Err(missed(case, exact, answer, &strike))
     } else if error < -1e-6 * s {
-        Err(Fault::Invented { answer, first: Some(s), nearest: exact.extremum(side, Fixed::from_f64(time)) })
+        Err(invented(
+            case,
+            exact,
+            answer,
+            Some(s),
+            exact.extremum(side, Fixed::from_f64(time)),
+        ))
     } else {
-        Err(Fault::Inaccurate { answer, s, error, units, condition })
+        Err(Fault::Inaccurate {
+            answer,
+            s,
+            error,
+            units,
+            condition,
+        })
     }
 }
 
-fn grazing(case: &Case, exact: &Exact, story: &Story, answer: Contact, time: f64, side: Side) -> Result<Passed, Fault> {
+fn grazing(
+    case: &Case,
+    exact: &Exact,
+    story: &Story,
+    answer: Contact,
+    time: f64,
+    side: Side,
+) -> Result<Passed, Fault> {
     let first = story.strike.map(|strike| strike.s.to_f64());
     let Some(apex) = exact.extremum(side, Fixed::from_f64(time)) else {
-        return Err(Fault::Invented { answer, first, nearest: None });
+        return Err(invented(case, exact, answer, first, None));
     };
     let (s, open) = (apex.s.to_f64(), open(case, exact, side, apex.s));
     let curvature = exact.bend(side, apex.s).abs();
     let width = 2.0 * (2.0 * ALLOWED * open / curvature).sqrt() + 1e-15 * s;
     if (s - time).abs() > width {
-        return Err(Fault::Invented { answer, first, nearest: Some(apex) });
+        return Err(invented(case, exact, answer, first, Some(apex)));
     }
     if let Some(strike) = story.strike
         && strike.s.to_f64() < s - width
     {
-        return Err(missed(exact, answer, &strike));
+        return Err(missed(case, exact, answer, &strike));
     }
     if apex.past.abs() > ALLOWED * open {
-        return Err(Fault::FalseGrazing { answer, s, depth: -apex.past, open });
+        return Err(Fault::FalseGrazing {
+            answer,
+            s,
+            depth: -apex.past,
+            open,
+        });
     }
-    Ok(Passed::Grazing { depth: -apex.past, s, open })
+    Ok(Passed::Grazing {
+        depth: -apex.past,
+        s,
+        open,
+    })
 }
 
 /// A reason for never holds by the textbook amplitudes, or by the fraction itself.
@@ -175,7 +314,9 @@ fn holds(case: &Case, reason: Horizon) -> bool {
             case.gap * z > 1.0 - 1e-9 && case.second.is_none_or(|gap| gap * z > 1.0 - 1e-9)
         }
         Horizon::CommonPeriod { p, q } => {
-            case.zeta == 0.0 && p != q && (case.beta - f64::from(p) / f64::from(q)).abs() <= 4.0 * f64::EPSILON * case.beta
+            case.zeta == 0.0
+                && p != q
+                && (case.beta - f64::from(p) / f64::from(q)).abs() <= 4.0 * f64::EPSILON * case.beta
         }
     }
 }

@@ -1,0 +1,157 @@
+//! Ten thousand flights aimed at grazing: a tangency is planted, then missed by a chosen depth.
+//!
+//! From the stop the speed of departure is solved for, so that the highest point of a later arch comes back to the stop
+//! to within the depth; from free starts the stop is put there. Depths run from 1e-1 to 1e-13 on both sides. The arch is
+//! the first, or a later one that overtops all before it. Rounding the solution to doubles moves the depth by some
+//! 1e-16; the referee works with what the doubles are.
+
+use super::case::Case;
+use super::exact::Exact;
+use super::fixed::Fixed;
+use super::random::Random;
+use super::referee::{Passed, verdict};
+use super::starts::horizon;
+use super::tally::on_all_cores;
+use core::f64::consts::TAU;
+use std::sync::atomic::{AtomicU64, Ordering};
+use vibroimpact::Side;
+use vibroimpact::flight::SearchLimits;
+
+const AIMED: u64 = 10_000;
+
+/// The records of `x` along a flight without stops: highest points above everything before, up to `until`.
+fn records(case: &Case, until: f64) -> Vec<Fixed> {
+    let open = Case {
+        gap: 1e6,
+        second: None,
+        ..*case
+    };
+    let exact = Exact::new(&open);
+    let step = 0.5 * exact.cell_length();
+    let (mut highest, mut records) = (f64::NEG_INFINITY, Vec::new());
+    let mut before = exact.solution.at(Fixed::ZERO);
+    let mut s = step;
+    while s < until {
+        let node = exact.solution.at(Fixed::from_f64(s));
+        if before.v.to_f64() > 0.0
+            && node.v.to_f64() <= 0.0
+            && let Some(apex) = exact.extremum(Side::Upper, before.s)
+            && apex.past > highest
+        {
+            highest = apex.past;
+            records.push(apex.s);
+        }
+        before = node;
+        s += step;
+    }
+    records
+}
+
+/// A flight with a planted tangency, missed by `depth` (negative: cut by that much).
+fn planted(random: &mut Random, depth: f64, on_stop: bool) -> Option<Case> {
+    let beta = random.beta();
+    let zeta = if random.chance(0.7) {
+        0.0
+    } else {
+        random.decade(-6.0, 0.0)
+    };
+    let gap = random.gap();
+    let bare = Case {
+        zeta,
+        ..Case::from_stop(beta, gap, -random.decade(-3.0, 0.7), random.phase())
+    };
+    let until = (25.0 * TAU / beta.min(1.0)).min(80.0);
+    if random.chance(0.5) {
+        from_stop(random, bare, depth, until)
+    } else {
+        free(random, bare, depth, until)
+    }
+}
+
+/// The stop where the arch is.
+fn free(random: &mut Random, bare: Case, depth: f64, until: f64) -> Option<Case> {
+    let x = random.uniform(-3.0, 3.0);
+    let v = random.sign() * random.decade(-3.0, 0.7);
+    let case = Case { x, v, ..bare };
+    let records = records(&case, until);
+    if records.is_empty() {
+        return None;
+    }
+    let s = random.one_of(&records);
+    let exact = Exact::new(&Case { gap: 0.0, ..case });
+    let gap = exact.past(&exact.solution.at(s), Side::Upper) + Fixed::from_f64(depth);
+    let case = Case {
+        gap: gap.to_f64(),
+        ..case
+    };
+    (case.x < case.gap).then_some(case)
+}
+
+/// The speed of departure for which the arch returns to the stop, by Newton's iteration: the height of an arch changes
+/// with the speed by the response $S$ at its top.
+fn from_stop(random: &mut Random, bare: Case, depth: f64, until: f64) -> Option<Case> {
+    let records = records(&bare, until);
+    let mut s = *records
+        .get(usize::try_from(random.next() % 4).expect("small"))
+        .or(records.last())?;
+    let mut case = bare;
+    let no_force = (Fixed::ZERO, Fixed::ZERO);
+    for _ in 0..40 {
+        let exact = Exact::new(&case);
+        let apex = exact.extremum(Side::Upper, s)?;
+        s = apex.s;
+        let mut unit = *exact.solution.data();
+        (unit.x, unit.v, unit.force) = (Fixed::ZERO, Fixed::ONE, no_force);
+        let response = super::textbook::Solution::new(unit).at(s).d.to_f64();
+        let step = -(apex.past + depth) / response;
+        case.v += step.clamp(-0.5, 0.5);
+        if !(case.v < 0.0 && case.v > -20.0) || s.to_f64() < 0.05 {
+            return None;
+        }
+        if step.abs() <= 4.0 * f64::EPSILON * case.v.abs() {
+            return Some(case);
+        }
+    }
+    None
+}
+
+#[test]
+fn aimed_at_grazing() {
+    let blurred = AtomicU64::new(0);
+    let tally = on_all_cores(AIMED, 20, |index, tally| {
+        let mut random = Random::new(2, index);
+        let depth = random.sign() * random.decade(-13.0, -1.0);
+        let case = loop {
+            if let Some(case) = planted(&mut random, depth, index % 2 == 0) {
+                break case;
+            }
+        };
+        let horizon = horizon(&case, false).min(160.0);
+        let mut limits = SearchLimits::default();
+        limits.periods = limits.periods.min(1.0 + 1.1 * horizon * case.beta / TAU);
+        let verdict = verdict(&case, limits, horizon);
+        if let Ok(Passed::Grazing { depth, s, .. }) = verdict
+            && depth.abs() >= 1e-12
+            && s < 50.0
+            && case.beta < 3.0
+        {
+            blurred.fetch_add(1, Ordering::Relaxed);
+        }
+        tally.add(case, verdict);
+    });
+    println!(
+        "{tally}from the stop        {:>9}",
+        from_stop.load(Ordering::Relaxed)
+    );
+    assert_eq!(tally.total(), AIMED);
+    assert!(
+        from_stop.into_inner() > AIMED / 5,
+        "flights from the stop are among them"
+    );
+    assert_eq!(
+        blurred.into_inner(),
+        0,
+        "grazing answers at depths of 1e-12 and more, in moderate flights"
+    );
+    tally.expect_no_fault();
+}
