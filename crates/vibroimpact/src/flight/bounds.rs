@@ -3,8 +3,8 @@
 //! Let $`y = \sigma x - \delta_\sigma \le 0`$ be the (negative) distance to a stop, $`p = \dot y`$, $`q = \ddot y`$. The energy
 //! radius $`r = \sqrt{x^2 + v^2}`$ obeys $`\dot r = (v\sin\theta - 2\zeta v^2)/r \le 1`$, so over a window of length $`H`$
 //!
-//! $$`|x|, |v| \le r + H, \quad |\ddot x| \le B_2 = 1 + (r+H)(1+2\zeta), \quad
-//!   |\dddot x| \le B_3 = \beta + (r+H) + 2\zeta B_2,`$$
+//! $$`|x| \le r + H, \quad |v| \le V = \min\bigl(r + H,\ |v_0| + (1 + (r+H)(1+2\zeta))H\bigr),`$$
+//! $$`|\ddot x| \le B_2 = 1 + (r+H) + 2\zeta V, \quad |\dddot x| \le B_3 = \beta + V + 2\zeta B_2,`$$
 //! $$`|x^{(4)}| \le B_4 = \beta^2 + B_2 + 2\zeta B_3, \quad |x^{(5)}| \le B_5 = \beta^3 + B_3 + 2\zeta B_4.`$$
 //!
 //! These hold for every $`\beta`$ and $`\zeta`$ and stay small through resonance, where the textbook amplitudes blow up.
@@ -26,16 +26,14 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Over a time `span` from a state with energy radius `r`.
+    /// Over a time `span` from a state with energy radius `r` and speed `speed`.
     #[inline]
-    pub(super) fn new(flight: &Flight, r: f64, span: f64) -> Self {
+    pub(super) fn new(flight: &Flight, r: f64, speed: f64, span: f64) -> Self {
         let (beta, zeta2) = (flight.response().beta(), 2.0 * flight.response().damping());
         let reach = r + span;
-        let b2 = 1.0 + reach * (1.0 + zeta2);
-        Self {
-            b2,
-            b3: beta + reach + zeta2 * b2,
-        }
+        let fastest = reach.min(speed + (1.0 + reach * (1.0 + zeta2)) * span);
+        let b2 = 1.0 + reach + zeta2 * fastest;
+        Self { b2, b3: beta + fastest + zeta2 * b2 }
     }
 
     fn b4(&self, flight: &Flight) -> f64 {
@@ -70,10 +68,10 @@ pub(super) fn first_zero(g: f64, p: f64, c: f64) -> f64 {
 /// acceleration `q` towards it and energy radius `r`; `reach` is the window to try first.
 #[inline]
 pub(super) fn safe_time(flight: &Flight, g: f64, p: f64, q: f64, r: f64, reach: f64) -> f64 {
-    let near = Window::new(flight, r, reach);
+    let near = Window::new(flight, r, p.abs(), reach);
     let by_third = first_zero(g, p, (q + near.b3 * reach).min(near.b2)).min(reach);
     // the second-derivative bound alone needs no short window: for fast forcing it goes further
-    let by_second = first_zero(g, p, Window::new(flight, r, FAR).b2).min(FAR);
+    let by_second = first_zero(g, p, Window::new(flight, r, p.abs(), FAR).b2).min(FAR);
     by_third.max(by_second)
 }
 
@@ -84,7 +82,7 @@ const FAR: f64 = 1.0;
 ///
 /// $`y(h)/h \le p + q h/2 + (\dddot y_0 + B_4 H) h^2/6`$, whose first positive zero is returned (at most the window). At
 /// rest ($`p = 0`$) the next order decides, and so on to the fourth: `None` says the mass does not leave the stop.
-pub(super) fn leave_time(flight: &Flight, sign: f64, r: f64) -> Option<f64> {
+pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option<f64> {
     let (p, q) = (sign * flight.v, sign * flight.a);
     let (j, k) = (sign * flight.jerk(), sign * flight.snap());
     if p > 0.0 {
@@ -95,7 +93,7 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, r: f64) -> Option<f64> {
         if q > 0.0 {
             window = window.min(-8.0 * p / q);
         }
-        let b4 = Window::new(flight, r, window).b4(flight);
+        let b4 = Window::new(flight, r, p.abs(), window).b4(flight);
         let (b, c) = (0.5 * q, (j + b4 * window) / 6.0);
         let disc = b * b - 4.0 * p * c;
         let zero = if disc < 0.0 {
@@ -107,7 +105,12 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, r: f64) -> Option<f64> {
         };
         return Some(zero.min(window));
     }
-    let bounds = Window::new(flight, r, window);
+    if gap >= 1.0 {
+        // the force never presses: g'' + 2 zeta g' + g = gap - sin >= 0 from rest keeps g >= 0 while S >= 0, half a
+        // natural period at least, whatever rounding makes of the derivatives at a force that just balances
+        return Some(window);
+    }
+    let bounds = Window::new(flight, r, p.abs(), window);
     if q < 0.0 {
         // q/2 + (j + b4 H) h/6 < 0
         let c = j + bounds.b4(flight) * window;
@@ -143,7 +146,7 @@ pub(super) fn single_contact_within(
     if span > FAR {
         return None;
     }
-    let window = Window::new(flight, r, span);
+    let window = Window::new(flight, r, p.abs(), span);
     let lowest = (q - window.b3 * span).max(-window.b2);
     // the same condition says that y(span) >= (p/2 + lowest span/2) span > 0
     (p + lowest * span > 0.0).then_some(span)

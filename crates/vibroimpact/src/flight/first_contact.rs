@@ -147,7 +147,7 @@ impl<'a> Search<'a> {
             room[index(side)] = left;
             if left <= 0.0 {
                 leave =
-                    leave.min(leave_time(flight, side.sign(), r).ok_or(Contact::Contact { side })?);
+                    leave.min(leave_time(flight, side.sign(), stop.gap, r).ok_or(Contact::Contact { side })?);
             }
         }
         let reach = FIRST_REACH / (1.0 + flight.response().damping());

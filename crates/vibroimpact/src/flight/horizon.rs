@@ -34,19 +34,27 @@ pub enum Horizon {
 /// How far a search for the next contact goes before it answers that there is none until then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchLimits {
-    /// Forcing periods to look ahead.
+    /// Periods to look ahead, of the force or of the oscillator, whichever is slower.
     pub periods: f64,
     /// Evaluations of one flight. An ordinary flight takes about ten.
     pub steps: u32,
 }
 
 impl Default for SearchLimits {
-    /// A thousand forcing periods, a hundred thousand evaluations (a few milliseconds).
+    /// A thousand periods, a hundred thousand evaluations (a few milliseconds).
     fn default() -> Self {
         Self {
             periods: 1000.0,
             steps: 100_000,
         }
+    }
+}
+
+impl SearchLimits {
+    /// The time a search looks ahead, unless its steps run out before.
+    #[must_use]
+    pub fn horizon(&self, osc: &Oscillator) -> f64 {
+        self.periods * osc.period().max(TAU)
     }
 }
 
@@ -85,17 +93,15 @@ impl Envelope {
         } else if zeta < 0.9 {
             let w = ((1.0 - zeta) * (1.0 + zeta)).sqrt();
             (hypot(xf, (vf + zeta * xf) / w), zeta)
-        } else {
+        } else if zeta < 1.1 {
             // |free| <= (|xf| + |vf + zeta xf| s) e^{-slow s}, and s e^{-slow s} <= 2/(e slow) e^{-slow s/2}
-            let slow = if zeta < 1.0 {
-                zeta
-            } else {
-                1.0 / (zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt())
-            };
-            (
-                xf.abs() + (vf + zeta * xf).abs() * 2.0 / (E * slow),
-                0.5 * slow,
-            )
+            let slow = if zeta < 1.0 { zeta } else { slow_root(zeta) };
+            (xf.abs() + (vf + zeta * xf).abs() * 2.0 / (E * slow), 0.5 * slow)
+        } else {
+            // two real exponents: |free| <= (|c1| + |c2|) e^{-slow s}
+            let slow = slow_root(zeta);
+            let fast = 1.0 / slow;
+            (((vf + fast * xf).abs() + (vf + slow * xf).abs()) / (fast - slow), slow)
         };
         Some(Self {
             steady,
@@ -143,6 +149,11 @@ impl Envelope {
         };
         s + by_steady.max(by_free)
     }
+}
+
+/// The slower of the two real exponents of an overdamped oscillator; their product is 1.
+fn slow_root(zeta: f64) -> f64 {
+    1.0 / (zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt())
 }
 
 /// How much `angle` has to grow until `amplitude * sin(angle)` reaches `level`; 0 when it is there already or the
@@ -198,7 +209,7 @@ impl Outlook {
     pub(super) fn new(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Self {
         let envelope = Envelope::new(flight);
         let mut outlook = Self {
-            until: limits.periods * osc.period(),
+            until: limits.horizon(osc),
             never: None,
             envelope,
         };
@@ -207,15 +218,13 @@ impl Outlook {
                 .map(|(_, stop)| e.clear_from(stop.gap))
                 .try_fold(0.0_f64, |latest, one| Some(latest.max(one?)))
         });
-        if let Some(clear) = clear
-            && clear <= outlook.until
-        {
+        if let Some(clear) = clear {
             (outlook.until, outlook.never) = (clear, Some(Horizon::Amplitude));
         } else if osc.damping() == 0.0
             && osc.beta() != 1.0
             && let Some((p, q)) = as_fraction(osc.beta())
             && p != q
-            && f64::from(p) <= limits.periods
+            && TAU * f64::from(q) <= outlook.until
         {
             (outlook.until, outlook.never) =
                 (TAU * f64::from(q), Some(Horizon::CommonPeriod { p, q }));

@@ -175,7 +175,7 @@ fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits) -> Verdict {
         Some(End::Stuck(side)) => Verdict::Stuck(side),
         Some(End::NoneFor(time)) => {
             let periods = time / osc.period();
-            if periods >= 0.999 * limits.periods {
+            if time >= 0.999 * limits.horizon(osc) {
                 Verdict::NoImpact(NoImpact::ForPeriods(periods.floor()))
             } else {
                 Verdict::Undecided(Undecided::Search { periods })

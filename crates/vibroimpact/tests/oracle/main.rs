@@ -27,6 +27,10 @@ mod fixed;
 #[cfg(test)]
 mod grazing;
 #[cfg(test)]
+mod long;
+#[cfg(test)]
+mod march;
+#[cfg(test)]
 mod random;
 #[cfg(test)]
 mod referee;

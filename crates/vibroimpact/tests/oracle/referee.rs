@@ -30,12 +30,8 @@ pub(crate) enum Passed {
     Beyond {
         units: f64,
     },
-    /// A grazing contact: its true depth (positive: short of the stop), time, and the depth the data leave open.
-    Grazing {
-        depth: f64,
-        s: f64,
-        open: f64,
-    },
+    /// A grazing contact: its true depth (positive: short of the stop), and time.
+    Grazing { depth: f64, s: f64 },
     Never,
     NoneUntil,
     Stays,
@@ -298,11 +294,7 @@ fn grazing(
             open,
         });
     }
-    Ok(Passed::Grazing {
-        depth: -apex.past,
-        s,
-        open,
-    })
+    Ok(Passed::Grazing { depth: -apex.past, s })
 }
 
 /// A reason for never holds by the textbook amplitudes, or by the fraction itself.

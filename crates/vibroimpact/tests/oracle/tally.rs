@@ -5,6 +5,7 @@ use super::referee::{Fault, Passed};
 use core::fmt;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicU64, Ordering};
+use vibroimpact::flight::Contact;
 
 /// Counts by kind, the worst errors, and every wrong answer.
 #[derive(Clone, Debug, Default)]
@@ -41,6 +42,17 @@ impl Tally {
             Ok(Passed::NoneUntil) => self.until += 1,
             Ok(Passed::Stays) => self.stays += 1,
             Err(fault) => self.faults.push((case, fault)),
+        }
+    }
+
+    /// An answer that another search gave as well.
+    pub(crate) fn count(&mut self, answer: &Contact) {
+        match answer {
+            Contact::Impact { .. } => self.impacts += 1,
+            Contact::Grazing { .. } => self.grazing += 1,
+            Contact::Never(_) => self.never += 1,
+            Contact::NoneUntil(_) => self.until += 1,
+            Contact::Contact { .. } => self.stays += 1,
         }
     }
 
