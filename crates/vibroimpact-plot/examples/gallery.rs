@@ -9,23 +9,16 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use vibroimpact_plot::{
-    Axis, Colour, DPI_300, Dash, Figure, HLine, Hatch, Key, Legend, Line, Panel, Pattern, Points,
-    Raster, Rects, Region, SERIES, Shape, Side, Stroke, Text, Tick, VLine, Wall, class_style,
-    legend_text,
+    Axis, Colour, DPI_300, Dash, Figure, HLine, Hatch, Key, Legend, Line, Panel, Pattern, Points, Raster, Rects,
+    Region, SERIES, Shape, Side, Stroke, Text, Tick, VLine, Wall, class_style, legend_text,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let dir = std::env::args()
-        .nth(1)
-        .ok_or("give the directory to write to")?;
+    let dir = std::env::args().nth(1).ok_or("give the directory to write to")?;
     std::fs::create_dir_all(&dir)?;
-    for (name, figure) in [
-        ("waveform", waveform()),
-        ("basin", basin()?),
-        ("map", map()),
-        ("panels", panels()),
-        ("impacts", impacts()),
-    ] {
+    for (name, figure) in
+        [("waveform", waveform()), ("basin", basin()?), ("map", map()), ("panels", panels()), ("impacts", impacts())]
+    {
         let path = Path::new(&dir).join(name);
         std::fs::write(path.with_extension("svg"), figure.to_svg())?;
         std::fs::write(path.with_extension("png"), figure.to_png(DPI_300)?)?;
@@ -41,11 +34,7 @@ fn motion(to: f64) -> (Vec<f64>, Vec<f64>) {
         .iter()
         .map(|t| {
             let free = 1.1 * t.sin() + 0.25 * (2.0 * t + 0.6).cos();
-            if free > 0.6 {
-                0.6 - 0.7 * (free - 0.6)
-            } else {
-                free
-            }
+            if free > 0.6 { 0.6 - 0.7 * (free - 0.6) } else { free }
         })
         .collect();
     (xs, ys)
@@ -59,34 +48,22 @@ fn waveform() -> Figure {
         .collect();
     let line = Line::new(xs, ys, SERIES[0]);
     let impacts = Points::new(hits.clone(), vec![0.6; hits.len()], SERIES[1]).rim(Colour::WHITE);
-    let legend = Legend::below()
-        .line(line.stroke, "displacement *ξ*(*τ*)")
-        .points(&impacts, "impact")
-        .patch(
-            vibroimpact_plot::ClassStyle {
-                colour: Colour::GREY.alpha(0.12),
-                hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)),
-            },
-            "stop at *δ*",
-        );
+    let legend = Legend::below().line(line.stroke, "displacement *ξ*(*τ*)").points(&impacts, "impact").patch(
+        vibroimpact_plot::ClassStyle {
+            colour: Colour::GREY.alpha(0.12),
+            hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)),
+        },
+        "stop at *δ*",
+    );
     let ticks = (0..=3).map(|k| {
-        let text = if k == 0 {
-            "0".into()
-        } else {
-            format!("{}π", 2 * k)
-        };
+        let text = if k == 0 { "0".into() } else { format!("{}π", 2 * k) };
         Tick::new(TAU * f64::from(k), text)
     });
     let panel = Panel::new(
-        Axis::new("dimensionless time *τ*")
-            .range(0.0, 6.0 * PI)
-            .ticks(ticks),
+        Axis::new("dimensionless time *τ*").range(0.0, 6.0 * PI).ticks(ticks),
         Axis::new("*ξ*").range(-1.6, 0.9),
     )
-    .with(HLine::new(
-        0.0,
-        Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dotted),
-    ))
+    .with(HLine::new(0.0, Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dotted)))
     .with(Wall::new(0.6, Side::Above))
     .with(line)
     .with(impacts);
@@ -114,26 +91,19 @@ fn basin() -> Result<Figure, Box<dyn Error>> {
     let palette: Vec<Colour> = labels.iter().map(|l| class_style(l).colour).collect();
     let grid = (usize::from(n), usize::from(n));
     let raster = Raster::centred((-1.0, 1.0), (-2.0, 2.0), grid, classes, palette)?;
-    let fixed = Points::new([0.12], [-0.35], Colour::BLACK)
-        .size(13.0)
-        .rim(Colour::WHITE);
+    let fixed = Points::new([0.12], [-0.35], Colour::BLACK).size(13.0).rim(Colour::WHITE);
     let mut legend = Legend::below();
     for label in labels {
         // a raster shows fills without hatches, and so must its legend
-        let style = vibroimpact_plot::ClassStyle {
-            hatch: None,
-            ..class_style(label)
-        };
+        let style = vibroimpact_plot::ClassStyle { hatch: None, ..class_style(label) };
         legend = legend.patch(style, legend_text(label));
     }
     legend = legend.points(&fixed, "fixed point");
-    let panel = Panel::new(
-        Axis::new("displacement *ξ*_0").range(-1.0, 1.0),
-        Axis::new("velocity *ξ*_0′").range(-2.0, 2.0),
-    )
-    .with(raster)
-    .with(fixed)
-    .with(Text::new(0.12, -0.35, "1/1").shift(24.0, 14.0));
+    let panel =
+        Panel::new(Axis::new("displacement *ξ*_0").range(-1.0, 1.0), Axis::new("velocity *ξ*_0′").range(-2.0, 2.0))
+            .with(raster)
+            .with(fixed)
+            .with(Text::new(0.12, -0.35, "1/1").shift(24.0, 14.0));
     Ok(Figure::new(panel).size(680.0, 560.0).legend(legend))
 }
 
@@ -181,11 +151,7 @@ fn map() -> Figure {
             };
             let second = (i * 7 + j * 11) % 23 == 0;
             let classes = if second { vec![class, 6] } else { vec![class] };
-            let classes = if (i, j) == (20, 4) || (i, j) == (21, 4) {
-                vec![15]
-            } else {
-                classes
-            };
+            let classes = if (i, j) == (20, 4) || (i, j) == (21, 4) { vec![15] } else { classes };
             cells.cell((x - 0.025, x + 0.025), (y - 0.0625, y + 0.0625), &classes);
         }
     }
@@ -219,9 +185,7 @@ fn map() -> Figure {
         ("T", 0.55, 1.4),
         ("U", 1.85, 0.4),
     ];
-    let points = Points::new(places.map(|p| p.1), places.map(|p| p.2), Colour::BLACK)
-        .size(10.0)
-        .rim(Colour::WHITE);
+    let points = Points::new(places.map(|p| p.1), places.map(|p| p.2), Colour::BLACK).size(10.0).rim(Colour::WHITE);
     panel.add(points.clone());
     for (name, x, y) in places {
         panel.add(Text::new(x, y, format!("*{name}*")).shift(15.0, 15.0));
@@ -230,27 +194,18 @@ fn map() -> Figure {
     for label in labels {
         legend = legend.patch(class_style(label), legend_text(label));
     }
-    legend = legend
-        .line(grazing.stroke, "grazing")
-        .entry(Key::Outline(outline), "2/1 of 1971")
-        .points(&points, "*N* … *U*");
+    legend =
+        legend.line(grazing.stroke, "grazing").entry(Key::Outline(outline), "2/1 of 1971").points(&points, "*N* … *U*");
     Figure::new(panel).size(680.0, 620.0).legend(legend)
 }
 
 fn panels() -> Figure {
     let (xs, ys) = motion(4.0 * PI);
-    let vs: Vec<f64> = ys
-        .windows(2)
-        .zip(xs.windows(2))
-        .map(|(y, x)| (y[1] - y[0]) / (x[1] - x[0]))
-        .collect();
-    let time = Panel::new(
-        Axis::new("*τ*").range(0.0, 4.0 * PI),
-        Axis::new("*ξ*").range(-1.6, 0.9),
-    )
-    .caption("**(a)** waveform")
-    .with(Wall::new(0.6, Side::Above))
-    .with(Line::new(xs, ys.clone(), SERIES[0]));
+    let vs: Vec<f64> = ys.windows(2).zip(xs.windows(2)).map(|(y, x)| (y[1] - y[0]) / (x[1] - x[0])).collect();
+    let time = Panel::new(Axis::new("*τ*").range(0.0, 4.0 * PI), Axis::new("*ξ*").range(-1.6, 0.9))
+        .caption("**(a)** waveform")
+        .with(Wall::new(0.6, Side::Above))
+        .with(Line::new(xs, ys.clone(), SERIES[0]));
     let phase = Panel::new(Axis::new("*ξ*").range(-1.6, 0.9), Axis::new("*ξ*′"))
         .caption("**(b)** phase plane")
         .with(Wall::new(0.6, Side::Right))
@@ -259,32 +214,21 @@ fn panels() -> Figure {
         .title("motion 2/1")
         .line(Stroke::new(SERIES[0]), "displacement")
         .line(Stroke::new(SERIES[1]).width(2.0), "orbit");
-    Figure::grid(2, vec![time, phase])
-        .size(1360.0, 420.0)
-        .title("*β* = 0.8, *δ* = 0.6")
-        .legend(legend)
+    Figure::grid(2, vec![time, phase]).size(1360.0, 420.0).title("*β* = 0.8, *δ* = 0.6").legend(legend)
 }
 
 fn impacts() -> Figure {
     let numbers: Vec<f64> = (1..=40).map(f64::from).collect();
     let geometric: Vec<f64> = numbers.iter().map(|k| 2.0 * 0.7f64.powf(*k)).collect();
-    let steady: Vec<f64> = numbers
-        .iter()
-        .map(|k| 0.3 + 1.2 * (-k / 6.0).exp())
-        .collect();
-    let wild: Vec<f64> = numbers
-        .iter()
-        .map(|k| 0.05 + ((k * 12.9898).sin() * 43_758.545).fract().abs())
-        .collect();
+    let steady: Vec<f64> = numbers.iter().map(|k| 0.3 + 1.2 * (-k / 6.0).exp()).collect();
+    let wild: Vec<f64> = numbers.iter().map(|k| 0.05 + ((k * 12.9898).sin() * 43_758.545).fract().abs()).collect();
     let series = [
         (geometric, Shape::Circle, true, "chatter, *ε* = 0.7"),
         (steady, Shape::Square, false, "1/1"),
         (wild, Shape::TriangleUp, true, "chaotic"),
     ];
-    let mut panel = Panel::new(
-        Axis::new("impact number *k*"),
-        Axis::new("interval *τ*_{*k*+1} − *τ*_{*k*}").log10().grid(),
-    );
+    let mut panel =
+        Panel::new(Axis::new("impact number *k*"), Axis::new("interval *τ*_{*k*+1} − *τ*_{*k*}").log10().grid());
     let mut legend = Legend::right();
     for (i, (ys, shape, filled, name)) in series.into_iter().enumerate() {
         let mut points = Points::new(numbers.clone(), ys, SERIES[i]).shape(shape);
@@ -292,9 +236,6 @@ fn impacts() -> Figure {
         legend = legend.points(&points, name);
         panel.add(points);
     }
-    panel.add(VLine::new(
-        20.0,
-        Stroke::new(Colour::GREY).width(1.5).dash(Dash::DashDot),
-    ));
+    panel.add(VLine::new(20.0, Stroke::new(Colour::GREY).width(1.5).dash(Dash::DashDot)));
     Figure::new(panel).size(680.0, 400.0).legend(legend)
 }

@@ -33,50 +33,31 @@ pub struct Axis {
 impl Axis {
     /// A linear axis that fits its data.
     pub fn new(label: impl Into<String>) -> Self {
-        Self {
-            label: label.into(),
-            range: None,
-            scale: Scale::Linear,
-            ticks: None,
-            numbers: true,
-            grid: false,
-        }
+        Self { label: label.into(), range: None, scale: Scale::Linear, ticks: None, numbers: true, grid: false }
     }
 
     /// Shows exactly `first` to `last`.
     #[must_use]
     pub fn range(self, first: f64, last: f64) -> Self {
-        Self {
-            range: Some((first, last)),
-            ..self
-        }
+        Self { range: Some((first, last)), ..self }
     }
 
     /// Spreads values by decimal logarithm.
     #[must_use]
     pub fn log10(self) -> Self {
-        Self {
-            scale: Scale::Log10,
-            ..self
-        }
+        Self { scale: Scale::Log10, ..self }
     }
 
     /// Labelled ticks at these places and nowhere else.
     #[must_use]
     pub fn ticks(self, ticks: impl IntoIterator<Item = Tick>) -> Self {
-        Self {
-            ticks: Some(ticks.into_iter().collect()),
-            ..self
-        }
+        Self { ticks: Some(ticks.into_iter().collect()), ..self }
     }
 
     /// Ticks without numbers.
     #[must_use]
     pub fn without_numbers(self) -> Self {
-        Self {
-            numbers: false,
-            ..self
-        }
+        Self { numbers: false, ..self }
     }
 
     /// Thin lines across the panel at the labelled ticks.
@@ -91,11 +72,7 @@ impl Axis {
         let finite = |(lo, hi): &(f64, f64)| lo.is_finite() && hi.is_finite();
         let given = self.range.filter(finite);
         let fitted = data.filter(finite);
-        let air = if given.is_none() && fitted.is_some() {
-            PADDING
-        } else {
-            0.0
-        };
+        let air = if given.is_none() && fitted.is_some() { PADDING } else { 0.0 };
         let (lo, hi) = given.or(fitted).unwrap_or((0.0, 1.0));
         match self.scale {
             Scale::Linear => {
@@ -115,11 +92,7 @@ impl Axis {
                 let hi = if hi > 1e-300 { hi.min(1e300) } else { 1.0 };
                 // no positive lower end: three decades say more than an arbitrary tiny number
                 let lo = if lo > 1e-303 { lo } else { hi / 1e3 };
-                let factor = if lo >= hi {
-                    10f64.sqrt()
-                } else {
-                    (hi / lo).powf(air)
-                };
+                let factor = if lo >= hi { 10f64.sqrt() } else { (hi / lo).powf(air) };
                 let (lo, hi) = (lo.min(hi) / factor, hi * factor);
                 if turn { (hi, lo) } else { (lo, hi) }
             }
@@ -172,11 +145,7 @@ impl Mapping {
     /// Where an end of an interval falls: at or below zero a logarithmic axis means "its low end".
     pub(crate) fn edge(&self, value: f64) -> f64 {
         if self.scale == Scale::Log10 && value <= 0.0 {
-            if self.range.0 < self.range.1 {
-                self.page.0
-            } else {
-                self.page.1
-            }
+            if self.range.0 < self.range.1 { self.page.0 } else { self.page.1 }
         } else {
             self.at(value)
         }
@@ -189,32 +158,13 @@ mod tests {
 
     #[test]
     fn every_range_becomes_drawable() {
-        let bad = [
-            f64::NAN,
-            f64::INFINITY,
-            -1e308,
-            -1.0,
-            0.0,
-            5e-324,
-            1.0,
-            1e308,
-        ];
+        let bad = [f64::NAN, f64::INFINITY, -1e308, -1.0, 0.0, 5e-324, 1.0, 1e308];
         for lo in bad {
             for hi in bad {
-                for axis in [
-                    Axis::new("").range(lo, hi),
-                    Axis::new("").range(lo, hi).log10(),
-                ] {
+                for axis in [Axis::new("").range(lo, hi), Axis::new("").range(lo, hi).log10()] {
                     let (a, b) = axis.resolve(Some((hi, lo)));
-                    assert!(
-                        a.is_finite() && b.is_finite() && a != b,
-                        "{lo} {hi}: {a} {b}"
-                    );
-                    let mapping = Mapping {
-                        scale: axis.scale,
-                        range: (a, b),
-                        page: (0.0, 100.0),
-                    };
+                    assert!(a.is_finite() && b.is_finite() && a != b, "{lo} {hi}: {a} {b}");
+                    let mapping = Mapping { scale: axis.scale, range: (a, b), page: (0.0, 100.0) };
                     assert!(mapping.at(a).abs() < 1e-6, "{lo} {hi}: {a} {b}");
                     assert!(axis.resolve_ticks((a, b), 5).len() < 100);
                 }
@@ -231,11 +181,7 @@ mod tests {
 
     #[test]
     fn log_mapping() {
-        let m = Mapping {
-            scale: Scale::Log10,
-            range: (0.1, 10.0),
-            page: (0.0, 100.0),
-        };
+        let m = Mapping { scale: Scale::Log10, range: (0.1, 10.0), page: (0.0, 100.0) };
         assert!((m.at(1.0) - 50.0).abs() < 1e-12);
         assert!(m.at(0.0).is_nan() && m.at(-1.0).is_nan());
         assert_eq!(m.edge(0.0), 0.0);

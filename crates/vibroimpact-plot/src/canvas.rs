@@ -18,10 +18,7 @@ pub(crate) struct Canvas {
 
 impl Canvas {
     pub(crate) fn new(prefix: &str) -> Self {
-        Self {
-            prefix: prefix.to_owned(),
-            ..Self::default()
-        }
+        Self { prefix: prefix.to_owned(), ..Self::default() }
     }
 
     pub(crate) fn push(&mut self, svg: &str) {
@@ -35,12 +32,7 @@ impl Canvas {
     }
 
     pub(crate) fn define_clip(&mut self, frame: &Frame) {
-        self.clips.push_str(&format!(
-            "<clipPath id=\"{}{}\">{}</clipPath>\n",
-            self.prefix,
-            frame.clip,
-            frame.rect("")
-        ));
+        self.clips.push_str(&format!("<clipPath id=\"{}{}\">{}</clipPath>\n", self.prefix, frame.clip, frame.rect("")));
     }
 
     /// The attribute that cuts a mark off at the axes.
@@ -50,11 +42,7 @@ impl Canvas {
 
     /// All definitions.
     pub(crate) fn definitions(&self) -> String {
-        let hatches: String = self
-            .hatches
-            .iter()
-            .map(|h| h.definition(&self.prefix))
-            .collect();
+        let hatches: String = self.hatches.iter().map(|h| h.definition(&self.prefix)).collect();
         format!("{}{hatches}", self.clips)
     }
 }
@@ -88,21 +76,12 @@ impl Frame {
     /// Whether a point of the page lies inside, with a little slack for points on the edge.
     pub(crate) fn holds(&self, (x, y): (f64, f64)) -> bool {
         let slack = 0.5;
-        x >= self.left - slack
-            && x <= self.right() + slack
-            && y >= self.top - slack
-            && y <= self.bottom() + slack
+        x >= self.left - slack && x <= self.right() + slack && y >= self.top - slack && y <= self.bottom() + slack
     }
 
     /// The frame itself as an SVG element.
     pub(crate) fn rect(&self, attributes: &str) -> String {
-        let Self {
-            left,
-            top,
-            width,
-            height,
-            ..
-        } = *self;
+        let Self { left, top, width, height, .. } = *self;
         let (x, y, w, h) = (N(left), N(top), N(width), N(height));
         format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"{attributes}/>")
     }
@@ -129,16 +108,8 @@ pub(crate) fn test_frame(x: (f64, f64), y: (f64, f64)) -> Frame {
         top: 0.0,
         width: 100.0,
         height: 100.0,
-        x: Mapping {
-            scale,
-            range: x,
-            page: (0.0, 100.0),
-        },
-        y: Mapping {
-            scale,
-            range: y,
-            page: (100.0, 0.0),
-        },
+        x: Mapping { scale, range: x, page: (0.0, 100.0) },
+        y: Mapping { scale, range: y, page: (100.0, 0.0) },
         clip: "clip0".into(),
     }
 }
@@ -150,10 +121,7 @@ mod tests {
     #[test]
     fn rectangles_are_cut_at_the_frame() {
         let frame = test_frame((0.0, 10.0), (0.0, 10.0));
-        assert_eq!(
-            frame.cut((-5.0, 5.0), (5.0, 50.0)),
-            Some([0.0, 0.0, 50.0, 50.0])
-        );
+        assert_eq!(frame.cut((-5.0, 5.0), (5.0, 50.0)), Some([0.0, 0.0, 50.0, 50.0]));
         assert_eq!(frame.cut((11.0, 12.0), (0.0, 1.0)), None);
         assert_eq!(frame.cut((f64::NAN, 1.0), (0.0, 1.0)), None);
         assert!(frame.holds(frame.at(10.0, 0.0)) && !frame.holds(frame.at(f64::NAN, 0.0)));

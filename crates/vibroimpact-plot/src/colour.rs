@@ -35,10 +35,7 @@ impl Colour {
     /// The same colour with opacity `alpha` in 0..=1 (values outside are cut off).
     #[must_use]
     pub fn alpha(self, alpha: f64) -> Self {
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "cut to 0..=255 just before; NaN gives 0"
-        )]
+        #[expect(clippy::cast_possible_truncation, reason = "cut to 0..=255 just before; NaN gives 0")]
         let a = (alpha.clamp(0.0, 1.0) * 255.0).round() as u8;
         Self { a, ..self }
     }
@@ -54,11 +51,7 @@ impl Colour {
     pub fn linear(self) -> [f64; 3] {
         [self.r, self.g, self.b].map(|v| {
             let v = f64::from(v) / 255.0;
-            if v <= 0.040_45 {
-                v / 12.92
-            } else {
-                ((v + 0.055) / 1.055).powf(2.4)
-            }
+            if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
         })
     }
 
@@ -67,11 +60,7 @@ impl Colour {
     pub fn from_linear(rgb: [f64; 3]) -> Self {
         let [r, g, b] = rgb.map(|v| {
             let v = v.clamp(0.0, 1.0);
-            let v = if v <= 0.003_130_8 {
-                12.92 * v
-            } else {
-                1.055 * v.powf(1.0 / 2.4) - 0.055
-            };
+            let v = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
             #[expect(clippy::cast_possible_truncation, reason = "v lies in 0..=1")]
             let byte = (v * 255.0).round() as u8;
             byte
@@ -86,13 +75,8 @@ impl Colour {
         let x = (0.412_456_4 * r + 0.357_576_1 * g + 0.180_437_5 * b) / 0.950_47;
         let y = 0.212_672_9 * r + 0.715_152_2 * g + 0.072_175_0 * b;
         let z = (0.019_333_9 * r + 0.119_192_0 * g + 0.950_304_1 * b) / 1.088_83;
-        let [x, y, z] = [x, y, z].map(|t: f64| {
-            if t > 216.0 / 24_389.0 {
-                t.cbrt()
-            } else {
-                (24_389.0 / 27.0 * t + 16.0) / 116.0
-            }
-        });
+        let [x, y, z] =
+            [x, y, z].map(|t: f64| if t > 216.0 / 24_389.0 { t.cbrt() } else { (24_389.0 / 27.0 * t + 16.0) / 116.0 });
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
@@ -138,10 +122,7 @@ mod tests {
     fn linear_light_goes_there_and_back() {
         let c = Colour::hex(0x12_80fe);
         assert_eq!(Colour::from_linear(c.linear()), c);
-        assert_eq!(
-            c.alpha(0.5).paint("fill"),
-            " fill=\"#1280fe\" fill-opacity=\"0.5\""
-        );
+        assert_eq!(c.alpha(0.5).paint("fill"), " fill=\"#1280fe\" fill-opacity=\"0.5\"");
         assert_eq!(c.alpha(f64::NAN).a, 0);
     }
 }

@@ -57,14 +57,7 @@ mod tests {
 
     #[test]
     fn sentences_name_the_numbers() {
-        let e = PlotError::RasterSize {
-            given: 5,
-            nx: 2,
-            ny: 3,
-        };
-        assert_eq!(
-            e.to_string(),
-            "a raster of 2 x 3 cells needs 6 class indices, 5 were given"
-        );
+        let e = PlotError::RasterSize { given: 5, nx: 2, ny: 3 };
+        assert_eq!(e.to_string(), "a raster of 2 x 3 cells needs 6 class indices, 5 were given");
     }
 }

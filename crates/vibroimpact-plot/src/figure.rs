@@ -42,63 +42,35 @@ impl Figure {
         let columns = columns.max(1);
         let rows = panels.len().div_ceil(columns).max(1);
         let (width, height) = if columns == 1 {
-            (
-                theme::COLUMN,
-                if rows == 1 {
-                    480.0
-                } else {
-                    330.0 * rows as f64
-                },
-            )
+            (theme::COLUMN, if rows == 1 { 480.0 } else { 330.0 * rows as f64 })
         } else {
             (theme::DOUBLE_COLUMN, 480.0 * rows as f64)
         };
-        Self {
-            width,
-            height,
-            title: None,
-            panels,
-            columns,
-            legend: None,
-            id: "vp-".into(),
-        }
+        Self { width, height, title: None, panels, columns, legend: None, id: "vp-".into() }
     }
 
     /// With another size in figure units (1/8 mm in print).
     #[must_use]
     pub fn size(self, width: f64, height: f64) -> Self {
-        Self {
-            width,
-            height,
-            ..self
-        }
+        Self { width, height, ..self }
     }
 
     /// With a title.
     #[must_use]
     pub fn title(self, markup: impl Into<String>) -> Self {
-        Self {
-            title: Some(markup.into()),
-            ..self
-        }
+        Self { title: Some(markup.into()), ..self }
     }
 
     /// With a legend.
     #[must_use]
     pub fn legend(self, legend: Legend) -> Self {
-        Self {
-            legend: Some(legend),
-            ..self
-        }
+        Self { legend: Some(legend), ..self }
     }
 
     /// With another prefix for ids.
     #[must_use]
     pub fn id(self, prefix: impl Into<String>) -> Self {
-        Self {
-            id: prefix.into(),
-            ..self
-        }
+        Self { id: prefix.into(), ..self }
     }
 
     /// Width and height with everything, in figure units: PNG pixels at scale 1.
@@ -112,11 +84,7 @@ impl Figure {
     #[must_use]
     pub fn to_svg(&self) -> String {
         let layout = Layout::of(self);
-        let prefix: String = self
-            .id
-            .chars()
-            .filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c))
-            .collect();
+        let prefix: String = self.id.chars().filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c)).collect();
         let mut canvas = Canvas::new(&prefix);
         if let Some(title) = &self.title {
             let y = theme::MARGIN + theme::TITLE_TEXT;
@@ -130,9 +98,10 @@ impl Figure {
             legend.draw(&mut canvas, *left, *top, arranged);
         }
         let (w, h) = (N(layout.width), N(layout.height));
-        let title = self.title.as_ref().map_or(String::new(), |t| {
-            format!("<title>{}</title>\n", markup::escape(&markup::strip(t)))
-        });
+        let title = self
+            .title
+            .as_ref()
+            .map_or(String::new(), |t| format!("<title>{}</title>\n", markup::escape(&markup::strip(t))));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
              font-family=\"'DejaVu Sans', Verdana, sans-serif\">\n{title}<defs>\n{}</defs>\n\
@@ -156,15 +125,10 @@ impl Figure {
 mod tests {
     use super::*;
     use crate::mark::guide::{HLine, Side, Wall};
-    use crate::{
-        Axis, Colour, Key, Line, Points, Raster, Rects, Region, Stroke, Text, class_style,
-    };
+    use crate::{Axis, Colour, Key, Line, Points, Raster, Rects, Region, Stroke, Text, class_style};
 
     fn every_mark(xs: &[f64], ys: &[f64]) -> Panel {
-        let (a, b) = (
-            xs.first().copied().unwrap_or(0.0),
-            ys.last().copied().unwrap_or(1.0),
-        );
+        let (a, b) = (xs.first().copied().unwrap_or(0.0), ys.last().copied().unwrap_or(1.0));
         let mut cells = Rects::new([class_style("undecided")]);
         cells.cell((a, b), (b, a), &[0]);
         let ring: Vec<_> = xs.iter().copied().zip(ys.iter().copied()).collect();
@@ -197,31 +161,18 @@ mod tests {
         let legend = Legend::below().entry(Key::Patch(class_style("inf/1")), "∞");
         let figure = Figure::new(every_mark(&[0.0, 1.0, 0.5], &[0.0, 0.3, 1.0])).legend(legend);
         let png = figure.to_png(1.0)?;
-        let picture = resvg::tiny_skia::Pixmap::decode_png(&png)
-            .map_err(|e| PlotError::Png(e.to_string()))?;
+        let picture = resvg::tiny_skia::Pixmap::decode_png(&png).map_err(|e| PlotError::Png(e.to_string()))?;
         let (w, h) = figure.outer_size();
-        assert_eq!(
-            (f64::from(picture.width()), f64::from(picture.height())),
-            (w.round(), h.round())
-        );
+        assert_eq!((f64::from(picture.width()), f64::from(picture.height())), (w.round(), h.round()));
         let dark = picture.pixels().iter().filter(|p| p.red() < 64).count();
-        assert!(
-            dark > 1000 && dark < picture.pixels().len() / 2,
-            "{dark} dark pixels"
-        );
+        assert!(dark > 1000 && dark < picture.pixels().len() / 2, "{dark} dark pixels");
         Ok(())
     }
 
     #[test]
     fn whatever_is_given_becomes_a_picture() -> Result<(), PlotError> {
-        let strange: [&[f64]; 6] = [
-            &[],
-            &[1.0],
-            &[f64::NAN; 3],
-            &[0.0; 4],
-            &[-1e308, 1e308, f64::INFINITY],
-            &[5e-324, -3.0, 2.0],
-        ];
+        let strange: [&[f64]; 6] =
+            [&[], &[1.0], &[f64::NAN; 3], &[0.0; 4], &[-1e308, 1e308, f64::INFINITY], &[5e-324, -3.0, 2.0]];
         for xs in strange {
             for ys in strange {
                 let plain = every_mark(xs, ys);
@@ -241,18 +192,13 @@ mod tests {
     fn impossible_sizes_are_refused() {
         let figure = Figure::new(every_mark(&[], &[]));
         for scale in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {
-            assert!(
-                matches!(figure.to_png(scale), Err(PlotError::ImageSize { .. })),
-                "{scale}"
-            );
+            assert!(matches!(figure.to_png(scale), Err(PlotError::ImageSize { .. })), "{scale}");
         }
     }
 
     #[test]
     fn text_is_escaped_and_ids_are_prefixed() {
-        let figure = Figure::new(every_mark(&[0.0, 1.0], &[0.0, 1.0]))
-            .title("a < b")
-            .id("fig7-\"><x");
+        let figure = Figure::new(every_mark(&[0.0, 1.0], &[0.0, 1.0])).title("a < b").id("fig7-\"><x");
         let svg = figure.to_svg();
         assert!(svg.contains("<title>a &lt; b</title>") && svg.contains(" &lt;&amp;&gt;"));
         assert!(svg.contains("id=\"fig7-x") && !svg.contains("id=\"clip") && !svg.contains("<x"));

@@ -13,29 +13,11 @@ use crate::ticks::Tick;
 impl Panel {
     pub(crate) fn draw_grid(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
         let mut d = String::new();
-        for tick in prepared
-            .x_ticks
-            .iter()
-            .filter(|t| self.x.grid && !t.label.is_empty())
-        {
-            d.push_str(&format!(
-                "M{} {}V{}",
-                N(frame.x.at(tick.value)),
-                N(frame.top),
-                N(frame.bottom())
-            ));
+        for tick in prepared.x_ticks.iter().filter(|t| self.x.grid && !t.label.is_empty()) {
+            d.push_str(&format!("M{} {}V{}", N(frame.x.at(tick.value)), N(frame.top), N(frame.bottom())));
         }
-        for tick in prepared
-            .y_ticks
-            .iter()
-            .filter(|t| self.y.grid && !t.label.is_empty())
-        {
-            d.push_str(&format!(
-                "M{} {}H{}",
-                N(frame.left),
-                N(frame.y.at(tick.value)),
-                N(frame.right())
-            ));
+        for tick in prepared.y_ticks.iter().filter(|t| self.y.grid && !t.label.is_empty()) {
+            d.push_str(&format!("M{} {}H{}", N(frame.left), N(frame.y.at(tick.value)), N(frame.right())));
         }
         if !d.is_empty() {
             let stroke = Stroke::new(Colour::hex(0xd8_d8d8)).width(1.0).attributes();
@@ -47,11 +29,7 @@ impl Panel {
     pub(crate) fn draw_ticks(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
         let (left, bottom, size) = (frame.left, frame.bottom(), theme::TICK_TEXT);
         let length = |t: &Tick| {
-            if t.label.is_empty() {
-                theme::TICK * 0.55
-            } else {
-                theme::TICK
-            }
+            if t.label.is_empty() { theme::TICK * 0.55 } else { theme::TICK }
         };
         let (mut d, mut numbers) = (String::new(), String::new());
         for tick in &prepared.x_ticks {
@@ -59,11 +37,7 @@ impl Panel {
             d.push_str(&format!("M{} {}v{}", N(x), N(bottom), N(length(tick))));
             let y = bottom + theme::TICK + theme::TICK_GAP + 0.73 * size;
             if !tick.label.trim().is_empty() {
-                numbers.push_str(
-                    &Placed::new(&tick.label, x, y, size)
-                        .anchor(Anchor::Middle)
-                        .svg(),
-                );
+                numbers.push_str(&Placed::new(&tick.label, x, y, size).anchor(Anchor::Middle).svg());
             }
         }
         for tick in &prepared.y_ticks {
@@ -76,35 +50,21 @@ impl Panel {
             }
         }
         let stroke = Stroke::new(Colour::BLACK).width(theme::FRAME).attributes();
-        canvas.push(&format!(
-            "<path d=\"{d}\" fill=\"none\"{stroke}/>\n{numbers}"
-        ));
+        canvas.push(&format!("<path d=\"{d}\" fill=\"none\"{stroke}/>\n{numbers}"));
     }
 
     pub(crate) fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
         let size = theme::LABEL_TEXT;
         let margins = self.margins(prepared);
-        let (mid_x, mid_y) = (
-            frame.left + frame.width / 2.0,
-            frame.top + frame.height / 2.0,
-        );
+        let (mid_x, mid_y) = (frame.left + frame.width / 2.0, frame.top + frame.height / 2.0);
         let below = frame.bottom() + margins.bottom - 0.42 * size;
-        canvas.push(
-            &Placed::new(&self.x.label, mid_x, below, size)
-                .anchor(Anchor::Middle)
-                .svg(),
-        );
-        let numbers = prepared
-            .y_ticks
-            .iter()
-            .map(|t| markup::width(&t.label, theme::TICK_TEXT));
+        canvas.push(&Placed::new(&self.x.label, mid_x, below, size).anchor(Anchor::Middle).svg());
+        let numbers = prepared.y_ticks.iter().map(|t| markup::width(&t.label, theme::TICK_TEXT));
         let numbers = numbers.fold(0.0, f64::max);
         // 0.6 of a size keeps subscripts of the turned label off the numbers
         let beside = frame.left - theme::TICK - theme::TICK_GAP - numbers - 0.6 * size;
-        let upright = Placed {
-            upright: true,
-            ..Placed::new(&self.y.label, beside, mid_y, size).anchor(Anchor::Middle)
-        };
+        let upright =
+            Placed { upright: true, ..Placed::new(&self.y.label, beside, mid_y, size).anchor(Anchor::Middle) };
         canvas.push(&upright.svg());
         if let Some(caption) = &self.caption {
             let y = frame.top - 0.45 * theme::CAPTION_TEXT;

@@ -50,20 +50,8 @@ impl Hatch {
     pub(crate) fn definition(self, prefix: &str) -> String {
         let (t, h) = (TILE, TILE / 2.0);
         // strokes overshoot the tile by a corner so that they meet their continuation
-        let rising = format!(
-            "M-1 1L1 -1M0 {t}L{t} 0M{} {}L{} {}",
-            N(t - 1.0),
-            N(t + 1.0),
-            N(t + 1.0),
-            N(t - 1.0)
-        );
-        let falling = format!(
-            "M{} -1L{} 1M0 0L{t} {t}M-1 {}L1 {}",
-            N(t - 1.0),
-            N(t + 1.0),
-            N(t - 1.0),
-            N(t + 1.0)
-        );
+        let rising = format!("M-1 1L1 -1M0 {t}L{t} 0M{} {}L{} {}", N(t - 1.0), N(t + 1.0), N(t + 1.0), N(t - 1.0));
+        let falling = format!("M{} -1L{} 1M0 0L{t} {t}M-1 {}L1 {}", N(t - 1.0), N(t + 1.0), N(t - 1.0), N(t + 1.0));
         let lines = match self.pattern {
             Pattern::Rising => rising,
             Pattern::Falling => falling,
@@ -73,15 +61,9 @@ impl Hatch {
             Pattern::Dots => String::new(),
         };
         let ink = if lines.is_empty() {
-            format!(
-                "<circle cx=\"{h}\" cy=\"{h}\" r=\"1.4\"{}/>",
-                self.colour.paint("fill")
-            )
+            format!("<circle cx=\"{h}\" cy=\"{h}\" r=\"1.4\"{}/>", self.colour.paint("fill"))
         } else {
-            format!(
-                "<path d=\"{lines}\" fill=\"none\" stroke-width=\"1.3\"{}/>",
-                self.colour.paint("stroke")
-            )
+            format!("<path d=\"{lines}\" fill=\"none\" stroke-width=\"1.3\"{}/>", self.colour.paint("stroke"))
         };
         format!(
             "<pattern id=\"{prefix}{}\" width=\"{t}\" height=\"{t}\" patternUnits=\"userSpaceOnUse\">{ink}</pattern>\n",

@@ -39,16 +39,7 @@ pub(crate) struct Placed<'a> {
 
 impl<'a> Placed<'a> {
     pub(crate) fn new(markup: &'a str, x: f64, y: f64, size: f64) -> Self {
-        Self {
-            markup,
-            x,
-            y,
-            size,
-            anchor: Anchor::Start,
-            colour: Colour::BLACK,
-            upright: false,
-            halo: 0.0,
-        }
+        Self { markup, x, y, size, anchor: Anchor::Start, colour: Colour::BLACK, upright: false, halo: 0.0 }
     }
 
     pub(crate) fn anchor(self, anchor: Anchor) -> Self {
@@ -67,15 +58,9 @@ impl<'a> Placed<'a> {
             Anchor::End => " text-anchor=\"end\"",
         };
         let (x, y) = (N(self.x), N(self.y));
-        let turn = if self.upright {
-            format!(" transform=\"rotate(-90 {x} {y})\"")
-        } else {
-            String::new()
-        };
-        let head = format!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"{anchor}{turn} xml:space=\"preserve\"",
-            N(self.size)
-        );
+        let turn = if self.upright { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
+        let head =
+            format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"{anchor}{turn} xml:space=\"preserve\"", N(self.size));
         let mut out = String::new();
         if self.halo > 0.0 {
             // the rim is a text of its own: painted per run it would eat its left neighbour
@@ -84,10 +69,7 @@ impl<'a> Placed<'a> {
                 N(2.0 * self.halo)
             ));
         }
-        out.push_str(&format!(
-            "{head}{}>{spans}</text>\n",
-            self.colour.paint("fill")
-        ));
+        out.push_str(&format!("{head}{}>{spans}</text>\n", self.colour.paint("fill")));
         out
     }
 }
@@ -132,10 +114,7 @@ mod tests {
     #[test]
     fn baseline_returns_after_a_script() {
         let svg = Placed::new("a_0b", 0.0, 0.0, 10.0).svg();
-        assert!(
-            svg.contains("dy=\"2\"") && svg.contains("dy=\"-2\""),
-            "{svg}"
-        );
+        assert!(svg.contains("dy=\"2\"") && svg.contains("dy=\"-2\""), "{svg}");
     }
 
     #[test]

@@ -22,23 +22,11 @@ const SMALLEST: f64 = 20.0;
 impl Layout {
     pub(crate) fn of(figure: &Figure) -> Self {
         let size = |v: f64, usual: f64| {
-            if v.is_finite() {
-                v.clamp(50.0, 1e5)
-            } else {
-                usual
-            }
+            if v.is_finite() { v.clamp(50.0, 1e5) } else { usual }
         };
-        let (width, height) = (
-            size(figure.width, theme::COLUMN),
-            size(figure.height, 480.0),
-        );
+        let (width, height) = (size(figure.width, theme::COLUMN), size(figure.height, 480.0));
         let edge = theme::MARGIN;
-        let head = edge
-            + if figure.title.is_some() {
-                1.5 * theme::TITLE_TEXT
-            } else {
-                0.0
-            };
+        let head = edge + if figure.title.is_some() { 1.5 * theme::TITLE_TEXT } else { 0.0 };
         let legend = figure.legend.as_ref().filter(|l| !l.entries.is_empty());
         let arranged = legend.map(|l| arrange(l, width - 2.0 * edge, height - head - 60.0));
         let beside = match &arranged {
@@ -57,20 +45,12 @@ impl Layout {
                 }
                 Place::Below => {
                     outer += a.height + theme::GAP / 2.0;
-                    (
-                        ((width - a.width) / 2.0).max(edge),
-                        height + theme::GAP / 2.0 - edge,
-                    )
+                    (((width - a.width) / 2.0).max(edge), height + theme::GAP / 2.0 - edge)
                 }
             };
             spot = Some((left, top, a));
         }
-        Self {
-            width,
-            height: outer,
-            panels,
-            legend: spot,
-        }
+        Self { width, height: outer, panels, legend: spot }
     }
 }
 
@@ -88,11 +68,7 @@ fn arrange(legend: &Legend, width: f64, height: f64) -> (Place, Arranged) {
 const WIDEST: f64 = 0.5;
 
 /// Frames of equal size in a grid; rows and columns share their margins, so that axes line up.
-fn frames(
-    figure: &Figure,
-    (left, top): (f64, f64),
-    (width, height): (f64, f64),
-) -> Vec<(Frame, Prepared)> {
+fn frames(figure: &Figure, (left, top): (f64, f64), (width, height): (f64, f64)) -> Vec<(Frame, Prepared)> {
     let columns = figure.columns.clamp(1, figure.panels.len().max(1));
     let rows = figure.panels.len().div_ceil(columns);
     let (nx, ny) = (columns as f64, rows as f64);
@@ -102,11 +78,8 @@ fn frames(
     let mut across = vec![Margins::default(); columns];
     let mut down = vec![Margins::default(); rows];
     for _ in 0..2 {
-        prepared = figure
-            .panels
-            .iter()
-            .map(|p| p.prepare(each.0.max(SMALLEST), each.1.max(SMALLEST)))
-            .collect::<Vec<_>>();
+        prepared =
+            figure.panels.iter().map(|p| p.prepare(each.0.max(SMALLEST), each.1.max(SMALLEST))).collect::<Vec<_>>();
         across.fill(Margins::default());
         down.fill(Margins::default());
         for (i, (panel, ready)) in figure.panels.iter().zip(&prepared).enumerate() {
@@ -115,45 +88,25 @@ fn frames(
             let d = &mut down[i / columns];
             (d.top, d.bottom) = (d.top.max(m.top), d.bottom.max(m.bottom));
         }
-        let taken_x: f64 =
-            across.iter().map(|m| m.left + m.right).sum::<f64>() + theme::GAP * (nx - 1.0);
-        let taken_y: f64 =
-            down.iter().map(|m| m.top + m.bottom).sum::<f64>() + theme::GAP / 2.0 * (ny - 1.0);
-        each = (
-            ((width - taken_x) / nx).max(SMALLEST),
-            ((height - taken_y) / ny).max(SMALLEST),
-        );
+        let taken_x: f64 = across.iter().map(|m| m.left + m.right).sum::<f64>() + theme::GAP * (nx - 1.0);
+        let taken_y: f64 = down.iter().map(|m| m.top + m.bottom).sum::<f64>() + theme::GAP / 2.0 * (ny - 1.0);
+        each = (((width - taken_x) / nx).max(SMALLEST), ((height - taken_y) / ny).max(SMALLEST));
     }
     let mut out = Vec::with_capacity(prepared.len());
     for (i, (panel, ready)) in figure.panels.iter().zip(prepared).enumerate() {
         let (column, row) = (i % columns, i / columns);
         let x = left
-            + across[..column]
-                .iter()
-                .map(|m| m.left + m.right + each.0 + theme::GAP)
-                .sum::<f64>()
+            + across[..column].iter().map(|m| m.left + m.right + each.0 + theme::GAP).sum::<f64>()
             + across[column].left;
-        let y = top
-            + down[..row]
-                .iter()
-                .map(|m| m.top + m.bottom + each.1 + theme::GAP / 2.0)
-                .sum::<f64>()
-            + down[row].top;
+        let y =
+            top + down[..row].iter().map(|m| m.top + m.bottom + each.1 + theme::GAP / 2.0).sum::<f64>() + down[row].top;
         let frame = Frame {
             left: x,
             top: y,
             width: each.0,
             height: each.1,
-            x: Mapping {
-                scale: panel.x.scale,
-                range: ready.x_range,
-                page: (x, x + each.0),
-            },
-            y: Mapping {
-                scale: panel.y.scale,
-                range: ready.y_range,
-                page: (y + each.1, y),
-            },
+            x: Mapping { scale: panel.x.scale, range: ready.x_range, page: (x, x + each.0) },
+            y: Mapping { scale: panel.y.scale, range: ready.y_range, page: (y + each.1, y) },
             clip: format!("clip{i}"),
         };
         out.push((frame, ready));
@@ -176,10 +129,7 @@ mod tests {
 
     #[test]
     fn a_legend_below_leaves_the_panels_alone() {
-        let (without, with) = (
-            Figure::new(panel()),
-            Figure::new(panel()).legend(legend("1/1")),
-        );
+        let (without, with) = (Figure::new(panel()), Figure::new(panel()).legend(legend("1/1")));
         assert!(with.outer_size().1 > without.outer_size().1);
         let height = |f: &Figure| Layout::of(f).panels[0].0.height;
         assert_eq!(height(&without), height(&with));
@@ -187,10 +137,7 @@ mod tests {
 
     #[test]
     fn a_legend_beside_starts_right_of_the_frames() {
-        let right = |text: &str| Legend {
-            place: Place::Right,
-            ..legend(text)
-        };
+        let right = |text: &str| Legend { place: Place::Right, ..legend(text) };
         let layout = Layout::of(&Figure::new(panel()).legend(right("1/1")));
         let left = layout.legend.map_or(0.0, |(left, _, _)| left);
         assert!(left >= layout.panels[0].0.right() + theme::GAP / 2.0);
@@ -202,17 +149,9 @@ mod tests {
     #[test]
     fn frames_of_a_grid_line_up() {
         let figure = Figure::grid(2, vec![panel(), panel().caption("(b)"), panel()]);
-        let frames: Vec<_> = Layout::of(&figure)
-            .panels
-            .into_iter()
-            .map(|(f, _)| f)
-            .collect();
+        let frames: Vec<_> = Layout::of(&figure).panels.into_iter().map(|(f, _)| f).collect();
         assert_eq!(frames[0].top, frames[1].top);
         assert_eq!(frames[0].left, frames[2].left);
-        assert!(
-            frames
-                .iter()
-                .all(|f| f.width == frames[0].width && f.height == frames[0].height)
-        );
+        assert!(frames.iter().all(|f| f.width == frames[0].width && f.height == frames[0].height));
     }
 }

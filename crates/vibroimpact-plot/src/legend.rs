@@ -70,28 +70,19 @@ impl Legend {
     /// An empty legend to the right of the panels.
     #[must_use]
     pub fn right() -> Self {
-        Self {
-            place: Place::Right,
-            ..Self::default()
-        }
+        Self { place: Place::Right, ..Self::default() }
     }
 
     /// With a line above.
     #[must_use]
     pub fn title(self, markup: impl Into<String>) -> Self {
-        Self {
-            title: Some(markup.into()),
-            ..self
-        }
+        Self { title: Some(markup.into()), ..self }
     }
 
     /// One more entry.
     #[must_use]
     pub fn entry(mut self, key: Key, label: impl Into<String>) -> Self {
-        self.entries.push(Entry {
-            key,
-            label: label.into(),
-        });
+        self.entries.push(Entry { key, label: label.into() });
         self
     }
 
@@ -118,38 +109,20 @@ impl Legend {
         let head = if self.title.is_some() { ROW } else { 0.0 };
         let n = self.entries.len();
         let rows = match place {
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "at least 1, and far below 2^31"
-            )]
-            Place::Right => {
-                (((height - head) / ROW).floor().clamp(1.0, 1e4) as usize).min(n.max(1))
-            }
+            #[expect(clippy::cast_possible_truncation, reason = "at least 1, and far below 2^31")]
+            Place::Right => (((height - head) / ROW).floor().clamp(1.0, 1e4) as usize).min(n.max(1)),
             // as few rows as fit the width
-            Place::Below => (1..=n)
-                .find(|&rows| self.total(&self.widths(rows)) <= width)
-                .unwrap_or(n),
+            Place::Below => (1..=n).find(|&rows| self.total(&self.widths(rows)) <= width).unwrap_or(n),
         };
         let widths = self.widths(rows);
-        let title = self
-            .title
-            .as_ref()
-            .map_or(0.0, |t| markup::width(t, theme::LEGEND_TEXT));
+        let title = self.title.as_ref().map_or(0.0, |t| markup::width(t, theme::LEGEND_TEXT));
         let wide = self.total(&widths).max(title);
-        Arranged {
-            rows,
-            width: wide,
-            height: head + rows as f64 * ROW,
-            widths,
-        }
+        Arranged { rows, width: wide, height: head + rows as f64 * ROW, widths }
     }
 
     fn widths(&self, rows: usize) -> Vec<f64> {
         let width = |e: &Entry| KEY + KEY_GAP + markup::width(&e.label, theme::LEGEND_TEXT);
-        self.entries
-            .chunks(rows.max(1))
-            .map(|column| column.iter().map(width).fold(0.0, f64::max))
-            .collect()
+        self.entries.chunks(rows.max(1)).map(|column| column.iter().map(width).fold(0.0, f64::max)).collect()
     }
 
     fn total(&self, widths: &[f64]) -> f64 {
@@ -164,11 +137,7 @@ impl Legend {
             top += ROW;
         }
         let mut x = left;
-        for (column, width) in self
-            .entries
-            .chunks(arranged.rows.max(1))
-            .zip(&arranged.widths)
-        {
+        for (column, width) in self.entries.chunks(arranged.rows.max(1)).zip(&arranged.widths) {
             for (row, entry) in column.iter().enumerate() {
                 let middle = top + (row as f64 + 0.5) * ROW;
                 key(canvas, entry.key, x, middle);
@@ -192,10 +161,7 @@ pub(crate) struct Arranged {
 fn key(canvas: &mut Canvas, key: Key, x: f64, middle: f64) {
     let rect = |attributes: &str| {
         let (x, y) = (N(x + 0.5), N(middle - PATCH / 2.0));
-        format!(
-            "<rect x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"{PATCH}\"{attributes}/>",
-            N(KEY - 1.0)
-        )
+        format!("<rect x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"{PATCH}\"{attributes}/>", N(KEY - 1.0))
     };
     match key {
         Key::Line(stroke) => canvas.push(&format!(
@@ -207,11 +173,7 @@ fn key(canvas: &mut Canvas, key: Key, x: f64, middle: f64) {
         )),
         Key::Point(style) => {
             // a sign of half a millimetre says nothing: small points are shown larger
-            let size = if style.size.is_finite() {
-                style.size.clamp(7.0, 20.0)
-            } else {
-                9.0
-            };
+            let size = if style.size.is_finite() { style.size.clamp(7.0, 20.0) } else { 9.0 };
             canvas.push(&style.paint(&style.shape.path(x + KEY / 2.0, middle, size)));
         }
         Key::Patch(style) => {
@@ -238,9 +200,7 @@ mod tests {
 
     fn legend(n: usize) -> Legend {
         let stroke = Stroke::new(Colour::BLACK);
-        (0..n).fold(Legend::below(), |l, i| {
-            l.line(stroke, format!("entry number {i}"))
-        })
+        (0..n).fold(Legend::below(), |l, i| l.line(stroke, format!("entry number {i}")))
     }
 
     #[test]
@@ -255,14 +215,8 @@ mod tests {
 
     #[test]
     fn right_wraps_at_the_height() {
-        let right = Legend {
-            place: Place::Right,
-            ..legend(14)
-        };
-        assert_eq!(
-            right.arrange(Place::Right, 660.0, 10.0 * ROW).widths.len(),
-            2
-        );
+        let right = Legend { place: Place::Right, ..legend(14) };
+        assert_eq!(right.arrange(Place::Right, 660.0, 10.0 * ROW).widths.len(), 2);
         assert_eq!(right.arrange(Place::Right, 660.0, -3.0).rows, 1);
     }
 }

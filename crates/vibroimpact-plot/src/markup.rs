@@ -77,12 +77,7 @@ pub(crate) fn parse(markup: &str) -> Vec<Run> {
             Some(run) if (run.italic, run.bold, run.level) == (italic, bold, level) => {
                 run.text.push(c);
             }
-            _ => runs.push(Run {
-                text: c.to_string(),
-                italic,
-                bold,
-                level,
-            }),
+            _ => runs.push(Run { text: c.to_string(), italic, bold, level }),
         }
         if !group {
             level = Level::Base;
@@ -101,11 +96,7 @@ pub(crate) fn width(markup: &str, size: f64) -> f64 {
     parse(markup)
         .iter()
         .map(|run| {
-            let size = if run.level == Level::Base {
-                size
-            } else {
-                size * SCRIPT
-            };
+            let size = if run.level == Level::Base { size } else { size * SCRIPT };
             metrics::width(&run.text, run.italic, run.bold) * size
         })
         .sum()
@@ -169,10 +160,7 @@ mod tests {
 
     #[test]
     fn reserved_characters_are_escaped() {
-        assert_eq!(
-            escape("a<b & \"c\">'\u{7}\n"),
-            "a&lt;b &amp; &quot;c&quot;&gt;&#39; "
-        );
+        assert_eq!(escape("a<b & \"c\">'\u{7}\n"), "a&lt;b &amp; &quot;c&quot;&gt;&#39; ");
     }
 
     #[test]

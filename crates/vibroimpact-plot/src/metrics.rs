@@ -18,9 +18,7 @@ pub(crate) fn width(text: &str, italic: bool, bold: bool) -> f64 {
         (true, false) => OBLIQUE.get_or_init(|| Face::parse(dejavu::sans::oblique())),
         (false, false) => REGULAR.get_or_init(|| Face::parse(dejavu::sans::regular())),
     };
-    text.chars()
-        .map(|c| face.as_ref().and_then(|f| f.advance(c)).unwrap_or(MISSING))
-        .sum()
+    text.chars().map(|c| face.as_ref().and_then(|f| f.advance(c)).unwrap_or(MISSING)).sum()
 }
 
 /// One font file and where its tables lie.

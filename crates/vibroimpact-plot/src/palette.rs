@@ -37,18 +37,12 @@ impl ClassStyle {
     /// A plain fill.
     #[must_use]
     pub const fn plain(colour: Colour) -> Self {
-        Self {
-            colour,
-            hatch: None,
-        }
+        Self { colour, hatch: None }
     }
 
     const fn hatched(colour: u32, pattern: Pattern, lines: u32) -> Self {
         let hatch = Some(Hatch::new(pattern, Colour::hex(lines)));
-        Self {
-            colour: Colour::hex(colour),
-            hatch,
-        }
+        Self { colour: Colour::hex(colour), hatch }
     }
 }
 
@@ -96,11 +90,7 @@ pub fn legend_group(label: &str) -> &'static str {
     if matches!(m, "inf" | "∞") {
         return "inf/n";
     }
-    let n: String = n
-        .trim_start()
-        .chars()
-        .take_while(char::is_ascii_digit)
-        .collect();
+    let n: String = n.trim_start().chars().take_while(char::is_ascii_digit).collect();
     let (Ok(m), Ok(n)) = (m.parse::<u64>(), n.parse::<u64>()) else {
         return "other";
     };
@@ -171,10 +161,7 @@ pub fn legend_text(label: &str) -> &'static str {
 }
 
 fn group_of(label: &str) -> &'static str {
-    GROUPS
-        .into_iter()
-        .find(|group| *group == label)
-        .unwrap_or_else(|| legend_group(label))
+    GROUPS.into_iter().find(|group| *group == label).unwrap_or_else(|| legend_group(label))
 }
 
 #[cfg(test)]
@@ -214,9 +201,7 @@ mod tests {
         for (i, a) in GROUPS.iter().enumerate() {
             for b in &GROUPS[i + 1..] {
                 let (s, t) = (class_style(a), class_style(b));
-                let d = Vision::Grey
-                    .see(s.colour)
-                    .delta_e(Vision::Grey.see(t.colour));
+                let d = Vision::Grey.see(s.colour).delta_e(Vision::Grey.see(t.colour));
                 let hatch = |c: ClassStyle| c.hatch.map(|h| h.pattern);
                 assert!(d >= 7.0 || hatch(s) != hatch(t), "{a} and {b}: {d:.1}");
             }

@@ -26,21 +26,13 @@ impl Panel {
     /// An empty panel.
     #[must_use]
     pub fn new(x: Axis, y: Axis) -> Self {
-        Self {
-            x,
-            y,
-            caption: None,
-            marks: Vec::new(),
-        }
+        Self { x, y, caption: None, marks: Vec::new() }
     }
 
     /// With a caption.
     #[must_use]
     pub fn caption(self, markup: impl Into<String>) -> Self {
-        Self {
-            caption: Some(markup.into()),
-            ..self
-        }
+        Self { caption: Some(markup.into()), ..self }
     }
 
     /// One more mark, on top of the others.
@@ -58,10 +50,7 @@ impl Panel {
     /// Ranges and ticks for a frame of about this size.
     pub(crate) fn prepare(&self, width: f64, height: f64) -> Prepared {
         use crate::axis::Scale::Log10;
-        let (mut x, mut y) = (
-            Extent::new(self.x.scale == Log10),
-            Extent::new(self.y.scale == Log10),
-        );
+        let (mut x, mut y) = (Extent::new(self.x.scale == Log10), Extent::new(self.y.scale == Log10));
         for mark in &self.marks {
             mark.extent(&mut x, &mut y);
         }
@@ -72,11 +61,7 @@ impl Panel {
         // as many numbers as stand side by side with air between them
         #[expect(clippy::cast_possible_truncation, reason = "between 2 and 10")]
         let mut most = room(width, 50.0) as usize;
-        let mapping = Mapping {
-            scale: self.x.scale,
-            range: x_range,
-            page: (0.0, width),
-        };
+        let mapping = Mapping { scale: self.x.scale, range: x_range, page: (0.0, width) };
         let x_ticks = loop {
             let ticks = self.x.resolve_ticks(x_range, most);
             if most <= 1 || self.x.ticks.is_some() || !crowded(&ticks, &mapping) {
@@ -84,12 +69,7 @@ impl Panel {
             }
             most -= 1;
         };
-        Prepared {
-            x_range,
-            y_range,
-            x_ticks,
-            y_ticks,
-        }
+        Prepared { x_range, y_range, x_ticks, y_ticks }
     }
 
     /// The room that numbers, labels and caption need around the frame.
@@ -97,35 +77,16 @@ impl Panel {
         let width = |t: &Tick| markup::width(&t.label, theme::TICK_TEXT);
         let numbers = prepared.y_ticks.iter().map(width).fold(0.0, f64::max);
         let label = |axis: &Axis| {
-            if axis.label.is_empty() {
-                0.0
-            } else {
-                1.4 * theme::LABEL_TEXT
-            }
+            if axis.label.is_empty() { 0.0 } else { 1.4 * theme::LABEL_TEXT }
         };
         let beside = theme::TICK + theme::TICK_GAP;
         // half of the last number overhangs, if it stands at the end
-        let end = prepared
-            .x_ticks
-            .iter()
-            .filter(|_| self.x.numbers)
-            .map(width)
-            .fold(0.0, f64::max);
+        let end = prepared.x_ticks.iter().filter(|_| self.x.numbers).map(width).fold(0.0, f64::max);
         Margins {
             left: (beside + numbers + label(&self.y)).max(end / 2.0),
             right: end / 2.0,
-            top: if self.caption.is_some() {
-                1.5 * theme::CAPTION_TEXT
-            } else {
-                theme::TICK_TEXT / 2.0
-            },
-            bottom: beside
-                + if self.x.numbers {
-                    theme::TICK_TEXT
-                } else {
-                    0.0
-                }
-                + label(&self.x),
+            top: if self.caption.is_some() { 1.5 * theme::CAPTION_TEXT } else { theme::TICK_TEXT / 2.0 },
+            bottom: beside + if self.x.numbers { theme::TICK_TEXT } else { 0.0 } + label(&self.x),
         }
     }
 
@@ -136,10 +97,9 @@ impl Panel {
         for mark in &self.marks {
             mark.draw(canvas, frame);
         }
-        canvas.push(&frame.rect(&format!(
-            " fill=\"none\"{}",
-            Stroke::new(Colour::BLACK).width(theme::FRAME).attributes()
-        )));
+        canvas.push(
+            &frame.rect(&format!(" fill=\"none\"{}", Stroke::new(Colour::BLACK).width(theme::FRAME).attributes())),
+        );
         canvas.push("\n");
         self.draw_ticks(canvas, frame, prepared);
         self.draw_labels(canvas, frame, prepared);
@@ -170,18 +130,11 @@ fn crowded(ticks: &[Tick], mapping: &Mapping) -> bool {
     let mut spans: Vec<(f64, f64)> = ticks
         .iter()
         .filter(|t| !t.label.trim().is_empty())
-        .map(|t| {
-            (
-                mapping.at(t.value),
-                markup::width(&t.label, theme::TICK_TEXT),
-            )
-        })
+        .map(|t| (mapping.at(t.value), markup::width(&t.label, theme::TICK_TEXT)))
         .collect();
     spans.sort_by(|a, b| a.0.total_cmp(&b.0));
     let air = 0.7 * theme::TICK_TEXT;
-    spans
-        .windows(2)
-        .any(|w| w[1].0 - w[0].0 < (w[0].1 + w[1].1) / 2.0 + air)
+    spans.windows(2).any(|w| w[1].0 - w[0].0 < (w[0].1 + w[1].1) / 2.0 + air)
 }
 
 #[cfg(test)]
@@ -191,28 +144,12 @@ mod tests {
     #[test]
     fn numbers_never_touch() {
         for width in [40.0, 100.0, 300.0, 600.0] {
-            for (lo, hi) in [
-                (0.0, 1.0),
-                (-1234.5, 99_999.0),
-                (1.000_001, 1.000_002),
-                (0.0, 4e-7),
-            ] {
+            for (lo, hi) in [(0.0, 1.0), (-1234.5, 99_999.0), (1.000_001, 1.000_002), (0.0, 4e-7)] {
                 let panel = Panel::new(Axis::new("x").range(lo, hi), Axis::new("y"));
                 let prepared = panel.prepare(width, 300.0);
-                let mapping = Mapping {
-                    scale: panel.x.scale,
-                    range: prepared.x_range,
-                    page: (0.0, width),
-                };
-                let shown = prepared
-                    .x_ticks
-                    .iter()
-                    .filter(|t| !t.label.is_empty())
-                    .count();
-                assert!(
-                    shown <= 2 || !crowded(&prepared.x_ticks, &mapping),
-                    "{width} {lo} {hi}"
-                );
+                let mapping = Mapping { scale: panel.x.scale, range: prepared.x_range, page: (0.0, width) };
+                let shown = prepared.x_ticks.iter().filter(|t| !t.label.is_empty()).count();
+                assert!(shown <= 2 || !crowded(&prepared.x_ticks, &mapping), "{width} {lo} {hi}");
             }
         }
     }

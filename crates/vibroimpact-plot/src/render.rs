@@ -12,12 +12,9 @@ fn fonts() -> Arc<fontdb::Database> {
     static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
     let load = || {
         let mut fonts = fontdb::Database::new();
-        for face in [
-            dejavu::sans::regular(),
-            dejavu::sans::oblique(),
-            dejavu::sans::bold(),
-            dejavu::sans::bold_oblique(),
-        ] {
+        for face in
+            [dejavu::sans::regular(), dejavu::sans::oblique(), dejavu::sans::bold(), dejavu::sans::bold_oblique()]
+        {
             fonts.load_font_source(fontdb::Source::Binary(Arc::new(face)));
         }
         fonts.set_sans_serif_family("DejaVu Sans");
@@ -28,11 +25,7 @@ fn fonts() -> Arc<fontdb::Database> {
 
 /// Draws SVG text with `scale` pixels per unit.
 pub(crate) fn png(svg: &str, scale: f64) -> Result<Vec<u8>, PlotError> {
-    let options = Options {
-        fontdb: fonts(),
-        font_family: "DejaVu Sans".into(),
-        ..Options::default()
-    };
+    let options = Options { fontdb: fonts(), font_family: "DejaVu Sans".into(), ..Options::default() };
     let tree = Tree::from_str(svg, &options).map_err(|e| PlotError::Svg(e.to_string()))?;
     let side = |v: f32| (f64::from(v) * scale).round();
     let (width, height) = (side(tree.size().width()), side(tree.size().height()));
@@ -45,14 +38,9 @@ pub(crate) fn png(svg: &str, scale: f64) -> Result<Vec<u8>, PlotError> {
     // the page is stretched by a fraction of a pixel so that it fills the last row and column
     #[expect(clippy::cast_possible_truncation, reason = "the renderer works in f32")]
     let zoom = |pixels: f64, units: f32| (pixels / f64::from(units)) as f32;
-    let transform = Transform::from_scale(
-        zoom(width, tree.size().width()),
-        zoom(height, tree.size().height()),
-    );
+    let transform = Transform::from_scale(zoom(width, tree.size().width()), zoom(height, tree.size().height()));
     resvg::render(&tree, transform, &mut pixels.as_mut());
-    pixels
-        .encode_png()
-        .map_err(|e| PlotError::Png(e.to_string()))
+    pixels.encode_png().map_err(|e| PlotError::Png(e.to_string()))
 }
 
 #[cfg(test)]
@@ -66,8 +54,7 @@ mod tests {
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"40\">\
                  <text x=\"5\" y=\"30\" font-size=\"30\" font-family=\"DejaVu Sans\"{style}>ξ</text></svg>"
             );
-            let picture =
-                Pixmap::decode_png(&png(&svg, 1.0)?).map_err(|e| PlotError::Png(e.to_string()))?;
+            let picture = Pixmap::decode_png(&png(&svg, 1.0)?).map_err(|e| PlotError::Png(e.to_string()))?;
             assert!(picture.pixels().iter().any(|p| p.alpha() > 200), "{style}");
         }
         Ok(())

@@ -32,11 +32,7 @@ impl Stroke {
     /// A solid line of 2.5 units (0.9 pt).
     #[must_use]
     pub const fn new(colour: Colour) -> Self {
-        Self {
-            colour,
-            width: 2.5,
-            dash: Dash::Solid,
-        }
+        Self { colour, width: 2.5, dash: Dash::Solid }
     }
 
     /// With another width.
@@ -53,11 +49,7 @@ impl Stroke {
 
     /// The width, whatever was asked: positive and not absurd.
     pub(crate) fn safe_width(self) -> f64 {
-        if self.width.is_finite() {
-            self.width.clamp(0.1, 100.0)
-        } else {
-            1.0
-        }
+        if self.width.is_finite() { self.width.clamp(0.1, 100.0) } else { 1.0 }
     }
 
     /// SVG attributes.
@@ -70,11 +62,7 @@ impl Stroke {
             Dash::Dotted => &[1.0, 1.6],
             Dash::DashDot => &[4.5, 2.0, 1.0, 2.0],
         };
-        let mut text = format!(
-            "{} stroke-width=\"{}\"",
-            self.colour.paint("stroke"),
-            N(width)
-        );
+        let mut text = format!("{} stroke-width=\"{}\"", self.colour.paint("stroke"), N(width));
         if !parts.is_empty() {
             let parts: Vec<String> = parts.iter().map(|p| N(p * width).to_string()).collect();
             text.push_str(&format!(" stroke-dasharray=\"{}\"", parts.join(" ")));
@@ -90,14 +78,7 @@ mod tests {
     #[test]
     fn dashes_grow_with_the_width() {
         let s = Stroke::new(Colour::BLACK).width(2.0).dash(Dash::Dotted);
-        assert_eq!(
-            s.attributes(),
-            " stroke=\"#000000\" stroke-width=\"2\" stroke-dasharray=\"2 3.2\""
-        );
-        assert!(
-            s.width(f64::NAN)
-                .attributes()
-                .contains("stroke-width=\"1\"")
-        );
+        assert_eq!(s.attributes(), " stroke=\"#000000\" stroke-width=\"2\" stroke-dasharray=\"2 3.2\"");
+        assert!(s.width(f64::NAN).attributes().contains("stroke-width=\"1\""));
     }
 }

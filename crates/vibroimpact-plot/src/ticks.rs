@@ -19,10 +19,7 @@ pub struct Tick {
 impl Tick {
     /// A tick with its text.
     pub fn new(value: f64, label: impl Into<String>) -> Self {
-        Self {
-            value,
-            label: label.into(),
-        }
+        Self { value, label: label.into() }
     }
 }
 
@@ -37,21 +34,12 @@ impl Step {
     /// The finest step with at most `most` intervals' worth of ticks in `span`.
     fn finest(span: f64, most: usize) -> Self {
         let rough = span / most.max(1) as f64;
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "a decimal exponent of an f64 is below 400"
-        )]
+        #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent of an f64 is below 400")]
         let exponent = rough.log10().floor() as i32;
         let rest = rough / 10f64.powi(exponent);
         // the slack keeps a span of exactly five steps from being cut to coarser ones by rounding
         let mantissa = [1.0, 2.0, 5.0].into_iter().find(|m| *m >= rest - 1e-9);
-        mantissa.map_or(
-            Self {
-                mantissa: 1.0,
-                exponent: exponent + 1,
-            },
-            |mantissa| Self { mantissa, exponent },
-        )
+        mantissa.map_or(Self { mantissa: 1.0, exponent: exponent + 1 }, |mantissa| Self { mantissa, exponent })
     }
 
     /// The `i`th multiple; dividing by a power of ten gives 0.3, where multiplying by 0.1 would not.
@@ -112,16 +100,7 @@ fn linear(lo: f64, hi: f64, most: usize) -> Vec<Tick> {
     let scientific = largest > 0.0 && !(-3.0..5.0).contains(&ten);
     let mut ticks: Vec<Tick> = values
         .iter()
-        .map(|&v| {
-            Tick::new(
-                v,
-                if scientific {
-                    power(v, ten, step)
-                } else {
-                    number(v, decimals(step.exponent))
-                },
-            )
-        })
+        .map(|&v| Tick::new(v, if scientific { power(v, ten, step) } else { number(v, decimals(step.exponent)) }))
         .collect();
     // many numbers already: one short mark between two is enough
     let parts = match (values.len(), step.mantissa == 2.0) {
@@ -129,16 +108,9 @@ fn linear(lo: f64, hi: f64, most: usize) -> Vec<Tick> {
         (_, true) => 4.0,
         (_, false) => 5.0,
     };
-    let fine = Step {
-        mantissa: step.mantissa / parts,
-        exponent: step.exponent,
-    };
+    let fine = Step { mantissa: step.mantissa / parts, exponent: step.exponent };
     let minor = fine.multiples(lo, hi).into_iter();
-    let near = |v: f64| {
-        values
-            .iter()
-            .any(|m| (m - v).abs() < 1e-6 * step.times(1.0))
-    };
+    let near = |v: f64| values.iter().any(|m| (m - v).abs() < 1e-6 * step.times(1.0));
     ticks.extend(minor.filter(|&v| !near(v)).map(|v| Tick::new(v, "")));
     ticks
 }
@@ -157,10 +129,7 @@ fn power(value: f64, ten: f64, step: Step) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a decimal exponent of an f64 is below 400"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent of an f64 is below 400")]
     let ten = ten as i32;
     let mantissa = value / 10f64.powi(ten);
     let mantissa = number(mantissa, decimals(step.exponent - ten));
@@ -168,35 +137,18 @@ fn power(value: f64, ten: f64, step: Step) -> String {
 }
 
 fn decades(lo: f64, hi: f64, most: usize) -> Vec<Tick> {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a decimal exponent of an f64 is below 400"
-    )]
-    let (first, last) = (
-        (lo.log10() - 1e-9).ceil() as i32,
-        (hi.log10() + 1e-9).floor() as i32,
-    );
+    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent of an f64 is below 400")]
+    let (first, last) = ((lo.log10() - 1e-9).ceil() as i32, (hi.log10() + 1e-9).floor() as i32);
     let count = usize::try_from(last - first + 1).unwrap_or(0);
-    let every = i32::try_from(count.div_ceil(most.max(1)))
-        .unwrap_or(1)
-        .max(1);
+    let every = i32::try_from(count.div_ceil(most.max(1))).unwrap_or(1).max(1);
     let plain = first >= -3 && last <= 3;
     let label = |k: i32| {
-        if plain {
-            number(10f64.powi(k), decimals(k))
-        } else {
-            format!("10^{{{}}}", number(f64::from(k), 0))
-        }
+        if plain { number(10f64.powi(k), decimals(k)) } else { format!("10^{{{}}}", number(f64::from(k), 0)) }
     };
     let mut ticks: Vec<Tick> = (first..=last)
         // so many decades that their own marks would merge
         .filter(|k| count <= 40 || k % every == 0)
-        .map(|k| {
-            Tick::new(
-                10f64.powi(k),
-                if k % every == 0 { label(k) } else { " ".into() },
-            )
-        })
+        .map(|k| Tick::new(10f64.powi(k), if k % every == 0 { label(k) } else { " ".into() }))
         .collect();
     // many decades: the marks within them would merge into a grey band
     if count <= 8 {
@@ -206,11 +158,7 @@ fn decades(lo: f64, hi: f64, most: usize) -> Vec<Tick> {
                 if v >= lo && v <= hi {
                     // one decade alone would leave the axis with a single number or two
                     let say = count <= 2 && matches!(m, 2 | 5) && most >= 4;
-                    let text = if say && plain {
-                        number(v, decimals(k))
-                    } else {
-                        String::new()
-                    };
+                    let text = if say && plain { number(v, decimals(k)) } else { String::new() };
                     ticks.push(Tick::new(v, text));
                 }
             }
@@ -225,11 +173,7 @@ mod tests {
 
     fn labels(scale: Scale, lo: f64, hi: f64, most: usize) -> String {
         let ticks = ticks(scale, lo, hi, most);
-        let labels: Vec<_> = ticks
-            .into_iter()
-            .map(|t| t.label)
-            .filter(|l| !l.trim().is_empty())
-            .collect();
+        let labels: Vec<_> = ticks.into_iter().map(|t| t.label).filter(|l| !l.trim().is_empty()).collect();
         labels.join(" ")
     }
 
@@ -250,14 +194,8 @@ mod tests {
 
     #[test]
     fn log_labels() {
-        assert_eq!(
-            labels(Scale::Log10, 1e-3, 1e3, 9),
-            "0.001 0.01 0.1 1 10 100 1000"
-        );
-        assert_eq!(
-            labels(Scale::Log10, 1e-9, 1.0, 5),
-            "10^{−8} 10^{−6} 10^{−4} 10^{−2} 10^{0}"
-        );
+        assert_eq!(labels(Scale::Log10, 1e-3, 1e3, 9), "0.001 0.01 0.1 1 10 100 1000");
+        assert_eq!(labels(Scale::Log10, 1e-9, 1.0, 5), "10^{−8} 10^{−6} 10^{−4} 10^{−2} 10^{0}");
         assert_eq!(labels(Scale::Log10, 2.0, 5.0, 4), "2 3 4 5");
     }
 

@@ -40,10 +40,7 @@ impl Vision {
         };
         let [r, g, b] = colour.linear();
         let seen = matrix.map(|row| row[0] * r + row[1] * g + row[2] * b);
-        Colour {
-            a: colour.a,
-            ..Colour::from_linear(seen)
-        }
+        Colour { a: colour.a, ..Colour::from_linear(seen) }
     }
 }
 
@@ -54,12 +51,7 @@ mod tests {
     #[test]
     fn greys_stay_grey() {
         let grey = Colour::hex(0x80_8080);
-        for eye in [
-            Vision::Normal,
-            Vision::Protanopia,
-            Vision::Deuteranopia,
-            Vision::Grey,
-        ] {
+        for eye in [Vision::Normal, Vision::Protanopia, Vision::Deuteranopia, Vision::Grey] {
             assert!(eye.see(grey).delta_e(grey) < 1.0, "{eye:?}");
         }
     }
@@ -68,11 +60,6 @@ mod tests {
     fn red_and_green_come_closer() {
         let (red, green) = (Colour::hex(0xd0_4040), Colour::hex(0x70_9030));
         let apart = red.delta_e(green);
-        assert!(
-            Vision::Deuteranopia
-                .see(red)
-                .delta_e(Vision::Deuteranopia.see(green))
-                < apart / 2.0
-        );
+        assert!(Vision::Deuteranopia.see(red).delta_e(Vision::Deuteranopia.see(green)) < apart / 2.0);
     }
 }

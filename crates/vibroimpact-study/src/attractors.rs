@@ -42,20 +42,9 @@ mod tests {
         let osc = vibroimpact::scenario::Q.oscillator();
         let options = SettleOptions::default();
         let serial = vibroimpact::verdict::attractors(&osc, 100, 3, &options);
-        let threaded = attractors(
-            &osc,
-            StartBox::natural(&osc),
-            (100, 3),
-            &options,
-            &Control::default(),
-        )
-        .unwrap();
-        let summary = |c: &Census| {
-            c.motions()
-                .iter()
-                .map(|f| (f.verdict.label().into_owned(), f.count))
-                .collect::<Vec<_>>()
-        };
+        let threaded = attractors(&osc, StartBox::natural(&osc), (100, 3), &options, &Control::default()).unwrap();
+        let summary =
+            |c: &Census| c.motions().iter().map(|f| (f.verdict.label().into_owned(), f.count)).collect::<Vec<_>>();
         assert_eq!(summary(&serial), summary(&threaded));
     }
 }

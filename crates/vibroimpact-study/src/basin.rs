@@ -83,22 +83,10 @@ pub fn basin(
     let mut merged = Census::default();
     let mut all = Vec::new();
     for (census, cells) in parts {
-        let numbers: Vec<usize> = census
-            .motions()
-            .iter()
-            .map(|found| merged.add_found(found))
-            .collect();
-        all.extend(
-            cells
-                .into_iter()
-                .map(|local| u16::try_from(numbers[local]).unwrap_or(u16::MAX)),
-        );
+        let numbers: Vec<usize> = census.motions().iter().map(|found| merged.add_found(found)).collect();
+        all.extend(cells.into_iter().map(|local| u16::try_from(numbers[local]).unwrap_or(u16::MAX)));
     }
-    Ok(Basin {
-        plan: *plan,
-        motions: merged.motions().to_vec(),
-        cells: all,
-    })
+    Ok(Basin { plan: *plan, motions: merged.motions().to_vec(), cells: all })
 }
 
 #[cfg(test)]
@@ -108,22 +96,9 @@ mod tests {
     #[test]
     fn the_same_for_any_number_of_threads() {
         let osc = vibroimpact::scenario::S.oscillator();
-        let plan = BasinPlan {
-            x: "-4:0.75:50".parse().unwrap(),
-            v: "-4:4:40".parse().unwrap(),
-            phase: 0.0,
-        };
+        let plan = BasinPlan { x: "-4:0.75:50".parse().unwrap(), v: "-4:4:40".parse().unwrap(), phase: 0.0 };
         let run = |threads| {
-            basin(
-                &osc,
-                &plan,
-                &SettleOptions::default(),
-                &Control {
-                    threads,
-                    ..Control::default()
-                },
-            )
-            .unwrap()
+            basin(&osc, &plan, &SettleOptions::default(), &Control { threads, ..Control::default() }).unwrap()
         };
         let one = run(1);
         assert_eq!(one.cells.len(), 2000);

@@ -18,11 +18,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 impl Default for Control<'_> {
     /// Never stopped, not watched, one thread per core.
     fn default() -> Self {
-        Self {
-            stop: &NEVER,
-            progress: &|_| {},
-            threads: 0,
-        }
+        Self { stop: &NEVER, progress: &|_| {}, threads: 0 }
     }
 }
 
@@ -61,10 +57,7 @@ pub fn tiles<T: Send>(
         control.stop.load(Ordering::Relaxed)
     };
     let count = total.div_ceil(tile.max(1));
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(control.threads)
-        .build()
-        .expect("threads can be started");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(control.threads).build().expect("threads can be started");
     let results: Vec<Option<T>> = pool.install(|| {
         (0..count)
             .into_par_iter()
@@ -74,17 +67,11 @@ pub fn tiles<T: Send>(
             })
             .collect()
     });
-    let stopped = Stopped {
-        done: done.load(Ordering::Relaxed),
-        total,
-    };
+    let stopped = Stopped { done: done.load(Ordering::Relaxed), total };
     if stopped.done < total || control.stop.load(Ordering::Relaxed) {
         return Err(stopped);
     }
-    results
-        .into_iter()
-        .collect::<Option<Vec<T>>>()
-        .ok_or(stopped)
+    results.into_iter().collect::<Option<Vec<T>>>().ok_or(stopped)
 }
 
 #[cfg(test)]
@@ -94,10 +81,7 @@ mod tests {
     #[test]
     fn results_come_in_order_for_any_threads_and_the_flag_stops() {
         for threads in [1, 2, 3, 8] {
-            let control = Control {
-                threads,
-                ..Control::default()
-            };
+            let control = Control { threads, ..Control::default() };
             let got = tiles(1000, 7, &control, |range, tick| {
                 let mut sum = 0;
                 for k in range {
@@ -107,17 +91,10 @@ mod tests {
                 sum
             });
             let got = got.unwrap();
-            assert_eq!(
-                (got.len(), got.iter().sum::<u64>(), got[0]),
-                (143, 499_500, 21)
-            );
+            assert_eq!((got.len(), got.iter().sum::<u64>(), got[0]), (143, 499_500, 21));
         }
         let stop = AtomicBool::new(false);
-        let control = Control {
-            stop: &stop,
-            threads: 2,
-            ..Control::default()
-        };
+        let control = Control { stop: &stop, threads: 2, ..Control::default() };
         let end = tiles(1000, 10, &control, |range, tick| {
             for k in range {
                 stop.fetch_or(k == 500, Ordering::Relaxed);

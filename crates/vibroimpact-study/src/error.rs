@@ -19,9 +19,7 @@ pub enum PlanError {
         given: String,
     },
     /// A range with a number of values that is too small or too large.
-    #[error(
-        "range `{given}` asks for {count} values; allowed is 1 to {most}, and 1 only when A = B"
-    )]
+    #[error("range `{given}` asks for {count} values; allowed is 1 to {most}, and 1 only when A = B")]
     Count {
         /// What was typed.
         given: String,

@@ -51,25 +51,15 @@ pub fn map(
         for k in range {
             #[allow(clippy::cast_possible_truncation)]
             // indices of a grid with at most 1e6 values a side
-            let (x, gap) = (
-                plan.inverse_beta.at((k % columns) as u32),
-                plan.gap.at((k / columns) as u32),
-            );
+            let (x, gap) = (plan.inverse_beta.at((k % columns) as u32), plan.gap.at((k / columns) as u32));
             points.push(MapPlan::point(system, x, gap).map(|osc| {
                 let census = census(&osc, plan, options);
                 let motions = census
                     .by_share()
                     .into_iter()
-                    .map(|found| Share {
-                        verdict: found.verdict.clone(),
-                        share: census.share(found),
-                    })
+                    .map(|found| Share { verdict: found.verdict.clone(), share: census.share(found) })
                     .collect();
-                MapPoint {
-                    inverse_beta: x,
-                    gap,
-                    motions,
-                }
+                MapPoint { inverse_beta: x, gap, motions }
             }));
             if tick() {
                 break;
@@ -78,10 +68,7 @@ pub fn map(
         points
     })?;
     let points = parts.into_iter().flatten().collect::<Result<Vec<_>, _>>()?;
-    Ok(RegionMap {
-        plan: *plan,
-        points,
-    })
+    Ok(RegionMap { plan: *plan, points })
 }
 
 /// The first start at rest, the others scattered.
@@ -101,36 +88,18 @@ mod tests {
 
     #[test]
     fn points_in_order_with_shares_that_add_up() {
-        let system = SystemPlan {
-            inverse_beta: Some(1.0),
-            gap: 0.0,
-            restitution: 0.5,
-            ..SystemPlan::default()
-        };
+        let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
         let plan = MapPlan {
             inverse_beta: "0.6:1.4:5".parse().unwrap(),
             gap: "-0.5:2:3".parse().unwrap(),
             starts: 6,
             seed: 1,
         };
-        let run = |threads| {
-            map(
-                &system,
-                &plan,
-                &SettleOptions::default(),
-                &Control {
-                    threads,
-                    ..Control::default()
-                },
-            )
-        };
+        let run = |threads| map(&system, &plan, &SettleOptions::default(), &Control { threads, ..Control::default() });
         let one = run(1).unwrap();
         assert_eq!(one.points.len(), 15);
         assert_eq!((one.points[0].inverse_beta, one.points[0].gap), (0.6, -0.5));
-        assert_eq!(
-            (one.points[14].inverse_beta, one.points[14].gap),
-            (1.4, 2.0)
-        );
+        assert_eq!((one.points[14].inverse_beta, one.points[14].gap), (1.4, 2.0));
         for point in &one.points {
             assert!((point.motions.iter().map(|m| m.share).sum::<f64>() - 1.0).abs() < 1e-12);
         }

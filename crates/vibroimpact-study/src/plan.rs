@@ -26,11 +26,7 @@ impl Plan {
     /// A plan of the present version.
     #[must_use]
     pub const fn new(system: SystemPlan, task: Task) -> Self {
-        Self {
-            version: PLAN_VERSION,
-            system,
-            task,
-        }
+        Self { version: PLAN_VERSION, system, task }
     }
 
     /// Checks everything that can be checked without running it.
@@ -43,11 +39,7 @@ impl Plan {
         }
         let osc = self.system.oscillator()?;
         let starts = |n: u64| {
-            if (1..=1_000_000_000).contains(&n) {
-                Ok(())
-            } else {
-                Err(PlanError::Starts(n))
-            }
+            if (1..=1_000_000_000).contains(&n) { Ok(()) } else { Err(PlanError::Starts(n)) }
         };
         match &self.task {
             Task::Simulate { start, .. } | Task::Settle { start } => start.start(&osc).map(|_| ()),
@@ -236,18 +228,8 @@ impl MapPlan {
     ///
     /// # Errors
     /// [`PlanError`] for a point that is no legal system.
-    pub fn point(
-        system: &SystemPlan,
-        inverse_beta: f64,
-        gap: f64,
-    ) -> Result<Oscillator, PlanError> {
-        SystemPlan {
-            beta: None,
-            inverse_beta: Some(inverse_beta),
-            gap,
-            ..*system
-        }
-        .oscillator()
+    pub fn point(system: &SystemPlan, inverse_beta: f64, gap: f64) -> Result<Oscillator, PlanError> {
+        SystemPlan { beta: None, inverse_beta: Some(inverse_beta), gap, ..*system }.oscillator()
     }
 }
 
@@ -256,17 +238,8 @@ mod tests {
     use super::*;
 
     fn plan() -> Plan {
-        let system = SystemPlan {
-            inverse_beta: Some(1.3),
-            gap: 0.75,
-            restitution: 0.5,
-            ..SystemPlan::default()
-        };
-        let basin = BasinPlan {
-            x: "-3:0.75:4".parse().unwrap(),
-            v: "-1:1:3".parse().unwrap(),
-            phase: 0.0,
-        };
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let basin = BasinPlan { x: "-3:0.75:4".parse().unwrap(), v: "-1:1:3".parse().unwrap(), phase: 0.0 };
         Plan::new(system, Task::Basin(basin))
     }
 
@@ -276,35 +249,21 @@ mod tests {
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan());
         assert!(plan().check().is_ok());
         let misspelt = text.replace("restitution", "restituton");
-        assert!(
-            serde_json::from_str::<Plan>(&misspelt)
-                .unwrap_err()
-                .to_string()
-                .contains("restituton")
-        );
+        assert!(serde_json::from_str::<Plan>(&misspelt).unwrap_err().to_string().contains("restituton"));
     }
 
     #[test]
     fn nonsense_is_refused_before_anything_runs() {
         let mut beyond = plan();
         beyond.system.gap = 0.5;
-        assert!(
-            beyond
-                .check()
-                .unwrap_err()
-                .to_string()
-                .contains("beyond the stop")
-        );
+        assert!(beyond.check().unwrap_err().to_string().contains("beyond the stop"));
         let mut twice = plan();
         twice.system.beta = Some(1.0);
         assert_eq!(twice.check(), Err(PlanError::Frequency("twice")));
         let mut later = plan();
         later.version = 2;
         assert_eq!(later.check(), Err(PlanError::Version(2)));
-        let none = Plan {
-            task: Task::Attractors { starts: 0, seed: 0 },
-            ..plan()
-        };
+        let none = Plan { task: Task::Attractors { starts: 0, seed: 0 }, ..plan() };
         assert_eq!(none.check(), Err(PlanError::Starts(0)));
     }
 }

@@ -34,18 +34,12 @@ impl Span {
     pub fn new(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
         let span = Self { first, last, count };
         if !(first.is_finite() && last.is_finite()) {
-            return Err(PlanError::Range {
-                given: span.to_string(),
-            });
+            return Err(PlanError::Range { given: span.to_string() });
         }
         // one value over a distance, or many at one place, is a slip of the pen
         let many = u64::from(count);
         if !(1..=MOST).contains(&many) || (count == 1) != (first == last) {
-            return Err(PlanError::Count {
-                given: span.to_string(),
-                count: many,
-                most: MOST,
-            });
+            return Err(PlanError::Count { given: span.to_string(), count: many, most: MOST });
         }
         Ok(span)
     }
@@ -88,28 +82,16 @@ impl FromStr for Span {
     type Err = PlanError;
 
     fn from_str(text: &str) -> Result<Self, PlanError> {
-        let bad = || PlanError::Range {
-            given: text.chars().take(60).collect(),
-        };
+        let bad = || PlanError::Range { given: text.chars().take(60).collect() };
         let parts: Vec<&str> = text.split(':').collect();
         let [first, last, count] = parts.as_slice() else {
             return Err(bad());
         };
-        let number = |part: &str| {
-            part.trim()
-                .parse::<f64>()
-                .ok()
-                .filter(|x| x.is_finite())
-                .ok_or_else(bad)
-        };
+        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(bad);
         let count: u64 = count.trim().parse().map_err(|_| bad())?;
         let (first, last) = (number(first)?, number(last)?);
         let Ok(count) = u32::try_from(count) else {
-            return Err(PlanError::Count {
-                given: text.to_owned(),
-                count,
-                most: MOST,
-            });
+            return Err(PlanError::Count { given: text.to_owned(), count, most: MOST });
         };
         Self::new(first, last, count)
     }
@@ -135,18 +117,13 @@ mod tests {
 
     #[test]
     fn bad_ranges_are_named() {
-        for bad in [
-            "", "1", "1:2", "1:2:3:4", "a:2:3", "nan:1:3", "0:inf:3", "0:1:-3", "0:1:2.5",
-        ] {
+        for bad in ["", "1", "1:2", "1:2:3:4", "a:2:3", "nan:1:3", "0:inf:3", "0:1:-3", "0:1:2.5"] {
             let message = bad.parse::<Span>().unwrap_err().to_string();
             assert!(message.contains("A:B:N"), "{bad}: {message}");
         }
         for bad in ["0:1:0", "0:1:1", "1:1:5", "0:1:99999999999"] {
             let message = bad.parse::<Span>().unwrap_err().to_string();
-            assert!(
-                message.contains("allowed is 1 to 1000000"),
-                "{bad}: {message}"
-            );
+            assert!(message.contains("allowed is 1 to 1000000"), "{bad}: {message}");
         }
     }
 
@@ -155,9 +132,6 @@ mod tests {
         let span = Span::new(2.0, 0.3, 18).unwrap();
         let values: Vec<f64> = span.values().collect();
         assert_eq!((values[0], values[17], values.len()), (2.0, 0.3, 18));
-        assert_eq!(
-            Span::new(1.5, 1.5, 1).unwrap().values().collect::<Vec<_>>(),
-            [1.5]
-        );
+        assert_eq!(Span::new(1.5, 1.5, 1).unwrap().values().collect::<Vec<_>>(), [1.5]);
     }
 }

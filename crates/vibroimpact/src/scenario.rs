@@ -23,59 +23,23 @@ impl Scenario {
     #[must_use]
     #[allow(clippy::expect_used)] // constants of this module
     pub fn oscillator(&self) -> Oscillator {
-        Oscillator::from_inverse_beta(self.inverse_beta, self.gap, 0.5)
-            .expect("the paper's points are legal")
+        Oscillator::from_inverse_beta(self.inverse_beta, self.gap, 0.5).expect("the paper's points are legal")
     }
 }
 
 /// Figure 5: a motion of order four with unequal intervals.
-pub const N: Scenario = Scenario {
-    name: "N",
-    inverse_beta: 1.8,
-    gap: 0.25,
-    motions: &["4/1"],
-};
+pub const N: Scenario = Scenario { name: "N", inverse_beta: 1.8, gap: 0.25, motions: &["4/1"] };
 /// Figure 6: fundamental motion or none, by the start.
-pub const P: Scenario = Scenario {
-    name: "P",
-    inverse_beta: 0.6,
-    gap: 0.75,
-    motions: &["1/1", "0"],
-};
+pub const P: Scenario = Scenario { name: "P", inverse_beta: 0.6, gap: 0.75, motions: &["1/1", "0"] };
 /// Figure 7: the same with a larger gap.
-pub const Q: Scenario = Scenario {
-    name: "Q",
-    inverse_beta: 0.7,
-    gap: 2.5,
-    motions: &["1/1", "0"],
-};
+pub const Q: Scenario = Scenario { name: "Q", inverse_beta: 0.7, gap: 2.5, motions: &["1/1", "0"] };
 /// Figure 8: motion of order two or none.
-pub const R: Scenario = Scenario {
-    name: "R",
-    inverse_beta: 1.7,
-    gap: 2.25,
-    motions: &["2/1", "0"],
-};
+pub const R: Scenario = Scenario { name: "R", inverse_beta: 1.7, gap: 2.25, motions: &["2/1", "0"] };
 /// Figure 9: two motions with impacts coexist.
-pub const S: Scenario = Scenario {
-    name: "S",
-    inverse_beta: 1.3,
-    gap: 0.75,
-    motions: &["1/1", "2/1"],
-};
+pub const S: Scenario = Scenario { name: "S", inverse_beta: 1.3, gap: 0.75, motions: &["1/1", "2/1"] };
 /// Figure 10: the fundamental motion is unstable, 1/2 is stable.
-pub const T: Scenario = Scenario {
-    name: "T",
-    inverse_beta: 1.11,
-    gap: 2.0,
-    motions: &["1/2"],
-};
+pub const T: Scenario = Scenario { name: "T", inverse_beta: 1.11, gap: 2.0, motions: &["1/2"] };
 /// Figure 11: impacts that never settle.
-pub const U: Scenario = Scenario {
-    name: "U",
-    inverse_beta: 1.11,
-    gap: 3.0,
-    motions: &["chaotic"],
-};
+pub const U: Scenario = Scenario { name: "U", inverse_beta: 1.11, gap: 3.0, motions: &["chaotic"] };
 /// All of them.
 pub const PAPER: [Scenario; 7] = [N, P, Q, R, S, T, U];

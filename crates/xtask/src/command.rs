@@ -7,11 +7,9 @@ use std::process::{Command, Stdio};
 /// The root of the repository this program was started in.
 pub(crate) fn root() -> PathBuf {
     // cargo sets the variable at run time; what was compiled in serves a direct start
-    let here = std::env::var_os("CARGO_MANIFEST_DIR")
-        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
-    here.ancestors()
-        .nth(2)
-        .map_or(here.clone(), Path::to_path_buf)
+    let here =
+        std::env::var_os("CARGO_MANIFEST_DIR").map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
+    here.ancestors().nth(2).map_or(here.clone(), Path::to_path_buf)
 }
 
 /// A command written as one would type it: words parted by blanks, no quoting.
@@ -24,11 +22,7 @@ pub(crate) fn words(root: &Path, line: &str) -> Command {
 
 /// True where the command exists and succeeds; what it prints is dropped.
 pub(crate) fn succeeds(root: &Path, line: &str) -> bool {
-    words(root, line)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status()
-        .is_ok_and(|status| status.success())
+    words(root, line).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|status| status.success())
 }
 
 /// Runs a command that prints for itself.
@@ -55,12 +49,8 @@ pub(crate) fn run_reading(mut command: Command, mut read: impl FnMut(&str)) -> R
 
     // one pipe for both streams keeps the lines in the order in which they were written
     let (reader, writer) = io::pipe().map_err(broken)?;
-    command
-        .stdout(writer.try_clone().map_err(broken)?)
-        .stderr(writer);
-    let mut child = command
-        .spawn()
-        .map_err(|error| not_started(&command, &error))?;
+    command.stdout(writer.try_clone().map_err(broken)?).stderr(writer);
+    let mut child = command.spawn().map_err(|error| not_started(&command, &error))?;
     // the command holds our writing ends, and the reading ends only when all are closed
     drop(command);
 
@@ -74,11 +64,7 @@ pub(crate) fn run_reading(mut command: Command, mut read: impl FnMut(&str)) -> R
         line.clear();
     }
     let status = child.wait().map_err(broken)?;
-    if status.success() {
-        Ok(())
-    } else {
-        Err(format!("`{program}` ended with {status}"))
-    }
+    if status.success() { Ok(()) } else { Err(format!("`{program}` ended with {status}")) }
 }
 
 fn verdict(command: &Command, outcome: io::Result<std::process::ExitStatus>) -> Result<(), String> {
@@ -91,10 +77,7 @@ fn verdict(command: &Command, outcome: io::Result<std::process::ExitStatus>) -> 
 }
 
 fn not_started(command: &Command, error: &io::Error) -> String {
-    format!(
-        "`{}` cannot be started: {error}",
-        command.get_program().to_string_lossy()
-    )
+    format!("`{}` cannot be started: {error}", command.get_program().to_string_lossy())
 }
 
 /// The line without terminal sequences of the form `ESC [ ... letter`.
@@ -103,9 +86,7 @@ fn without_colours(line: &str) -> String {
     let mut rest = line;
     while let Some((before, after)) = rest.split_once("\u{1b}[") {
         plain.push_str(before);
-        rest = after
-            .find(|c: char| c.is_ascii_alphabetic())
-            .map_or("", |end| &after[end + 1..]);
+        rest = after.find(|c: char| c.is_ascii_alphabetic()).map_or("", |end| &after[end + 1..]);
     }
     plain.push_str(rest);
     plain
@@ -117,10 +98,7 @@ mod tests {
 
     #[test]
     fn colours_are_dropped_and_the_words_kept() {
-        assert_eq!(
-            without_colours("\u{1b}[32;1m   Summary\u{1b}[0m [x]"),
-            "   Summary [x]"
-        );
+        assert_eq!(without_colours("\u{1b}[32;1m   Summary\u{1b}[0m [x]"), "   Summary [x]");
         assert_eq!(without_colours("plain"), "plain");
         assert_eq!(without_colours("cut\u{1b}[3"), "cut");
     }

@@ -14,19 +14,11 @@ const HEADER: &str = "docs/katex-header.html";
 pub(crate) fn build(root: &Path) -> Result<String, String> {
     let header = root.join(HEADER);
     if !header.is_file() {
-        return Err(format!(
-            "{HEADER} is missing; the formulas of the documentation need it"
-        ));
+        return Err(format!("{HEADER} is missing; the formulas of the documentation need it"));
     }
     let mut command = command::words(root, "cargo doc --workspace --no-deps");
     // rustdoc needs the absolute path, and the encoded form allows blanks in it
-    let flags = [
-        "-D",
-        "warnings",
-        "--html-in-header",
-        &header.to_string_lossy(),
-    ]
-    .join("\u{1f}");
+    let flags = ["-D", "warnings", "--html-in-header", &header.to_string_lossy()].join("\u{1f}");
     command.env("CARGO_ENCODED_RUSTDOCFLAGS", flags);
     command::run(command)?;
     Ok("no warning from rustdoc".to_owned())

@@ -50,10 +50,7 @@ fn verdict(metadata: &Value) -> Result<String, String> {
         .ok_or("`cargo metadata` lists no packages")?;
     let faults: Vec<String> = packages.iter().filter_map(fault).collect();
     if faults.is_empty() {
-        return Ok(format!(
-            "{} packages, each under an allowed licence",
-            packages.len()
-        ));
+        return Ok(format!("{} packages, each under an allowed licence", packages.len()));
     }
     Err(format!(
         "{}\nhint: choose another crate, or add the licence to ALLOWED in crates/xtask/src/licences.rs",
@@ -70,12 +67,8 @@ fn fault(package: &Value) -> Option<String> {
     };
     match spdx::satisfied(licence, &|licence| ALLOWED.contains(&licence)) {
         Ok(true) => None,
-        Ok(false) => Some(format!(
-            "crate {name} {version} is under `{licence}`, which is not allowed"
-        )),
-        Err(why) => Some(format!(
-            "crate {name} {version} states the licence `{licence}`: {why}"
-        )),
+        Ok(false) => Some(format!("crate {name} {version} is under `{licence}`, which is not allowed")),
+        Err(why) => Some(format!("crate {name} {version} states the licence `{licence}`: {why}")),
     }
 }
 
@@ -90,10 +83,7 @@ mod tests {
             {"name": "a", "version": "1.0.0", "license": "MIT OR Apache-2.0"},
             {"name": "b", "version": "2.0.0", "license": "GPL-3.0-only OR BSD-2-Clause"},
         ]});
-        assert_eq!(
-            verdict(&metadata),
-            Ok("2 packages, each under an allowed licence".to_owned())
-        );
+        assert_eq!(verdict(&metadata), Ok("2 packages, each under an allowed licence".to_owned()));
     }
 
     #[test]
@@ -105,16 +95,9 @@ mod tests {
             {"name": "garbled", "version": "0.2.0", "license": "MIT OR"},
         ]});
         let sentences = verdict(&metadata).unwrap_err();
-        assert!(
-            sentences
-                .contains("crate copyleft 1.2.3 is under `GPL-3.0-only`, which is not allowed")
-        );
+        assert!(sentences.contains("crate copyleft 1.2.3 is under `GPL-3.0-only`, which is not allowed"));
         assert!(sentences.contains("crate silent 0.1.0 states no licence"));
-        assert!(
-            sentences.contains(
-                "crate garbled 0.2.0 states the licence `MIT OR`: a licence was expected"
-            )
-        );
+        assert!(sentences.contains("crate garbled 0.2.0 states the licence `MIT OR`: a licence was expected"));
         assert!(!sentences.contains("fine"));
     }
 

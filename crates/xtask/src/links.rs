@@ -24,8 +24,7 @@ pub(crate) fn check(root: &Path) -> Result<String, String> {
     let mut faults = Vec::new();
     for file in &files {
         let shown = file.strip_prefix(root).unwrap_or(file).display();
-        let text =
-            fs::read_to_string(file).map_err(|error| format!("{shown} cannot be read: {error}"))?;
+        let text = fs::read_to_string(file).map_err(|error| format!("{shown} cannot be read: {error}"))?;
         for (line, target) in links(&text) {
             if is_elsewhere(&target) {
                 continue;
@@ -37,10 +36,7 @@ pub(crate) fn check(root: &Path) -> Result<String, String> {
         }
     }
     if faults.is_empty() {
-        Ok(format!(
-            "{number} relative links in {} Markdown files lead somewhere",
-            files.len()
-        ))
+        Ok(format!("{number} relative links in {} Markdown files lead somewhere", files.len()))
     } else {
         Err(faults.join("\n"))
     }
@@ -121,10 +117,7 @@ fn links(text: &str) -> Vec<(usize, String)> {
                 found.push((number, target));
             }
         }
-        if let Some((name, after)) = line
-            .trim_start()
-            .strip_prefix('[')
-            .and_then(|rest| rest.split_once("]: "))
+        if let Some((name, after)) = line.trim_start().strip_prefix('[').and_then(|rest| rest.split_once("]: "))
             && !name.starts_with('^')
             && let Some(target) = after.split_whitespace().next()
         {
@@ -166,9 +159,7 @@ fn is_elsewhere(target: &str) -> bool {
     target.starts_with("//")
         || target.split_once(':').is_some_and(|(scheme, _)| {
             scheme.starts_with(|c: char| c.is_ascii_alphabetic())
-                && scheme
-                    .chars()
-                    .all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c))
+                && scheme.chars().all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c))
         })
 }
 
@@ -217,11 +208,7 @@ fn decoded(text: &str) -> String {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
     while let Some((&first, after)) = rest.split_first() {
-        let hex = |byte: u8| {
-            char::from(byte)
-                .to_digit(16)
-                .and_then(|digit| u8::try_from(digit).ok())
-        };
+        let hex = |byte: u8| char::from(byte).to_digit(16).and_then(|digit| u8::try_from(digit).ok());
         if first == b'%'
             && let [high, low, tail @ ..] = after
             && let (Some(high), Some(low)) = (hex(*high), hex(*low))
@@ -243,10 +230,7 @@ fn anchors(text: &str) -> Vec<String> {
     let mut seen: HashMap<String, usize> = HashMap::new();
     // the words between backticks are part of a heading's name, so only the fences are left out
     let prose_lines: Vec<usize> = prose(text).map(|(number, _)| number).collect();
-    for line in prose_lines
-        .iter()
-        .filter_map(|number| text.lines().nth(number - 1))
-    {
+    for line in prose_lines.iter().filter_map(|number| text.lines().nth(number - 1)) {
         for mark in ["id=\"", "name=\""] {
             for (start, _) in line.match_indices(mark) {
                 if let Some((name, _)) = line[start + mark.len()..].split_once('"') {
@@ -259,11 +243,7 @@ fn anchors(text: &str) -> Vec<String> {
         if (1..=6).contains(&level) && title.starts_with(' ') {
             let name = anchor(title.trim().trim_end_matches('#').trim_end());
             let again = seen.entry(name.clone()).or_insert(0);
-            names.push(if *again == 0 {
-                name
-            } else {
-                format!("{name}-{again}")
-            });
+            names.push(if *again == 0 { name } else { format!("{name}-{again}") });
             *again += 1;
         }
     }
@@ -296,23 +276,11 @@ mod tests {
 
     #[test]
     fn links_of_every_form_are_found() {
-        assert_eq!(
-            targets("see [a](x.md), ![b](y.svg \"title\")"),
-            ["x.md", "y.svg"]
-        );
+        assert_eq!(targets("see [a](x.md), ![b](y.svg \"title\")"), ["x.md", "y.svg"]);
         assert_eq!(targets("[![badge](b.svg)](c.md)"), ["b.svg", "c.md"]);
-        assert_eq!(
-            targets("[a](<x y.md>) and [b](w(1).md)"),
-            ["x y.md", "w(1).md"]
-        );
-        assert_eq!(
-            targets("[ref]: docs/a.md \"t\"\n[^note]: words"),
-            ["docs/a.md"]
-        );
-        assert_eq!(
-            targets("<img width=\"3\" src=\"m.png\"><a href=\"n.md\">"),
-            ["m.png", "n.md"]
-        );
+        assert_eq!(targets("[a](<x y.md>) and [b](w(1).md)"), ["x y.md", "w(1).md"]);
+        assert_eq!(targets("[ref]: docs/a.md \"t\"\n[^note]: words"), ["docs/a.md"]);
+        assert_eq!(targets("<img width=\"3\" src=\"m.png\"><a href=\"n.md\">"), ["m.png", "n.md"]);
         assert_eq!(links("one\n\n[a](x)"), [(3, "x".to_owned())]);
     }
 
@@ -339,17 +307,7 @@ mod tests {
     fn headings_become_anchors() {
         let text = "# The `vibro` command\n## Why, and how?\n## Again\n## Again ##\n\
                     ```\n# not one\n```\n### [1.2](x.md) step_by\n<a id=\"by-hand\"></a>\n#no";
-        assert_eq!(
-            anchors(text),
-            [
-                "the-vibro-command",
-                "why-and-how",
-                "again",
-                "again-1",
-                "12-step_by",
-                "by-hand"
-            ]
-        );
+        assert_eq!(anchors(text), ["the-vibro-command", "why-and-how", "again", "again-1", "12-step_by", "by-hand"]);
     }
 
     #[test]
@@ -360,14 +318,7 @@ mod tests {
         fs::write(root.join("README.md"), "# Top\n").unwrap();
         fs::write(root.join("docs/a b.md"), "[up](../README.md#top)").unwrap();
         let file = root.join("docs/a b.md");
-        for target in [
-            "../README.md",
-            "../README.md#top",
-            "a%20b.md",
-            "/README.md",
-            "..",
-            "a b.md#",
-        ] {
+        for target in ["../README.md", "../README.md#top", "a%20b.md", "/README.md", "..", "a b.md#"] {
             assert_eq!(fault(root, &file, target), None, "{target}");
         }
         let why = |target: &str| fault(root, &file, target).unwrap();
@@ -376,14 +327,8 @@ mod tests {
         assert_eq!(why("#top"), "there is no such heading");
         assert_eq!(why("../../elsewhere.md"), "it leads out of the repository");
 
-        assert_eq!(
-            check(root),
-            Ok("1 relative links in 2 Markdown files lead somewhere".to_owned())
-        );
+        assert_eq!(check(root), Ok("1 relative links in 2 Markdown files lead somewhere".to_owned()));
         fs::write(root.join("README.md"), "# Top\n\n[x](gone.md)\n").unwrap();
-        assert_eq!(
-            check(root),
-            Err("README.md:3: link to `gone.md`: there is no such file".to_owned())
-        );
+        assert_eq!(check(root), Err("README.md:3: link to `gone.md`: there is no such file".to_owned()));
     }
 }

@@ -2,11 +2,7 @@
 //!
 //! The arguments are three words and two switches, so they are read by hand: the
 //! command starts in seconds from a fresh checkout, before anything else is built.
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a program for the terminal: printing is what it is for"
-)]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal: printing is what it is for")]
 
 mod command;
 mod docs;

@@ -13,15 +13,8 @@
 /// # Errors
 /// The sentence that says what in the expression cannot be read.
 pub(crate) fn satisfied(expression: &str, allowed: &dyn Fn(&str) -> bool) -> Result<bool, String> {
-    let spaced = expression
-        .replace('(', " ( ")
-        .replace(')', " ) ")
-        .replace('/', " OR ");
-    let mut reader = Reader {
-        words: spaced.split_whitespace().collect(),
-        next: 0,
-        allowed,
-    };
+    let spaced = expression.replace('(', " ( ").replace(')', " ) ").replace('/', " OR ");
+    let mut reader = Reader { words: spaced.split_whitespace().collect(), next: 0, allowed };
     let answer = reader.expression()?;
     match reader.peek() {
         None => Ok(answer),
@@ -68,11 +61,7 @@ impl<'a> Reader<'a> {
     fn single(&mut self) -> Result<bool, String> {
         if self.take("(") {
             let answer = self.expression()?;
-            return if self.take(")") {
-                Ok(answer)
-            } else {
-                Err("a bracket is not closed".to_owned())
-            };
+            return if self.take(")") { Ok(answer) } else { Err("a bracket is not closed".to_owned()) };
         }
         let licence = self.name()?;
         if self.take("WITH") {
@@ -84,9 +73,7 @@ impl<'a> Reader<'a> {
 
     fn name(&mut self) -> Result<&'a str, String> {
         match self.peek() {
-            Some(word @ ("OR" | "AND" | "WITH" | "(" | ")")) => {
-                Err(format!("a licence was expected before `{word}`"))
-            }
+            Some(word @ ("OR" | "AND" | "WITH" | "(" | ")")) => Err(format!("a licence was expected before `{word}`")),
             Some(word) => {
                 self.next += 1;
                 Ok(word)
@@ -102,13 +89,7 @@ mod tests {
 
     fn ask(expression: &str) -> Result<bool, String> {
         satisfied(expression, &|licence| {
-            [
-                "MIT",
-                "Apache-2.0",
-                "Apache-2.0 WITH LLVM-exception",
-                "Zlib",
-            ]
-            .contains(&licence)
+            ["MIT", "Apache-2.0", "Apache-2.0 WITH LLVM-exception", "Zlib"].contains(&licence)
         })
     }
 
@@ -137,10 +118,7 @@ mod tests {
     fn an_exception_is_part_of_the_name() {
         assert_eq!(ask("Apache-2.0 WITH LLVM-exception"), Ok(true));
         assert_eq!(ask("MIT WITH LLVM-exception"), Ok(false));
-        assert_eq!(
-            ask("GPL-3.0-only OR Apache-2.0 WITH LLVM-exception"),
-            Ok(true)
-        );
+        assert_eq!(ask("GPL-3.0-only OR Apache-2.0 WITH LLVM-exception"), Ok(true));
     }
 
     #[test]
@@ -152,9 +130,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_read_is_an_error() {
-        for expression in [
-            "", "MIT OR", "OR MIT", "(MIT", "MIT)", "MIT Zlib", "MIT WITH", "()",
-        ] {
+        for expression in ["", "MIT OR", "OR MIT", "(MIT", "MIT)", "MIT Zlib", "MIT WITH", "()"] {
             assert!(ask(expression).is_err(), "{expression}");
         }
     }

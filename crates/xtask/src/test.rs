@@ -61,34 +61,15 @@ struct Step {
 
 impl Step {
     const fn command(name: &'static str, alone: &'static str) -> Self {
-        Self {
-            name,
-            alone,
-            work: Work::Command,
-            fast: false,
-        }
+        Self { name, alone, work: Work::Command, fast: false }
     }
 
     const fn tests(name: &'static str, alone: &'static str) -> Self {
-        Self {
-            name,
-            alone,
-            work: Work::Tests,
-            fast: false,
-        }
+        Self { name, alone, work: Work::Tests, fast: false }
     }
 
-    const fn check(
-        name: &'static str,
-        alone: &'static str,
-        run: fn(&Path) -> Result<String, String>,
-    ) -> Self {
-        Self {
-            name,
-            alone,
-            work: Work::Check(run),
-            fast: false,
-        }
+    const fn check(name: &'static str, alone: &'static str, run: fn(&Path) -> Result<String, String>) -> Self {
+        Self { name, alone, work: Work::Check(run), fast: false }
     }
 
     const fn fast(self) -> Self {
@@ -105,20 +86,11 @@ fn steps(nextest: bool) -> Vec<Step> {
         "cargo test --workspace --lib --bins --tests --examples --no-fail-fast"
     };
     vec![
-        Step::check(
-            "tools",
-            "rustup component add rustfmt clippy",
-            tools::ensure,
-        )
-        .fast(),
+        Step::check("tools", "rustup component add rustfmt clippy", tools::ensure).fast(),
         Step::command("format", "cargo fmt --all --check").fast(),
         Step::check("licences", "cargo xtask licences", licences::check),
         Step::check("links", "cargo xtask links", links::check),
-        Step::command(
-            "lints",
-            "cargo clippy --workspace --all-targets -- -D warnings",
-        )
-        .fast(),
+        Step::command("lints", "cargo clippy --workspace --all-targets -- -D warnings").fast(),
         Step::tests("tests", tests).fast(),
         Step::tests("doc tests", "cargo test --workspace --doc --no-fail-fast"),
         Step::check("documentation", "cargo xtask docs", docs::build),
@@ -133,13 +105,7 @@ pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
     let mut failed = Vec::new();
     let begin = Instant::now();
     for (index, step) in steps.iter().enumerate() {
-        println!(
-            "\n== {}/{} {}: {}",
-            index + 1,
-            steps.len(),
-            step.name,
-            typed(step, options)
-        );
+        println!("\n== {}/{} {}: {}", index + 1, steps.len(), step.name, typed(step, options));
         let begin = Instant::now();
         let (of_step, outcome) = take(step, root, options);
         totals += of_step;
@@ -153,24 +119,12 @@ pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
             }
         }
     }
-    println!(
-        "\n{} steps in {:.0} s",
-        steps.len(),
-        begin.elapsed().as_secs_f64()
-    );
+    println!("\n{} steps in {:.0} s", steps.len(), begin.elapsed().as_secs_f64());
     for step in &failed {
-        println!(
-            "{} failed; to run it alone: {}",
-            step.name,
-            typed(step, options)
-        );
+        println!("{} failed; to run it alone: {}", step.name, typed(step, options));
     }
     println!("{} passed, {} failed", totals.passed, totals.failed);
-    if failed.is_empty() {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
+    if failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// What one types to run the step alone in the same way.
@@ -204,11 +158,7 @@ fn take(step: &Step, root: &Path, options: Options) -> (Totals, Result<String, S
 }
 
 /// Makes totals and outcome agree: a failure counts at least one, and silence is no success.
-fn settle(
-    work: &Work,
-    counted: Option<Totals>,
-    outcome: Result<String, String>,
-) -> (Totals, Result<String, String>) {
+fn settle(work: &Work, counted: Option<Totals>, outcome: Result<String, String>) -> (Totals, Result<String, String>) {
     let mut totals = counted.unwrap_or_default();
     let outcome = match outcome {
         Ok(_) if matches!(work, Work::Tests) && counted.is_none() => {
@@ -229,20 +179,8 @@ mod tests {
 
     #[test]
     fn switches_are_read() {
-        assert_eq!(
-            Options::parse(&[]),
-            Ok(Options {
-                fast: false,
-                long: false
-            })
-        );
-        assert_eq!(
-            Options::parse(&["--long", "--fast"]),
-            Ok(Options {
-                fast: true,
-                long: true
-            })
-        );
+        assert_eq!(Options::parse(&[]), Ok(Options { fast: false, long: false }));
+        assert_eq!(Options::parse(&["--long", "--fast"]), Ok(Options { fast: true, long: true }));
         assert!(Options::parse(&["--quick"]).is_err_and(|sentence| sentence.contains("`--quick`")));
     }
 
@@ -250,16 +188,9 @@ mod tests {
     fn a_failed_step_never_counts_as_zero_failures() {
         let counted = |passed, failed| Some(Totals { passed, failed });
         let check = |counted: Option<Totals>, ok: bool, expected: (u64, u64), success: bool| {
-            let outcome = if ok {
-                Ok(String::new())
-            } else {
-                Err("why".to_owned())
-            };
+            let outcome = if ok { Ok(String::new()) } else { Err("why".to_owned()) };
             let (totals, outcome) = settle(&Work::Tests, counted, outcome);
-            assert_eq!(
-                (totals.passed, totals.failed, outcome.is_ok()),
-                (expected.0, expected.1, success)
-            );
+            assert_eq!((totals.passed, totals.failed, outcome.is_ok()), (expected.0, expected.1, success));
         };
         check(counted(5, 0), true, (5, 0), true);
         check(counted(5, 2), false, (5, 2), false);
@@ -276,11 +207,7 @@ mod tests {
     #[test]
     fn the_fast_steps_are_format_lints_and_tests() {
         for nextest in [true, false] {
-            let fast: Vec<_> = steps(nextest)
-                .iter()
-                .filter(|step| step.fast)
-                .map(|step| step.name)
-                .collect();
+            let fast: Vec<_> = steps(nextest).iter().filter(|step| step.fast).map(|step| step.name).collect();
             assert_eq!(fast, ["tools", "format", "lints", "tests"]);
         }
     }
@@ -288,16 +215,7 @@ mod tests {
     #[test]
     fn the_long_run_is_typed_with_its_variable() {
         let step = Step::tests("tests", "cargo test");
-        assert_eq!(
-            typed(
-                &step,
-                Options {
-                    fast: false,
-                    long: true
-                }
-            ),
-            "VIBROIMPACT_LONG=1 cargo test"
-        );
+        assert_eq!(typed(&step, Options { fast: false, long: true }), "VIBROIMPACT_LONG=1 cargo test");
         assert_eq!(typed(&step, Options::default()), "cargo test");
     }
 }

@@ -11,11 +11,8 @@ use crate::command;
 pub(crate) fn ensure(root: &Path) -> Result<String, String> {
     for (tool, component) in [("cargo fmt", "rustfmt"), ("cargo clippy", "clippy")] {
         if !command::succeeds(root, &format!("{tool} --version")) {
-            command::run(command::words(
-                root,
-                &format!("rustup component add {component}"),
-            ))
-            .map_err(|why| format!("`{tool}` is missing and cannot be installed: {why}"))?;
+            command::run(command::words(root, &format!("rustup component add {component}")))
+                .map_err(|why| format!("`{tool}` is missing and cannot be installed: {why}"))?;
         }
     }
     Ok(if has_nextest(root) {

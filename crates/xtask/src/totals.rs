@@ -29,9 +29,7 @@ impl AddAssign for Totals {
 /// The totals in a line without colours; `None` where the line is no summary.
 pub(crate) fn in_line(line: &str) -> Option<Totals> {
     let line = line.trim_end();
-    nextest(line.trim_start())
-        .or_else(|| libtest(line))
-        .or_else(|| pytest(line))
+    nextest(line.trim_start()).or_else(|| libtest(line)).or_else(|| pytest(line))
 }
 
 fn nextest(line: &str) -> Option<Totals> {
@@ -54,15 +52,11 @@ fn pytest(line: &str) -> Option<Totals> {
     }
     let (counts, seconds) = line.trim_matches(['=', ' ']).rsplit_once(" in ")?;
     // after a minute pytest adds the time in words: `75.20s (0:01:15)`
-    let seconds = seconds
-        .split_once(" (")
-        .map_or(seconds, |(seconds, _)| seconds);
+    let seconds = seconds.split_once(" (").map_or(seconds, |(seconds, _)| seconds);
     seconds.strip_suffix('s')?.parse::<f64>().ok()?;
     let reads = |part: &str| {
         let mut words = part.split_whitespace();
-        words
-            .next()
-            .is_some_and(|number| number.parse::<u64>().is_ok())
+        words.next().is_some_and(|number| number.parse::<u64>().is_ok())
             && words.next().is_some()
             && words.next().is_none()
     };
@@ -117,30 +111,12 @@ mod tests {
 
     #[test]
     fn nextest_lines() {
-        check(
-            "     Summary [   0.012s] 5 tests run: 5 passed, 0 skipped",
-            Some((5, 0)),
-        );
-        check(
-            "     Summary [   0.012s] 1 test run: 1 passed, 3 skipped",
-            Some((1, 0)),
-        );
-        check(
-            "Summary [ 61.0s] 9 tests run: 7 passed (1 slow, 2 leaky), 2 failed, 0 skipped",
-            Some((7, 2)),
-        );
-        check(
-            "Summary [ 1.0s] 5/7 tests run: 3 passed, 1 failed, 1 timed out, 0 skipped",
-            Some((3, 2)),
-        );
-        check(
-            "Summary [ 1.0s] 2 tests run: 1 passed, 1 exec failed, 0 skipped",
-            Some((1, 1)),
-        );
-        check(
-            "Summary [ 0.0s] 0 tests run: 0 passed, 4 skipped",
-            Some((0, 0)),
-        );
+        check("     Summary [   0.012s] 5 tests run: 5 passed, 0 skipped", Some((5, 0)));
+        check("     Summary [   0.012s] 1 test run: 1 passed, 3 skipped", Some((1, 0)));
+        check("Summary [ 61.0s] 9 tests run: 7 passed (1 slow, 2 leaky), 2 failed, 0 skipped", Some((7, 2)));
+        check("Summary [ 1.0s] 5/7 tests run: 3 passed, 1 failed, 1 timed out, 0 skipped", Some((3, 2)));
+        check("Summary [ 1.0s] 2 tests run: 1 passed, 1 exec failed, 0 skipped", Some((1, 1)));
+        check("Summary [ 0.0s] 0 tests run: 0 passed, 4 skipped", Some((0, 0)));
     }
 
     #[test]
@@ -157,15 +133,9 @@ mod tests {
 
     #[test]
     fn pytest_lines() {
-        check(
-            "========= 4 passed, 1 failed, 2 skipped in 0.05s =========",
-            Some((4, 1)),
-        );
+        check("========= 4 passed, 1 failed, 2 skipped in 0.05s =========", Some((4, 1)));
         check("12 passed in 3.20s", Some((12, 0)));
-        check(
-            "===== 1 failed, 2 passed, 1 error in 75.20s (0:01:15) =====",
-            Some((2, 2)),
-        );
+        check("===== 1 failed, 2 passed, 1 error in 75.20s (0:01:15) =====", Some((2, 2)));
     }
 
     #[test]

@@ -82,21 +82,14 @@ impl VLine {
 }
 
 fn rule(canvas: &mut Canvas, frame: &Frame, at: f64, level: bool, stroke: Stroke) {
-    let inside = if level {
-        frame.holds((frame.left, at))
-    } else {
-        frame.holds((at, frame.top))
-    };
+    let inside = if level { frame.holds((frame.left, at)) } else { frame.holds((at, frame.top)) };
     if inside {
         let d = if level {
             format!("M{} {}H{}", N(frame.left), N(at), N(frame.right()))
         } else {
             format!("M{} {}V{}", N(at), N(frame.top), N(frame.bottom()))
         };
-        canvas.push(&format!(
-            "<path d=\"{d}\" fill=\"none\"{}/>\n",
-            stroke.attributes()
-        ));
+        canvas.push(&format!("<path d=\"{d}\" fill=\"none\"{}/>\n", stroke.attributes()));
     }
 }
 
@@ -104,11 +97,7 @@ impl Wall {
     /// A grey wall.
     #[must_use]
     pub const fn new(at: f64, side: Side) -> Self {
-        Self {
-            at,
-            side,
-            colour: Colour::GREY,
-        }
+        Self { at, side, colour: Colour::GREY }
     }
 
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
@@ -124,11 +113,7 @@ impl Wall {
         };
         // a stop outside the panel leaves all of it behind the wall, or none
         let band = if matches!(self.side, Side::Above | Side::Right) == (self.at < beyond) {
-            let (x, y) = if upright {
-                ((self.at, beyond), frame.y.range)
-            } else {
-                (frame.x.range, (self.at, beyond))
-            };
+            let (x, y) = if upright { ((self.at, beyond), frame.y.range) } else { (frame.x.range, (self.at, beyond)) };
             frame.cut(x, y)
         } else {
             None
@@ -137,17 +122,9 @@ impl Wall {
             let hatch = canvas.hatch(Hatch::new(Pattern::Rising, self.colour));
             let tint = self.colour.alpha(0.12).paint("fill");
             let d = format!("M{} {}H{}V{}H{}z", N(l), N(t), N(r), N(b), N(l));
-            canvas.push(&format!(
-                "<path d=\"{d}\"{tint}/><path d=\"{d}\" fill=\"{hatch}\"/>\n"
-            ));
+            canvas.push(&format!("<path d=\"{d}\"{tint}/><path d=\"{d}\" fill=\"{hatch}\"/>\n"));
         }
-        rule(
-            canvas,
-            frame,
-            mapping.at(self.at),
-            !upright,
-            Stroke::new(self.colour).width(3.0),
-        );
+        rule(canvas, frame, mapping.at(self.at), !upright, Stroke::new(self.colour).width(3.0));
     }
 
     pub(crate) fn extent(&self, x: &mut Extent, y: &mut Extent) {

@@ -19,46 +19,31 @@ pub struct Line {
 impl Line {
     /// A solid line through these points.
     pub fn new(xs: impl Into<Vec<f64>>, ys: impl Into<Vec<f64>>, colour: Colour) -> Self {
-        Self {
-            xs: xs.into(),
-            ys: ys.into(),
-            stroke: Stroke::new(colour),
-        }
+        Self { xs: xs.into(), ys: ys.into(), stroke: Stroke::new(colour) }
     }
 
     /// With another width in figure units.
     #[must_use]
     pub fn width(self, width: f64) -> Self {
-        Self {
-            stroke: self.stroke.width(width),
-            ..self
-        }
+        Self { stroke: self.stroke.width(width), ..self }
     }
 
     /// With dashes.
     #[must_use]
     pub fn dash(self, dash: Dash) -> Self {
-        Self {
-            stroke: self.stroke.dash(dash),
-            ..self
-        }
+        Self { stroke: self.stroke.dash(dash), ..self }
     }
 
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let points = self.xs.iter().zip(&self.ys).map(|(&x, &y)| {
             let finite = x.is_finite() && y.is_finite();
-            if finite {
-                frame.at(x, y)
-            } else {
-                (f64::NAN, f64::NAN)
-            }
+            if finite { frame.at(x, y) } else { (f64::NAN, f64::NAN) }
         });
         let path = thin::path(points, frame);
         if !path.is_empty() {
             let (clip, stroke) = (canvas.clip(frame), self.stroke.attributes());
-            canvas.push(&format!(
-                "<g{clip}><path d=\"{path}\" fill=\"none\" stroke-linejoin=\"round\"{stroke}/></g>\n"
-            ));
+            canvas
+                .push(&format!("<g{clip}><path d=\"{path}\" fill=\"none\" stroke-linejoin=\"round\"{stroke}/></g>\n"));
         }
     }
 
@@ -82,11 +67,7 @@ mod tests {
         let mut canvas = Canvas::new("");
         let line = Line::new([0.0, 1.0, 9.0], [0.0, 1.0], Colour::BLACK).dash(Dash::Dashed);
         line.draw(&mut canvas, &test_frame((0.0, 1.0), (0.0, 1.0)));
-        assert!(
-            canvas.body.contains("clip-path=\"url(#clip0)\""),
-            "{}",
-            canvas.body
-        );
+        assert!(canvas.body.contains("clip-path=\"url(#clip0)\""), "{}", canvas.body);
         assert!(canvas.body.contains("d=\"M0 100L100 0\"") && canvas.body.contains("dasharray"));
     }
 }

@@ -66,9 +66,7 @@ macro_rules! marks {
     };
 }
 
-marks!(
-    Line, Points, Raster, Rects, Region, Text, HLine, VLine, Wall
-);
+marks!(Line, Points, Raster, Rects, Region, Text, HLine, VLine, Wall);
 
 /// The smallest and largest finite value seen.
 #[derive(Clone, Copy, Debug, Default)]
@@ -80,10 +78,7 @@ pub(crate) struct Extent {
 
 impl Extent {
     pub(crate) fn new(positive: bool) -> Self {
-        Self {
-            range: None,
-            positive,
-        }
+        Self { range: None, positive }
     }
 
     pub(crate) fn see(&mut self, value: f64) {

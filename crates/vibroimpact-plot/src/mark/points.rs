@@ -35,10 +35,7 @@ impl Shape {
         match self {
             Self::Circle => {
                 let (n, d) = (N(r), N(size));
-                format!(
-                    "M{} {ny}a{n} {n} 0 1 0 {d} 0a{n} {n} 0 1 0 -{d} 0z",
-                    N(x - r)
-                )
+                format!("M{} {ny}a{n} {n} 0 1 0 {d} 0a{n} {n} 0 1 0 -{d} 0z", N(x - r))
             }
             Self::Square => {
                 let h = r * 0.886;
@@ -47,36 +44,19 @@ impl Shape {
             }
             Self::Diamond => {
                 let h = r * 1.253;
-                format!(
-                    "M{} {ny}L{nx} {}L{} {ny}L{nx} {}z",
-                    N(x - h),
-                    N(y - h),
-                    N(x + h),
-                    N(y + h)
-                )
+                format!("M{} {ny}L{nx} {}L{} {ny}L{nx} {}z", N(x - h), N(y - h), N(x + h), N(y + h))
             }
             Self::TriangleUp | Self::TriangleDown => {
                 let (h, s) = (r * 1.555, if self == Self::TriangleUp { 1.0 } else { -1.0 });
                 let (base, half) = (N(y + s * h / 2.0), h * 0.866);
-                format!(
-                    "M{nx} {}L{} {base}L{} {base}z",
-                    N(y - s * h),
-                    N(x + half),
-                    N(x - half)
-                )
+                format!("M{nx} {}L{} {base}L{} {base}z", N(y - s * h), N(x + half), N(x - half))
             }
             Self::Cross => {
                 let h = r * 0.8;
                 let (l, t, b, rt) = (N(x - h), N(y - h), N(y + h), N(x + h));
                 format!("M{l} {t}L{rt} {b}M{l} {b}L{rt} {t}")
             }
-            Self::Plus => format!(
-                "M{} {ny}H{}M{nx} {}V{}",
-                N(x - r),
-                N(x + r),
-                N(y - r),
-                N(y + r)
-            ),
+            Self::Plus => format!("M{} {ny}H{}M{nx} {}V{}", N(x - r), N(x + r), N(y - r), N(y + r)),
         }
     }
 
@@ -107,11 +87,7 @@ impl PointStyle {
         let line = if open { 2.5 } else { 2.0 };
         let mut out = String::new();
         if let Some(rim) = self.rim {
-            let width = if open || !self.filled {
-                line + 3.0
-            } else {
-                3.0
-            };
+            let width = if open || !self.filled { line + 3.0 } else { 3.0 };
             out.push_str(&format!(
                 "<path d=\"{path}\" fill=\"none\" stroke-width=\"{}\" stroke-linejoin=\"round\"{}/>\n",
                 N(width),
@@ -121,10 +97,7 @@ impl PointStyle {
         let ink = if self.filled && !open {
             self.colour.paint("fill")
         } else {
-            format!(
-                " fill=\"none\" stroke-width=\"{line}\"{}",
-                self.colour.paint("stroke")
-            )
+            format!(" fill=\"none\" stroke-width=\"{line}\"{}", self.colour.paint("stroke"))
         };
         out.push_str(&format!("<path d=\"{path}\"{ink}/>\n"));
         out
@@ -145,18 +118,8 @@ pub struct Points {
 impl Points {
     /// Filled circles of 9 units (1.1 mm).
     pub fn new(xs: impl Into<Vec<f64>>, ys: impl Into<Vec<f64>>, colour: Colour) -> Self {
-        let style = PointStyle {
-            shape: Shape::Circle,
-            size: 9.0,
-            colour,
-            filled: true,
-            rim: None,
-        };
-        Self {
-            xs: xs.into(),
-            ys: ys.into(),
-            style,
-        }
+        let style = PointStyle { shape: Shape::Circle, size: 9.0, colour, filled: true, rim: None };
+        Self { xs: xs.into(), ys: ys.into(), style }
     }
 
     /// With another form.
@@ -189,11 +152,7 @@ impl Points {
 
     /// Points are not cut in half by the frame: one whose centre is inside is drawn whole.
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
-        let size = if self.style.size.is_finite() {
-            self.style.size.clamp(0.2, 200.0)
-        } else {
-            9.0
-        };
+        let size = if self.style.size.is_finite() { self.style.size.clamp(0.2, 200.0) } else { 9.0 };
         let mut path = String::new();
         let mut seen = HashSet::new();
         // two points within a fiftieth of their size look like one; in a cloud of thousands, whose
@@ -202,10 +161,7 @@ impl Points {
         let grid = (size / if many { 10.0 } else { 50.0 }).max(0.05);
         for (&x, &y) in self.xs.iter().zip(&self.ys) {
             let (px, py) = frame.at(x, y);
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "page coordinates are within 1e6"
-            )]
+            #[expect(clippy::cast_possible_truncation, reason = "page coordinates are within 1e6")]
             let cell = ((px / grid).round() as i64, (py / grid).round() as i64);
             if frame.holds((px, py)) && seen.insert(cell) {
                 path.push_str(&self.style.shape.path(px, py, size));
@@ -231,24 +187,14 @@ mod tests {
     fn doubles_and_strangers_are_left_out() {
         let (frame, mut canvas) = (test_frame((0.0, 1.0), (0.0, 1.0)), Canvas::new(""));
         let xs = [0.5, 0.5, f64::NAN, 7.0, 1.0];
-        Points::new(xs, [0.5, 0.5, 0.5, 0.5, 0.0], Colour::BLACK)
-            .shape(Shape::Plus)
-            .draw(&mut canvas, &frame);
+        Points::new(xs, [0.5, 0.5, 0.5, 0.5, 0.0], Colour::BLACK).shape(Shape::Plus).draw(&mut canvas, &frame);
         assert_eq!(canvas.body.matches('V').count(), 2, "{}", canvas.body);
     }
 
     #[test]
     fn every_shape_has_a_path() {
         use Shape::{Circle, Cross, Diamond, Plus, Square, TriangleDown, TriangleUp};
-        let all = [
-            Circle,
-            Square,
-            Diamond,
-            TriangleUp,
-            TriangleDown,
-            Cross,
-            Plus,
-        ];
+        let all = [Circle, Square, Diamond, TriangleUp, TriangleDown, Cross, Plus];
         let paths: HashSet<String> = all.iter().map(|s| s.path(5.0, 5.0, 10.0)).collect();
         assert_eq!(paths.len(), all.len());
     }

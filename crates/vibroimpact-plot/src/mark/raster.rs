@@ -36,24 +36,13 @@ impl Raster {
     ) -> Result<Self, PlotError> {
         let (classes, palette) = (classes.into(), palette.into());
         if nx.checked_mul(ny) != Some(classes.len()) {
-            return Err(PlotError::RasterSize {
-                given: classes.len(),
-                nx,
-                ny,
-            });
+            return Err(PlotError::RasterSize { given: classes.len(), nx, ny });
         }
         let (width, height) = (nx as f64, ny as f64);
         if !(1.0..=MAX_SIDE).contains(&width) || !(1.0..=MAX_SIDE).contains(&height) {
             return Err(PlotError::ImageSize { width, height });
         }
-        Ok(Self {
-            x,
-            y,
-            nx,
-            ny,
-            classes,
-            palette,
-        })
+        Ok(Self { x, y, nx, ny, classes, palette })
     }
 
     /// The same, but `x` and `y` are the middles of the first and last cells: the grid points that
@@ -69,11 +58,7 @@ impl Raster {
         palette: impl Into<Vec<Colour>>,
     ) -> Result<Self, PlotError> {
         let outer = |(a, b): (f64, f64), n: usize| {
-            let half = if n > 1 {
-                (b - a) / (2.0 * (n - 1) as f64)
-            } else {
-                0.5
-            };
+            let half = if n > 1 { (b - a) / (2.0 * (n - 1) as f64) } else { 0.5 };
             (a - half, b + half)
         };
         Self::new(outer(x, nx), outer(y, ny), (nx, ny), classes, palette)
@@ -136,14 +121,9 @@ impl Raster {
             let y = (step(self.y, j, self.ny), step(self.y, j + 1, self.ny));
             let mut i = 0;
             for run in row.chunk_by(|a, b| a == b) {
-                let x = (
-                    step(self.x, i, self.nx),
-                    step(self.x, i + run.len(), self.nx),
-                );
+                let x = (step(self.x, i, self.nx), step(self.x, i + run.len(), self.nx));
                 i += run.len();
-                if let (Some(path), Some([l, t, r, b])) =
-                    (paths.get_mut(usize::from(run[0])), frame.cut(x, y))
-                {
+                if let (Some(path), Some([l, t, r, b])) = (paths.get_mut(usize::from(run[0])), frame.cut(x, y)) {
                     path.push_str(&format!("M{} {}H{}V{}H{}z", N(l), N(t), N(r), N(b), N(l)));
                 }
             }
@@ -151,9 +131,7 @@ impl Raster {
         for (path, colour) in paths.iter().zip(&self.palette) {
             if !path.is_empty() {
                 let fill = colour.paint("fill");
-                canvas.push(&format!(
-                    "<path d=\"{path}\" shape-rendering=\"crispEdges\"{fill}/>\n"
-                ));
+                canvas.push(&format!("<path d=\"{path}\" shape-rendering=\"crispEdges\"{fill}/>\n"));
             }
         }
     }
@@ -174,32 +152,17 @@ mod tests {
         let raster = Raster::new((0.0, 1.0), (0.0, 1.0), (2, 2), [0, 1, 0, 7], colours)?;
         let png = raster.png(false, true).unwrap_or_default();
         let picture = Pixmap::decode_png(&png).map_err(|e| PlotError::Png(e.to_string()))?;
-        let red_alpha: Vec<_> = picture
-            .pixels()
-            .iter()
-            .map(|p| (p.red(), p.alpha()))
-            .collect();
+        let red_alpha: Vec<_> = picture.pixels().iter().map(|p| (p.red(), p.alpha())).collect();
         assert_eq!(red_alpha, [(255, 255), (0, 0), (255, 255), (0, 255)]);
         Ok(())
     }
 
     #[test]
     fn sizes_are_checked() {
-        let make =
-            |n, shape| Raster::new((0.0, 1.0), (0.0, 1.0), shape, vec![0; n], [Colour::BLACK]);
-        assert!(matches!(
-            make(5, (2, 3)),
-            Err(PlotError::RasterSize {
-                given: 5,
-                nx: 2,
-                ny: 3
-            })
-        ));
+        let make = |n, shape| Raster::new((0.0, 1.0), (0.0, 1.0), shape, vec![0; n], [Colour::BLACK]);
+        assert!(matches!(make(5, (2, 3)), Err(PlotError::RasterSize { given: 5, nx: 2, ny: 3 })));
         assert!(matches!(make(0, (0, 3)), Err(PlotError::ImageSize { .. })));
-        assert!(matches!(
-            make(0, (usize::MAX, 2)),
-            Err(PlotError::RasterSize { .. })
-        ));
+        assert!(matches!(make(0, (usize::MAX, 2)), Err(PlotError::RasterSize { .. })));
     }
 
     #[test]

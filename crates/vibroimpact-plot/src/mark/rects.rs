@@ -28,10 +28,7 @@ pub struct Rects {
 impl Rects {
     /// No rectangle yet, and these styles.
     pub fn new(styles: impl Into<Vec<ClassStyle>>) -> Self {
-        Self {
-            rects: Vec::new(),
-            styles: styles.into(),
-        }
+        Self { rects: Vec::new(), styles: styles.into() }
     }
 
     /// Adds a cell. Several classes share it in upright stripes of equal width: motions that
@@ -40,11 +37,7 @@ impl Rects {
         let n = classes.len() as f64;
         for (k, &class) in classes.iter().enumerate() {
             let part = |k: usize| x.0 + (x.1 - x.0) * k as f64 / n;
-            self.rects.push(Rect {
-                x: (part(k), part(k + 1)),
-                y,
-                class,
-            });
+            self.rects.push(Rect { x: (part(k), part(k + 1)), y, class });
         }
     }
 
@@ -52,9 +45,7 @@ impl Rects {
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let mut paths = vec![String::new(); self.styles.len()];
         for rect in &self.rects {
-            if let (Some(path), Some([l, t, r, b])) =
-                (paths.get_mut(rect.class), frame.cut(rect.x, rect.y))
-            {
+            if let (Some(path), Some([l, t, r, b])) = (paths.get_mut(rect.class), frame.cut(rect.x, rect.y)) {
                 path.push_str(&format!("M{} {}H{}V{}H{}z", N(l), N(t), N(r), N(b), N(l)));
             }
         }
@@ -63,9 +54,7 @@ impl Rects {
                 continue;
             }
             let fill = style.colour.paint("fill");
-            canvas.push(&format!(
-                "<path d=\"{path}\" shape-rendering=\"crispEdges\"{fill}/>\n"
-            ));
+            canvas.push(&format!("<path d=\"{path}\" shape-rendering=\"crispEdges\"{fill}/>\n"));
             if let Some(hatch) = style.hatch {
                 let paint = canvas.hatch(hatch);
                 canvas.push(&format!("<path d=\"{path}\" fill=\"{paint}\"/>\n"));
@@ -96,11 +85,7 @@ mod tests {
         rects.cell((0.0, 1.0), (0.0, 1.0), &[]);
         let mut canvas = Canvas::new("");
         rects.draw(&mut canvas, &test_frame((0.0, 2.0), (0.0, 1.0)));
-        assert!(
-            canvas.body.contains("d=\"M0 0H25V100H0z\""),
-            "{}",
-            canvas.body
-        );
+        assert!(canvas.body.contains("d=\"M0 0H25V100H0z\""), "{}", canvas.body);
         assert!(canvas.body.contains("d=\"M25 0H50V100H25z\""));
     }
 }

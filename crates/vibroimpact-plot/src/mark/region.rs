@@ -24,10 +24,7 @@ impl Region {
     /// A region of these rings, invisible until it is given a fill, a hatch or an outline.
     #[must_use]
     pub fn new(rings: Vec<Vec<(f64, f64)>>) -> Self {
-        Self {
-            rings,
-            ..Self::default()
-        }
+        Self { rings, ..Self::default() }
     }
 
     /// A region of one ring.
@@ -38,47 +35,30 @@ impl Region {
     /// Filled.
     #[must_use]
     pub fn fill(self, colour: Colour) -> Self {
-        Self {
-            fill: Some(colour),
-            ..self
-        }
+        Self { fill: Some(colour), ..self }
     }
 
     /// Hatched.
     #[must_use]
     pub fn hatch(self, hatch: Hatch) -> Self {
-        Self {
-            hatch: Some(hatch),
-            ..self
-        }
+        Self { hatch: Some(hatch), ..self }
     }
 
     /// Outlined.
     #[must_use]
     pub fn outline(self, stroke: Stroke) -> Self {
-        Self {
-            outline: Some(stroke),
-            ..self
-        }
+        Self { outline: Some(stroke), ..self }
     }
 
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let mut path = String::new();
         for ring in &self.rings {
             // corners without a place are left out; fewer than three enclose nothing
-            let corners: Vec<_> = ring
-                .iter()
-                .map(|&(x, y)| frame.at(x, y))
-                .filter(|(x, y)| !x.is_nan() && !y.is_nan())
-                .collect();
+            let corners: Vec<_> =
+                ring.iter().map(|&(x, y)| frame.at(x, y)).filter(|(x, y)| !x.is_nan() && !y.is_nan()).collect();
             if corners.len() >= 3 {
                 for (i, (x, y)) in corners.into_iter().enumerate() {
-                    path.push_str(&format!(
-                        "{}{} {}",
-                        if i == 0 { 'M' } else { 'L' },
-                        N(x),
-                        N(y)
-                    ));
+                    path.push_str(&format!("{}{} {}", if i == 0 { 'M' } else { 'L' }, N(x), N(y)));
                 }
                 path.push('z');
             }
@@ -96,9 +76,7 @@ impl Region {
         }
         if let Some(outline) = self.outline {
             let stroke = outline.attributes();
-            canvas.push(&format!(
-                "<path d=\"{path}\" fill=\"none\" stroke-linejoin=\"round\"{stroke}/>"
-            ));
+            canvas.push(&format!("<path d=\"{path}\" fill=\"none\" stroke-linejoin=\"round\"{stroke}/>"));
         }
         canvas.push("</g>\n");
     }
@@ -121,16 +99,10 @@ mod tests {
         let frame = test_frame((0.0, 1.0), (0.0, 1.0));
         let mut canvas = Canvas::new("");
         let bad = vec![(0.0, 0.0), (1.0, f64::NAN), (1.0, 1.0)];
-        Region::polygon(bad)
-            .fill(Colour::BLACK)
-            .draw(&mut canvas, &frame);
+        Region::polygon(bad).fill(Colour::BLACK).draw(&mut canvas, &frame);
         assert_eq!(canvas.body, "");
         let good = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)];
-        Region::polygon(good)
-            .fill(Colour::BLACK.alpha(0.5))
-            .draw(&mut canvas, &frame);
-        assert!(
-            canvas.body.contains("M0 100L100 100L100 0z") && canvas.body.contains("fill-opacity")
-        );
+        Region::polygon(good).fill(Colour::BLACK.alpha(0.5)).draw(&mut canvas, &frame);
+        assert!(canvas.body.contains("M0 100L100 100L100 0z") && canvas.body.contains("fill-opacity"));
     }
 }

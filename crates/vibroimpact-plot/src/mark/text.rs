@@ -76,19 +76,13 @@ impl Text {
     /// Without the white rim.
     #[must_use]
     pub fn without_halo(self) -> Self {
-        Self {
-            halo: false,
-            ..self
-        }
+        Self { halo: false, ..self }
     }
 
     /// With a thin line back to its place.
     #[must_use]
     pub fn leader(self) -> Self {
-        Self {
-            leader: true,
-            ..self
-        }
+        Self { leader: true, ..self }
     }
 
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
@@ -96,11 +90,7 @@ impl Text {
         if !frame.holds(place) {
             return;
         }
-        let size = if self.size.is_finite() {
-            self.size.clamp(1.0, 400.0)
-        } else {
-            theme::MARK_TEXT
-        };
+        let size = if self.size.is_finite() { self.size.clamp(1.0, 400.0) } else { theme::MARK_TEXT };
         let (x, y) = (place.0 + self.dx, place.1 - self.dy);
         if self.leader {
             let d = format!("M{} {}L{} {}", N(place.0), N(place.1), N(x), N(y));

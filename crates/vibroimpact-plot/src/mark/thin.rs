@@ -28,12 +28,7 @@ pub(crate) fn path(points: impl Iterator<Item = Point>, frame: &Frame) -> String
     let mut out = String::new();
     for piece in pieces(points, frame) {
         for (i, (x, y)) in straighten(&columns(&piece)).into_iter().enumerate() {
-            out.push_str(&format!(
-                "{}{} {}",
-                if i == 0 { 'M' } else { 'L' },
-                N(x),
-                N(y)
-            ));
+            out.push_str(&format!("{}{} {}", if i == 0 { 'M' } else { 'L' }, N(x), N(y)));
         }
     }
     out
@@ -126,8 +121,7 @@ fn straighten(points: &[Point]) -> Vec<Point> {
                 let turn = ((f64::midpoint(lo, hi) - angle) / std::f64::consts::TAU).round();
                 let angle = angle + turn * std::f64::consts::TAU;
                 // a step back towards the anchor is a turning point, which must stay
-                (angle >= lo && angle <= hi && far >= reach)
-                    .then_some((lo.max(angle - half), hi.min(angle + half)))
+                (angle >= lo && angle <= hi && far >= reach).then_some((lo.max(angle - half), hi.min(angle + half)))
             }
         };
         if let Some(narrowed) = narrowed {
@@ -161,14 +155,8 @@ mod tests {
     #[test]
     fn nan_breaks_and_corners_stay() {
         let nan = f64::NAN;
-        assert_eq!(
-            drawn(&[0.0, 10.0, 10.0], &[0.0, 0.0, 20.0]),
-            "M0 0L10 0L10 20"
-        );
-        assert_eq!(
-            drawn(&[0.0, 10.0, nan, 20.0, 30.0], &[0.0; 5]),
-            "M0 0L10 0M20 0L30 0"
-        );
+        assert_eq!(drawn(&[0.0, 10.0, 10.0], &[0.0, 0.0, 20.0]), "M0 0L10 0L10 20");
+        assert_eq!(drawn(&[0.0, 10.0, nan, 20.0, 30.0], &[0.0; 5]), "M0 0L10 0M20 0L30 0");
         assert_eq!(drawn(&[0.0, 50.0, 20.0], &[0.0; 3]), "M0 0L50 0L20 0");
         assert_eq!(drawn(&[], &[]), "");
         assert_eq!(drawn(&[1.0], &[1.0]), "");
@@ -183,9 +171,7 @@ mod tests {
     #[test]
     fn a_thinned_line_stays_within_the_tolerance() {
         let n = 200_000;
-        let xs: Vec<f64> = (0..=n)
-            .map(|i| 100.0 * f64::from(i) / f64::from(n))
-            .collect();
+        let xs: Vec<f64> = (0..=n).map(|i| 100.0 * f64::from(i) / f64::from(n)).collect();
         let ys: Vec<f64> = xs.iter().map(|x| 50.0 + 40.0 * (x / 3.0).sin()).collect();
         let frame = test_frame((0.0, 100.0), (100.0, 0.0));
         let points: Vec<Point> = xs.iter().zip(&ys).map(|(&x, &y)| frame.at(x, y)).collect();
@@ -205,9 +191,7 @@ mod tests {
 
     #[test]
     fn noise_keeps_its_envelope() {
-        let ys: Vec<f64> = (0..100_000u32)
-            .map(|i| f64::from(i.wrapping_mul(2_654_435_761) % 1000) / 10.0)
-            .collect();
+        let ys: Vec<f64> = (0..100_000u32).map(|i| f64::from(i.wrapping_mul(2_654_435_761) % 1000) / 10.0).collect();
         let xs: Vec<f64> = (0..100_000u32).map(|i| f64::from(i) / 1000.0).collect();
         let text = drawn(&xs, &ys);
         assert!(text.len() < 40_000, "{} bytes", text.len());

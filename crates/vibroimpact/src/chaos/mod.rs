@@ -59,11 +59,7 @@ pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spe
     for _ in 0..BLOCKS {
         let (mut time, mut one, mut two) = (Sum::default(), Sum::default(), Sum::default());
         for _ in 0..per_block {
-            let Mapped::Impact {
-                state: next,
-                interval,
-            } = impact_map(osc, &state, SearchLimits::default())
-            else {
+            let Mapped::Impact { state: next, interval } = impact_map(osc, &state, SearchLimits::default()) else {
                 return None;
             };
             let d = derivative(osc, &state, &next, interval);
@@ -85,11 +81,7 @@ pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spe
     }
     let exponents = [mean(&first), mean(&second)];
     // eps = 0 contracts one direction to nothing
-    exponents[0].value.is_finite().then(|| Spectrum {
-        exponents,
-        impacts_per_period: mean(&rate),
-        last: state,
-    })
+    exponents[0].value.is_finite().then(|| Spectrum { exponents, impacts_per_period: mean(&rate), last: state })
 }
 
 /// The time-weighted mean of the blocks and three standard errors of it.
@@ -98,14 +90,8 @@ fn mean(blocks: &[(f64, f64)]) -> Measured {
     let value = blocks.iter().map(|(x, t)| x * t).sum::<f64>() / total;
     #[allow(clippy::cast_precision_loss)] // a few dozen
     let count = blocks.len() as f64;
-    let spread: f64 = blocks
-        .iter()
-        .map(|(x, t)| ((x - value) * t * count / total).powi(2))
-        .sum();
-    Measured {
-        value,
-        error: 3.0 * (spread / (count * (count - 1.0))).sqrt(),
-    }
+    let spread: f64 = blocks.iter().map(|(x, t)| ((x - value) * t * count / total).powi(2)).sum();
+    Measured { value, error: 3.0 * (spread / (count * (count - 1.0))).sqrt() }
 }
 
 #[cfg(test)]
@@ -115,41 +101,23 @@ mod tests {
 
     #[test]
     fn sum_of_exponents_is_the_identity() {
-        for (inverse, gap, eps, zeta) in [
-            (1.11, 3.0, 0.5, 0.0),
-            (1.11, 2.9, 0.5, 0.001),
-            (1.15, 3.0, 0.6, 0.0),
-        ] {
-            let osc = Oscillator::from_inverse_beta(inverse, gap, eps)
-                .unwrap()
-                .with_damping(zeta)
-                .unwrap();
-            let from = ImpactState {
-                phase: 1.4,
-                velocity: 2.4,
-                side: Side::Upper,
-            };
+        for (inverse, gap, eps, zeta) in [(1.11, 3.0, 0.5, 0.0), (1.11, 2.9, 0.5, 0.001), (1.15, 3.0, 0.6, 0.0)] {
+            let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(zeta).unwrap();
+            let from = ImpactState { phase: 1.4, velocity: 2.4, side: Side::Upper };
             let spectrum = lyapunov(&osc, from, 20_000).unwrap();
             let [one, two] = spectrum.exponents;
             let rate = spectrum.impacts_per_period.value / osc.period();
             let identity = 2.0 * eps.ln() * rate - 2.0 * zeta;
             // the area is distorted by U0/U1, which telescopes over the run: 1/t of a bounded number
             let end = (from.velocity / spectrum.last.velocity).ln().abs() / (20_000.0 / rate);
-            assert!(
-                (one.value + two.value - identity).abs() <= 1e-9 + 1.01 * end,
-                "{one:?} {two:?} {identity}"
-            );
+            assert!((one.value + two.value - identity).abs() <= 1e-9 + 1.01 * end, "{one:?} {two:?} {identity}");
         }
     }
 
     #[test]
     fn a_periodic_motion_has_the_exponents_of_its_multipliers() {
         let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
-        let from = ImpactState {
-            phase: 0.829_989_671_461_920_7,
-            velocity: 2.644_018_587_785_435,
-            side: Side::Upper,
-        };
+        let from = ImpactState { phase: 0.829_989_671_461_920_7, velocity: 2.644_018_587_785_435, side: Side::Upper };
         let spectrum = lyapunov(&osc, from, 10_000).unwrap();
         let expected = [0.443_795_500_242_f64, 0.140_830_630_247].map(|m| m.ln() / osc.period());
         for (measured, want) in spectrum.exponents.iter().zip(expected) {

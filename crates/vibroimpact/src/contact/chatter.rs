@@ -46,13 +46,7 @@ pub const DEFAULT_SMALLNESS: f64 = 1e-4;
 /// The accumulation of the chatter that follows an impact with `rebound` speed on the stop at `side`; `None` while it
 /// is not certain that there is one, or when it is too far off for the sum to be accurate.
 #[must_use]
-pub fn completion(
-    osc: &Oscillator,
-    side: Side,
-    phase: f64,
-    rebound: f64,
-    smallness: f64,
-) -> Option<Completion> {
+pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smallness: f64) -> Option<Completion> {
     let stop = osc.stop(side)?;
     let (sin, cos) = sin_cos(mirrored(side, phase));
     let (w, eps, zeta, beta) = (rebound, stop.restitution, osc.damping(), osc.beta());
@@ -64,17 +58,14 @@ pub fn completion(
     let first = 2.0 * w / (a * r);
     // the other terms over the first
     let second = -2.0 * (j + zeta * a) * w / (3.0 * a * a * r);
-    let sum = 8.0 * (2.0 + 3.0 * eps + 2.0 * eps * eps) * j * j
-        - 6.0 * (1.0 + eps) * (1.0 + eps) * a * q
+    let sum = 8.0 * (2.0 + 3.0 * eps + 2.0 * eps * eps) * j * j - 6.0 * (1.0 + eps) * (1.0 + eps) * a * q
         + 4.0 * (5.0 + 6.0 * eps + 5.0 * eps * eps) * zeta * a * j
         + 16.0 * (1.0 + eps * eps) * zeta * zeta * a * a
         - 6.0 * r * r * a * a;
     let third = sum * w * w / (18.0 * a * a * a * a * r * r * (1.0 + eps + eps * eps));
     let rho = second.abs().max(third.abs().sqrt());
-    (rho <= smallness).then_some(Completion {
-        duration: first * (1.0 + second + third),
-        error: 10.0 * first * rho * rho * rho,
-    })
+    (rho <= smallness)
+        .then_some(Completion { duration: first * (1.0 + second + third), error: 10.0 * first * rho * rho * rho })
 }
 
 #[cfg(test)]
@@ -87,17 +78,8 @@ mod tests {
     fn summed(osc: &Oscillator, mut theta: f64, mut w: f64) -> f64 {
         let mut total = 0.0;
         while w > 1e-200 {
-            let flight = Flight::new(
-                osc,
-                Start {
-                    x: osc.gap(),
-                    v: -w,
-                    phase: theta,
-                },
-            );
-            let Contact::Impact { time, velocity, .. } =
-                first_contact(osc, &flight, SearchLimits::default())
-            else {
+            let flight = Flight::new(osc, Start { x: osc.gap(), v: -w, phase: theta });
+            let Contact::Impact { time, velocity, .. } = first_contact(osc, &flight, SearchLimits::default()) else {
                 panic!("a chatter goes on")
             };
             total += time;
@@ -120,10 +102,7 @@ mod tests {
             (3.0, 0.0, 0.6, 1.4),
             (1.0, -2.0, 0.7, 0.05),
         ] {
-            let osc = Oscillator::new(beta, gap, eps)
-                .unwrap()
-                .with_damping(zeta)
-                .unwrap();
+            let osc = Oscillator::new(beta, gap, eps).unwrap().with_damping(zeta).unwrap();
             for theta in [0.4, 1.1, 1.9, 2.4] {
                 for smallness in [1e-2, 1e-3, 1e-4] {
                     // the largest rebound the bound allows
@@ -152,14 +131,8 @@ mod tests {
     #[test]
     fn no_chatter_without_a_force_into_the_stop() {
         let osc = Oscillator::new(1.0, 0.5, 0.5).unwrap();
-        assert_eq!(
-            completion(&osc, Side::Upper, 0.2, 1e-9, DEFAULT_SMALLNESS),
-            None
-        );
+        assert_eq!(completion(&osc, Side::Upper, 0.2, 1e-9, DEFAULT_SMALLNESS), None);
         let elastic = Oscillator::new(1.0, -0.5, 1.0).unwrap();
-        assert_eq!(
-            completion(&elastic, Side::Upper, 1.0, 1e-9, DEFAULT_SMALLNESS),
-            None
-        );
+        assert_eq!(completion(&elastic, Side::Upper, 1.0, 1e-9, DEFAULT_SMALLNESS), None);
     }
 }

@@ -48,31 +48,18 @@ pub fn pressure(osc: &Oscillator, side: Side, phase: f64) -> f64 {
 pub fn rest(osc: &Oscillator, side: Side, phase: f64) -> Rest {
     let Some(release) = release_phase(osc, side) else {
         let held = osc.stop(side).is_some_and(|stop| stop.gap <= -1.0);
-        return if held {
-            Rest::Forever
-        } else {
-            Rest::Until { time: 0.0, phase }
-        };
+        return if held { Rest::Forever } else { Rest::Until { time: 0.0, phase } };
     };
     let gap = osc.stop(side).map_or(0.0, |stop| stop.gap);
     let ahead = phase::wrap(release - phase);
     // held between asin(gap) and pi - asin(gap); a phase outside by rounding is at the nearer end
     let held = PI - 2.0 * asin(gap);
     if ahead <= held {
-        Rest::Until {
-            time: ahead / osc.beta(),
-            phase: release,
-        }
+        Rest::Until { time: ahead / osc.beta(), phase: release }
     } else if ahead - held < 0.5 * (core::f64::consts::TAU - held) {
-        Rest::Until {
-            time: held / osc.beta(),
-            phase: release,
-        }
+        Rest::Until { time: held / osc.beta(), phase: release }
     } else {
-        Rest::Until {
-            time: 0.0,
-            phase: release,
-        }
+        Rest::Until { time: 0.0, phase: release }
     }
 }
 
@@ -83,13 +70,8 @@ mod tests {
     #[test]
     fn releases_where_the_force_changes_sign() {
         for gap in [-0.95, -0.5, 0.0, 0.5, 0.99] {
-            let osc = Oscillator::new(0.7, gap, 0.5)
-                .unwrap()
-                .with_second_stop(1.5, 0.5)
-                .unwrap();
-            let Rest::Until { time, phase } = rest(&osc, Side::Upper, 1.5) else {
-                panic!()
-            };
+            let osc = Oscillator::new(0.7, gap, 0.5).unwrap().with_second_stop(1.5, 0.5).unwrap();
+            let Rest::Until { time, phase } = rest(&osc, Side::Upper, 1.5) else { panic!() };
             assert!((phase - (PI - gap.asin())).abs() < 1e-15);
             assert!((phase - 1.5 - 0.7 * time).abs() < 1e-14);
             assert!(pressure(&osc, Side::Upper, phase).abs() < 1e-15);
@@ -101,15 +83,9 @@ mod tests {
 
     #[test]
     fn the_lower_stop_is_the_mirror_image() {
-        let osc = Oscillator::new(0.7, 2.0, 0.5)
-            .unwrap()
-            .with_second_stop(0.3, 0.5)
-            .unwrap();
+        let osc = Oscillator::new(0.7, 2.0, 0.5).unwrap().with_second_stop(0.3, 0.5).unwrap();
         let phase = release_phase(&osc, Side::Lower).unwrap();
-        assert!(
-            (phase.sin() + 0.3).abs() < 1e-15 && phase.cos() > 0.0,
-            "x'' turns from negative to positive there"
-        );
+        assert!((phase.sin() + 0.3).abs() < 1e-15 && phase.cos() > 0.0, "x'' turns from negative to positive there");
         assert!(pressure(&osc, Side::Lower, phase - 1e-3) > 0.0);
         assert_eq!(release_phase(&osc, Side::Upper), None);
     }

@@ -87,21 +87,14 @@ impl Flight {
     #[must_use]
     pub fn release(osc: &Oscillator, side: Side, phase: f64) -> Self {
         let x = osc.stop(side).map_or(0.0, |stop| side.sign() * stop.gap);
-        Self {
-            a: 0.0,
-            ..Self::new(osc, Start { x, v: 0.0, phase })
-        }
+        Self { a: 0.0, ..Self::new(osc, Start { x, v: 0.0, phase }) }
     }
 
     /// The point a time `s >= 0` after the beginning.
     #[inline]
     #[must_use]
     pub fn at(&self, s: f64) -> Point {
-        if s * self.fastest < SERIES_REACH {
-            self.by_series(s)
-        } else {
-            self.by_response(s)
-        }
+        if s * self.fastest < SERIES_REACH { self.by_series(s) } else { self.by_response(s) }
     }
 
     fn by_response(&self, s: f64) -> Point {
@@ -118,15 +111,9 @@ impl Flight {
         // each term carries a few roundings; each angle ws, (beta - w)s/2 is off by half an ulp, which moves the free
         // part by about s |free velocity| and the forced one by s |K'|
         let (x, v0, kc, ks) = (self.x.abs(), self.v.abs(), p.kc.abs(), p.ks.abs());
-        let terms =
-            x * p.one_minus_c + v0 * p.s.abs() + (self.sin * p.kc).abs() + (self.cos * p.ks).abs();
+        let terms = x * p.one_minus_c.max(0.5) + v0 * p.s.abs() + p.forced_size;
         let angles = s * (x * p.s.abs() + v0 * p.c.abs() + p.s.abs() + beta * (kc + ks));
-        Point {
-            displacement,
-            v,
-            a,
-            rounding: HALF_ULP * (6.0 * terms + angles),
-        }
+        Point { displacement, v, a, rounding: HALF_ULP * (5.0 * terms + angles) }
     }
 
     #[inline(never)]
@@ -147,15 +134,8 @@ impl Flight {
             v = d[k] + v * s * INVERSE[k + 1];
             a = d[k + 1] + a * s * INVERSE[k + 1];
         }
-        let size = s
-            * (self.v.abs()
-                + 0.5 * s * (self.a.abs() + s * (d[2].abs() + s * self.fastest * d[2].abs())));
-        Point {
-            displacement: x * s,
-            v,
-            a,
-            rounding: HALF_ULP * 4.0 * size,
-        }
+        let size = s * (self.v.abs() + 0.5 * s * (self.a.abs() + s * (d[2].abs() + s * self.fastest * d[2].abs())));
+        Point { displacement: x * s, v, a, rounding: HALF_ULP * 4.0 * size }
     }
 
     /// Rate and bounds need the response too.
@@ -172,9 +152,7 @@ impl Flight {
 
     /// Fourth derivative at the beginning.
     pub(super) fn snap(&self) -> f64 {
-        -self.response.beta() * self.response.beta() * self.sin
-            - self.a
-            - 2.0 * self.response.damping() * self.jerk()
+        -self.response.beta() * self.response.beta() * self.sin - self.a - 2.0 * self.response.damping() * self.jerk()
     }
 
     /// Position and velocity a time `s` after the beginning.

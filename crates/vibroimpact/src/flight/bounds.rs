@@ -114,11 +114,7 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option
     if q < 0.0 {
         // q/2 + (j + b4 H) h/6 < 0
         let c = j + bounds.b4(flight) * window;
-        return Some(if c > 0.0 {
-            (-3.0 * q / c).min(window)
-        } else {
-            window
-        });
+        return Some(if c > 0.0 { (-3.0 * q / c).min(window) } else { window });
     }
     if q == 0.0 && j < 0.0 {
         return Some((-0.5 * j / bounds.b4(flight)).min(window));
@@ -132,13 +128,7 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option
 /// A proof that a single transversal contact lies within `(0, span]`: the velocity towards the stop stays positive
 /// and the lower bound of `y` ends up beyond it.
 #[inline]
-pub(super) fn single_contact_within(
-    flight: &Flight,
-    g: f64,
-    p: f64,
-    q: f64,
-    r: f64,
-) -> Option<f64> {
+pub(super) fn single_contact_within(flight: &Flight, g: f64, p: f64, q: f64, r: f64) -> Option<f64> {
     if p <= 0.0 {
         return None;
     }
@@ -157,9 +147,5 @@ pub(super) fn single_contact_within(
 pub(super) fn radius(x: f64, v: f64) -> f64 {
     let square = x * x + v * v;
     // the square overflows only for legal but huge states
-    if square < 1e300 {
-        square.sqrt()
-    } else {
-        hypot(x, v)
-    }
+    if square < 1e300 { square.sqrt() } else { hypot(x, v) }
 }

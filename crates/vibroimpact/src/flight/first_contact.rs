@@ -88,16 +88,12 @@ pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) ->
         }
         if let Some(known) = &outlook {
             if search.s >= known.until {
-                return known
-                    .never
-                    .map_or(Contact::NoneUntil(search.s), Contact::Never);
+                return known.never.map_or(Contact::NoneUntil(search.s), Contact::Never);
             }
             if step >= PATIENT
                 && let Some(envelope) = &known.envelope
             {
-                let stride = search
-                    .walls()
-                    .map(|(sign, stop)| envelope.stride(search.s, sign, stop.gap));
+                let stride = search.walls().map(|(sign, stop)| envelope.stride(search.s, sign, stop.gap));
                 search.stride_to(stride.fold(f64::INFINITY, f64::min).min(known.until));
             }
         }
@@ -146,31 +142,16 @@ impl<'a> Search<'a> {
             let left = stop.gap - side.sign() * flight.x;
             room[index(side)] = left;
             if left <= 0.0 {
-                leave =
-                    leave.min(leave_time(flight, side.sign(), stop.gap, r).ok_or(Contact::Contact { side })?);
+                leave = leave.min(leave_time(flight, side.sign(), stop.gap, r).ok_or(Contact::Contact { side })?);
             }
         }
         let reach = FIRST_REACH / (1.0 + flight.response().damping());
-        let start = Point {
-            displacement: 0.0,
-            v: flight.v,
-            a: flight.a,
-            rounding: 0.0,
-        };
-        let mut search = Self {
-            osc,
-            flight,
-            room,
-            s: 0.0,
-            point: start,
-            reach,
-        };
+        let start = Point { displacement: 0.0, v: flight.v, a: flight.a, rounding: 0.0 };
+        let mut search = Self { osc, flight, room, s: 0.0, point: start, reach };
         if leave.is_finite() {
             // the other stop must not be reached in the meantime
             let other = search.views().filter(|view| view.g > 0.0);
-            let safe = other
-                .map(|v| safe_time(flight, v.g, v.p, v.q, r, reach))
-                .fold(leave, f64::min);
+            let safe = other.map(|v| safe_time(flight, v.g, v.p, v.q, r, reach)).fold(leave, f64::min);
             search.move_to(safe * SLACK);
         }
         Ok(search)
@@ -181,20 +162,13 @@ impl<'a> Search<'a> {
     }
 
     fn views(&self) -> impl Iterator<Item = View> {
-        self.osc
-            .stops()
-            .map(|(side, _)| self.view(side, &self.point))
+        self.osc.stops().map(|(side, _)| self.view(side, &self.point))
     }
 
     #[inline]
     fn view(&self, side: Side, point: &Point) -> View {
         let sign = side.sign();
-        View {
-            side,
-            g: self.room[index(side)] - sign * point.displacement,
-            p: sign * point.v,
-            q: sign * point.a,
-        }
+        View { side, g: self.room[index(side)] - sign * point.displacement, p: sign * point.v, q: sign * point.a }
     }
 
     #[inline]
@@ -232,11 +206,7 @@ impl<'a> Search<'a> {
             return Some(self.refine(view.side, self.s + span));
         }
         let step = safe * SLACK;
-        self.reach = if step >= self.reach {
-            2.0 * step
-        } else {
-            1.25 * step
-        };
+        self.reach = if step >= self.reach { 2.0 * step } else { 1.25 * step };
         let next = self.s + step;
         if next <= self.s {
             // the bound no longer moves the clock: the contact is here, to the last bit
@@ -265,11 +235,7 @@ impl<'a> Search<'a> {
             }
             // the step is already as good as the next evaluation could judge
             if step.abs() <= CONVERGED * next {
-                return Contact::Impact {
-                    time: next,
-                    side,
-                    velocity: (view.p + view.q * (next - s)).max(0.0),
-                };
+                return Contact::Impact { time: next, side, velocity: (view.p + view.q * (next - s)).max(0.0) };
             }
             s = next;
             let point = self.flight.at(s);
@@ -280,11 +246,7 @@ impl<'a> Search<'a> {
                 high = s;
             }
         }
-        Contact::Impact {
-            time: s,
-            side,
-            velocity: view.p.max(0.0),
-        }
+        Contact::Impact { time: s, side, velocity: view.p.max(0.0) }
     }
 
     /// The distance to this stop is down to rounding: decide what kind of contact it is, or pass.
@@ -328,22 +290,14 @@ impl<'a> Search<'a> {
                 return None;
             }
             if depth >= -zone {
-                return Some(Contact::Grazing {
-                    time: s,
-                    side: view.side,
-                    depth,
-                });
+                return Some(Contact::Grazing { time: s, side: view.side, depth });
             }
             // it does pass the stop: the contact lies between here and the apex
             return Some(self.bisect(view.side, self.s, s));
         }
         if view.p < 0.0 && here.q <= 0.0 {
             // leaving: the closest point was passed within rounding
-            return Some(Contact::Grazing {
-                time: self.s,
-                side: view.side,
-                depth: view.g,
-            });
+            return Some(Contact::Grazing { time: self.s, side: view.side, depth: view.g });
         }
         // approaching with the force behind it: contact is imminent
         Some(self.refine_freely(view, 1e-6))
@@ -355,11 +309,7 @@ impl<'a> Search<'a> {
         for _ in 0..4 {
             let disc = here.p * here.p + 2.0 * here.q * here.g;
             let denominator = here.p + disc.max(0.0).sqrt();
-            let step = if denominator > 0.0 {
-                2.0 * here.g / denominator
-            } else {
-                0.0
-            };
+            let step = if denominator > 0.0 { 2.0 * here.g / denominator } else { 0.0 };
             let step = step.clamp(-width, width);
             s = (s + step).max(0.0);
             here = self.view(view.side, &self.flight.at(s));
@@ -367,11 +317,7 @@ impl<'a> Search<'a> {
                 break;
             }
         }
-        Contact::Impact {
-            time: s,
-            side: view.side,
-            velocity: here.p.max(0.0),
-        }
+        Contact::Impact { time: s, side: view.side, velocity: here.p.max(0.0) }
     }
 
     /// The contact between `low`, short of the stop, and `high`, beyond it and at the extremum.
@@ -387,11 +333,7 @@ impl<'a> Search<'a> {
                 high = middle;
             }
         }
-        Contact::Impact {
-            time: high,
-            side,
-            velocity: self.view(side, &self.flight.at(high)).p.max(0.0),
-        }
+        Contact::Impact { time: high, side, velocity: self.view(side, &self.flight.at(high)).p.max(0.0) }
     }
 }
 

@@ -43,10 +43,7 @@ pub struct SearchLimits {
 impl Default for SearchLimits {
     /// A thousand periods, a hundred thousand evaluations (a few milliseconds).
     fn default() -> Self {
-        Self {
-            periods: 1000.0,
-            steps: 100_000,
-        }
+        Self { periods: 1000.0, steps: 100_000 }
     }
 }
 
@@ -84,10 +81,8 @@ impl Envelope {
             return None;
         }
         let steady_angle = flight.phase - atan2(zi, zr);
-        let (xf, vf) = (
-            flight.x - steady * libm::sin(steady_angle),
-            flight.v - beta * steady * libm::cos(steady_angle),
-        );
+        let (xf, vf) =
+            (flight.x - steady * libm::sin(steady_angle), flight.v - beta * steady * libm::cos(steady_angle));
         let (rho, kappa) = if zeta == 0.0 {
             (hypot(xf, vf), 0.0)
         } else if zeta < 0.9 {
@@ -103,14 +98,7 @@ impl Envelope {
             let fast = 1.0 / slow;
             (((vf + fast * xf).abs() + (vf + slow * xf).abs()) / (fast - slow), slow)
         };
-        Some(Self {
-            steady,
-            steady_angle,
-            rho,
-            kappa,
-            free_angle: atan2(xf, vf),
-            beta,
-        })
+        Some(Self { steady, steady_angle, rho, kappa, free_angle: atan2(xf, vf), beta })
     }
 
     /// From this time on the flight stays short of a stop at distance `gap` from the rest position.
@@ -133,20 +121,9 @@ impl Envelope {
         let margin = 1e-12 * (self.rho + self.steady + gap.abs());
         let rho = self.rho * exp(-self.kappa * s);
         let turned = if sign > 0.0 { 0.0 } else { 2.0 * FRAC_PI_2 };
-        let by_steady = wait(
-            gap - rho - margin,
-            self.steady,
-            self.steady_angle + self.beta * s + turned,
-        ) / self.beta;
-        let by_free = if self.kappa == 0.0 {
-            wait(
-                gap - self.steady - margin,
-                rho,
-                self.free_angle + s + turned,
-            )
-        } else {
-            0.0
-        };
+        let by_steady = wait(gap - rho - margin, self.steady, self.steady_angle + self.beta * s + turned) / self.beta;
+        let by_free =
+            if self.kappa == 0.0 { wait(gap - self.steady - margin, rho, self.free_angle + s + turned) } else { 0.0 };
         s + by_steady.max(by_free)
     }
 }
@@ -165,11 +142,7 @@ fn wait(level: f64, amplitude: f64, angle: f64) -> f64 {
     let rising = asin(level / amplitude);
     let ahead = phase::wrap(rising - angle);
     // above the level between rising and pi - rising
-    if ahead > 2.0 * rising + TAU / 2.0 {
-        0.0
-    } else {
-        ahead
-    }
+    if ahead > 2.0 * rising + TAU / 2.0 { 0.0 } else { ahead }
 }
 
 /// The fraction `p/q`, `q <= 1000`, that `beta` is to within two units in the last place.
@@ -208,15 +181,9 @@ pub(super) struct Outlook {
 impl Outlook {
     pub(super) fn new(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Self {
         let envelope = Envelope::new(flight);
-        let mut outlook = Self {
-            until: limits.horizon(osc),
-            never: None,
-            envelope,
-        };
+        let mut outlook = Self { until: limits.horizon(osc), never: None, envelope };
         let clear = envelope.and_then(|e| {
-            osc.stops()
-                .map(|(_, stop)| e.clear_from(stop.gap))
-                .try_fold(0.0_f64, |latest, one| Some(latest.max(one?)))
+            osc.stops().map(|(_, stop)| e.clear_from(stop.gap)).try_fold(0.0_f64, |latest, one| Some(latest.max(one?)))
         });
         if let Some(clear) = clear {
             (outlook.until, outlook.never) = (clear, Some(Horizon::Amplitude));
@@ -226,8 +193,7 @@ impl Outlook {
             && p != q
             && TAU * f64::from(q) <= outlook.until
         {
-            (outlook.until, outlook.never) =
-                (TAU * f64::from(q), Some(Horizon::CommonPeriod { p, q }));
+            (outlook.until, outlook.never) = (TAU * f64::from(q), Some(Horizon::CommonPeriod { p, q }));
         }
         outlook
     }

@@ -46,6 +46,8 @@ pub struct Propagator {
     pub sin_turn: f64,
     /// $`\cos\beta s`$.
     pub cos_turn: f64,
+    /// Size of the terms that $`K`$ was put together from: what its rounding is a fraction of.
+    pub forced_size: f64,
 }
 
 /// Closed-form responses for one $`\beta`$ and $`\zeta`$, with what does not depend on time worked out once.
@@ -70,26 +72,16 @@ impl Response {
     /// For checked parameters: `beta > 0`, `damping >= 0`, both finite.
     pub(crate) fn new(beta: f64, damping: f64) -> Self {
         let regime = if damping == 0.0 {
-            Regime::Undamped {
-                detuning: beta - 1.0,
-                over_sum: 1.0 / (beta + 1.0),
-            }
+            Regime::Undamped { detuning: beta - 1.0, over_sum: 1.0 / (beta + 1.0) }
         } else {
             let root = ((1.0 - damping) * (1.0 + damping)).abs().sqrt();
             if damping < HEAVY {
-                Regime::Light {
-                    w: root,
-                    detuning: (beta - 1.0) + damping * damping / (1.0 + root),
-                }
+                Regime::Light { w: root, detuning: (beta - 1.0) + damping * damping / (1.0 + root) }
             } else {
                 Regime::Heavy { root }
             }
         };
-        Self {
-            beta,
-            damping,
-            regime,
-        }
+        Self { beta, damping, regime }
     }
 
     /// Frequency ratio $`\beta`$.
@@ -114,25 +106,18 @@ impl Response {
             Regime::Undamped { detuning, over_sum } => {
                 let (ss, cs) = sin_cos(s);
                 let (sh, ch) = sin_cos(0.5 * detuning * s);
-                let q = if detuning == 0.0 {
-                    0.5 * s
-                } else {
-                    sh / detuning
-                };
+                let q = if detuning == 0.0 { 0.5 * s } else { sh / detuning };
                 let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
                 // beta s = A + h
                 Propagator {
-                    one_minus_c: if s < SMALL {
-                        self.one_minus_c_series(s)
-                    } else {
-                        1.0 - cs
-                    },
+                    one_minus_c: if s < SMALL { self.one_minus_c_series(s) } else { 1.0 - cs },
                     c: cs,
                     s: ss,
                     kc: 2.0 * q * (sa * over_sum),
                     ks: (sa * over_sum) * ch - q * ca,
                     sin_turn: sa * ch + ca * sh,
                     cos_turn: ca * ch - sa * sh,
+                    forced_size: (sa * over_sum).abs() + q.abs(),
                 }
             }
             Regime::Light { w, detuning } => self.light(s, w, detuning),
@@ -155,17 +140,14 @@ impl Response {
         let free_s = kept * sw / w;
         let free_c = kept * cw + zeta * free_s;
         Propagator {
-            one_minus_c: if s < SMALL {
-                self.one_minus_c_series(s)
-            } else {
-                1.0 - free_c
-            },
+            one_minus_c: if s < SMALL { self.one_minus_c_series(s) } else { 1.0 - free_c },
             c: free_c,
             s: free_s,
             kc: im / (2.0 * w),
             ks: -re / (2.0 * w),
             sin_turn: sa * ch + ca * sh,
             cos_turn: ca * ch - sa * sh,
+            forced_size: (first.0.abs() + first.1.abs() + second.0.abs() + second.1.abs()) / w,
         }
     }
 
@@ -181,12 +163,7 @@ impl Response {
             // slow root zeta - root = 1/(zeta + root), spread 2 root
             let slow = exp(-s / (zeta + root));
             let spread = -exp_m1(-2.0 * root * s); // 1 - e^{-2 root s}
-            let free_s = slow
-                * if root * s < 1e-8 {
-                    s
-                } else {
-                    spread / (2.0 * root)
-                };
+            let free_s = slow * if root * s < 1e-8 { s } else { spread / (2.0 * root) };
             (slow * (1.0 - 0.5 * spread) + zeta * free_s, free_s)
         };
         let one_minus_c = if s * (1.0 + zeta) < SMALL {
@@ -198,13 +175,7 @@ impl Response {
         } else {
             1.0 - free_c
         };
-        let (beta, z) = (
-            self.beta,
-            (
-                (1.0 - self.beta) * (1.0 + self.beta),
-                2.0 * zeta * self.beta,
-            ),
-        );
+        let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * zeta * self.beta));
         let (kc, ks) = divide(((ct - 1.0) + one_minus_c, st - beta * free_s), z);
         Propagator {
             one_minus_c,
@@ -214,6 +185,7 @@ impl Response {
             ks,
             sin_turn: st,
             cos_turn: ct,
+            forced_size: ((1.0 - ct) + one_minus_c + st.abs() + (beta * free_s).abs()) / (z.0.abs() + z.1),
         }
     }
 
@@ -238,10 +210,7 @@ const SMALL: f64 = 0.4;
 #[inline]
 fn divide(n: (f64, f64), d: (f64, f64)) -> (f64, f64) {
     let norm = d.0 * d.0 + d.1 * d.1;
-    (
-        (n.0 * d.0 + n.1 * d.1) / norm,
-        (n.1 * d.0 - n.0 * d.1) / norm,
-    )
+    ((n.0 * d.0 + n.1 * d.1) / norm, (n.1 * d.0 - n.0 * d.1) / norm)
 }
 
 #[cfg(test)]
@@ -278,34 +247,8 @@ mod tests {
 
     #[test]
     fn matches_slow_integration_in_every_regime() {
-        let betas = [
-            0.01,
-            0.3,
-            0.9,
-            1.0 - 1e-3,
-            1.0 - 1e-9,
-            1.0,
-            1.0 + 1e-12,
-            1.0 + 1e-5,
-            1.7,
-            8.0,
-            60.0,
-        ];
-        let dampings = [
-            0.0,
-            1e-9,
-            1e-3,
-            0.1,
-            0.499,
-            0.5,
-            0.9,
-            1.0 - 1e-13,
-            1.0,
-            1.0 + 1e-9,
-            1.3,
-            2.5,
-            7.0,
-        ];
+        let betas = [0.01, 0.3, 0.9, 1.0 - 1e-3, 1.0 - 1e-9, 1.0, 1.0 + 1e-12, 1.0 + 1e-5, 1.7, 8.0, 60.0];
+        let dampings = [0.0, 1e-9, 1e-3, 0.1, 0.499, 0.5, 0.9, 1.0 - 1e-13, 1.0, 1.0 + 1e-9, 1.3, 2.5, 7.0];
         for beta in betas {
             for zeta in dampings {
                 let response = Response::new(beta, zeta);
@@ -314,19 +257,10 @@ mod tests {
                     let (x0, v0, phi) = (0.3, -0.8, 2.2_f64);
                     let (sp, cp) = phi.sin_cos();
                     let x = x0 * p.c + v0 * p.s + sp * p.kc + cp * p.ks;
-                    let v = -x0 * p.s
-                        + v0 * (p.c - 2.0 * zeta * p.s)
-                        + sp * (p.s - beta * p.ks)
-                        + cp * beta * p.kc;
+                    let v = -x0 * p.s + v0 * (p.c - 2.0 * zeta * p.s) + sp * (p.s - beta * p.ks) + cp * beta * p.kc;
                     let (wx, wv) = by_integration(beta, zeta, s, x0, v0, phi);
-                    assert!(
-                        (x - wx).abs() < 3e-13,
-                        "beta {beta} zeta {zeta} s {s}: x {x} {wx}"
-                    );
-                    assert!(
-                        (v - wv).abs() < 3e-13 * (1.0 + beta),
-                        "beta {beta} zeta {zeta} s {s}: v {v} {wv}"
-                    );
+                    assert!((x - wx).abs() < 3e-13, "beta {beta} zeta {zeta} s {s}: x {x} {wx}");
+                    assert!((v - wv).abs() < 3e-13 * (1.0 + beta), "beta {beta} zeta {zeta} s {s}: v {v} {wv}");
                     assert!((p.one_minus_c + p.c - 1.0).abs() < 1e-14);
                     assert!((p.sin_turn - (beta * s).sin()).abs() < 1e-13);
                     assert!((p.cos_turn - (beta * s).cos()).abs() < 1e-13);
@@ -353,10 +287,7 @@ mod tests {
             let d = 10_f64.powi(-k);
             let beta = 1.0 + d;
             let predicted = base.kc + (beta - 1.0) * slope;
-            assert!(
-                (at(beta).kc - predicted).abs() < 1e-15 + 1e3 * d * d + 1e-9 * d,
-                "1 + 1e-{k}"
-            );
+            assert!((at(beta).kc - predicted).abs() < 1e-15 + 1e3 * d * d + 1e-9 * d, "1 + 1e-{k}");
         }
     }
 }

@@ -65,10 +65,7 @@ mod tests {
         }
         // 0.1 is stored as 0.1000000000000000055511151231257827
         assert!((sum.value() - 1e6 - 5.551_115_123e-11).abs() < 1.2e-10);
-        assert!(
-            (naive - 1e6_f64).abs() > 1e-5,
-            "the naive sum drifts, which is why this type exists"
-        );
+        assert!((naive - 1e6_f64).abs() > 1e-5, "the naive sum drifts, which is why this type exists");
     }
 
     #[test]

@@ -14,10 +14,7 @@ impl Matrix2 {
     #[must_use]
     pub fn times(self, other: Self) -> Self {
         let ([[a, b], [c, d]], [[e, f], [g, h]]) = (self.0, other.0);
-        Self([
-            [a * e + b * g, a * f + b * h],
-            [c * e + d * g, c * f + d * h],
-        ])
+        Self([[a * e + b * g, a * f + b * h], [c * e + d * g, c * f + d * h]])
     }
 
     /// The image of a vector.
@@ -78,25 +75,11 @@ pub fn eigenvalues(trace: f64, determinant: f64) -> [Multiplier; 2] {
     let disc = half * half - determinant;
     if disc < 0.0 {
         let im = (-disc).sqrt();
-        return [
-            Multiplier { re: half, im },
-            Multiplier { re: half, im: -im },
-        ];
+        return [Multiplier { re: half, im }, Multiplier { re: half, im: -im }];
     }
-    let large = if half < 0.0 {
-        half - disc.sqrt()
-    } else {
-        half + disc.sqrt()
-    };
-    let small = if large == 0.0 {
-        0.0
-    } else {
-        determinant / large
-    };
-    [
-        Multiplier { re: large, im: 0.0 },
-        Multiplier { re: small, im: 0.0 },
-    ]
+    let large = if half < 0.0 { half - disc.sqrt() } else { half + disc.sqrt() };
+    let small = if large == 0.0 { 0.0 } else { determinant / large };
+    [Multiplier { re: large, im: 0.0 }, Multiplier { re: small, im: 0.0 }]
 }
 
 #[cfg(test)]

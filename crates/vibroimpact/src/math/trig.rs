@@ -32,11 +32,7 @@ const MEANINGLESS: f64 = 9_007_199_254_740_992.0;
 #[inline]
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    let (n, r, lo) = if x.abs() <= FAST {
-        reduce_fast(x)
-    } else {
-        reduce_large(x)
-    };
+    let (n, r, lo) = if x.abs() <= FAST { reduce_fast(x) } else { reduce_large(x) };
     let s = kernel_sin(r, lo);
     let c = kernel_cos(r, lo);
     match n & 3 {
@@ -67,11 +63,7 @@ fn reduce_fast(x: f64) -> (i64, f64, f64) {
 #[cold]
 #[allow(clippy::cast_possible_truncation)] // |n| < 2^53, or NaN which becomes 0 and stays NaN in r
 fn reduce_large(x: f64) -> (i64, f64, f64) {
-    let x = if x.abs() < MEANINGLESS {
-        x
-    } else {
-        x % core::f64::consts::TAU
-    };
+    let x = if x.abs() < MEANINGLESS { x } else { x % core::f64::consts::TAU };
     // the product is rounded, so near a half-integer it may choose the wrong neighbour: look once more
     let n = (x * FRAC_2_PI).round();
     let n = n + (subtract_quarters(x, n).0 * FRAC_2_PI).round();

@@ -36,11 +36,7 @@ impl ImpactState {
     pub fn rebound(&self, osc: &Oscillator) -> Start {
         let (sign, stop) = (self.side.sign(), osc.stop(self.side));
         let (gap, eps) = stop.map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
-        Start {
-            x: sign * gap,
-            v: -sign * eps * self.velocity,
-            phase: self.phase,
-        }
+        Start { x: sign * gap, v: -sign * eps * self.velocity, phase: self.phase }
     }
 }
 
@@ -77,18 +73,9 @@ pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -
     loop {
         match motion.next() {
             Some(event) => match event.kind {
-                EventKind::Impact {
-                    velocity_before, ..
-                } => {
-                    let state = ImpactState {
-                        phase: event.phase,
-                        velocity: velocity_before,
-                        side: event.side,
-                    };
-                    return Mapped::Impact {
-                        state,
-                        interval: event.time,
-                    };
+                EventKind::Impact { velocity_before, .. } => {
+                    let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
+                    return Mapped::Impact { state, interval: event.time };
                 }
                 EventKind::Stick { .. } => return Mapped::Stick(event),
                 EventKind::Graze { .. } | EventKind::Release => {}
@@ -101,22 +88,14 @@ pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -
 /// The derivative of `(phase, velocity)` at the next impact with respect to those at `state`, given that the next
 /// impact is `next`, a time `interval` later.
 #[must_use]
-pub fn derivative(
-    osc: &Oscillator,
-    state: &ImpactState,
-    next: &ImpactState,
-    interval: f64,
-) -> Matrix2 {
+pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, interval: f64) -> Matrix2 {
     let start = state.rebound(osc);
     let (beta, zeta) = (osc.beta(), osc.damping());
     let eps = osc.stop(state.side).map_or(0.0, |stop| stop.restitution);
     let p = osc.response().at(interval);
     let (sin, cos) = sin_cos(start.phase);
     let (x_phase, x_v) = (cos * p.kc - sin * p.ks, p.s);
-    let (v_phase, v_v) = (
-        cos * (p.s - beta * p.ks) - sin * beta * p.kc,
-        p.c - 2.0 * zeta * p.s,
-    );
+    let (v_phase, v_v) = (cos * (p.s - beta * p.ks) - sin * beta * p.kc, p.c - 2.0 * zeta * p.s);
     let sign = next.side.sign();
     let v1 = sign * next.velocity;
     let a1 = Flight::new(osc, start).at(interval).a;
@@ -124,10 +103,7 @@ pub fn derivative(
     let dv0 = -state.side.sign() * eps;
     let column = |dphi: f64, dv: f64| {
         let ds = -(x_phase * dphi + x_v * dv) / v1;
-        [
-            dphi + beta * ds,
-            sign * (v_phase * dphi + v_v * dv + a1 * ds),
-        ]
+        [dphi + beta * ds, sign * (v_phase * dphi + v_v * dv + a1 * ds)]
     };
     let (by_phase, by_speed) = (column(1.0, 0.0), column(0.0, dv0));
     Matrix2([[by_phase[0], by_speed[0]], [by_phase[1], by_speed[1]]])
@@ -154,38 +130,23 @@ mod tests {
             (0.7, 0.6, 0.7, 0.1, Some(0.8)),
             (1.3, 0.2, 0.9, 1.2, Some(0.1)),
         ] {
-            let mut osc = Oscillator::new(beta, gap, eps)
-                .unwrap()
-                .with_damping(zeta)
-                .unwrap();
+            let mut osc = Oscillator::new(beta, gap, eps).unwrap().with_damping(zeta).unwrap();
             if let Some(gap) = lower {
                 osc = osc.with_second_stop(gap, 0.6).unwrap();
             }
-            let mut state = ImpactState {
-                phase: 1.2,
-                velocity: 1.9,
-                side: Side::Upper,
-            };
+            let mut state = ImpactState { phase: 1.2, velocity: 1.9, side: Side::Upper };
             for _ in 0..5 {
                 let (next, t) = step(&osc, &state);
                 let d = derivative(&osc, &state, &next, t);
                 let eps0 = osc.stop(state.side).unwrap().restitution;
                 let det = eps0 * eps0 * (-2.0 * zeta * t).exp() * state.velocity / next.velocity;
-                assert!(
-                    (d.determinant() / det - 1.0).abs() < 1e-9,
-                    "{} {det}",
-                    d.determinant()
-                );
+                assert!((d.determinant() / det - 1.0).abs() < 1e-9, "{} {det}", d.determinant());
                 let h = 1e-6;
                 for (column, (dp, du)) in [(1.0, 0.0), (0.0, 1.0)].into_iter().enumerate() {
                     let shifted = |h: f64| {
                         step(
                             &osc,
-                            &ImpactState {
-                                phase: state.phase + h * dp,
-                                velocity: state.velocity + h * du,
-                                ..state
-                            },
+                            &ImpactState { phase: state.phase + h * dp, velocity: state.velocity + h * du, ..state },
                         )
                         .0
                     };
@@ -196,10 +157,7 @@ mod tests {
                     ];
                     for row in 0..2 {
                         let exact = d.0[row][column];
-                        assert!(
-                            (difference[row] - exact).abs() < 1e-6 * (1.0 + exact.abs()),
-                            "{difference:?} {d:?}"
-                        );
+                        assert!((difference[row] - exact).abs() < 1e-6 * (1.0 + exact.abs()), "{difference:?} {d:?}");
                     }
                 }
                 state = next;

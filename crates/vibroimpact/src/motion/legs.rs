@@ -37,10 +37,7 @@ impl Leg {
     pub fn state(&self, osc: &Oscillator, s: f64) -> (f64, f64) {
         match &self.path {
             Path::Flight(flight) => flight.state(s),
-            Path::Rest(side) => (
-                side.sign() * osc.stop(*side).map_or(0.0, |stop| stop.gap),
-                0.0,
-            ),
+            Path::Rest(side) => (side.sign() * osc.stop(*side).map_or(0.0, |stop| stop.gap), 0.0),
         }
     }
 }
@@ -91,13 +88,7 @@ impl<'a> Motion<'a> {
     /// The same, searching each flight only as far as `limits`.
     #[must_use]
     pub fn with_limits(osc: &'a Oscillator, start: Start, limits: SearchLimits) -> Self {
-        Self {
-            osc,
-            limits,
-            time: Sum::default(),
-            mode: Mode::Flying(Flight::new(osc, start)),
-            last: None,
-        }
+        Self { osc, limits, time: Sum::default(), mode: Mode::Flying(Flight::new(osc, start)), last: None }
     }
 
     /// Why there is no further event; `None` while the motion goes on.
@@ -118,52 +109,26 @@ impl<'a> Motion<'a> {
     fn event(&mut self, leg: Leg, phase: f64, side: Side, kind: EventKind) -> Event {
         self.time.add(leg.duration);
         self.last = Some(leg);
-        Event {
-            time: self.time.value(),
-            phase,
-            side,
-            kind,
-        }
+        Event { time: self.time.value(), phase, side, kind }
     }
 
     fn finish(&mut self, phase: f64, path: Path, end: End) {
-        self.last = Some(Leg {
-            begin: self.time.value(),
-            duration: f64::INFINITY,
-            phase,
-            path,
-        });
+        self.last = Some(Leg { begin: self.time.value(), duration: f64::INFINITY, phase, path });
         self.mode = Mode::Ended(end);
     }
 
     fn fly(&mut self, flight: Flight) -> Option<Event> {
-        let leg = |duration| Leg {
-            begin: self.time.value(),
-            duration,
-            phase: flight.phase,
-            path: Path::Flight(flight),
-        };
+        let leg =
+            |duration| Leg { begin: self.time.value(), duration, phase: flight.phase, path: Path::Flight(flight) };
         let (duration, side, velocity) = match first_contact(self.osc, &flight, self.limits) {
-            Contact::Impact {
-                time,
-                side,
-                velocity,
-            } => (time, side, velocity),
+            Contact::Impact { time, side, velocity } => (time, side, velocity),
             Contact::Contact { side } => {
                 let velocity = side.sign() * flight.v;
                 if velocity <= 0.0 {
                     // at rest and pressed
                     let (phase, leg) = (flight.phase, leg(0.0));
                     self.mode = Mode::Resting { side, phase };
-                    return Some(self.event(
-                        leg,
-                        phase,
-                        side,
-                        EventKind::Stick {
-                            chatter: false,
-                            error: 0.0,
-                        },
-                    ));
+                    return Some(self.event(leg, phase, side, EventKind::Stick { chatter: false, error: 0.0 }));
                 }
                 (0.0, side, velocity)
             }
@@ -184,40 +149,20 @@ impl<'a> Motion<'a> {
         let (phase, leg) = (flight.phase_at(duration), leg(duration));
         let rebound = self.osc.stop(side).map_or(0.0, |stop| stop.restitution) * velocity;
         self.mode = self.after_impact(side, phase, rebound);
-        Some(self.event(
-            leg,
-            phase,
-            side,
-            EventKind::Impact {
-                velocity_before: velocity,
-                velocity_after: -rebound,
-            },
-        ))
+        Some(self.event(leg, phase, side, EventKind::Impact { velocity_before: velocity, velocity_after: -rebound }))
     }
 
     fn after_impact(&self, side: Side, phase: f64, rebound: f64) -> Mode {
         if rebound == 0.0 {
             // eps = 0 (or a rebound below the smallest number): at rest on the stop; held if the force presses
             return if sticking::pressure(self.osc, side, phase) > 0.0 {
-                Mode::Settling {
-                    side,
-                    phase,
-                    duration: 0.0,
-                    error: 0.0,
-                    chatter: false,
-                }
+                Mode::Settling { side, phase, duration: 0.0, error: 0.0, chatter: false }
             } else {
                 Mode::Flying(Flight::new(self.osc, self.on_stop(side, 0.0, phase)))
             };
         }
         match chatter::completion(self.osc, side, phase, rebound, chatter::DEFAULT_SMALLNESS) {
-            Some(sum) => Mode::Settling {
-                side,
-                phase,
-                duration: sum.duration,
-                error: sum.error,
-                chatter: true,
-            },
+            Some(sum) => Mode::Settling { side, phase, duration: sum.duration, error: sum.error, chatter: true },
             None => Mode::Flying(Flight::new(self.osc, self.on_stop(side, rebound, phase))),
         }
     }
@@ -225,11 +170,7 @@ impl<'a> Motion<'a> {
     /// The state that leaves the stop with speed `rebound`.
     fn on_stop(&self, side: Side, rebound: f64, phase: f64) -> Start {
         let sign = side.sign();
-        Start {
-            x: sign * self.osc.stop(side).map_or(0.0, |stop| stop.gap),
-            v: -sign * rebound,
-            phase,
-        }
+        Start { x: sign * self.osc.stop(side).map_or(0.0, |stop| stop.gap), v: -sign * rebound, phase }
     }
 }
 
@@ -239,34 +180,15 @@ impl Iterator for Motion<'_> {
     fn next(&mut self) -> Option<Event> {
         match self.mode {
             Mode::Flying(flight) => self.fly(flight),
-            Mode::Settling {
-                side,
-                phase,
-                duration,
-                error,
-                chatter,
-            } => {
-                let leg = Leg {
-                    begin: self.time.value(),
-                    duration,
-                    phase,
-                    path: Path::Rest(side),
-                };
+            Mode::Settling { side, phase, duration, error, chatter } => {
+                let leg = Leg { begin: self.time.value(), duration, phase, path: Path::Rest(side) };
                 let phase = crate::system::phase::advance(phase, self.osc.beta(), duration);
                 self.mode = Mode::Resting { side, phase };
                 Some(self.event(leg, phase, side, EventKind::Stick { chatter, error }))
             }
             Mode::Resting { side, phase } => match sticking::rest(self.osc, side, phase) {
-                sticking::Rest::Until {
-                    time,
-                    phase: release,
-                } => {
-                    let leg = Leg {
-                        begin: self.time.value(),
-                        duration: time,
-                        phase,
-                        path: Path::Rest(side),
-                    };
+                sticking::Rest::Until { time, phase: release } => {
+                    let leg = Leg { begin: self.time.value(), duration: time, phase, path: Path::Rest(side) };
                     self.mode = Mode::Flying(Flight::release(self.osc, side, release));
                     Some(self.event(leg, release, side, EventKind::Release))
                 }
@@ -293,13 +215,7 @@ mod tests {
         let mut before: Option<f64> = None;
         for _ in 0..1000 {
             let event = motion.next().unwrap();
-            let EventKind::Impact {
-                velocity_before,
-                velocity_after,
-            } = event.kind
-            else {
-                panic!()
-            };
+            let EventKind::Impact { velocity_before, velocity_after } = event.kind else { panic!() };
             assert_eq!(velocity_before, -velocity_after);
             if let Some(last) = before {
                 assert!(event.time > last);
@@ -329,31 +245,16 @@ mod tests {
     #[test]
     fn plastic_impacts_and_eternal_rest() {
         let plastic = Oscillator::new(1.0 / 1.3, 0.4, 0.0).unwrap();
-        assert!(
-            Motion::new(&plastic, Start::at_rest(&plastic))
-                .take(100)
-                .count()
-                == 100
-        );
+        assert!(Motion::new(&plastic, Start::at_rest(&plastic)).take(100).count() == 100);
         let pressed = Oscillator::new(0.9, -1.5, 0.5).unwrap();
-        let mut motion = Motion::new(
-            &pressed,
-            Start {
-                x: -3.0,
-                v: 0.0,
-                phase: 0.0,
-            },
-        );
+        let mut motion = Motion::new(&pressed, Start { x: -3.0, v: 0.0, phase: 0.0 });
         assert!(motion.by_ref().take(10_000).count() < 10_000);
         assert_eq!(motion.end(), Some(End::Stuck(Side::Upper)));
     }
 
     #[test]
     fn two_stops_are_both_struck_and_never_passed() {
-        let osc = Oscillator::new(0.8, 0.5, 0.7)
-            .unwrap()
-            .with_second_stop(0.4, 0.6)
-            .unwrap();
+        let osc = Oscillator::new(0.8, 0.5, 0.7).unwrap().with_second_stop(0.4, 0.6).unwrap();
         let mut struck = [0, 0];
         let mut motion = Motion::new(&osc, Start::at_rest(&osc));
         for _ in 0..2000 {

@@ -49,11 +49,7 @@ fn draw(osc: &Oscillator, leg: &Leg, until: f64, step: f64, cap: usize, points: 
         let s = length * (k / pieces);
         let (x, v) = leg.state(osc, s);
         // the last point is where it was asked for, not a rounding away
-        let time = if k == pieces && length < leg.duration {
-            until
-        } else {
-            leg.begin + s
-        };
+        let time = if k == pieces && length < leg.duration { until } else { leg.begin + s };
         points.push(Sample { time, x, v });
         k += 1.0;
     }

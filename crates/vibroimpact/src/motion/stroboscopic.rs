@@ -20,11 +20,7 @@ pub struct Strobe {
 pub fn stroboscopic_map(osc: &Oscillator, start: Start, cap: u32) -> Option<Strobe> {
     let period = osc.period();
     let mut motion = Motion::new(osc, start);
-    let mut strobe = Strobe {
-        state: start,
-        impacts: 0,
-        stuck: false,
-    };
+    let mut strobe = Strobe { state: start, impacts: 0, stuck: false };
     for _ in 0..cap {
         let event = motion.next();
         let leg = motion.leg().copied()?;
@@ -33,11 +29,7 @@ pub fn stroboscopic_map(osc: &Oscillator, start: Start, cap: u32) -> Option<Stro
             let (x, v) = leg.state(osc, left);
             let (lowest, highest) = Start::room(osc);
             strobe.stuck |= matches!(leg.path, super::Path::Rest(_));
-            strobe.state = Start {
-                x: x.clamp(lowest, highest),
-                v,
-                phase: start.phase,
-            };
+            strobe.state = Start { x: x.clamp(lowest, highest), v, phase: start.phase };
             return Some(strobe);
         }
         match event.map(|event| event.kind) {
@@ -57,11 +49,7 @@ mod tests {
     #[test]
     fn without_impacts_it_is_the_flight() {
         let osc = Oscillator::new(1.0 / 0.7, 2.5, 0.5).unwrap();
-        let start = Start {
-            x: 0.1,
-            v: 0.2,
-            phase: 1.0,
-        };
+        let start = Start { x: 0.1, v: 0.2, phase: 1.0 };
         let strobe = stroboscopic_map(&osc, start, 100).unwrap();
         let (x, v) = Flight::new(&osc, start).state(osc.period());
         assert_eq!((strobe.state.x, strobe.state.v, strobe.impacts), (x, v, 0));
@@ -70,18 +58,10 @@ mod tests {
     #[test]
     fn a_one_over_one_motion_is_a_fixed_point() {
         let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
-        let start = Start {
-            x: 0.75,
-            v: -0.5 * 2.797_349_151_953_767_4,
-            phase: 1.190_509_613_787_888_5,
-        };
+        let start = Start { x: 0.75, v: -0.5 * 2.797_349_151_953_767_4, phase: 1.190_509_613_787_888_5 };
         // just after the impact to just after the next one: step a little past it
         let later = Flight::new(&osc, start).state(0.1);
-        let from = Start {
-            x: later.0,
-            v: later.1,
-            phase: start.phase + 0.1 * osc.beta(),
-        };
+        let from = Start { x: later.0, v: later.1, phase: start.phase + 0.1 * osc.beta() };
         let strobe = stroboscopic_map(&osc, from, 100).unwrap();
         assert_eq!(strobe.impacts, 1);
         assert!((strobe.state.x - from.x).abs() < 1e-13 && (strobe.state.v - from.v).abs() < 1e-13);

@@ -55,8 +55,7 @@ impl Cycle {
     #[must_use]
     pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
         let (a, b) = (&self.points, &other.points);
-        if self.label != other.label || a.len() != b.len() || self.rests.len() != other.rests.len()
-        {
+        if self.label != other.label || a.len() != b.len() || self.rests.len() != other.rests.len() {
             return false;
         }
         let close = |p: &CyclePoint, q: &CyclePoint| distance(&p.state, &q.state) <= tolerance;
@@ -66,21 +65,13 @@ impl Cycle {
     /// The largest arrival speed.
     #[must_use]
     pub fn fastest(&self) -> f64 {
-        self.points
-            .iter()
-            .map(|p| p.state.velocity)
-            .fold(0.0, f64::max)
+        self.points.iter().map(|p| p.state.velocity).fold(0.0, f64::max)
     }
 
     /// Puts the fastest arrival first.
     pub(crate) fn rotate_to_fastest(&mut self) {
-        let first = (0..self.points.len()).max_by(|&a, &b| {
-            self.points[a]
-                .state
-                .velocity
-                .total_cmp(&self.points[b].state.velocity)
-                .then(b.cmp(&a))
-        });
+        let first = (0..self.points.len())
+            .max_by(|&a, &b| self.points[a].state.velocity.total_cmp(&self.points[b].state.velocity).then(b.cmp(&a)));
         if let Some(first) = first {
             self.points.rotate_left(first);
         }
@@ -95,7 +86,5 @@ pub(crate) fn distance(a: &ImpactState, b: &ImpactState) -> f64 {
         return f64::INFINITY;
     }
     let speed = a.velocity.max(b.velocity).max(f64::MIN_POSITIVE);
-    phase::difference(a.phase, b.phase)
-        .abs()
-        .max((a.velocity - b.velocity).abs() / speed)
+    phase::difference(a.phase, b.phase).abs().max((a.velocity - b.velocity).abs() / speed)
 }

@@ -28,10 +28,7 @@ pub struct FindOptions {
 impl Default for FindOptions {
     /// 48 phases times 24 velocities.
     fn default() -> Self {
-        Self {
-            seeds: (48, 24),
-            tolerance: 1e-7,
-        }
+        Self { seeds: (48, 24), tolerance: 1e-7 }
     }
 }
 
@@ -46,10 +43,8 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
     };
     let mut orbits: Vec<Orbit> = Vec::new();
     if m == 1 {
-        orbits.extend(one_impact(osc, label.periods).into_iter().map(|o| Orbit {
-            cycle: o.cycle,
-            physical: o.physical,
-        }));
+        orbits
+            .extend(one_impact(osc, label.periods).into_iter().map(|o| Orbit { cycle: o.cycle, physical: o.physical }));
     }
     for guess in seeds(osc, options.seeds) {
         if !promising(osc, guess, m, label.periods) {
@@ -58,14 +53,9 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
         let Ok(cycle) = shoot(osc, guess, m, label.periods) else {
             continue;
         };
-        let known = orbits
-            .iter()
-            .any(|o| o.cycle.same_as(&cycle, options.tolerance));
+        let known = orbits.iter().any(|o| o.cycle.same_as(&cycle, options.tolerance));
         if cycle.label == label && !known {
-            orbits.push(Orbit {
-                cycle,
-                physical: true,
-            });
+            orbits.push(Orbit { cycle, physical: true });
         }
     }
     orbits.sort_by(|a, b| a.cycle.fastest().total_cmp(&b.cycle.fastest()));
@@ -75,8 +65,7 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
 /// Arrivals spread over phase and velocity. Speeds go up to what n periods of forcing, the gap and the free response
 /// could feed, geometrically towards small ones.
 fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item = ImpactState> {
-    let top = 4.0 * (1.0 + osc.gap().abs() + osc.free_amplitude().min(10.0))
-        / (1.0 - osc.restitution()).max(0.1);
+    let top = 4.0 * (1.0 + osc.gap().abs() + osc.free_amplitude().min(10.0)) / (1.0 - osc.restitution()).max(0.1);
     let sides: Vec<Side> = osc.stops().map(|(side, _)| side).collect();
     sides.into_iter().flat_map(move |side| {
         (0..speeds).flat_map(move |k| {
@@ -94,18 +83,8 @@ fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item =
 fn promising(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> bool {
     let (mut state, mut time) = (guess, 0.0);
     for _ in 0..m {
-        match impact_map(
-            osc,
-            &state,
-            SearchLimits {
-                periods: 4.0 * f64::from(n),
-                ..Default::default()
-            },
-        ) {
-            Mapped::Impact {
-                state: next,
-                interval,
-            } => {
+        match impact_map(osc, &state, SearchLimits { periods: 4.0 * f64::from(n), ..Default::default() }) {
+            Mapped::Impact { state: next, interval } => {
                 state = next;
                 time += interval;
             }

@@ -55,20 +55,13 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     let base = solve([gap * p.one_minus_c, gap * p.s]);
     let slope = solve([eps * p.s, 1.0 + eps * (p.c - 2.0 * zeta * p.s)]);
     // |base + U slope|^2 = 1
-    let (qa, qb) = (
-        slope[0] * slope[0] + slope[1] * slope[1],
-        base[0] * slope[0] + base[1] * slope[1],
-    );
+    let (qa, qb) = (slope[0] * slope[0] + slope[1] * slope[1], base[0] * slope[0] + base[1] * slope[1]);
     let qc = base[0] * base[0] + base[1] * base[1] - 1.0;
     let disc = qb * qb - qa * qc;
     if !(disc >= 0.0 && qa > 0.0) {
         return Vec::new();
     }
-    let large = if qb > 0.0 {
-        -qb - disc.sqrt()
-    } else {
-        -qb + disc.sqrt()
-    };
+    let large = if qb > 0.0 { -qb - disc.sqrt() } else { -qb + disc.sqrt() };
     let mut roots = [large / qa, if large == 0.0 { 0.0 } else { qc / large }];
     roots.sort_by(f64::total_cmp);
     let mut orbits = Vec::new();
@@ -76,33 +69,16 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
         if !(velocity > 0.0 && velocity.is_finite()) {
             continue;
         }
-        let theta = phase::wrap(atan2(
-            base[0] + velocity * slope[0],
-            base[1] + velocity * slope[1],
-        ));
-        let state = ImpactState {
-            phase: theta,
-            velocity,
-            side: Side::Upper,
-        };
+        let theta = phase::wrap(atan2(base[0] + velocity * slope[0], base[1] + velocity * slope[1]));
+        let state = ImpactState { phase: theta, velocity, side: Side::Upper };
         let cycle = shooting::assemble(osc, vec![(state, interval)], n, 0.0);
         let flight = Flight::new(osc, state.rebound(osc));
-        let physical = match first_contact(
-            osc,
-            &flight,
-            SearchLimits {
-                periods: 2.0 * f64::from(n),
-                ..Default::default()
-            },
-        ) {
-            // an unstable orbit is missed by rounding times what its flight amplifies
-            Contact::Impact {
-                time,
-                side: Side::Upper,
-                ..
-            } => (time - interval).abs() <= 1e-6 * interval,
-            _ => false,
-        };
+        let physical =
+            match first_contact(osc, &flight, SearchLimits { periods: 2.0 * f64::from(n), ..Default::default() }) {
+                // an unstable orbit is missed by rounding times what its flight amplifies
+                Contact::Impact { time, side: Side::Upper, .. } => (time - interval).abs() <= 1e-6 * interval,
+                _ => false,
+            };
         orbits.push(OneImpact { cycle, physical });
     }
     orbits
@@ -114,30 +90,9 @@ mod tests {
 
     /// 1/beta, delta, n, U, theta, trace: worked out in 40-digit arithmetic from the amplitude form of the equations.
     const TABLE: [(f64, f64, u32, f64, f64, f64); 3] = [
-        (
-            1.11,
-            2.0,
-            1,
-            1.579_471_043_444_031_3,
-            1.488_135_732_365_034,
-            -1.377_932_200_888_471,
-        ),
-        (
-            1.11,
-            2.0,
-            2,
-            3.547_778_641_985_508_3,
-            1.384_257_046_450_963_5,
-            -0.609_896_976_682_181_3,
-        ),
-        (
-            1.3,
-            0.75,
-            1,
-            2.797_349_151_953_767_4,
-            1.190_509_613_787_888_5,
-            0.400_077_661_640_385,
-        ),
+        (1.11, 2.0, 1, 1.579_471_043_444_031_3, 1.488_135_732_365_034, -1.377_932_200_888_471),
+        (1.11, 2.0, 2, 3.547_778_641_985_508_3, 1.384_257_046_450_963_5, -0.609_896_976_682_181_3),
+        (1.3, 0.75, 1, 2.797_349_151_953_767_4, 1.190_509_613_787_888_5, 0.400_077_661_640_385),
     ];
 
     #[test]
@@ -145,10 +100,7 @@ mod tests {
         for (inverse, gap, n, velocity, theta, trace) in TABLE {
             let osc = Oscillator::from_inverse_beta(inverse, gap, 0.5).unwrap();
             let orbits = one_impact(&osc, n);
-            let orbit = orbits
-                .iter()
-                .find(|o| (o.cycle.points[0].state.velocity - velocity).abs() < 1e-12)
-                .unwrap();
+            let orbit = orbits.iter().find(|o| (o.cycle.points[0].state.velocity - velocity).abs() < 1e-12).unwrap();
             assert!((orbit.cycle.points[0].state.phase - theta).abs() < 1e-13);
             let [one, two] = orbit.cycle.multipliers;
             assert!((one.re + two.re - trace).abs() < 1e-12, "{one:?} {two:?}");
@@ -158,93 +110,51 @@ mod tests {
 
     #[test]
     fn resonance_and_twice_n() {
-        let at = |beta: f64, gap: f64, n| {
-            one_impact(&Oscillator::new(beta, gap, 0.5).unwrap(), n)
-                .pop()
-                .unwrap()
-                .cycle
-        };
+        let at = |beta: f64, gap: f64, n| one_impact(&Oscillator::new(beta, gap, 0.5).unwrap(), n).pop().unwrap().cycle;
         for gap in [-0.5, 0.3, 2.0] {
             for n in [1, 2] {
                 let cycle = at(1.0, gap, n);
                 let pi_n = core::f64::consts::PI * f64::from(n);
                 assert!((cycle.points[0].state.velocity - pi_n / 1.5).abs() < 1e-13);
                 assert!((cycle.points[0].state.phase - core::f64::consts::FRAC_PI_2).abs() < 1e-13);
-                assert!(
-                    cycle
-                        .multipliers
-                        .iter()
-                        .all(|m| (m.re + 0.5).abs() < 1e-7 && m.im.abs() < 1e-7)
-                );
+                assert!(cycle.multipliers.iter().all(|m| (m.re + 0.5).abs() < 1e-7 && m.im.abs() < 1e-7));
             }
         }
         let f = 1.0 / (1.0 - 4.0_f64);
         let cycle = at(2.0, 0.2, 1);
-        assert!(
-            (cycle.points[0].state.velocity - 4.0 * (f * f - 0.04_f64).sqrt() / 0.5).abs() < 1e-13
-        );
+        assert!((cycle.points[0].state.velocity - 4.0 * (f * f - 0.04_f64).sqrt() / 0.5).abs() < 1e-13);
     }
 
     /// On the fold curve both roots meet and a multiplier is +1; on the doubling curve one is -1 (closed forms from
     /// the amplitude equations, derived independently of the code above).
     #[test]
     fn fold_and_doubling_curves() {
-        for (beta, eps, zeta) in [
-            (0.8, 0.5, 0.0),
-            (1.4, 0.7, 0.05),
-            (0.9, 0.3, 0.2),
-            (2.6, 0.6, 0.01_f64),
-        ] {
+        for (beta, eps, zeta) in [(0.8, 0.5, 0.0), (1.4, 0.7, 0.05), (0.9, 0.3, 0.2), (2.6, 0.6, 0.01_f64)] {
             let (wd, period) = ((1.0 - zeta * zeta).sqrt(), core::f64::consts::TAU / beta);
-            let (e, c, s) = (
-                (-zeta * period).exp(),
-                (wd * period).cos(),
-                (wd * period).sin(),
-            );
+            let (e, c, s) = ((-zeta * period).exp(), (wd * period).cos(), (wd * period).sin());
             let (m11, m12, m22) = (e * (c + zeta * s / wd), e * s / wd, e * (c - zeta * s / wd));
             let den = m11 + m22 - 1.0 - e * e;
-            let (a, b) = (
-                (1.0 + eps) * m12 / den,
-                1.0 - (1.0 + eps) * (m22 - e * e) / den,
-            );
+            let (a, b) = ((1.0 + eps) * m12 / den, 1.0 - (1.0 + eps) * (m22 - e * e) / den);
             let f = 1.0 / ((1.0 - beta * beta).powi(2) + (2.0 * zeta * beta).powi(2)).sqrt();
             let det = (eps * e).powi(2);
             let q = (-(1.0 + det) + 2.0 * eps * e * c) / ((1.0 + eps) * m12);
             let rho = -(q + (1.0 - beta * beta) * a - 2.0 * zeta * b) / (beta * beta);
             let velocity = f / ((rho - a).powi(2) + (b / beta).powi(2)).sqrt();
-            let osc = Oscillator::new(beta, rho * velocity, eps)
-                .unwrap()
-                .with_damping(zeta)
-                .unwrap();
+            let osc = Oscillator::new(beta, rho * velocity, eps).unwrap().with_damping(zeta).unwrap();
             let orbit = one_impact(&osc, 1)
                 .into_iter()
                 .find(|o| (o.cycle.points[0].state.velocity / velocity - 1.0).abs() < 1e-9)
                 .unwrap();
             let [one, two] = orbit.cycle.multipliers;
-            assert!(
-                (one.re + 1.0).abs() < 1e-10 && (two.re + det).abs() < 1e-10,
-                "{one:?} {two:?}"
-            );
+            assert!((one.re + 1.0).abs() < 1e-10 && (two.re + det).abs() < 1e-10, "{one:?} {two:?}");
             // just inside the fold the two orbits are close and stand on either side of +1
             let fold = f * (1.0 + (beta * a / b).powi(2)).sqrt() * a.signum();
-            let near = Oscillator::new(beta, fold * (1.0 - 1e-8), eps)
-                .unwrap()
-                .with_damping(zeta)
-                .unwrap();
-            let past = Oscillator::new(beta, fold * (1.0 + 1e-8), eps)
-                .unwrap()
-                .with_damping(zeta)
-                .unwrap();
+            let near = Oscillator::new(beta, fold * (1.0 - 1e-8), eps).unwrap().with_damping(zeta).unwrap();
+            let past = Oscillator::new(beta, fold * (1.0 + 1e-8), eps).unwrap().with_damping(zeta).unwrap();
             let two_orbits = one_impact(&near, 1);
             assert_eq!((two_orbits.len(), one_impact(&past, 1).len()), (2, 0));
-            let large: Vec<f64> = two_orbits
-                .iter()
-                .map(|o| o.cycle.multipliers[0].re)
-                .collect();
-            assert!(
-                large.iter().any(|m| *m > 1.0) && large.iter().any(|m| *m < 1.0),
-                "{large:?}"
-            );
+            let large: Vec<f64> = two_orbits.iter().map(|o| o.cycle.multipliers[0].re).collect();
+            assert!(large.iter().any(|m| *m > 1.0) && large.iter().any(|m| *m < 1.0), "{large:?}");
         }
     }
 }

@@ -63,20 +63,14 @@ pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cyc
             break;
         }
         let Matrix2([[a, b], [c, d]]) = lap.derivative;
-        let step = Matrix2([[a - 1.0, b], [c, d - 1.0]])
-            .solve([-miss[0], -miss[1]])
-            .ok_or(ShootingError::Singular)?;
+        let step = Matrix2([[a - 1.0, b], [c, d - 1.0]]).solve([-miss[0], -miss[1]]).ok_or(ShootingError::Singular)?;
         // a step that would turn the mass around or lose the phase is shortened
-        let shorten = (0.5 * state.velocity / step[1].abs())
-            .min(0.5 / step[0].abs())
-            .min(1.0);
+        let shorten = (0.5 * state.velocity / step[1].abs()).min(0.5 / step[0].abs()).min(1.0);
         state.phase = phase::wrap(state.phase + shorten * step[0]);
         state.velocity += shorten * step[1];
     }
     match best {
-        Some((residual, points)) if residual <= CLOSED => {
-            Ok(smallest_period(osc, points, n, residual))
-        }
+        Some((residual, points)) if residual <= CLOSED => Ok(smallest_period(osc, points, n, residual)),
         Some((residual, _)) => Err(ShootingError::NotConverged(residual)),
         None => Err(ShootingError::Broken),
     }
@@ -96,17 +90,10 @@ pub(crate) struct Lap {
 
 impl Lap {
     pub(crate) fn fly(osc: &Oscillator, start: ImpactState, m: u32) -> Result<Self, ShootingError> {
-        let mut lap = Self {
-            points: Vec::new(),
-            last: start,
-            turned: 0.0,
-            derivative: Matrix2::IDENTITY,
-        };
+        let mut lap = Self { points: Vec::new(), last: start, turned: 0.0, derivative: Matrix2::IDENTITY };
         let mut turns = 0.0_f64;
         for _ in 0..m {
-            let Mapped::Impact { state, interval } =
-                impact_map(osc, &lap.last, SearchLimits::default())
-            else {
+            let Mapped::Impact { state, interval } = impact_map(osc, &lap.last, SearchLimits::default()) else {
                 return Err(ShootingError::Broken);
             };
             lap.derivative = derivative(osc, &lap.last, &state, interval).times(lap.derivative);
@@ -121,12 +108,7 @@ impl Lap {
 }
 
 /// The cycle through `points`, reduced if it goes round a shorter one several times.
-fn smallest_period(
-    osc: &Oscillator,
-    points: Vec<(ImpactState, f64)>,
-    n: u32,
-    residual: f64,
-) -> Cycle {
+fn smallest_period(osc: &Oscillator, points: Vec<(ImpactState, f64)>, n: u32, residual: f64) -> Cycle {
     let m = points.len();
     let same = |a: &(ImpactState, f64), b: &(ImpactState, f64)| distance(&a.0, &b.0) <= 1e-7;
     let shorter = (1..m).find(|d| {
@@ -145,12 +127,7 @@ fn smallest_period(
 }
 
 /// A cycle from its impacts and intervals, with its multipliers.
-pub(crate) fn assemble(
-    osc: &Oscillator,
-    points: Vec<(ImpactState, f64)>,
-    n: u32,
-    residual: f64,
-) -> Cycle {
+pub(crate) fn assemble(osc: &Oscillator, points: Vec<(ImpactState, f64)>, n: u32, residual: f64) -> Cycle {
     let m = points.len();
     let mut product = Matrix2::IDENTITY;
     let (mut det, mut length) = (1.0, 0.0);
@@ -163,17 +140,8 @@ pub(crate) fn assemble(
     }
     let multipliers = eigenvalues(product.trace(), det * exp(-2.0 * osc.damping() * length));
     let label = Label::new(u32::try_from(m).unwrap_or(u32::MAX), n);
-    let points = points
-        .into_iter()
-        .map(|(state, interval)| CyclePoint { state, interval })
-        .collect();
-    let mut cycle = Cycle {
-        label,
-        points,
-        rests: Vec::new(),
-        multipliers,
-        residual,
-    };
+    let points = points.into_iter().map(|(state, interval)| CyclePoint { state, interval }).collect();
+    let mut cycle = Cycle { label, points, rests: Vec::new(), multipliers, residual };
     cycle.rotate_to_fastest();
     cycle
 }
@@ -186,22 +154,13 @@ mod tests {
     #[test]
     fn two_over_one_at_s() {
         let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
-        let guess = ImpactState {
-            phase: 0.83,
-            velocity: 2.64,
-            side: Side::Upper,
-        };
+        let guess = ImpactState { phase: 0.83, velocity: 2.64, side: Side::Upper };
         let cycle = shoot(&osc, guess, 2, 1).unwrap();
         assert_eq!(cycle.label, Label::new(2, 1));
-        let expected = [
-            (0.829_989_671_461_920_7, 2.644_018_587_785_435),
-            (3.194_590_893_857_773_4, 0.777_626_654_634_881_8),
-        ];
+        let expected =
+            [(0.829_989_671_461_920_7, 2.644_018_587_785_435), (3.194_590_893_857_773_4, 0.777_626_654_634_881_8)];
         for (point, (theta, u)) in cycle.points.iter().zip(expected) {
-            assert!(
-                (point.state.phase - theta).abs() < 1e-13
-                    && (point.state.velocity - u).abs() < 1e-13
-            );
+            assert!((point.state.phase - theta).abs() < 1e-13 && (point.state.velocity - u).abs() < 1e-13);
         }
         assert!((cycle.multipliers[0].re - 0.443_795_500_242).abs() < 1e-11);
         assert!((cycle.multipliers[1].re - 0.140_830_630_247).abs() < 1e-11);
@@ -210,25 +169,14 @@ mod tests {
     #[test]
     fn a_fourfold_lap_of_the_fundamental_is_reduced() {
         let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
-        let guess = ImpactState {
-            phase: 1.19,
-            velocity: 2.8,
-            side: Side::Upper,
-        };
+        let guess = ImpactState { phase: 1.19, velocity: 2.8, side: Side::Upper };
         assert_eq!(shoot(&osc, guess, 4, 4).unwrap().label, Label::new(1, 1));
     }
 
     #[test]
     fn damping_enters_the_determinant() {
-        let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5)
-            .unwrap()
-            .with_damping(0.05)
-            .unwrap();
-        let guess = ImpactState {
-            phase: 1.19,
-            velocity: 2.5,
-            side: Side::Upper,
-        };
+        let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap().with_damping(0.05).unwrap();
+        let guess = ImpactState { phase: 1.19, velocity: 2.5, side: Side::Upper };
         let cycle = shoot(&osc, guess, 1, 1).unwrap();
         let lap = Lap::fly(&osc, cycle.points[0].state, 1).unwrap();
         let [one, two] = cycle.multipliers;

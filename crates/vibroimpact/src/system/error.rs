@@ -12,24 +12,16 @@ pub enum SystemError {
     )]
     Beta(f64),
     /// The inverse frequency ratio is not a positive finite number.
-    #[error(
-        "inverse frequency ratio 1/beta = {0} lies outside 0 < 1/beta < infinity\nhint: 1/beta = omega_n / omega"
-    )]
+    #[error("inverse frequency ratio 1/beta = {0} lies outside 0 < 1/beta < infinity\nhint: 1/beta = omega_n / omega")]
     InverseBeta(f64),
     /// The gap is not finite.
-    #[error(
-        "gap delta = {0} is not a finite number\nhint: a negative gap presses the mass against the stop at rest"
-    )]
+    #[error("gap delta = {0} is not a finite number\nhint: a negative gap presses the mass against the stop at rest")]
     Gap(f64),
     /// The restitution is outside [0, 1].
-    #[error(
-        "restitution eps = {0} lies outside 0 <= eps <= 1\nhint: eps is the ratio of velocities, not of energies"
-    )]
+    #[error("restitution eps = {0} lies outside 0 <= eps <= 1\nhint: eps is the ratio of velocities, not of energies")]
     Restitution(f64),
     /// The damping ratio is negative or not finite.
-    #[error(
-        "damping ratio zeta = {0} lies outside 0 <= zeta < infinity\nhint: zeta = c / (2 sqrt(k m))"
-    )]
+    #[error("damping ratio zeta = {0} lies outside 0 <= zeta < infinity\nhint: zeta = c / (2 sqrt(k m))")]
     Damping(f64),
     /// Two stops that leave no room between them.
     #[error(

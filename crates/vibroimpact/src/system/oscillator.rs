@@ -74,22 +74,14 @@ impl Oscillator {
         if !(beta > 0.0 && beta.is_finite()) {
             return Err(SystemError::Beta(beta));
         }
-        Ok(Self {
-            response: Response::new(beta, 0.0),
-            upper: stop(gap, restitution)?,
-            lower: None,
-        })
+        Ok(Self { response: Response::new(beta, 0.0), upper: stop(gap, restitution)?, lower: None })
     }
 
     /// The same with the frequency given as $`1/\beta = \omega_n/\omega`$, the abscissa of the 1971 paper.
     ///
     /// # Errors
     /// As [`Oscillator::new`].
-    pub fn from_inverse_beta(
-        inverse_beta: f64,
-        gap: f64,
-        restitution: f64,
-    ) -> Result<Self, SystemError> {
+    pub fn from_inverse_beta(inverse_beta: f64, gap: f64, restitution: f64) -> Result<Self, SystemError> {
         if !(inverse_beta > 0.0 && inverse_beta.is_finite() && (1.0 / inverse_beta).is_finite()) {
             return Err(SystemError::InverseBeta(inverse_beta));
         }
@@ -104,10 +96,7 @@ impl Oscillator {
         if !(damping >= 0.0 && damping.is_finite()) {
             return Err(SystemError::Damping(damping));
         }
-        Ok(Self {
-            response: Response::new(self.beta(), damping),
-            ..self
-        })
+        Ok(Self { response: Response::new(self.beta(), damping), ..self })
     }
 
     /// The same oscillator with a second stop at `x = -gap`.
@@ -118,16 +107,9 @@ impl Oscillator {
         let lower = stop(gap, restitution)?;
         let width = self.upper.gap + lower.gap;
         if width > 0.0 {
-            Ok(Self {
-                lower: Some(lower),
-                ..self
-            })
+            Ok(Self { lower: Some(lower), ..self })
         } else {
-            Err(SystemError::NoRoom {
-                upper: self.upper.gap,
-                lower: -lower.gap,
-                width,
-            })
+            Err(SystemError::NoRoom { upper: self.upper.gap, lower: -lower.gap, width })
         }
     }
 
@@ -171,12 +153,7 @@ impl Oscillator {
 
     /// The stops there are, the first one first.
     pub fn stops(&self) -> impl Iterator<Item = (Side, Stop)> {
-        [
-            Some((Side::Upper, self.upper)),
-            self.lower.map(|stop| (Side::Lower, stop)),
-        ]
-        .into_iter()
-        .flatten()
+        [Some((Side::Upper, self.upper)), self.lower.map(|stop| (Side::Lower, stop))].into_iter().flatten()
     }
 
     /// Forcing period $`2\pi/\beta`$.
@@ -218,27 +195,15 @@ mod tests {
     #[test]
     fn impossible_systems_are_named() {
         for beta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(matches!(
-                Oscillator::new(beta, 1.0, 0.5),
-                Err(SystemError::Beta(_))
-            ));
-            assert!(matches!(
-                Oscillator::from_inverse_beta(beta, 1.0, 0.5),
-                Err(SystemError::InverseBeta(_))
-            ));
+            assert!(matches!(Oscillator::new(beta, 1.0, 0.5), Err(SystemError::Beta(_))));
+            assert!(matches!(Oscillator::from_inverse_beta(beta, 1.0, 0.5), Err(SystemError::InverseBeta(_))));
         }
         for eps in [-1e-9, 1.0 + 1e-9, f64::NAN] {
-            assert!(matches!(
-                Oscillator::new(1.0, 1.0, eps),
-                Err(SystemError::Restitution(_))
-            ));
+            assert!(matches!(Oscillator::new(1.0, 1.0, eps), Err(SystemError::Restitution(_))));
         }
         let osc = Oscillator::new(1.0, 1.0, 0.5).unwrap();
         assert_eq!(osc.with_damping(-0.1), Err(SystemError::Damping(-0.1)));
-        assert!(matches!(
-            osc.with_second_stop(-1.0, 0.5),
-            Err(SystemError::NoRoom { .. })
-        ));
+        assert!(matches!(osc.with_second_stop(-1.0, 0.5), Err(SystemError::NoRoom { .. })));
         assert!(osc.with_second_stop(-0.5, 0.5).is_ok());
         let sentence = SystemError::Restitution(1.4).to_string();
         assert!(sentence.starts_with("restitution eps = 1.4 lies outside 0 <= eps <= 1"));

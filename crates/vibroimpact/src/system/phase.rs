@@ -70,10 +70,7 @@ mod tests {
         for s in [4.0, 4e6, 4e12] {
             let (sine, cosine) = sin_cos(advance(1.0, 0.75, s));
             let (want_sine, want_cosine) = sin_cos(1.0 + 0.75 * s);
-            assert!(
-                (sine - want_sine).abs() < 5e-16 && (cosine - want_cosine).abs() < 5e-16,
-                "s = {s}"
-            );
+            assert!((sine - want_sine).abs() < 5e-16 && (cosine - want_cosine).abs() < 5e-16, "s = {s}");
         }
         // and where it is not, the product's error is not lost: 1e6 forcing periods of 2 pi / 0.9, rounded
         let s = TAU * 1e6 / 0.9;

@@ -38,30 +38,20 @@ impl Start {
         if !(lowest..=highest).contains(&x) {
             return Err(SystemError::BeyondStop { x, lowest, highest });
         }
-        Ok(Self {
-            x,
-            v,
-            phase: phase::wrap(phase),
-        })
+        Ok(Self { x, v, phase: phase::wrap(phase) })
     }
 
     /// At rest, unstretched, at phase 0; on the stop where that place is beyond one.
     #[must_use]
     pub fn at_rest(osc: &Oscillator) -> Self {
         let (lowest, highest) = Self::room(osc);
-        Self {
-            x: 0.0_f64.clamp(lowest, highest),
-            v: 0.0,
-            phase: 0.0,
-        }
+        Self { x: 0.0_f64.clamp(lowest, highest), v: 0.0, phase: 0.0 }
     }
 
     /// The range of positions the stops allow.
     #[must_use]
     pub fn room(osc: &Oscillator) -> (f64, f64) {
-        let lowest = osc
-            .stop(super::Side::Lower)
-            .map_or(f64::NEG_INFINITY, |stop| -stop.gap);
+        let lowest = osc.stop(super::Side::Lower).map_or(f64::NEG_INFINITY, |stop| -stop.gap);
         (lowest, osc.gap())
     }
 }

@@ -86,30 +86,15 @@ impl Machine {
     /// ratios overflow.
     pub fn nondimensional(&self) -> Result<(Oscillator, Scales), SystemError> {
         let omega = self.frequency.rad_per_s();
-        positive(
-            "mass m",
-            self.mass_kg,
-            "kg",
-            "the mass moves, so it must weigh something",
-        )?;
-        positive(
-            "stiffness k",
-            self.stiffness_n_per_m,
-            "N/m",
-            "without a spring there is no natural frequency",
-        )?;
+        positive("mass m", self.mass_kg, "kg", "the mass moves, so it must weigh something")?;
+        positive("stiffness k", self.stiffness_n_per_m, "N/m", "without a spring there is no natural frequency")?;
         positive(
             "force F",
             self.force_n,
             "N",
             "lengths are measured in F/k; a force of 0 leaves no scale, and a sign belongs in the phase",
         )?;
-        positive(
-            "frequency omega",
-            omega,
-            "rad/s",
-            "give omega in rad/s or the frequency in Hz",
-        )?;
+        positive("frequency omega", omega, "rad/s", "give omega in rad/s or the frequency in Hz")?;
         if !(self.damping_ns_per_m >= 0.0 && self.damping_ns_per_m.is_finite()) {
             return Err(SystemError::Quantity {
                 name: "damping c",
@@ -120,27 +105,15 @@ impl Machine {
             });
         }
         let natural = (self.stiffness_n_per_m / self.mass_kg).sqrt();
-        let scales = Scales {
-            length_m: self.force_n / self.stiffness_n_per_m,
-            time_s: 1.0 / natural,
-        };
-        for (name, value) in [
-            ("F/k", scales.length_m),
-            ("omega_n", natural),
-            ("1/omega_n", scales.time_s),
-        ] {
+        let scales = Scales { length_m: self.force_n / self.stiffness_n_per_m, time_s: 1.0 / natural };
+        for (name, value) in [("F/k", scales.length_m), ("omega_n", natural), ("1/omega_n", scales.time_s)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(SystemError::Scaling { name, value });
             }
         }
-        let zeta =
-            self.damping_ns_per_m / (2.0 * (self.stiffness_n_per_m.sqrt() * self.mass_kg.sqrt()));
-        let osc = Oscillator::new(
-            omega / natural,
-            self.gap_m / scales.length_m,
-            self.restitution,
-        )?
-        .with_damping(zeta)?;
+        let zeta = self.damping_ns_per_m / (2.0 * (self.stiffness_n_per_m.sqrt() * self.mass_kg.sqrt()));
+        let osc =
+            Oscillator::new(omega / natural, self.gap_m / scales.length_m, self.restitution)?.with_damping(zeta)?;
         Ok((osc, scales))
     }
 
@@ -149,17 +122,8 @@ impl Machine {
     ///
     /// # Errors
     /// [`SystemError`] for scales or a mass that are not positive and finite.
-    pub fn from_nondimensional(
-        osc: &Oscillator,
-        scales: Scales,
-        mass_kg: f64,
-    ) -> Result<Self, SystemError> {
-        positive(
-            "mass m",
-            mass_kg,
-            "kg",
-            "the mass moves, so it must weigh something",
-        )?;
+    pub fn from_nondimensional(osc: &Oscillator, scales: Scales, mass_kg: f64) -> Result<Self, SystemError> {
+        positive("mass m", mass_kg, "kg", "the mass moves, so it must weigh something")?;
         positive("unit of length", scales.length_m, "m", "it is F/k")?;
         positive("unit of time", scales.time_s, "s", "it is 1/omega_n")?;
         let natural = 1.0 / scales.time_s;
@@ -176,22 +140,11 @@ impl Machine {
     }
 }
 
-fn positive(
-    name: &'static str,
-    value: f64,
-    unit: &'static str,
-    hint: &'static str,
-) -> Result<(), SystemError> {
+fn positive(name: &'static str, value: f64, unit: &'static str, hint: &'static str) -> Result<(), SystemError> {
     if value > 0.0 && value.is_finite() {
         Ok(())
     } else {
-        Err(SystemError::Quantity {
-            name,
-            value,
-            unit,
-            range: "0 < value < infinity",
-            hint,
-        })
+        Err(SystemError::Quantity { name, value, unit, range: "0 < value < infinity", hint })
     }
 }
 
@@ -226,39 +179,15 @@ mod tests {
 
     #[test]
     fn impossible_machines_are_named() {
-        let no_force = Machine {
-            force_n: 0.0,
-            ..MACHINE
-        }
-        .nondimensional()
-        .unwrap_err();
+        let no_force = Machine { force_n: 0.0, ..MACHINE }.nondimensional().unwrap_err();
         assert!(no_force.to_string().contains("force F = 0 N"), "{no_force}");
         for bad in [
-            Machine {
-                mass_kg: 0.0,
-                ..MACHINE
-            },
-            Machine {
-                stiffness_n_per_m: -1.0,
-                ..MACHINE
-            },
-            Machine {
-                frequency: Frequency::Hz(f64::NAN),
-                ..MACHINE
-            },
-            Machine {
-                damping_ns_per_m: -0.1,
-                ..MACHINE
-            },
-            Machine {
-                force_n: 1e-300,
-                stiffness_n_per_m: 1e300,
-                ..MACHINE
-            },
-            Machine {
-                gap_m: f64::INFINITY,
-                ..MACHINE
-            },
+            Machine { mass_kg: 0.0, ..MACHINE },
+            Machine { stiffness_n_per_m: -1.0, ..MACHINE },
+            Machine { frequency: Frequency::Hz(f64::NAN), ..MACHINE },
+            Machine { damping_ns_per_m: -0.1, ..MACHINE },
+            Machine { force_n: 1e-300, stiffness_n_per_m: 1e300, ..MACHINE },
+            Machine { gap_m: f64::INFINITY, ..MACHINE },
         ] {
             assert!(bad.nondimensional().is_err());
         }

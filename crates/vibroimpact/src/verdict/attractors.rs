@@ -36,18 +36,11 @@ impl Census {
     /// Counts one verdict and returns the number of its motion, in order of first appearance.
     pub fn add(&mut self, verdict: &Verdict) -> usize {
         self.total += 1;
-        if let Some(k) = self
-            .found
-            .iter()
-            .position(|found| found.verdict.same_as(verdict, SAME))
-        {
+        if let Some(k) = self.found.iter().position(|found| found.verdict.same_as(verdict, SAME)) {
             self.found[k].count += 1;
             return k;
         }
-        self.found.push(Found {
-            verdict: verdict.clone(),
-            count: 1,
-        });
+        self.found.push(Found { verdict: verdict.clone(), count: 1 });
         self.found.len() - 1
     }
 
@@ -98,11 +91,7 @@ impl StartBox {
         let size = 1.0 + osc.gap().abs() + osc.free_amplitude().min(10.0);
         let (lowest, highest) = Start::room(osc);
         let speed = size * (0.5 * (1.0 + osc.beta())).min(2.0);
-        Self {
-            x: (lowest.max(highest - 2.0 * size), highest),
-            v: (-speed, speed),
-            phase: (0.0, TAU),
-        }
+        Self { x: (lowest.max(highest - 2.0 * size), highest), v: (-speed, speed), phase: (0.0, TAU) }
     }
 }
 
@@ -112,16 +101,10 @@ impl StartBox {
 #[allow(clippy::cast_precision_loss)] // 53 bits are kept on purpose
 pub fn scattered_starts(osc: &Oscillator, area: StartBox, seed: u64, index: u64) -> Start {
     // 2^64 / g, 2^64 / g^2, 2^64 / g^3 with g^4 = g + 1
-    const STEP: [u64; 3] = [
-        0xD1B5_4A32_D192_ED03,
-        0xABC9_8388_FB8F_AC03,
-        0x8CB9_2BA7_2F3D_8DD7,
-    ];
+    const STEP: [u64; 3] = [0xD1B5_4A32_D192_ED03, 0xABC9_8388_FB8F_AC03, 0x8CB9_2BA7_2F3D_8DD7];
     let unit = |k: usize| {
         let shift = mix(seed.wrapping_mul(3).wrapping_add(k as u64 + 1));
-        let turn = STEP[k]
-            .wrapping_mul(index.wrapping_add(1))
-            .wrapping_add(shift);
+        let turn = STEP[k].wrapping_mul(index.wrapping_add(1)).wrapping_add(shift);
         (turn >> 11) as f64 / (1_u64 << 53) as f64
     };
     let at = |(low, high): (f64, f64), t: f64| low + (high - low) * t;
@@ -172,11 +155,7 @@ mod tests {
     fn the_papers_points() {
         for point in scenario::PAPER {
             let census = attractors(&point.oscillator(), 200, 1, &SettleOptions::default());
-            let mut labels: Vec<_> = census
-                .motions()
-                .iter()
-                .map(|found| found.verdict.label().into_owned())
-                .collect();
+            let mut labels: Vec<_> = census.motions().iter().map(|found| found.verdict.label().into_owned()).collect();
             labels.sort();
             let mut expected = point.motions.to_vec();
             expected.sort_unstable();
@@ -195,13 +174,7 @@ mod tests {
             let up = start.v > 0.0;
             quarters[usize::from(right) + 2 * usize::from(up)] += 1;
         }
-        assert!(
-            quarters.iter().all(|q| (235..=265).contains(q)),
-            "{quarters:?}"
-        );
-        assert_ne!(
-            scattered_starts(&osc, area, 7, 0),
-            scattered_starts(&osc, area, 8, 0)
-        );
+        assert!(quarters.iter().all(|q| (235..=265).contains(q)), "{quarters:?}");
+        assert_ne!(scattered_starts(&osc, area, 7, 0), scattered_starts(&osc, area, 8, 0));
     }
 }

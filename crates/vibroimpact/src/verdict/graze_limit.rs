@@ -24,11 +24,7 @@ const SLOW: f64 = 1e-3;
 /// Whether the last [`RUN`] impacts (state and the time since the impact before) follow the law of the graze limit.
 #[must_use]
 pub fn recognised(osc: &Oscillator, impacts: &[(ImpactState, f64)]) -> bool {
-    let Some(run) = impacts
-        .len()
-        .checked_sub(RUN)
-        .and_then(|first| impacts.get(first..))
-    else {
+    let Some(run) = impacts.len().checked_sub(RUN).and_then(|first| impacts.get(first..)) else {
         return false;
     };
     let eps = osc.stop(run[0].0.side).map_or(0.0, |stop| stop.restitution);

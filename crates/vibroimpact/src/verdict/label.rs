@@ -38,10 +38,7 @@ impl Label {
     /// `m/n` with finitely many impacts.
     #[must_use]
     pub const fn new(impacts: u32, periods: u32) -> Self {
-        Self {
-            impacts: Count::Finite(impacts),
-            periods,
-        }
+        Self { impacts: Count::Finite(impacts), periods }
     }
 }
 
@@ -67,23 +64,14 @@ impl FromStr for Label {
     type Err = LabelError;
 
     fn from_str(text: &str) -> Result<Self, LabelError> {
-        let bad = || LabelError {
-            given: text.chars().take(40).collect(),
-        };
+        let bad = || LabelError { given: text.chars().take(40).collect() };
         let whole = |part: &str| match part.parse::<u32>() {
             Ok(k @ 1..=10_000) if part.bytes().all(|b| b.is_ascii_digit()) => Ok(k),
             _ => Err(bad()),
         };
         let (m, n) = text.trim().split_once('/').ok_or_else(bad)?;
-        let impacts = if m == "inf" {
-            Count::Infinite
-        } else {
-            Count::Finite(whole(m)?)
-        };
-        Ok(Self {
-            impacts,
-            periods: whole(n)?,
-        })
+        let impacts = if m == "inf" { Count::Infinite } else { Count::Finite(whole(m)?) };
+        Ok(Self { impacts, periods: whole(n)? })
     }
 }
 
@@ -96,26 +84,11 @@ mod tests {
         for good in ["1/1", "10000/1", "inf/3"] {
             assert_eq!(good.parse::<Label>().unwrap().to_string(), good);
         }
-        for bad in [
-            "3/0",
-            "0/1",
-            "0",
-            "1",
-            "1/1/1",
-            "-1/2",
-            "+1/2",
-            "1.5/2",
-            "inf/0",
-            "inf",
-            "",
-            "1/99999999999",
-            "nan/1",
-        ] {
+        for bad in
+            ["3/0", "0/1", "0", "1", "1/1/1", "-1/2", "+1/2", "1.5/2", "inf/0", "inf", "", "1/99999999999", "nan/1"]
+        {
             let message = bad.parse::<Label>().unwrap_err().to_string();
-            assert!(
-                message.contains(bad) && message.contains("1 to 10000"),
-                "{message}"
-            );
+            assert!(message.contains(bad) && message.contains("1 to 10000"), "{message}");
         }
     }
 }

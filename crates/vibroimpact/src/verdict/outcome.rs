@@ -95,10 +95,7 @@ impl Verdict {
             Self::NoImpact(_) => {
                 let p = osc.response().at(TAU / osc.beta());
                 let trace = 2.0 * (p.c - osc.damping() * p.s);
-                Some(crate::math::eigenvalues(
-                    trace,
-                    crate::math::exp(-2.0 * osc.damping() * osc.period()),
-                ))
+                Some(crate::math::eigenvalues(trace, crate::math::exp(-2.0 * osc.damping() * osc.period())))
             }
             Self::Stuck(_) => Some([Multiplier::default(); 2]),
             Self::Chaotic(_) | Self::Undecided(_) => None,

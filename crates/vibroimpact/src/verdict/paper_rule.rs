@@ -25,10 +25,7 @@ pub struct PaperRule {
 
 impl Default for PaperRule {
     fn default() -> Self {
-        Self {
-            percent: 0.1,
-            limit: 100,
-        }
+        Self { percent: 0.1, limit: 100 }
     }
 }
 
@@ -72,9 +69,7 @@ pub fn paper_rule(osc: &Oscillator, start: Start, rule: PaperRule) -> PaperVerdi
             return PaperVerdict::NoMoreImpacts;
         };
         match event.kind {
-            EventKind::Impact {
-                velocity_before, ..
-            } => impacts.push((event.time - last, velocity_before, event.time)),
+            EventKind::Impact { velocity_before, .. } => impacts.push((event.time - last, velocity_before, event.time)),
             EventKind::Stick { .. } => return PaperVerdict::Sticks,
             EventKind::Graze { .. } | EventKind::Release => continue,
         }

@@ -20,8 +20,7 @@ pub(super) fn candidates(
     (1..=longest.min(j / 2)).filter_map(move |m| {
         time += impacts[j + 1 - m].1;
         #[allow(clippy::cast_precision_loss)] // a small count
-        let close =
-            |k: usize| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
+        let close = |k: usize| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
         let periods = (beta * time / TAU).round();
         // the phases agree, so the time is close to whole periods
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
@@ -32,28 +31,22 @@ pub(super) fn candidates(
 /// Whether a motion that arrives at `state` is captured by the stable `cycle`: it is near, and its next turn obeys the
 /// linear law of the cycle so well that the contraction of the multipliers cannot be undone by what is left over.
 pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> bool {
-    let nearest = cycle
-        .points
-        .iter()
-        .min_by(|a, b| cycle_distance(&a.state, state).total_cmp(&cycle_distance(&b.state, state)));
+    let nearest =
+        cycle.points.iter().min_by(|a, b| cycle_distance(&a.state, state).total_cmp(&cycle_distance(&b.state, state)));
     let Some(nearest) = nearest else { return false };
     let apart = cycle_distance(&nearest.state, state);
     if apart > NEAR || !cycle.stable() {
         return false;
     }
     let m = u32::try_from(cycle.points.len()).unwrap_or(u32::MAX);
-    let (Ok(reference), Ok(real)) = (Lap::fly(osc, nearest.state, m), Lap::fly(osc, *state, m))
-    else {
+    let (Ok(reference), Ok(real)) = (Lap::fly(osc, nearest.state, m), Lap::fly(osc, *state, m)) else {
         return false;
     };
     if apart <= AT_ROUNDING {
         return true;
     }
     let offset = |a: &ImpactState, b: &ImpactState| {
-        [
-            crate::system::phase::difference(a.phase, b.phase),
-            a.velocity - b.velocity,
-        ]
+        [crate::system::phase::difference(a.phase, b.phase), a.velocity - b.velocity]
     };
     let before = offset(state, &nearest.state);
     let linear = reference.derivative.apply(before);

@@ -91,11 +91,7 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
     };
     let mut motion = Motion::with_limits(osc, start, options.limits);
     let (mut time, mut spectrum) = (0.0, None);
-    let done = |verdict, follow: &Follow<'_>, time| Settled {
-        verdict,
-        impacts: follow.impacts.len() as u64,
-        time,
-    };
+    let done = |verdict, follow: &Follow<'_>, time| Settled { verdict, impacts: follow.impacts.len() as u64, time };
     // every event but an impact is followed by one or ends the motion, except runs of grazes, which are cut short
     while follow.impacts.len() < options.max_impacts as usize {
         let Some(event) = motion.next() else {
@@ -104,27 +100,15 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
         };
         time = event.time;
         let shown = match event.kind {
-            EventKind::Impact {
-                velocity_before, ..
-            } => {
-                let state = ImpactState {
-                    phase: event.phase,
-                    velocity: velocity_before,
-                    side: event.side,
-                };
+            EventKind::Impact { velocity_before, .. } => {
+                let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
                 follow.impact(state, time)
             }
             EventKind::Graze { .. } => follow.graze(event.phase),
             EventKind::Stick { chatter, .. } => {
-                follow.rests.push((
-                    RestSpan {
-                        side: event.side,
-                        chatter,
-                        begin: event.phase,
-                        release: f64::NAN,
-                    },
-                    time,
-                ));
+                follow
+                    .rests
+                    .push((RestSpan { side: event.side, chatter, begin: event.phase, release: f64::NAN }, time));
                 None
             }
             EventKind::Release => follow.release(event.side, event.phase, time),
@@ -138,11 +122,7 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
             && follow.releases.is_empty()
             && matches!(event.kind, EventKind::Impact { .. })
         {
-            spectrum = Some(lyapunov(
-                osc,
-                follow.impacts[count - 1].0,
-                options.chaos_over,
-            ));
+            spectrum = Some(lyapunov(osc, follow.impacts[count - 1].0, options.chaos_over));
             if let Some(Some(found)) = &spectrum
                 && chaotic(found)
             {
@@ -151,16 +131,10 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
         }
     }
     // a last look, where the transient is as far gone as it will be
-    let last = follow
-        .impacts
-        .last()
-        .and_then(|(state, _)| lyapunov(osc, *state, options.chaos_over));
+    let last = follow.impacts.last().and_then(|(state, _)| lyapunov(osc, *state, options.chaos_over));
     let verdict = match last.or(spectrum.flatten()) {
         Some(found) if chaotic(&found) => Verdict::Chaotic(found),
-        spectrum => Verdict::Undecided(Undecided::Impacts {
-            impacts: follow.impacts.len() as u64,
-            spectrum,
-        }),
+        spectrum => Verdict::Undecided(Undecided::Impacts { impacts: follow.impacts.len() as u64, spectrum }),
     };
     done(verdict, &follow, time)
 }
@@ -214,10 +188,7 @@ impl Follow<'_> {
         self.last_impact = time;
         self.grazes = 0;
         if graze_limit::recognised(self.osc, &self.impacts) {
-            return Some(Verdict::NoImpact(NoImpact::GrazeLimit {
-                velocity: state.velocity,
-                phase: state.phase,
-            }));
+            return Some(Verdict::NoImpact(NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase }));
         }
         let count = self.impacts.len();
         if count < self.next_look {
@@ -229,14 +200,10 @@ impl Follow<'_> {
         {
             return self.candidate.take().map(Verdict::Periodic);
         }
-        let found: Vec<(usize, u32)> = recurrence::candidates(
-            self.osc,
-            &self.impacts,
-            self.options.longest as usize,
-            self.options.recurrence,
-        )
-        .take(TRIES)
-        .collect();
+        let found: Vec<(usize, u32)> =
+            recurrence::candidates(self.osc, &self.impacts, self.options.longest as usize, self.options.recurrence)
+                .take(TRIES)
+                .collect();
         for (m, n) in found {
             let Ok(cycle) = shoot(self.osc, state, u32::try_from(m).unwrap_or(u32::MAX), n) else {
                 continue;
@@ -261,14 +228,8 @@ impl Follow<'_> {
         if let Some((rest, _)) = self.rests.last_mut() {
             rest.release = phase;
         }
-        let before = self
-            .releases
-            .iter()
-            .rev()
-            .find(|(other, ..)| *other == side)
-            .copied();
-        self.releases
-            .push((side, time, self.impacts.len(), self.rests.len()));
+        let before = self.releases.iter().rev().find(|(other, ..)| *other == side).copied();
+        self.releases.push((side, time, self.impacts.len(), self.rests.len()));
         let (_, since, impacts, rests) = before?;
         let periods = ((time - since) / self.osc.period()).round();
         let rests: Vec<(RestSpan, f64)> = self.rests[rests..].to_vec();
@@ -277,34 +238,17 @@ impl Follow<'_> {
         // the interval after an impact is the one stored with the next; after the last one before a rest, to the rest
         let mut at = since;
         for (k, (state, since_last)) in slice.iter().enumerate() {
-            at = if k == 0 {
-                self.time_of(impacts)
-            } else {
-                at + since_last
-            };
-            let to_next = slice
-                .get(k + 1)
-                .map_or(f64::INFINITY, |(_, interval)| *interval);
-            let to_rest = rests
-                .iter()
-                .map(|(_, t)| t - at)
-                .find(|dt| *dt >= 0.0)
-                .unwrap_or(f64::INFINITY);
-            points.push(CyclePoint {
-                state: *state,
-                interval: to_next.min(to_rest),
-            });
+            at = if k == 0 { self.time_of(impacts) } else { at + since_last };
+            let to_next = slice.get(k + 1).map_or(f64::INFINITY, |(_, interval)| *interval);
+            let to_rest = rests.iter().map(|(_, t)| t - at).find(|dt| *dt >= 0.0).unwrap_or(f64::INFINITY);
+            points.push(CyclePoint { state: *state, interval: to_next.min(to_rest) });
         }
         let chatter = rests.iter().any(|(rest, _)| rest.chatter);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         // a count of forcing periods
         let periods = periods as u32;
         let count = u32::try_from(points.len()).unwrap_or(u32::MAX);
-        let impacts = if chatter {
-            Count::Infinite
-        } else {
-            Count::Finite(count)
-        };
+        let impacts = if chatter { Count::Infinite } else { Count::Finite(count) };
         Some(Verdict::Periodic(Cycle {
             label: Label { impacts, periods },
             points,
@@ -316,10 +260,7 @@ impl Follow<'_> {
 
     /// Time of the impact with that index.
     fn time_of(&self, index: usize) -> f64 {
-        let later: f64 = self.impacts[index + 1..]
-            .iter()
-            .map(|(_, interval)| interval)
-            .sum();
+        let later: f64 = self.impacts[index + 1..].iter().map(|(_, interval)| interval).sum();
         self.last_impact - later
     }
 }
@@ -334,12 +275,7 @@ mod tests {
         for point in scenario::PAPER {
             let osc = point.oscillator();
             let settled = settle(&osc, Start::at_rest(&osc), &SettleOptions::default());
-            assert!(
-                point.motions.contains(&&*settled.verdict.label()),
-                "{}: {:?}",
-                point.name,
-                settled.verdict
-            );
+            assert!(point.motions.contains(&&*settled.verdict.label()), "{}: {:?}", point.name, settled.verdict);
         }
     }
 
@@ -347,9 +283,7 @@ mod tests {
     fn four_over_one_at_n_to_the_last_digits() {
         let osc = scenario::N.oscillator();
         let settled = settle(&osc, Start::at_rest(&osc), &SettleOptions::default());
-        let Verdict::Periodic(cycle) = settled.verdict else {
-            panic!()
-        };
+        let Verdict::Periodic(cycle) = settled.verdict else { panic!() };
         let expected = [
             (0.185_568_221_573_524_7, 1.513_140_069_144_015_8),
             (1.440_306_040_352_512_3, 1.099_197_434_354_180_2),
@@ -357,11 +291,7 @@ mod tests {
             (2.736_447_333_268_362_8, 0.179_240_599_381_170_8),
         ];
         for (point, (theta, u)) in cycle.points.iter().zip(expected) {
-            assert!(
-                (point.state.phase - theta).abs() < 1e-12
-                    && (point.state.velocity - u).abs() < 1e-12,
-                "{point:?}"
-            );
+            assert!((point.state.phase - theta).abs() < 1e-12 && (point.state.velocity - u).abs() < 1e-12, "{point:?}");
         }
         assert!(cycle.residual < 1e-13);
     }
@@ -370,17 +300,12 @@ mod tests {
     fn chatter_cycles_are_superstable() {
         let osc = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();
         let settled = settle(&osc, Start::at_rest(&osc), &SettleOptions::default());
-        let Verdict::Periodic(cycle) = settled.verdict else {
-            panic!("{:?}", settled.verdict)
-        };
+        let Verdict::Periodic(cycle) = settled.verdict else { panic!("{:?}", settled.verdict) };
         assert_eq!(cycle.label.impacts, Count::Infinite);
         assert!(cycle.rests.len() == 1 && cycle.stable());
         let total: f64 = cycle.points.iter().map(|p| p.interval).sum();
-        let rest =
-            crate::system::phase::wrap(cycle.rests[0].release - cycle.rests[0].begin) / osc.beta();
-        let first =
-            crate::system::phase::wrap(cycle.points[0].state.phase - cycle.rests[0].release)
-                / osc.beta();
+        let rest = crate::system::phase::wrap(cycle.rests[0].release - cycle.rests[0].begin) / osc.beta();
+        let first = crate::system::phase::wrap(cycle.points[0].state.phase - cycle.rests[0].release) / osc.beta();
         // from the release: flight to the first impact, the impacts, the rest; together whole periods up to whole periods
         let turns = (total + rest + first) / osc.period();
         assert!((turns - turns.round()).abs() < 1e-12, "{turns}");
@@ -392,11 +317,7 @@ mod tests {
         let osc = scenario::Q.oscillator();
         let mut limits = 0;
         for k in 0..60 {
-            let start = Start {
-                x: 1.5 - 0.05 * f64::from(k),
-                v: 0.3 + 0.02 * f64::from(k),
-                phase: 0.0,
-            };
+            let start = Start { x: 1.5 - 0.05 * f64::from(k), v: 0.3 + 0.02 * f64::from(k), phase: 0.0 };
             match settle(&osc, start, &SettleOptions::default()).verdict {
                 Verdict::NoImpact(NoImpact::GrazeLimit { .. }) => limits += 1,
                 Verdict::NoImpact(_) => {}

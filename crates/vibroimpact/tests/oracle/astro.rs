@@ -16,9 +16,7 @@ struct Reference {
 
 impl Reference {
     fn new() -> Self {
-        Self {
-            consts: Consts::new().expect("room for the constants"),
-        }
+        Self { consts: Consts::new().expect("room for the constants") }
     }
     fn real(x: f64) -> BigFloat {
         BigFloat::from_f64(x, BITS)
@@ -51,11 +49,7 @@ impl Reference {
             rest = rest - Fixed::from_f64(head);
             left = Self::sub(&left, &Self::real(head));
         }
-        assert_eq!(
-            rest,
-            Fixed::ZERO,
-            "eight doubles hold any fixed-point number"
-        );
+        assert_eq!(rest, Fixed::ZERO, "eight doubles hold any fixed-point number");
         let scaled = Self::mul(&left.abs(), &Self::real(2_f64.powi(256)));
         double(&scaled)
     }
@@ -66,10 +60,7 @@ fn double(x: &BigFloat) -> f64 {
     if x.is_zero() {
         return 0.0;
     }
-    let digits = x
-        .mantissa_digits()
-        .and_then(|words| words.last().copied())
-        .expect("a finite number");
+    let digits = x.mantissa_digits().and_then(|words| words.last().copied()).expect("a finite number");
     #[allow(clippy::cast_precision_loss)]
     let mantissa = digits as f64 * 2_f64.powi(-64);
     mantissa * 2_f64.powi(x.exponent().expect("a finite number"))
@@ -87,24 +78,15 @@ fn elementary_functions() {
         let (big, fixed) = (Reference::real(x), Fixed::from_f64(x));
         let (sine, cosine) = sin_cos(fixed);
         let allowed = 100.0 + 4.0 * x.abs();
-        let (es, ec) = (
-            Reference::off(sine, &reference.sin(&big)),
-            Reference::off(cosine, &reference.cos(&big)),
-        );
+        let (es, ec) = (Reference::off(sine, &reference.sin(&big)), Reference::off(cosine, &reference.cos(&big)));
         assert!(es < allowed && ec < allowed, "sin, cos {x}: {es} {ec}");
         let e = Reference::off(decay(fixed.abs()), &reference.exp(&big.abs().neg()));
         assert!(e < 400.0, "exp {x}: {e}");
-        let e = Reference::off(
-            fixed.inverse(),
-            &Reference::real(1.0).div(&big, BITS, TO_EVEN),
-        );
+        let e = Reference::off(fixed.inverse(), &Reference::real(1.0).div(&big, BITS, TO_EVEN));
         assert!(e < 4.0 * (1.0 + x.powi(-2)), "1/{x}: {e}");
         let root = fixed.abs() * fixed.abs().inverse_sqrt();
         let e = Reference::off(root, &big.abs().sqrt(BITS, TO_EVEN));
-        assert!(
-            e < 8.0 * (1.0 + x.abs()) * (1.0 + x.abs().recip()),
-            "sqrt {x}: {e}"
-        );
+        assert!(e < 8.0 * (1.0 + x.abs()) * (1.0 + x.abs().recip()), "sqrt {x}: {e}");
     }
 }
 
@@ -133,11 +115,7 @@ fn by_matrix(beta: f64, zeta: f64, start: [BigFloat; 4], s: f64) -> [BigFloat; 4
                 .iter()
                 .map(|row| {
                     let product = row.iter().zip(&term).fold(zero.clone(), |sum, (a, b)| {
-                        if a.is_zero() {
-                            sum
-                        } else {
-                            Reference::add(&sum, &Reference::mul(a, b))
-                        }
+                        if a.is_zero() { sum } else { Reference::add(&sum, &Reference::mul(a, b)) }
                     });
                     Reference::mul(&product, &scale)
                 })
@@ -159,55 +137,25 @@ fn whole_flights() {
     let mut random = Random::new(12, 0);
     for _ in 0..150 {
         let (beta, zeta) = (random.beta().min(20.0), random.damping());
-        let (x, v, phase) = (
-            random.gap(),
-            random.sign() * random.decade(-9.0, 1.0),
-            random.phase(),
-        );
+        let (x, v, phase) = (random.gap(), random.sign() * random.decade(-9.0, 1.0), random.phase());
         let s = random.decade(-9.0, 0.6);
         let real = Reference::real;
-        let start = [
-            real(x),
-            real(v),
-            reference.sin(&real(phase)),
-            reference.cos(&real(phase)),
-        ];
+        let start = [real(x), real(v), reference.sin(&real(phase)), reference.cos(&real(phase))];
         let want = by_matrix(beta, zeta, start, s);
         let exact = Fixed::from_f64;
         let force = sin_cos(exact(phase));
-        let data = Data {
-            beta: exact(beta),
-            zeta: exact(zeta),
-            x: exact(x),
-            v: exact(v),
-            force,
-        };
+        let data = Data { beta: exact(beta), zeta: exact(zeta), x: exact(x), v: exact(v), force };
         let node = Solution::new(data).at(exact(s));
         // 2^-256 = 1e-77; the textbook form may lose 24 digits, and more than 1e-18 * 1e-30 must be left
-        let (ex, ev) = (
-            Reference::off(node.d + exact(x), &want[0]),
-            Reference::off(node.v, &want[1]),
-        );
-        assert!(
-            ex < 1e26 && ev < 1e26,
-            "beta {beta} zeta {zeta} x {x} v {v} phase {phase} s {s}: {ex:e} {ev:e}"
-        );
+        let (ex, ev) = (Reference::off(node.d + exact(x), &want[0]), Reference::off(node.v, &want[1]));
+        assert!(ex < 1e26 && ev < 1e26, "beta {beta} zeta {zeta} x {x} v {v} phase {phase} s {s}: {ex:e} {ev:e}");
         let a = reference_acceleration(&want, zeta);
-        assert!(
-            (node.a - a).abs()
-                < 1e-13 * (1.0 + x.abs() + (1.0 + zeta) * v.abs()) * (1.0 + zeta) * 10.0
-        );
+        assert!((node.a - a).abs() < 1e-13 * (1.0 + x.abs() + (1.0 + zeta) * v.abs()) * (1.0 + zeta) * 10.0);
     }
 }
 
 fn reference_acceleration(state: &[BigFloat; 4], zeta: f64) -> f64 {
-    let a = Reference::sub(
-        &Reference::sub(&state[2], &state[0]),
-        &Reference::mul(&Reference::real(2.0 * zeta), &state[1]),
-    );
-    if a.is_negative() {
-        -double(&a.abs())
-    } else {
-        double(&a)
-    }
+    let a =
+        Reference::sub(&Reference::sub(&state[2], &state[0]), &Reference::mul(&Reference::real(2.0 * zeta), &state[1]));
+    if a.is_negative() { -double(&a.abs()) } else { double(&a) }
 }

@@ -22,21 +22,11 @@ pub(crate) struct Case {
 impl Case {
     /// An undamped flight from the one stop.
     pub(crate) const fn from_stop(beta: f64, gap: f64, v: f64, phase: f64) -> Self {
-        Self {
-            beta,
-            zeta: 0.0,
-            gap,
-            second: None,
-            x: gap,
-            v,
-            phase,
-            release: None,
-        }
+        Self { beta, zeta: 0.0, gap, second: None, x: gap, v, phase, release: None }
     }
 
     pub(crate) fn oscillator(&self) -> Oscillator {
-        let osc =
-            Oscillator::new(self.beta, self.gap, 0.5).and_then(|osc| osc.with_damping(self.zeta));
+        let osc = Oscillator::new(self.beta, self.gap, 0.5).and_then(|osc| osc.with_damping(self.zeta));
         let osc = match self.second {
             Some(gap) => osc.and_then(|osc| osc.with_second_stop(gap, 0.5)),
             None => osc,
@@ -50,8 +40,7 @@ impl Case {
         let flight = match self.release {
             Some(side) => Flight::release(&osc, side, self.phase),
             None => {
-                let start = Start::new(&osc, self.x, self.v, self.phase)
-                    .unwrap_or_else(|e| panic!("{self}: {e}"));
+                let start = Start::new(&osc, self.x, self.v, self.phase).unwrap_or_else(|e| panic!("{self}: {e}"));
                 assert_eq!(start.phase, self.phase, "phases are asked in [0, 2 pi)");
                 Flight::new(&osc, start)
             }
@@ -74,10 +63,7 @@ impl Case {
     pub(crate) fn stays(&self) -> bool {
         self.begins_on().is_some_and(|side| {
             let inwards = side.sign() * self.v;
-            inwards > 0.0
-                || inwards == 0.0
-                    && self.release.is_none()
-                    && side.sign() * (self.phase.sin() - self.x) > 0.0
+            inwards > 0.0 || inwards == 0.0 && self.release.is_none() && side.sign() * (self.phase.sin() - self.x) > 0.0
         })
     }
 }
@@ -85,16 +71,7 @@ impl Case {
 impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let bits = f64::to_bits;
-        let Self {
-            beta,
-            zeta,
-            gap,
-            second,
-            x,
-            v,
-            phase,
-            release,
-        } = *self;
+        let Self { beta, zeta, gap, second, x, v, phase, release } = *self;
         write!(
             f,
             "beta {beta:?} ({:#x}) zeta {zeta:?} ({:#x}) gap {gap:?} ({:#x})",
@@ -105,13 +82,7 @@ impl fmt::Display for Case {
         if let Some(second) = second {
             write!(f, " second {second:?} ({:#x})", bits(second))?;
         }
-        write!(
-            f,
-            " x {x:?} ({:#x}) v {v:?} ({:#x}) phase {phase:?} ({:#x})",
-            bits(x),
-            bits(v),
-            bits(phase)
-        )?;
+        write!(f, " x {x:?} ({:#x}) v {v:?} ({:#x}) phase {phase:?} ({:#x})", bits(x), bits(v), bits(phase))?;
         release.map_or(Ok(()), |side| write!(f, " released from {side:?}"))
     }
 }

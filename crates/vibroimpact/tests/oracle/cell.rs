@@ -87,8 +87,7 @@ pub(crate) fn judge(a: &View, b: &View, h: f64, bounds: Bounds, on_stop: bool) -
     let speed_slack = 4.0 * f64::EPSILON * (a.p.abs() + b.p.abs()) + slack;
     let (short, b_short) = (on_stop || a.y < -a.noise, b.y < -b.noise);
     let concave = a.q.max(b.q) + bend < 0.0;
-    if short && a.p.max(b.p) + steep + speed_slack < 0.0 || short && concave && a.p <= -speed_slack
-    {
+    if short && a.p.max(b.p) + steep + speed_slack < 0.0 || short && concave && a.p <= -speed_slack {
         return Verdict::Clear;
     }
     if !on_stop && short && a.p.min(b.p) - steep - speed_slack > 0.0 {

@@ -27,25 +27,13 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     for n in 1..=TERMS {
         inverse_factorial.push(inverse_factorial[n - 1].over(n as u64));
     }
-    let circle = (0..=FINE)
-        .map(|j| long_series(Fixed::from_f64(f64::from(j) / f64::from(FINE))))
-        .collect();
+    let circle = (0..=FINE).map(|j| long_series(Fixed::from_f64(f64::from(j) / f64::from(FINE)))).collect();
     let powers = |of: Fixed, count: usize| {
-        core::iter::successors(Some(Fixed::ONE), move |&last| Some(last * of))
-            .take(count)
-            .collect()
+        core::iter::successors(Some(Fixed::ONE), move |&last| Some(last * of)).take(count).collect()
     };
     let decay = powers(long_decay(Fixed::ONE), LAST);
-    let fine_decay = powers(
-        long_decay(Fixed::ONE.over(u64::from(FINE))),
-        usize::from(FINE),
-    );
-    Tables {
-        inverse_factorial,
-        circle,
-        decay,
-        fine_decay,
-    }
+    let fine_decay = powers(long_decay(Fixed::ONE.over(u64::from(FINE))), usize::from(FINE));
+    Tables { inverse_factorial, circle, decay, fine_decay }
 });
 
 /// Sine and cosine by the whole series, for $|x| \le 1$.
@@ -101,10 +89,7 @@ fn within_an_eighth(x: Fixed) -> (Fixed, Fixed) {
         cosine = tables.inverse_factorial[2 * n] - cosine * square;
     }
     sine = sine * t;
-    (
-        table_sine * cosine + table_cosine * sine,
-        table_cosine * cosine - table_sine * sine,
-    )
+    (table_sine * cosine + table_cosine * sine, table_cosine * cosine - table_sine * sine)
 }
 
 /// $e^{-a}$ for $a \ge 0$.

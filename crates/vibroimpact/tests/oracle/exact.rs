@@ -52,10 +52,7 @@ impl Exact {
         let exact = Fixed::from_f64;
         let x = exact(case.x);
         let mut force = sin_cos(exact(case.phase));
-        let past = [
-            Some(x - exact(case.gap)),
-            case.second.map(|gap| -x - exact(gap)),
-        ];
+        let past = [Some(x - exact(case.gap)), case.second.map(|gap| -x - exact(gap))];
         if let Some(side) = case.release {
             // at rest on a stop that has just let go: the phase is the one at which the force vanishes, exactly; the
             // double is the nearest to it, and its rounding counts as that of a datum
@@ -63,20 +60,8 @@ impl Exact {
             let cosine = square * square.inverse_sqrt();
             force = (x, if side == Side::Upper { -cosine } else { cosine });
         }
-        let data = Data {
-            beta: exact(case.beta),
-            zeta: exact(case.zeta),
-            x,
-            v: exact(case.v),
-            force,
-        };
-        Self {
-            solution: Solution::new(data),
-            beta: case.beta,
-            zeta: case.zeta,
-            x: case.x,
-            past,
-        }
+        let data = Data { beta: exact(case.beta), zeta: exact(case.zeta), x, v: exact(case.v), force };
+        Self { solution: Solution::new(data), beta: case.beta, zeta: case.zeta, x: case.x, past }
     }
 
     /// The length of a cell.
@@ -93,9 +78,7 @@ impl Exact {
 
     fn sides(&self) -> impl Iterator<Item = Side> + use<> {
         let second = self.past[1].is_some();
-        [Side::Upper, Side::Lower]
-            .into_iter()
-            .filter(move |side| second || *side == Side::Upper)
+        [Side::Upper, Side::Lower].into_iter().filter(move |side| second || *side == Side::Upper)
     }
 
     /// Everything up to `horizon`; the time when the search began inside the known contact of a release.
@@ -106,20 +89,12 @@ impl Exact {
         let mut factors = self.solution.factors(Fixed::ZERO);
         // the amplitudes give the start back to some seventy digits only
         let start = self.solution.node(Fixed::ZERO, &factors);
-        let mut a = Node {
-            d: Fixed::ZERO,
-            v: self.solution.data().v,
-            ..start
-        };
+        let mut a = Node { d: Fixed::ZERO, v: self.solution.data().v, ..start };
         let mut story = Story::default();
         if released {
             // y <= j s^3/6 + B4 s^4/24 < 0 until -4 j / B4, with j = -beta |cos phase| and B4 < 1 + (1 + beta)^2 + ...
             let jerk = self.beta * self.solution.data().force.1.to_f64().abs();
-            let fourth = 4.0
-                * (1.0 + self.beta)
-                * (1.0 + self.beta)
-                * (1.0 + self.x.abs())
-                * (1.0 + self.zeta).powi(3);
+            let fourth = 4.0 * (1.0 + self.beta) * (1.0 + self.beta) * (1.0 + self.x.abs()) * (1.0 + self.zeta).powi(3);
             let clear = Fixed::from_f64((jerk / fourth).min(0.1));
             factors = self.solution.factors(clear);
             a = self.solution.node(clear, &factors);
@@ -136,23 +111,14 @@ impl Exact {
                     match one {
                         Found::Rise { a, b, .. } => {
                             let strike = self.refine(side, &a, &b);
-                            if story
-                                .strike
-                                .is_none_or(|other| (strike.s - other.s).is_negative())
-                            {
+                            if story.strike.is_none_or(|other| (strike.s - other.s).is_negative()) {
                                 story.strike = Some(strike);
                             }
                         }
-                        Found::Touch { at, past } => story.touches.push(Apex {
-                            side,
-                            s: at.s,
-                            past,
-                        }),
+                        Found::Touch { at, past } => story.touches.push(Apex { side, s: at.s, past }),
                         Found::Unresolved => {
                             let at = (a.s.to_f64(), self.view(&a, side), h);
-                            panic!(
-                                "sixty digits do not resolve what happens at {side:?} after {at:?}"
-                            )
+                            panic!("sixty digits do not resolve what happens at {side:?} after {at:?}")
                         }
                     }
                 }
@@ -189,12 +155,7 @@ impl Exact {
             }
         }
         let view = self.view(&node, side);
-        Strike {
-            side,
-            s: node.s,
-            p: view.p,
-            q: view.q,
-        }
+        Strike { side, s: node.s, p: view.p, q: view.q }
     }
 
     /// The root of the distance near `node`, by Newton's iteration from there.
@@ -206,12 +167,7 @@ impl Exact {
             node = self.solution.at((node.s + Fixed::from_f64(step)).abs());
         }
         let view = self.view(&node, side);
-        Strike {
-            side,
-            s: node.s,
-            p: view.p,
-            q: view.q,
-        }
+        Strike { side, s: node.s, p: view.p, q: view.q }
     }
 
     /// The acceleration towards the stop.
@@ -234,11 +190,7 @@ impl Exact {
             }
             node = self.solution.at(next);
             if step.abs() <= 1e-24 * next.to_f64() {
-                return Some(Apex {
-                    side,
-                    s: node.s,
-                    past: self.past(&node, side).to_f64(),
-                });
+                return Some(Apex { side, s: node.s, past: self.past(&node, side).to_f64() });
             }
         }
         None
@@ -250,18 +202,9 @@ impl Curve for Exact {
 
     fn view(&self, node: &Node, side: Side) -> View {
         let sign = side.sign();
-        let noise_q = 1e-14
-            * (1.0
-                + self.x.abs()
-                + node.d.to_f64().abs()
-                + (1.0 + 2.0 * self.zeta) * node.v.to_f64().abs());
-        View {
-            y: self.past(node, side).to_f64(),
-            p: sign * node.v.to_f64(),
-            q: sign * node.a,
-            noise: 0.0,
-            noise_q,
-        }
+        let noise_q =
+            1e-14 * (1.0 + self.x.abs() + node.d.to_f64().abs() + (1.0 + 2.0 * self.zeta) * node.v.to_f64().abs());
+        View { y: self.past(node, side).to_f64(), p: sign * node.v.to_f64(), q: sign * node.a, noise: 0.0, noise_q }
     }
 
     fn size(&self, node: &Node) -> f64 {

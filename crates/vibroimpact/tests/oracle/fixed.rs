@@ -19,27 +19,15 @@ impl Fixed {
     pub(crate) const ZERO: Self = Self([0; WORDS]);
     pub(crate) const ONE: Self = Self([0, 0, 0, 0, 1]);
     /// $\pi/2$, from mpmath 1.3.0: `floor(pi/2 * 2**256 + 1/2)`; a test compares it with astro-float's.
-    pub(crate) const HALF_PI: Self = Self([
-        0x4177_d4c7_6273_645,
-        0x5204_9c11_14cf_98e8,
-        0x898c_c517_01b8_39a2,
-        0x921f_b544_42d1_8469,
-        1,
-    ]);
+    pub(crate) const HALF_PI: Self =
+        Self([0x4177_d4c7_6273_645, 0x5204_9c11_14cf_98e8, 0x898c_c517_01b8_39a2, 0x921f_b544_42d1_8469, 1]);
 
     /// The exact value of `x`, but for digits below $2^{-256}$.
     pub(crate) fn from_f64(x: f64) -> Self {
-        assert!(
-            x.abs() < 9e18,
-            "{x} is beyond the range of the fixed-point oracle"
-        );
+        assert!(x.abs() < 9e18, "{x} is beyond the range of the fixed-point oracle");
         let bits = x.abs().to_bits();
         let (exponent, fraction) = (bits >> 52, bits & ((1 << 52) - 1));
-        let (mantissa, exponent) = if exponent == 0 {
-            (fraction, 1)
-        } else {
-            (fraction | (1 << 52), exponent)
-        };
+        let (mantissa, exponent) = if exponent == 0 { (fraction, 1) } else { (fraction | (1 << 52), exponent) };
         // value = mantissa * 2^(exponent - 1075); the lowest bit here is 2^-256
         let mut words = [0; WORDS];
         if exponent >= 819 {
@@ -67,14 +55,9 @@ impl Fixed {
         };
         let zeros = words[top].leading_zeros();
         let below = if top > 0 { words[top - 1] } else { 0 };
-        let head = if zeros == 0 {
-            words[top]
-        } else {
-            (words[top] << zeros) | (below >> (64 - zeros))
-        };
+        let head = if zeros == 0 { words[top] } else { (words[top] << zeros) | (below >> (64 - zeros)) };
         // the highest bit of `head` stands for 2^(64 top + 63 - zeros - 256)
-        let exponent =
-            i32::try_from(64 * top).expect("small") - 256 - i32::try_from(zeros).expect("small");
+        let exponent = i32::try_from(64 * top).expect("small") - 256 - i32::try_from(zeros).expect("small");
         #[allow(clippy::cast_precision_loss)] // rounding is what is wanted here
         let value = head as f64 * 2_f64.powi(exponent);
         if self.is_negative() { -value } else { value }
@@ -96,18 +79,10 @@ impl Fixed {
         }
         let mut words = self.abs().0;
         for i in 0..WORDS {
-            let above = if i + 1 < WORDS {
-                words[i + 1] << (64 - bits)
-            } else {
-                0
-            };
+            let above = if i + 1 < WORDS { words[i + 1] << (64 - bits) } else { 0 };
             words[i] = (words[i] >> bits) | above;
         }
-        if self.is_negative() {
-            -Self(words)
-        } else {
-            Self(words)
-        }
+        if self.is_negative() { -Self(words) } else { Self(words) }
     }
 
     /// Times a whole number.
@@ -118,15 +93,8 @@ impl Fixed {
             let wide = u128::from(*word) * factor + carry;
             (*word, carry) = (low(wide), wide >> 64);
         }
-        assert!(
-            carry == 0 && words[WORDS - 1] >> 63 == 0,
-            "a multiple left the range of the fixed-point oracle"
-        );
-        if self.is_negative() == (n < 0) {
-            Self(words)
-        } else {
-            -Self(words)
-        }
+        assert!(carry == 0 && words[WORDS - 1] >> 63 == 0, "a multiple left the range of the fixed-point oracle");
+        if self.is_negative() == (n < 0) { Self(words) } else { -Self(words) }
     }
 
     /// Divided by a small whole number.
@@ -136,11 +104,7 @@ impl Fixed {
             let wide = (rest << 64) | u128::from(*word);
             (*word, rest) = (low(wide / u128::from(n)), wide % u128::from(n));
         }
-        if self.is_negative() {
-            -Self(words)
-        } else {
-            Self(words)
-        }
+        if self.is_negative() { -Self(words) } else { Self(words) }
     }
 
     /// $1/x$, by Newton's iteration from a double: 52, 104, 208, 416 bits.
@@ -178,8 +142,7 @@ impl Add for Fixed {
             (*word, carry) = (sum, first | second);
         }
         let sum = Self(words);
-        let overflow =
-            self.is_negative() == other.is_negative() && sum.is_negative() != self.is_negative();
+        let overflow = self.is_negative() == other.is_negative() && sum.is_negative() != self.is_negative();
         assert!(!overflow, "a sum left the range of the fixed-point oracle");
         sum
     }
@@ -226,10 +189,6 @@ impl Mul for Fixed {
             product[PLACES + WORDS] == 0 && words[WORDS - 1] >> 63 == 0,
             "a product left the range of the fixed-point oracle"
         );
-        if self.is_negative() == other.is_negative() {
-            Self(words)
-        } else {
-            -Self(words)
-        }
+        if self.is_negative() == other.is_negative() { Self(words) } else { -Self(words) }
     }
 }

@@ -22,11 +22,7 @@ const AIMED: u64 = 10_000;
 
 /// The records of `x` along a flight without stops: highest points above everything before, up to `until`.
 fn records(case: &Case, until: f64) -> Vec<Fixed> {
-    let open = Case {
-        gap: 1e6,
-        second: None,
-        ..*case
-    };
+    let open = Case { gap: 1e6, second: None, ..*case };
     let exact = Exact::new(&open);
     let h = Fixed::from_f64(0.5 * exact.cell_length());
     let (mut highest, mut records) = (f64::NEG_INFINITY, Vec::new());

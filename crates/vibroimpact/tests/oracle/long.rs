@@ -45,18 +45,22 @@ fn system(random: &mut Random) -> (Case, f64) {
         }
         // hard, nearly elastic: long chaotic motions
         3 => {
-            (case.beta, case.gap, eps) = (random.uniform(1.5, 6.0), random.uniform(-0.1, 0.6), random.uniform(0.8, 1.0));
+            (case.beta, case.gap, eps) =
+                (random.uniform(1.5, 6.0), random.uniform(-0.1, 0.6), random.uniform(0.8, 1.0));
         }
         // soft: chattering
         4 => {
-            (case.beta, case.gap, eps) = (random.uniform(0.1, 1.0), random.uniform(-0.95, 0.5), random.uniform(0.3, 0.7));
+            (case.beta, case.gap, eps) =
+                (random.uniform(0.1, 1.0), random.uniform(-0.95, 0.5), random.uniform(0.3, 0.7));
         }
         5 => {
-            (case.beta, case.gap, eps) = (random.decade(-0.7, 0.7), random.uniform(-0.5, 1.0), random.uniform(0.3, 1.0));
+            (case.beta, case.gap, eps) =
+                (random.decade(-0.7, 0.7), random.uniform(-0.5, 1.0), random.uniform(0.3, 1.0));
             case.zeta = random.decade(-3.0, 0.3);
         }
         6 => {
-            (case.beta, case.gap, eps) = (random.decade(-0.7, 0.7), random.uniform(-0.5, 1.0), random.uniform(0.5, 1.0));
+            (case.beta, case.gap, eps) =
+                (random.decade(-0.7, 0.7), random.uniform(-0.5, 1.0), random.uniform(0.5, 1.0));
             case.second = Some(random.decade(-1.0, 0.5) - case.gap);
         }
         _ => {
@@ -107,7 +111,8 @@ fn ask(table: &Table, osc: &Oscillator, case: &Case, limits: SearchLimits, count
     };
     let asked = counters.asked.fetch_add(1, Ordering::Relaxed) + 1;
     if asked.is_multiple_of(1_000_000) {
-        let (unclear, differing) = (counters.unclear.load(Ordering::Relaxed), counters.differing.load(Ordering::Relaxed));
+        let (unclear, differing) =
+            (counters.unclear.load(Ordering::Relaxed), counters.differing.load(Ordering::Relaxed));
         eprintln!("{asked} questions, {unclear} to the exact flight, {differing} of them differing");
     }
     if agree && !asked.is_multiple_of(50_000) {
@@ -164,7 +169,8 @@ fn very_many() {
     let counters = Counters { asked: AtomicU64::new(0), unclear: AtomicU64::new(0), differing: AtomicU64::new(0) };
     let run_length = RUN.min(questions / 100).max(1);
     let began = std::time::Instant::now();
-    let tally = on_all_cores(questions.div_ceil(run_length), 1, |index, tally| run(index, run_length, &counters, tally));
+    let tally =
+        on_all_cores(questions.div_ceil(run_length), 1, |index, tally| run(index, run_length, &counters, tally));
     let (unclear, differing) = (counters.unclear.into_inner(), counters.differing.into_inner());
     println!("{tally}to the exact flight  {unclear:>9}\nof them differing    {differing:>9}");
     println!("{:.0} questions a second", tally.total().min(u64::from(u32::MAX)) as f64 / began.elapsed().as_secs_f64());

@@ -2,7 +2,7 @@
 //!
 //! Over a time $h$ state and force turn linearly into the next: $x' = x + (C-1)x + Sv + K_c\sin\theta + K_s\cos\theta$ and
 //! so on. The coefficients come from the textbook flight with 256 places, rounded once to doubles, for $h$ and its
-//! halves down to $2^{-34}h$: no formula is ever evaluated near resonance, and a displacement right after the start keeps
+//! halves down to $2^{-47}h$: no formula is ever evaluated near resonance, and a displacement right after the start keeps
 //! its digits. Each step adds its roundings to a running estimate of the error, and what lies within four times that is
 //! not decided here but handed to the exact flight.
 
@@ -14,7 +14,7 @@ use super::textbook::{Data, Solution};
 use vibroimpact::{Oscillator, Side};
 
 /// Halvings of the longest step.
-const LEVELS: usize = 35;
+const LEVELS: usize = 48;
 
 /// One step's coefficients, for displacement and velocity.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,9 +41,8 @@ impl Table {
     pub(crate) fn new(osc: &Oscillator) -> Self {
         let (beta, zeta) = (osc.beta(), osc.damping());
         let (zero, one) = (Fixed::ZERO, Fixed::ONE);
-        let flight = |x, v, force| {
-            Solution::new(Data { beta: Fixed::from_f64(beta), zeta: Fixed::from_f64(zeta), x, v, force })
-        };
+        let flight =
+            |x, v, force| Solution::new(Data { beta: Fixed::from_f64(beta), zeta: Fixed::from_f64(zeta), x, v, force });
         let basis = [
             flight(one, zero, (zero, zero)),
             flight(zero, one, (zero, zero)),
@@ -146,7 +145,10 @@ impl<'a> March<'a> {
         let state = [self.x + a.d, a.v, a.sine, a.cosine];
         let product = |row: &[f64; 4]| row[0] * state[0] + row[1] * state[1] + row[2] * state[2] + row[3] * state[3];
         let size = |row: &[f64; 4]| {
-            (row[0] * state[0]).abs() + (row[1] * state[1]).abs() + (row[2] * state[2]).abs() + (row[3] * state[3]).abs()
+            (row[0] * state[0]).abs()
+                + (row[1] * state[1]).abs()
+                + (row[2] * state[2]).abs()
+                + (row[3] * state[3]).abs()
         };
         let (c, s) = step.turn;
         let d = a.d + product(&step.x);
@@ -162,7 +164,10 @@ impl<'a> March<'a> {
 
     /// The level of a step of length `h`.
     fn level(&self, h: f64) -> Option<usize> {
-        self.table.steps.iter().position(|step| step.h <= h)
+        // powers of two: the exponents tell
+        let exponent = |h: f64| h.to_bits() >> 52;
+        let level = usize::try_from(exponent(self.table.steps[0].h) - exponent(h)).ok()?;
+        (level < LEVELS).then_some(level)
     }
 
     /// The contact in a cell of rise, by cutting it until the cubic through its ends is good enough.
@@ -197,7 +202,11 @@ fn cubic_root(ya: f64, pa: f64, yb: f64, pb: f64) -> f64 {
         let (c2, c3) = (3.0 * (yb - ya) - 2.0 * pa - pb, pa + pb - 2.0 * (yb - ya));
         let y = ya + t * (pa + t * (c2 + t * c3));
         let slope = pa + t * (2.0 * c2 + 3.0 * t * c3);
-        if y < 0.0 { low = t } else { high = t }
+        if y < 0.0 {
+            low = t
+        } else {
+            high = t
+        }
         let next = t - y / slope;
         let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };
         if (next - t).abs() < 1e-15 {

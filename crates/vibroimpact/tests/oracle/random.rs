@@ -52,11 +52,7 @@ impl Random {
     }
 
     pub(crate) fn phase(&mut self) -> f64 {
-        if self.chance(0.03) {
-            0.0
-        } else {
-            (TAU * self.unit()).min(TAU.next_down())
-        }
+        if self.chance(0.03) { 0.0 } else { (TAU * self.unit()).min(TAU.next_down()) }
     }
 
     /// Frequency ratios: the whole range, resonance and its neighbourhood, whole-number and paper ratios.
@@ -78,11 +74,7 @@ impl Random {
             1.0 / 0.6,
             1.0 / 1.11,
         ];
-        if self.chance(0.5) {
-            self.decade(-2.0, 2.0)
-        } else {
-            self.one_of(&SPECIAL)
-        }
+        if self.chance(0.5) { self.decade(-2.0, 2.0) } else { self.one_of(&SPECIAL) }
     }
 
     pub(crate) fn damping(&mut self) -> f64 {
@@ -110,16 +102,7 @@ impl Random {
             if second.is_some_and(|second| gap + second <= 0.0) {
                 continue;
             }
-            let bare = Case {
-                beta,
-                zeta,
-                gap,
-                second,
-                x: gap,
-                v: 0.0,
-                phase: self.phase(),
-                release: None,
-            };
+            let bare = Case { beta, zeta, gap, second, x: gap, v: 0.0, phase: self.phase(), release: None };
             let case = match self.next() % 100 {
                 0..60 => self.on_stop(bare),
                 60..62 => self.let_go(bare),
@@ -136,11 +119,7 @@ impl Random {
     fn on_stop(&mut self, bare: Case) -> Option<Case> {
         let lower = bare.second.filter(|_| self.chance(0.5));
         let (sign, x) = lower.map_or((1.0, bare.gap), |second| (-1.0, -second));
-        let mut case = Case {
-            x,
-            v: -sign * self.decade(-9.0, 1.0),
-            ..bare
-        };
+        let mut case = Case { x, v: -sign * self.decade(-9.0, 1.0), ..bare };
         if self.chance(0.33) {
             for _ in 0..20 {
                 if sign * (case.phase.sin() - case.x) > 0.0 {
@@ -174,13 +153,7 @@ impl Random {
             Side::Upper => core::f64::consts::PI - rising,
             Side::Lower => rising.rem_euclid(TAU),
         };
-        (phase < TAU).then_some(Case {
-            x,
-            v: 0.0,
-            phase,
-            release: Some(side),
-            ..bare
-        })
+        (phase < TAU).then_some(Case { x, v: 0.0, phase, release: Some(side), ..bare })
     }
 
     /// A few units in the last place, or a little more, short of a stop.
@@ -193,31 +166,15 @@ impl Random {
         } else {
             x -= self.decade(-14.0, -3.0);
         }
-        let v = if self.chance(0.1) {
-            0.0
-        } else {
-            self.sign() * self.decade(-9.0, 1.0)
-        };
+        let v = if self.chance(0.1) { 0.0 } else { self.sign() * self.decade(-9.0, 1.0) };
         allowed(Case { x, v, ..bare })
     }
 
     /// Anywhere.
     fn free(&mut self, bare: Case) -> Option<Case> {
-        let depth = if self.chance(0.5) {
-            self.decade(-6.0, 0.7)
-        } else {
-            self.uniform(0.0, 5.0)
-        };
-        let x = if self.chance(0.1) {
-            0.0
-        } else {
-            bare.gap - depth
-        };
-        let v = if self.chance(0.1) {
-            0.0
-        } else {
-            self.sign() * self.decade(-6.0, 1.0)
-        };
+        let depth = if self.chance(0.5) { self.decade(-6.0, 0.7) } else { self.uniform(0.0, 5.0) };
+        let x = if self.chance(0.1) { 0.0 } else { bare.gap - depth };
+        let v = if self.chance(0.1) { 0.0 } else { self.sign() * self.decade(-6.0, 1.0) };
         allowed(Case { x, v, ..bare })
     }
 }

@@ -31,7 +31,10 @@ pub(crate) enum Passed {
         units: f64,
     },
     /// A grazing contact: its true depth (positive: short of the stop), and time.
-    Grazing { depth: f64, s: f64 },
+    Grazing {
+        depth: f64,
+        s: f64,
+    },
     Never,
     NoneUntil,
     Stays,
@@ -95,18 +98,8 @@ fn arch(case: &Case, exact: &Exact, apex: Option<Apex>) -> Option<Arch> {
     })
 }
 
-fn invented(
-    case: &Case,
-    exact: &Exact,
-    answer: Contact,
-    first: Option<f64>,
-    apex: Option<Apex>,
-) -> Fault {
-    Fault::Invented {
-        answer,
-        first,
-        arch: arch(case, exact, apex),
-    }
+fn invented(case: &Case, exact: &Exact, answer: Contact, first: Option<f64>, apex: Option<Apex>) -> Fault {
+    Fault::Invented { answer, first, arch: arch(case, exact, apex) }
 }
 
 /// Half a unit of uncertainty of every datum, as an uncertainty of the distance.
@@ -131,17 +124,8 @@ pub(crate) fn verdict(case: &Case, limits: SearchLimits, horizon: f64) -> Result
 /// Judges one answer.
 pub(crate) fn judge(case: &Case, answer: Contact, horizon: f64) -> Result<Passed, Fault> {
     if case.stays() || matches!(answer, Contact::Contact { .. }) {
-        let right = case.stays()
-            && matches!(answer, Contact::Contact { side } if Some(side) == case.begins_on());
-        return if right {
-            Ok(Passed::Stays)
-        } else {
-            Err(Fault::Invented {
-                answer,
-                first: None,
-                arch: None,
-            })
-        };
+        let right = case.stays() && matches!(answer, Contact::Contact { side } if Some(side) == case.begins_on());
+        return if right { Ok(Passed::Stays) } else { Err(Fault::Invented { answer, first: None, arch: None }) };
     }
     let exact = Exact::new(case);
     let told_until = match answer {
@@ -160,9 +144,7 @@ pub(crate) fn judge(case: &Case, answer: Contact, horizon: f64) -> Result<Passed
                 return Err(missed(case, &exact, answer, &strike));
             }
             match answer {
-                Contact::Never(reason) if !holds(case, reason) => {
-                    Err(Fault::FalseReason { answer })
-                }
+                Contact::Never(reason) if !holds(case, reason) => Err(Fault::FalseReason { answer }),
                 Contact::Never(_) => Ok(Passed::Never),
                 _ => Ok(Passed::NoneUntil),
             }
@@ -172,27 +154,11 @@ pub(crate) fn judge(case: &Case, answer: Contact, horizon: f64) -> Result<Passed
 }
 
 fn missed(case: &Case, exact: &Exact, answer: Contact, strike: &Strike) -> Fault {
-    let apex = if strike.q < 0.0 {
-        exact.extremum(strike.side, strike.s)
-    } else {
-        None
-    };
-    Fault::Missed {
-        answer,
-        s: strike.s.to_f64(),
-        p: strike.p,
-        arch: arch(case, exact, apex),
-    }
+    let apex = if strike.q < 0.0 { exact.extremum(strike.side, strike.s) } else { None };
+    Fault::Missed { answer, s: strike.s.to_f64(), p: strike.p, arch: arch(case, exact, apex) }
 }
 
-fn impact(
-    case: &Case,
-    exact: &Exact,
-    story: &Story,
-    answer: Contact,
-    time: f64,
-    side: Side,
-) -> Result<Passed, Fault> {
+fn impact(case: &Case, exact: &Exact, story: &Story, answer: Contact, time: f64, side: Side) -> Result<Passed, Fault> {
     let Some(strike) = story.strike else {
         if story.searched < time {
             // later than the horizon: it must at least be a root
@@ -202,22 +168,10 @@ fn impact(
             return if units <= ALLOWED {
                 Ok(Passed::Beyond { units })
             } else {
-                Err(Fault::Inaccurate {
-                    answer,
-                    s: strike.s.to_f64(),
-                    error,
-                    units,
-                    condition,
-                })
+                Err(Fault::Inaccurate { answer, s: strike.s.to_f64(), error, units, condition })
             };
         }
-        return Err(invented(
-            case,
-            exact,
-            answer,
-            None,
-            exact.extremum(side, Fixed::from_f64(time)),
-        ));
+        return Err(invented(case, exact, answer, None, exact.extremum(side, Fixed::from_f64(time))));
     };
     let (error, units, condition) = off(case, exact, &strike, time);
     let s = strike.s.to_f64();
@@ -225,10 +179,7 @@ fn impact(
         return if strike.side == side {
             Ok(Passed::Impact { units, s })
         } else {
-            Err(Fault::WrongSide {
-                answer,
-                side: strike.side,
-            })
+            Err(Fault::WrongSide { answer, side: strike.side })
         };
     }
     // the closest point of the arch, where the root is one side of a shallow arch: within the depth that the data leave
@@ -245,32 +196,13 @@ fn impact(
     if error > 0.0 && error > 1e-6 * s {
         Err(missed(case, exact, answer, &strike))
     } else if error < -1e-6 * s {
-        Err(invented(
-            case,
-            exact,
-            answer,
-            Some(s),
-            exact.extremum(side, Fixed::from_f64(time)),
-        ))
+        Err(invented(case, exact, answer, Some(s), exact.extremum(side, Fixed::from_f64(time))))
     } else {
-        Err(Fault::Inaccurate {
-            answer,
-            s,
-            error,
-            units,
-            condition,
-        })
+        Err(Fault::Inaccurate { answer, s, error, units, condition })
     }
 }
 
-fn grazing(
-    case: &Case,
-    exact: &Exact,
-    story: &Story,
-    answer: Contact,
-    time: f64,
-    side: Side,
-) -> Result<Passed, Fault> {
+fn grazing(case: &Case, exact: &Exact, story: &Story, answer: Contact, time: f64, side: Side) -> Result<Passed, Fault> {
     let first = story.strike.map(|strike| strike.s.to_f64());
     let Some(apex) = exact.extremum(side, Fixed::from_f64(time)) else {
         return Err(invented(case, exact, answer, first, None));
@@ -287,12 +219,7 @@ fn grazing(
         return Err(missed(case, exact, answer, &strike));
     }
     if apex.past.abs() > ALLOWED * open {
-        return Err(Fault::FalseGrazing {
-            answer,
-            s,
-            depth: -apex.past,
-            open,
-        });
+        return Err(Fault::FalseGrazing { answer, s, depth: -apex.past, open });
     }
     Ok(Passed::Grazing { depth: -apex.past, s })
 }

@@ -47,22 +47,11 @@ pub(crate) enum Found<N> {
 pub(crate) const NEAR: f64 = 1e-7;
 
 /// Looks for contacts with the stop on `side` in a cell; true: the search ends here.
-pub(crate) fn examine<C: Curve>(
-    curve: &C,
-    side: Side,
-    cell: Cell<C::Node>,
-    found: &mut Vec<Found<C::Node>>,
-) -> bool {
+pub(crate) fn examine<C: Curve>(curve: &C, side: Side, cell: Cell<C::Node>, found: &mut Vec<Found<C::Node>>) -> bool {
     let Cell { a, b, h, on_stop } = cell;
     let (beta, zeta) = curve.rates();
     let bounds = Bounds::new(beta, zeta, curve.size(&a), h);
-    match judge(
-        &curve.view(&a, side),
-        &curve.view(&b, side),
-        h,
-        bounds,
-        on_stop,
-    ) {
+    match judge(&curve.view(&a, side), &curve.view(&b, side), h, bounds, on_stop) {
         Verdict::Clear => return false,
         Verdict::Rises => {
             found.push(Found::Rise { a, b, h });
@@ -87,25 +76,6 @@ pub(crate) fn examine<C: Curve>(
         found.push(Found::Unresolved);
         return true;
     };
-    examine(
-        curve,
-        side,
-        Cell {
-            a,
-            b: middle,
-            h: half,
-            on_stop,
-        },
-        found,
-    ) || examine(
-        curve,
-        side,
-        Cell {
-            a: middle,
-            b,
-            h: half,
-            on_stop: false,
-        },
-        found,
-    )
+    examine(curve, side, Cell { a, b: middle, h: half, on_stop }, found)
+        || examine(curve, side, Cell { a: middle, b, h: half, on_stop: false }, found)
 }

@@ -23,17 +23,10 @@ pub(crate) fn spread(case: &Case, exact: &Exact, side: Side, s: Fixed) -> f64 {
     let nudged = |d: Fixed| d + d.halved(STEP);
     let (sine, cosine) = base.force;
     let (turned_sine, turned_cosine) = sin_cos(Fixed::from_f64(case.phase).halved(STEP));
-    let turned = (
-        sine * turned_cosine + cosine * turned_sine,
-        cosine * turned_cosine - sine * turned_sine,
-    );
+    let turned = (sine * turned_cosine + cosine * turned_sine, cosine * turned_cosine - sine * turned_sine);
     let moved = |data: Data, displacement: bool| {
         let there = Solution::new(data).at(s);
-        let shift = if displacement {
-            there.d - here.d
-        } else {
-            (there.d - here.d) + (data.x - base.x)
-        };
+        let shift = if displacement { there.d - here.d } else { (there.d - here.d) + (data.x - base.x) };
         shift.to_f64().abs() * 2_f64.powi(48)
     };
     let on_this_stop = case.begins_on() == Some(side);
@@ -43,47 +36,17 @@ pub(crate) fn spread(case: &Case, exact: &Exact, side: Side, s: Fixed) -> f64 {
     };
     let mut sum = if on_this_stop { 0.0 } else { gap.abs() };
     if case.x != 0.0 {
-        sum += moved(
-            Data {
-                x: nudged(base.x),
-                ..base
-            },
-            on_this_stop,
-        );
+        sum += moved(Data { x: nudged(base.x), ..base }, on_this_stop);
     }
     if case.v != 0.0 {
-        sum += moved(
-            Data {
-                v: nudged(base.v),
-                ..base
-            },
-            true,
-        );
+        sum += moved(Data { v: nudged(base.v), ..base }, true);
     }
     if case.zeta != 0.0 {
-        sum += moved(
-            Data {
-                zeta: nudged(base.zeta),
-                ..base
-            },
-            true,
-        );
+        sum += moved(Data { zeta: nudged(base.zeta), ..base }, true);
     }
-    sum += moved(
-        Data {
-            beta: nudged(base.beta),
-            ..base
-        },
-        true,
-    );
+    sum += moved(Data { beta: nudged(base.beta), ..base }, true);
     if case.phase != 0.0 {
-        sum += moved(
-            Data {
-                force: turned,
-                ..base
-            },
-            true,
-        );
+        sum += moved(Data { force: turned, ..base }, true);
     }
     sum
 }

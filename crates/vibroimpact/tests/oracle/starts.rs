@@ -31,11 +31,6 @@ fn random_starts() {
         tally.add(case, verdict(&case, limits, horizon));
     });
     println!("{tally}");
-    assert!(
-        tally.total() == STARTS
-            && tally.impacts > STARTS / 2
-            && tally.never > 1000
-            && tally.until > 100
-    );
+    assert!(tally.total() == STARTS && tally.impacts > STARTS / 2 && tally.never > 1000 && tally.until > 100);
     tally.expect_no_fault();
 }

@@ -76,18 +76,9 @@ impl Tally {
 
     /// Fails with the list of the wrong answers.
     pub(crate) fn expect_no_fault(&self) {
-        let shown: Vec<String> = self
-            .faults
-            .iter()
-            .take(4000)
-            .map(|(case, fault)| format!("{case}\n    {fault:?}"))
-            .collect();
-        assert!(
-            self.faults.is_empty(),
-            "{} wrong answers:\n{}",
-            self.faults.len(),
-            shown.join("\n")
-        );
+        let shown: Vec<String> =
+            self.faults.iter().take(4000).map(|(case, fault)| format!("{case}\n    {fault:?}")).collect();
+        assert!(self.faults.is_empty(), "{} wrong answers:\n{}", self.faults.len(), shown.join("\n"));
     }
 }
 
@@ -101,13 +92,8 @@ impl fmt::Display for Tally {
         writeln!(f, "none until           {:>9}", self.until)?;
         writeln!(f, "stays on the stop    {:>9}", self.stays)?;
         writeln!(f, "wrong                {:>9}", self.faults.len())?;
-        writeln!(
-            f,
-            "worst time error     {:>9.3} (unit in the last place x condition; 8 allowed)",
-            self.worst
-        )?;
-        self.worst_case
-            .map_or(Ok(()), |case| writeln!(f, "  at {case}"))
+        writeln!(f, "worst time error     {:>9.3} (unit in the last place x condition; 8 allowed)", self.worst)?;
+        self.worst_case.map_or(Ok(()), |case| writeln!(f, "  at {case}"))
     }
 }
 

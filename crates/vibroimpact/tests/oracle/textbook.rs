@@ -73,13 +73,7 @@ pub(crate) struct Factors {
 
 impl Solution {
     pub(crate) fn new(data: Data) -> Self {
-        let Data {
-            beta,
-            zeta,
-            x,
-            v,
-            force: (sine, cosine),
-        } = data;
+        let Data { beta, zeta, x, v, force: (sine, cosine) } = data;
         let one = Fixed::ONE;
         let (zr, zi) = (one - beta * beta, (zeta * beta).times(2));
         let resonant = zr == Fixed::ZERO && zi == Fixed::ZERO;
@@ -90,17 +84,10 @@ impl Solution {
             (sine * factor, cosine * factor)
         } else {
             let factor = (zr * zr + zi * zi).inverse();
-            (
-                (sine * zr - cosine * zi) * factor,
-                (cosine * zr + sine * zi) * factor,
-            )
+            ((sine * zr - cosine * zi) * factor, (cosine * zr + sine * zi) * factor)
         };
         // start of the free motion
-        let (xf, vf) = if resonant {
-            (x, v + cosine.halved(1))
-        } else {
-            (x - steady.0, v - beta * steady.1)
-        };
+        let (xf, vf) = if resonant { (x, v + cosine.halved(1)) } else { (x - steady.0, v - beta * steady.1) };
         let square = one - zeta * zeta;
         let free = if zeta == one {
             Free::Critical { a: xf, b: vf + xf }
@@ -112,18 +99,9 @@ impl Solution {
             Free::Over { l, m, a, b: xf - a }
         } else {
             let inverse = square.inverse_sqrt();
-            Free::Under {
-                w: square * inverse,
-                a: xf,
-                b: (vf + zeta * xf) * inverse,
-            }
+            Free::Under { w: square * inverse, a: xf, b: (vf + zeta * xf) * inverse }
         };
-        Self {
-            data,
-            free,
-            steady,
-            resonant,
-        }
+        Self { data, free, steady, resonant }
     }
 
     pub(crate) fn data(&self) -> &Data {
@@ -134,37 +112,24 @@ impl Solution {
         let free = match self.free {
             Free::Under { w, .. } => {
                 let (sine, cosine) = sin_cos(w * s);
-                let kept = if self.data.zeta == Fixed::ZERO {
-                    Fixed::ONE
-                } else {
-                    decay(self.data.zeta * s)
-                };
+                let kept = if self.data.zeta == Fixed::ZERO { Fixed::ONE } else { decay(self.data.zeta * s) };
                 (kept * cosine, kept * sine)
             }
             Free::Critical { .. } => (decay(s), Fixed::ZERO),
             Free::Over { l, m, .. } => (decay(l * s), decay(m * s)),
         };
         let (sine, cosine) = sin_cos(self.data.beta * s);
-        Factors {
-            free,
-            turn: (cosine, sine),
-        }
+        Factors { free, turn: (cosine, sine) }
     }
 
     /// Factors after a further time, whose factors are `by`: a rotation, a few units of $2^{-256}$ off.
     pub(crate) fn advance(&self, f: &Factors, by: &Factors) -> Factors {
-        let rotate =
-            |(c, s): (Fixed, Fixed), (dc, ds): (Fixed, Fixed)| (c * dc - s * ds, c * ds + s * dc);
+        let rotate = |(c, s): (Fixed, Fixed), (dc, ds): (Fixed, Fixed)| (c * dc - s * ds, c * ds + s * dc);
         let free = match self.free {
             Free::Under { .. } => rotate(f.free, by.free),
-            Free::Critical { .. } | Free::Over { .. } => {
-                (f.free.0 * by.free.0, f.free.1 * by.free.1)
-            }
+            Free::Critical { .. } | Free::Over { .. } => (f.free.0 * by.free.0, f.free.1 * by.free.1),
         };
-        Factors {
-            free,
-            turn: rotate(f.turn, by.turn),
-        }
+        Factors { free, turn: rotate(f.turn, by.turn) }
     }
 
     pub(crate) fn at(&self, s: Fixed) -> Node {
@@ -176,10 +141,7 @@ impl Solution {
         let (mut x, mut v) = match self.free {
             Free::Under { w, a, b } => {
                 let (c, s) = factors.free;
-                (
-                    a * c + b * s,
-                    (w * b - zeta * a) * c - (w * a + zeta * b) * s,
-                )
+                (a * c + b * s, (w * b - zeta * a) * c - (w * a + zeta * b) * s)
             }
             Free::Critical { a, b } => {
                 let kept = factors.free.0;
@@ -204,11 +166,6 @@ impl Solution {
         let (sine, cosine) = (self.data.force.0.to_f64(), self.data.force.1.to_f64());
         let push = sine * c.to_f64() + cosine * sn.to_f64();
         let a = push - x.to_f64() - 2.0 * zeta.to_f64() * v.to_f64();
-        Node {
-            s,
-            d: x - self.data.x,
-            v,
-            a,
-        }
+        Node { s, d: x - self.data.x, v, a }
     }
 }
