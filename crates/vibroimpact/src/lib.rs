@@ -1,4 +1,61 @@
 //! Vibro-impact dynamics: oscillators that strike stops.
+//!
+//! A mass on a spring, driven harmonically, strikes a rigid stop:
+//!
+//! $$`\ddot\xi + 2\zeta\dot\xi + \xi = \sin(\beta\tau + \varphi_0), \quad \xi \le \delta, \quad u_+ = -\varepsilon u_-.`$$
+//!
+//! This crate simulates such motions event by event in closed form, says what they settle into and proves it, and finds
+//! periodic orbits whether stable or not. Three things it does that general solvers do not:
+//!
+//! - **no impact is missed** ([`flight::first_contact`]): the search only advances over times in which contact is proven impossible;
+//! - **chatter and sticking are completed** ([`contact`]): infinitely many impacts in finite time are summed with a bounded error,
+//!   the mass sticks, and is released where the force changes sign;
+//! - **verdicts are proved** ([`verdict::settle`]): a motion is called periodic when Newton's method on its impact map has
+//!   converged and the motion is captured by that cycle, chaotic when its Lyapunov exponent exceeds its error bar, free of impacts for a
+//!   stated reason, and else undecided.
+//!
+//! ```
+//! use vibroimpact::{Oscillator, Start, verdict::{SettleOptions, Verdict, settle}};
+//!
+//! // 1/beta = 1.8, delta = 0.25, eps = 0.5: point N of the 1971 paper
+//! let osc = Oscillator::from_inverse_beta(1.8, 0.25, 0.5)?;
+//! let settled = settle(&osc, Start::at_rest(&osc), &SettleOptions::default());
+//! let Verdict::Periodic(cycle) = settled.verdict else { panic!("it is periodic") };
+//! assert_eq!(cycle.label.to_string(), "4/1");          // four impacts in one forcing period
+//! assert!(cycle.stable() && cycle.residual < 1e-13);   // Newton's method closed it to rounding
+//! # Ok::<(), vibroimpact::SystemError>(())
+//! ```
+//!
+//! # One direction of data
+//!
+//! [`Oscillator`] → [`Flight`](flight::Flight) → [`Contact`](flight::Contact) → [`Event`](motion::Event) →
+//! [`Motion`](motion::Motion) → [`Verdict`](verdict::Verdict) → [`Orbit`](orbit::Orbit). Each arrow is one function in one
+//! place; each name is a plain value that knows only what stands to its left. The crate is pure: values in, values out,
+//! no files, threads, clocks, randomness or logging, and the same bits on every platform ([`math`]).
+//!
+//! | you want | see |
+//! |---|---|
+//! | parameters, starts, kg and N and m | [`system`] |
+//! | the arc between impacts, the first contact | [`flight`] |
+//! | what happens at a stop | [`contact`] |
+//! | events one after another, impact map, stroboscopic map, waveforms | [`motion`] |
+//! | what a motion settles into, attractors and their shares | [`verdict`] |
+//! | periodic orbits, stable or not | [`orbit`] |
+//! | Lyapunov exponents | [`chaos`] |
+//! | the points of the 1971 paper | [`scenario`] |
+//!
+//! # Units
+//!
+//! Everything is nondimensional - lengths in static deflections $`F/k`$, times in $`1/\omega_n`$ - unless a name says
+//! otherwise; [`Machine`] converts from kg, N/m, N and Hz and back. Phases are in radians in $`[0, 2\pi)`$; speeds of
+//! arrival are positive.
+//!
+//! # Source
+//!
+//! The model, the method and the names m/n are those of K. Fukaya and T. Irie, "On the Transient Oscillation of a Vibro-Impact
+//! System", Bulletin of the Faculty of Engineering, Hokkaido University 62 (1971) 31-39,
+//! <https://hdl.handle.net/2115/41063>.
+
 pub mod chaos;
 pub mod contact;
 pub mod flight;

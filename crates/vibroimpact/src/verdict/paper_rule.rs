@@ -53,9 +53,10 @@ pub enum PaperVerdict {
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Start, verdict::{PaperRule, PaperVerdict, paper_rule}};
-/// let osc = Oscillator::from_inverse_beta(1.8, 0.25, 0.5)?;
-/// let verdict = paper_rule(&osc, Start::at_rest(&osc), PaperRule::default());
-/// assert!(matches!(verdict, PaperVerdict::Settled { m: 4, n, .. } if (n - 1.0).abs() < 1e-2), "{verdict:?}");
+/// // P, started as in figure 6 with a push: the fundamental motion
+/// let osc = Oscillator::from_inverse_beta(0.6, 0.75, 0.5)?;
+/// let verdict = paper_rule(&osc, Start::new(&osc, 0.0, 3.0, 0.0)?, PaperRule::default());
+/// assert!(matches!(verdict, PaperVerdict::Settled { m: 1, n, .. } if (n - 1.0).abs() < 1e-2), "{verdict:?}");
 /// # Ok::<(), vibroimpact::SystemError>(())
 /// ```
 #[must_use]
