@@ -119,7 +119,6 @@ fn ask(table: &Table, osc: &Oscillator, case: &Case, limits: SearchLimits, count
         return (answer, Verdict::Agreed);
     }
     if !agree {
-        if asked % 97 == 0 { eprintln!("DBG {answer:?} {seen:?} eps? {case}"); }
         counters.unclear.fetch_add(1, Ordering::Relaxed);
         if seen != Seen::Unclear {
             counters.differing.fetch_add(1, Ordering::Relaxed);

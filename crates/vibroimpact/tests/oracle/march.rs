@@ -3,7 +3,7 @@
 //! Over a time $h$ state and force turn linearly into the next: $x' = x + (C-1)x + Sv + K_c\sin\theta + K_s\cos\theta$ and
 //! so on. The coefficients come from the textbook flight with 256 places, rounded once to doubles, for $h$ and its
 //! halves down to $2^{-47}h$: no formula is ever evaluated near resonance, and a displacement right after the start keeps
-//! its digits. Each step adds its roundings to a running estimate of the error, and what lies within four times that is
+//! its digits. Each step adds its roundings to running bounds of the error, and what lies within four times those is
 //! not decided here but handed to the exact flight.
 
 use super::case::Case;
@@ -82,8 +82,13 @@ pub(crate) struct Mark {
     v: f64,
     sine: f64,
     cosine: f64,
-    /// Estimate of the error of `d`.
+    /// Bounds, to first order, of the error of `d` and of `v`.
     noise: f64,
+    noise_v: f64,
+    /// The same of their root sum of squares, which no free motion enlarges.
+    norm: f64,
+    /// The same of sine and cosine.
+    noise_turn: f64,
 }
 
 /// What the march found.
@@ -111,7 +116,8 @@ impl<'a> March<'a> {
         let past = [table.gaps[0].map(|gap| case.x - gap), table.gaps[1].map(|gap| -case.x - gap)];
         let march = Self { table, x: case.x, past };
         let (sine, cosine) = case.phase.sin_cos();
-        let mut a = Mark { s: 0.0, d: 0.0, v: case.v, sine, cosine, noise: 0.0 };
+        let noise_turn = f64::EPSILON;
+        let mut a = Mark { s: 0.0, d: 0.0, v: case.v, sine, cosine, noise: 0.0, noise_v: 0.0, norm: 0.0, noise_turn };
         let h = table.steps[0].h;
         let mut found = Vec::new();
         while a.s < horizon {
@@ -151,14 +157,22 @@ impl<'a> March<'a> {
                 + (row[3] * state[3]).abs()
         };
         let (c, s) = step.turn;
-        let d = a.d + product(&step.x);
+        let (h, d) = (step.h, a.d + product(&step.x));
+        let v = a.v + product(&step.v);
+        let turning = a.noise_turn * h;
+        let local = f64::EPSILON * (size(&step.x) + d.abs()) + turning * h;
+        let local_v = f64::EPSILON * (size(&step.v) + v.abs()) + turning;
+        let norm = a.norm + local + local_v;
         Mark {
-            s: a.s + step.h,
+            s: a.s + h,
             d,
-            v: a.v + product(&step.v),
+            v,
             sine: a.sine * c + a.cosine * s,
             cosine: a.cosine * c - a.sine * s,
-            noise: a.noise * (1.0 + step.h) + f64::EPSILON * (size(&step.x) + step.h * size(&step.v) + d.abs()),
+            noise: (a.noise + h * a.noise_v + local).min(norm),
+            noise_v: (a.noise_v + h * (1.0 + 2.0 * self.table.zeta) * (a.noise + a.noise_v) + local_v).min(norm),
+            norm,
+            noise_turn: a.noise_turn + 2.0 * f64::EPSILON,
         }
     }
 
@@ -225,7 +239,7 @@ impl Curve for March<'_> {
         let past = self.past[usize::from(side == Side::Lower)].unwrap_or(f64::NEG_INFINITY);
         let q = node.sine - self.x - node.d - 2.0 * self.table.zeta * node.v;
         let noise_q = 1e-14 * (1.0 + self.x.abs() + node.d.abs() + (1.0 + 2.0 * self.table.zeta) * node.v.abs())
-            + (1.0 + 2.0 * self.table.zeta) * node.noise;
+            + node.noise + 2.0 * self.table.zeta * node.noise_v + node.noise_turn;
         View { y: past + sign * node.d, p: sign * node.v, q: sign * q, noise: 4.0 * node.noise, noise_q }
     }
 
