@@ -1,2 +1,28 @@
-//! Placeholder while the house is built.
-fn main() {}
+//! `vibro`: vibro-impact dynamics from the shell.
+//!
+//! Every command goes the same way: parse (text to arguments), plan (arguments to a checked plan), run (plan to results),
+//! report (results to stdout and files). Data goes to stdout, everything else to stderr.
+
+mod args;
+mod commands;
+mod exit;
+mod files;
+mod plot;
+mod progress;
+mod report;
+mod session;
+mod signal;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    exit::no_backtraces();
+    let line = match args::CommandLine::try_parse() {
+        Ok(line) => line,
+        Err(refusal) => return exit::parsed(&refusal),
+    };
+    signal::listen();
+    let session = session::Session::new(line.globals);
+    exit::code(commands::run(&line.command, &session))
+}

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 use vibroimpact::SystemError;
+use vibroimpact::verdict::LabelError;
 
 /// A plan that cannot be run. The sentence names the value, the allowed range and often a hint.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -36,6 +37,30 @@ pub enum PlanError {
     /// A number of starts that makes no sense.
     #[error("starts = {0} lies outside 1 <= starts <= 1000000000")]
     Starts(u64),
+    /// A number of impacts that makes no sense.
+    #[error("impacts = {0} lies outside 1 <= impacts <= 10000000")]
+    Impacts(u64),
+    /// A number of forcing periods that makes no sense.
+    #[error("periods = {0} lies outside 0 < periods <= 1e9")]
+    Periods(f64),
+    /// More results than fit any memory.
+    #[error(
+        "{rows} x {columns} = {total} {what}; at most {most} are allowed\nhint: fewer values, or several smaller runs",
+        total = u128::from(*rows) * u128::from(*columns)
+    )]
+    Size {
+        /// What there would be so many of.
+        what: &'static str,
+        /// Values on one axis.
+        columns: u64,
+        /// Values on the other.
+        rows: u64,
+        /// The most allowed.
+        most: u64,
+    },
+    /// Not a label.
+    #[error(transparent)]
+    Label(#[from] LabelError),
     /// A plan of a version this program does not know.
     #[error("the plan has version {0}; this program knows version {known}", known = crate::PLAN_VERSION)]
     Version(u32),

@@ -5,7 +5,7 @@
 
 use crate::{PlanError, Span};
 use serde::{Deserialize, Serialize};
-use vibroimpact::{Oscillator, Start};
+use vibroimpact::{Label, Oscillator, Start};
 
 /// Version of the plan's fields; a plan of a later version is refused.
 pub const PLAN_VERSION: u32 = 1;
@@ -42,9 +42,22 @@ impl Plan {
             if (1..=1_000_000_000).contains(&n) { Ok(()) } else { Err(PlanError::Starts(n)) }
         };
         match &self.task {
-            Task::Simulate { start, .. } | Task::Settle { start } => start.start(&osc).map(|_| ()),
+            Task::Simulate {
+                start,
+                impacts,
+                periods,
+            } => {
+                if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
+                    return Err(PlanError::Impacts(n));
+                }
+                if let Some(n) = periods.filter(|n| !(*n > 0.0 && *n <= 1e9)) {
+                    return Err(PlanError::Periods(n));
+                }
+                start.start(&osc).map(|_| ())
+            }
+            Task::Settle { start } => start.start(&osc).map(|_| ()),
             Task::Attractors { starts: n, .. } => starts(*n),
-            Task::Orbit { .. } => Ok(()),
+            Task::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
             Task::Basin(basin) => basin.starts(&osc).map(|_| ()),
             Task::Map(map) => {
                 starts(map.starts)?;
@@ -191,7 +204,7 @@ impl BasinPlan {
         for x in [a, b] {
             Start::new(osc, x, self.v.ends().0, self.phase)?;
         }
-        Ok(u64::from(self.x.count()) * u64::from(self.v.count()))
+        cells("starts", &self.x, &self.v)
     }
 }
 
@@ -221,7 +234,7 @@ impl MapPlan {
                 Self::point(system, x, gap)?;
             }
         }
-        Ok(u64::from(self.inverse_beta.count()) * u64::from(self.gap.count()))
+        cells("points", &self.inverse_beta, &self.gap)
     }
 
     /// The oscillator at a point of the map; everything else as in `system`.
@@ -231,6 +244,22 @@ impl MapPlan {
     pub fn point(system: &SystemPlan, inverse_beta: f64, gap: f64) -> Result<Oscillator, PlanError> {
         SystemPlan { beta: None, inverse_beta: Some(inverse_beta), gap, ..*system }.oscillator()
     }
+}
+
+/// The most results one run keeps in memory.
+const MOST_CELLS: u64 = 100_000_000;
+
+fn cells(what: &'static str, columns: &Span, rows: &Span) -> Result<u64, PlanError> {
+    let (columns, rows) = (u64::from(columns.count()), u64::from(rows.count()));
+    if columns * rows > MOST_CELLS {
+        return Err(PlanError::Size {
+            what,
+            columns,
+            rows,
+            most: MOST_CELLS,
+        });
+    }
+    Ok(columns * rows)
 }
 
 #[cfg(test)]
@@ -265,5 +294,27 @@ mod tests {
         assert_eq!(later.check(), Err(PlanError::Version(2)));
         let none = Plan { task: Task::Attractors { starts: 0, seed: 0 }, ..plan() };
         assert_eq!(none.check(), Err(PlanError::Starts(0)));
+        let too_many = BasinPlan {
+            x: "-3:0.75:20000".parse().unwrap(),
+            v: "-1:1:20000".parse().unwrap(),
+            phase: 0.0,
+        };
+        for (task, sentence) in [
+            (Task::Basin(too_many), "20000 x 20000 = 400000000 starts"),
+            (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
+            (simulate(Some(0), None), "impacts = 0"),
+            (simulate(None, Some(f64::NAN)), "periods = NaN"),
+        ] {
+            let message = Plan { task, ..plan() }.check().unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+
+    fn simulate(impacts: Option<u64>, periods: Option<f64>) -> Task {
+        Task::Simulate {
+            start: StartPlan::default(),
+            impacts,
+            periods,
+        }
     }
 }

@@ -51,7 +51,12 @@ impl Span {
             return self.last;
         }
         let t = f64::from(k) / f64::from((self.count - 1).max(1));
-        self.first + (self.last - self.first) * t
+        let width = self.last - self.first;
+        if width.is_finite() {
+            self.first + width * t
+        } else {
+            self.first * (1.0 - t) + self.last * t
+        }
     }
 
     /// How many values.
@@ -132,6 +137,8 @@ mod tests {
         let span = Span::new(2.0, 0.3, 18).unwrap();
         let values: Vec<f64> = span.values().collect();
         assert_eq!((values[0], values[17], values.len()), (2.0, 0.3, 18));
+        let widest = Span::new(-1.7e308, 1.7e308, 3).unwrap();
+        assert_eq!(widest.values().nth(1), Some(0.0));
         assert_eq!(Span::new(1.5, 1.5, 1).unwrap().values().collect::<Vec<_>>(), [1.5]);
     }
 }

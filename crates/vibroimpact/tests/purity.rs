@@ -39,14 +39,28 @@ fn crates() -> PathBuf {
 #[test]
 fn the_core_is_pure() {
     let outside = [
-        "std::fs", "std::io", "std::thread", "std::time", "std::env", "std::net", "std::process", "println!", "serde", "rand::",
-        "log::", "static mut", "thread_local", "Mutex", "Atomic",
+        "std::fs",
+        "std::io",
+        "std::thread",
+        "std::time",
+        "std::env",
+        "std::net",
+        "std::process",
+        "println!",
+        "serde",
+        "rand::",
+        "log::",
+        "static mut",
+        "thread_local",
+        "Mutex",
+        "Atomic",
     ];
     let found = mentions(&crates().join("vibroimpact/src"), &outside);
     assert!(found.is_empty(), "{}", found.join("\n"));
     let manifest = fs::read_to_string(crates().join("vibroimpact/Cargo.toml")).unwrap();
     let needs = manifest.split("[dependencies]").nth(1).unwrap().split("\n[").next().unwrap();
-    let names: Vec<&str> = needs.lines().filter_map(|line| line.split(['.', ' ', '=']).next()).filter(|n| !n.is_empty()).collect();
+    let names: Vec<&str> =
+        needs.lines().filter_map(|line| line.split(['.', ' ', '=']).next()).filter(|n| !n.is_empty()).collect();
     assert_eq!(names, ["libm", "thiserror"]);
 }
 
@@ -54,8 +68,23 @@ fn the_core_is_pure() {
 #[test]
 fn the_core_has_its_own_elementary_functions() {
     let platform = [
-        ".sin()", ".cos()", ".tan()", ".sin_cos()", ".exp()", ".exp_m1()", ".ln()", ".log10()", ".asin()", ".acos()", ".atan2(",
-        ".hypot(", ".powf(", ".powi(", ".mul_add(", ".sinh()", ".cosh()",
+        ".sin()",
+        ".cos()",
+        ".tan()",
+        ".sin_cos()",
+        ".exp()",
+        ".exp_m1()",
+        ".ln()",
+        ".log10()",
+        ".asin()",
+        ".acos()",
+        ".atan2(",
+        ".hypot(",
+        ".powf(",
+        ".powi(",
+        ".mul_add(",
+        ".sinh()",
+        ".cosh()",
     ];
     let found = mentions(&crates().join("vibroimpact/src"), &platform);
     assert!(found.is_empty(), "{}", found.join("\n"));

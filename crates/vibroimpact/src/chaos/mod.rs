@@ -90,7 +90,13 @@ fn mean(blocks: &[(f64, f64)]) -> Measured {
     let value = blocks.iter().map(|(x, t)| x * t).sum::<f64>() / total;
     #[allow(clippy::cast_precision_loss)] // a few dozen
     let count = blocks.len() as f64;
-    let spread: f64 = blocks.iter().map(|(x, t)| ((x - value) * t * count / total).powi(2)).sum();
+    let spread: f64 = blocks
+        .iter()
+        .map(|(x, t)| {
+            let deviation = (x - value) * t * count / total;
+            deviation * deviation
+        })
+        .sum();
     Measured { value, error: 3.0 * (spread / (count * (count - 1.0))).sqrt() }
 }
 

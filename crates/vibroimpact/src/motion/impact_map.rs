@@ -56,6 +56,9 @@ pub enum Mapped {
     End(End),
 }
 
+/// Touches in a row, without an impact, after which a motion counts as one that only touches.
+pub const MAX_TOUCHES: u32 = 8;
+
 /// The impact after `state`.
 ///
 /// ```
@@ -70,15 +73,18 @@ pub enum Mapped {
 #[must_use]
 pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -> Mapped {
     let mut motion = Motion::with_limits(osc, state.rebound(osc), limits);
+    let mut passed = 0;
     loop {
         match motion.next() {
+            // touches without an impact may go on for ever
+            Some(event) if passed > MAX_TOUCHES => return Mapped::End(End::NoneFor(event.time)),
             Some(event) => match event.kind {
                 EventKind::Impact { velocity_before, .. } => {
                     let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
                     return Mapped::Impact { state, interval: event.time };
                 }
                 EventKind::Stick { .. } => return Mapped::Stick(event),
-                EventKind::Graze { .. } | EventKind::Release => {}
+                EventKind::Graze { .. } | EventKind::Release => passed += 1,
             },
             None => return Mapped::End(motion.end().unwrap_or(End::NoneFor(0.0))),
         }

@@ -15,7 +15,7 @@ mod sample;
 mod stroboscopic;
 
 pub use event::{End, Event, EventKind};
-pub use impact_map::{ImpactState, Mapped, derivative, impact_map};
+pub use impact_map::{ImpactState, MAX_TOUCHES, Mapped, derivative, impact_map};
 pub use legs::{Leg, Motion, Path};
 pub use sample::{Sample, sample};
 pub use stroboscopic::{Strobe, stroboscopic_map};

@@ -10,7 +10,7 @@
 //! printed the ratios could not be near 1.) The rule cannot tell a slow transient from a period, nor a limit of ever
 //! gentler impacts from 1/10; [`settle`](super::settle) can.
 
-use crate::motion::{EventKind, Motion};
+use crate::motion::{EventKind, MAX_TOUCHES, Motion};
 use crate::system::{Oscillator, Start};
 use core::f64::consts::TAU;
 
@@ -63,7 +63,7 @@ pub enum PaperVerdict {
 pub fn paper_rule(osc: &Oscillator, start: Start, rule: PaperRule) -> PaperVerdict {
     // interval, speed and time of each impact
     let mut impacts: Vec<(f64, f64, f64)> = Vec::new();
-    let mut last = 0.0;
+    let (mut last, mut touches) = (0.0, 0);
     let mut motion = Motion::new(osc, start);
     while impacts.len() < rule.limit as usize {
         let Some(event) = motion.next() else {
@@ -72,9 +72,13 @@ pub fn paper_rule(osc: &Oscillator, start: Start, rule: PaperRule) -> PaperVerdi
         match event.kind {
             EventKind::Impact { velocity_before, .. } => impacts.push((event.time - last, velocity_before, event.time)),
             EventKind::Stick { .. } => return PaperVerdict::Sticks,
-            EventKind::Graze { .. } | EventKind::Release => continue,
+            EventKind::Graze { .. } if touches >= MAX_TOUCHES => return PaperVerdict::NoMoreImpacts,
+            EventKind::Graze { .. } | EventKind::Release => {
+                touches += 1;
+                continue;
+            }
         }
-        last = event.time;
+        (last, touches) = (event.time, 0);
         let j = impacts.len() - 1;
         let (z, u, time) = impacts[j];
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < rule.percent / 100.0;

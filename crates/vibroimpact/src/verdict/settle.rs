@@ -20,7 +20,7 @@ use super::{Count, Label, graze_limit, recurrence};
 use crate::chaos::{Spectrum, lyapunov};
 use crate::flight::SearchLimits;
 use crate::math::Multiplier;
-use crate::motion::{End, EventKind, ImpactState, Motion};
+use crate::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
 use crate::orbit::{Cycle, CyclePoint, RestSpan, shoot};
 use crate::system::{Oscillator, Side, Start};
 
@@ -177,8 +177,6 @@ struct Follow<'a> {
 /// Impacts between looks for a recurrence, while there are few; later an eighth of those there are, so that the looks
 /// into a long chaotic motion stay cheap.
 const LOOK: usize = 16;
-/// Touches without an impact in between after which the motion counts as grazing for ever.
-const GRAZES: u32 = 8;
 /// Candidates for the period tried at each look.
 const TRIES: usize = 3;
 
@@ -221,7 +219,7 @@ impl Follow<'_> {
 
     fn graze(&mut self, phase: f64) -> Option<Verdict> {
         self.grazes += 1;
-        (self.grazes >= GRAZES).then_some(Verdict::NoImpact(NoImpact::Grazing { phase }))
+        (self.grazes > MAX_TOUCHES).then_some(Verdict::NoImpact(NoImpact::Grazing { phase }))
     }
 
     fn release(&mut self, side: Side, phase: f64, time: f64) -> Option<Verdict> {
@@ -326,5 +324,16 @@ mod tests {
             }
         }
         assert!(limits > 5, "{limits}");
+    }
+
+    /// A long chaotic transient that ends in the graze limit, found while its Lyapunov exponent was being measured: the
+    /// touches of the limit go on for ever and once kept the measurement waiting for an impact.
+    #[test]
+    fn a_transient_that_fades_into_touches_ends() {
+        let osc = Oscillator::from_inverse_beta(0.4 + 0.05 * 3.0, 0.625, 0.5).unwrap();
+        let start = crate::verdict::scattered_starts(&osc, crate::verdict::StartBox::natural(&osc), 1, 10);
+        let settled = settle(&osc, start, &SettleOptions::default());
+        assert_eq!(settled.verdict.label(), "0");
+        assert!(settled.impacts > 1000);
     }
 }

@@ -181,7 +181,7 @@ impl Exact {
         for _ in 0..60 {
             let view = self.view(&node, side);
             let step = -view.p / view.q;
-            if !(step.abs() < 1.0) {
+            if step.is_nan() || step.abs() >= 1.0 {
                 return None;
             }
             let next = node.s + Fixed::from_f64(step);

@@ -20,7 +20,7 @@ impl Fixed {
     pub(crate) const ONE: Self = Self([0, 0, 0, 0, 1]);
     /// $\pi/2$, from mpmath 1.3.0: `floor(pi/2 * 2**256 + 1/2)`; a test compares it with astro-float's.
     pub(crate) const HALF_PI: Self =
-        Self([0x4177_d4c7_6273_645, 0x5204_9c11_14cf_98e8, 0x898c_c517_01b8_39a2, 0x921f_b544_42d1_8469, 1]);
+        Self([0x0417_7d4c_7627_3645, 0x5204_9c11_14cf_98e8, 0x898c_c517_01b8_39a2, 0x921f_b544_42d1_8469, 1]);
 
     /// The exact value of `x`, but for digits below $2^{-256}$.
     pub(crate) fn from_f64(x: f64) -> Self {

@@ -4,7 +4,7 @@
 //! against the stop, between two stops; and random states of random systems, aimed ones among them. Everything the march
 //! cannot decide, and one question in fifty thousand besides, goes to the exact referee.
 //!
-//! An ordinary run asks two hundred thousand. `VIBROIMPACT_LONG=1` asks 1e8, which takes some ten minutes on two cores;
+//! An ordinary run asks two hundred thousand. `VIBROIMPACT_LONG=1` asks 1e8, which takes a quarter of an hour on two cores;
 //! `VIBROIMPACT_QUERIES` sets another number.
 
 use super::case::Case;
@@ -98,8 +98,8 @@ fn ask(table: &Table, osc: &Oscillator, case: &Case, limits: SearchLimits, count
     let answer = first_contact(osc, &flight, limits);
     let horizon = match answer {
         Contact::Impact { time, .. } | Contact::Grazing { time, .. } => 1.01 * time + 1e-3,
-        Contact::NoneUntil(s) => s.min(limits.periods * osc.period()),
-        _ => limits.periods * osc.period(),
+        Contact::NoneUntil(s) => s.min(limits.horizon(osc)),
+        _ => limits.horizon(osc),
     };
     let seen = if case.stays() { Seen::Unclear } else { March::look(table, case, horizon) };
     let agree = match (answer, seen) {
@@ -139,7 +139,7 @@ fn run(index: u64, count: u64, counters: &Counters, tally: &mut Tally) {
     let osc = bare.oscillator();
     let table = Table::new(&osc);
     let horizon = 50.0 * TAU * (1.0 / bare.beta).clamp(1.0, 3.0);
-    let limits = SearchLimits { periods: horizon / osc.period(), ..SearchLimits::default() };
+    let limits = SearchLimits { periods: horizon / TAU * bare.beta.min(1.0), ..SearchLimits::default() };
     let mut case = start(&mut random, &bare);
     let mut impacts = 0;
     for _ in 0..count {

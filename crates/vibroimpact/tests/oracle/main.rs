@@ -23,9 +23,13 @@ mod elementary;
 #[cfg(test)]
 mod exact;
 #[cfg(test)]
+mod extremes;
+#[cfg(test)]
 mod fixed;
 #[cfg(test)]
 mod grazing;
+#[cfg(test)]
+mod known;
 #[cfg(test)]
 mod long;
 #[cfg(test)]

@@ -192,7 +192,7 @@ impl<'a> March<'a> {
             let slowest = va.p.min(vb.p);
             let wanted = 1e-11 * b.s.min(1.0);
             if bounds.cubic_error(h) <= slowest * wanted {
-                if va.noise.max(vb.noise) > 10.0 * slowest * wanted {
+                if va.noise.max(vb.noise) > 50.0 * slowest * wanted {
                     return None;
                 }
                 return Some(a.s + h * cubic_root(va.y, h * va.p, vb.y, h * vb.p));
@@ -217,9 +217,9 @@ fn cubic_root(ya: f64, pa: f64, yb: f64, pb: f64) -> f64 {
         let y = ya + t * (pa + t * (c2 + t * c3));
         let slope = pa + t * (2.0 * c2 + 3.0 * t * c3);
         if y < 0.0 {
-            low = t
+            low = t;
         } else {
-            high = t
+            high = t;
         }
         let next = t - y / slope;
         let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };
@@ -239,7 +239,9 @@ impl Curve for March<'_> {
         let past = self.past[usize::from(side == Side::Lower)].unwrap_or(f64::NEG_INFINITY);
         let q = node.sine - self.x - node.d - 2.0 * self.table.zeta * node.v;
         let noise_q = 1e-14 * (1.0 + self.x.abs() + node.d.abs() + (1.0 + 2.0 * self.table.zeta) * node.v.abs())
-            + node.noise + 2.0 * self.table.zeta * node.noise_v + node.noise_turn;
+            + node.noise
+            + 2.0 * self.table.zeta * node.noise_v
+            + node.noise_turn;
         View { y: past + sign * node.d, p: sign * node.v, q: sign * q, noise: 4.0 * node.noise, noise_q }
     }
 

@@ -81,6 +81,23 @@ pub(crate) enum Fault {
     },
 }
 
+impl Fault {
+    /// What went wrong, in a few words. Within rounding: the arch is nearer to the stop than the data determine.
+    pub(crate) fn kind(&self) -> &'static str {
+        let open = |arch: &Option<Arch>| arch.is_some_and(|arch| arch.depth.abs() <= arch.open);
+        match self {
+            Self::Missed { arch, .. } if open(arch) => "missed, within rounding",
+            Self::Missed { .. } => "missed",
+            Self::Invented { arch, .. } if open(arch) => "invented, within rounding",
+            Self::Invented { .. } => "invented",
+            Self::WrongSide { .. } => "on the wrong side",
+            Self::Inaccurate { .. } => "inaccurate",
+            Self::FalseGrazing { .. } => "called grazing",
+            Self::FalseReason { .. } => "never, for a reason that does not hold",
+        }
+    }
+}
+
 /// A closest point: its depth (positive: short of the stop) and the depth that the data leave open.
 #[derive(Clone, Copy, Debug)]
 #[allow(dead_code)] // read through Debug only

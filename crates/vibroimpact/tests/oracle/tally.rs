@@ -3,6 +3,7 @@
 use super::case::Case;
 use super::referee::{Fault, Passed};
 use core::fmt;
+use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::flight::Contact;
@@ -76,9 +77,13 @@ impl Tally {
 
     /// Fails with the list of the wrong answers.
     pub(crate) fn expect_no_fault(&self) {
-        let shown: Vec<String> =
-            self.faults.iter().take(4000).map(|(case, fault)| format!("{case}\n    {fault:?}")).collect();
-        assert!(self.faults.is_empty(), "{} wrong answers:\n{}", self.faults.len(), shown.join("\n"));
+        let mut kinds = BTreeMap::new();
+        for (_, fault) in &self.faults {
+            *kinds.entry(fault.kind()).or_insert(0) += 1;
+        }
+        let few = self.faults.iter().take(25);
+        let shown: Vec<String> = few.map(|(case, fault)| format!("{case}\n    {fault:?}")).collect();
+        assert!(kinds.is_empty(), "{} wrong answers: {kinds:?}\n{}", self.faults.len(), shown.join("\n"));
     }
 }
 

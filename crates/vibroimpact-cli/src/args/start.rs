@@ -1,0 +1,31 @@
+//! START: where a motion begins.
+
+use super::Units;
+use clap::Args;
+use vibroimpact_study::StartPlan;
+
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "Start")]
+pub(crate) struct StartArgs {
+    /// Position, not beyond the stop [default: 0, or on the stop when the gap is negative]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    x: Option<f64>,
+
+    /// Velocity
+    #[arg(long, value_name = "V", default_value_t = 0.0, allow_negative_numbers = true)]
+    v: f64,
+
+    /// Phase of the force in radians
+    #[arg(long, value_name = "P", default_value_t = 0.0, allow_negative_numbers = true)]
+    phase: f64,
+}
+
+impl StartArgs {
+    pub(crate) fn plan(&self, units: &Units) -> StartPlan {
+        StartPlan {
+            x: self.x.map(|x| x / units.length()),
+            v: self.v / units.velocity(),
+            phase: self.phase,
+        }
+    }
+}

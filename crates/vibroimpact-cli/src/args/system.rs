@@ -1,0 +1,265 @@
+//! SYSTEM: the oscillator, nondimensional or as a machine in physical units.
+
+use crate::exit::Failure;
+use clap::{Args, ValueEnum};
+use vibroimpact::{Frequency, Machine, Scales};
+use vibroimpact_study::{SecondStop, SystemPlan};
+
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "System")]
+pub(crate) struct SystemArgs {
+    /// Frequency ratio: forcing over natural frequency, omega/omega_n; positive
+    #[arg(long, value_name = "B", allow_negative_numbers = true, conflicts_with = "inverse_beta")]
+    beta: Option<f64>,
+
+    /// Its inverse omega_n/omega instead, the abscissa of the 1971 paper; positive
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    inverse_beta: Option<f64>,
+
+    /// Distance of the stop from the rest position in units of F/k; negative presses the mass against it
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    gap: Option<f64>,
+
+    /// Restitution: rebound speed over arrival speed, 0 to 1
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    restitution: Option<f64>,
+
+    /// Damping ratio zeta = c / (2 sqrt(k m)), 0 or more [default: 0]
+    #[arg(long, value_name = "Z", allow_negative_numbers = true)]
+    damping: Option<f64>,
+
+    /// A second stop on the other side, at x = -D2
+    #[arg(long, value_name = "D2", allow_negative_numbers = true)]
+    second_gap: Option<f64>,
+
+    /// Restitution of the second stop [default: that of the first]
+    #[arg(long, value_name = "E2", allow_negative_numbers = true)]
+    second_restitution: Option<f64>,
+
+    #[command(flatten)]
+    machine: MachineArgs,
+
+    /// Units of starts, ranges and results
+    #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional)]
+    units: Convention,
+}
+
+/// The oscillator as a machine: all of these together with --restitution, instead of --beta, --gap and --damping.
+#[derive(Clone, Copy, Debug, Args)]
+#[command(next_help_heading = "System in physical units (instead of beta, gap and damping)")]
+struct MachineArgs {
+    /// Mass in kg, positive
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    mass_kg: Option<f64>,
+
+    /// Viscous damping in N s/m, 0 or more
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    damping_ns_per_m: Option<f64>,
+
+    /// Stiffness in N/m, positive
+    #[arg(long, value_name = "K", allow_negative_numbers = true)]
+    stiffness_n_per_m: Option<f64>,
+
+    /// Amplitude of the force in N, positive
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    force_n: Option<f64>,
+
+    /// Frequency of the force in Hz, positive
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, conflicts_with = "omega_rad_per_s")]
+    frequency_hz: Option<f64>,
+
+    /// Frequency of the force in rad/s instead
+    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    omega_rad_per_s: Option<f64>,
+
+    /// Distance of the stop from the rest position in m
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    gap_m: Option<f64>,
+
+    /// A second stop on the other side, its distance in m
+    #[arg(long, value_name = "D2", allow_negative_numbers = true)]
+    second_gap_m: Option<f64>,
+}
+
+/// What lengths, velocities and times are measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Convention {
+    /// F/k, and 1/omega_n
+    Nondimensional,
+    /// Metres and seconds; needs the system in physical units
+    Si,
+}
+
+/// One unit of the results, in nondimensional units.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Units {
+    /// Of the machine, where one was given.
+    pub(crate) scales: Option<Scales>,
+    /// Whether results are in metres and seconds.
+    pub(crate) si: bool,
+}
+
+impl Units {
+    fn factor(&self, of: impl Fn(&Scales) -> f64) -> f64 {
+        self.scales.as_ref().filter(|_| self.si).map_or(1.0, of)
+    }
+
+    pub(crate) fn length(&self) -> f64 {
+        self.factor(|s| s.length_m)
+    }
+
+    pub(crate) fn time(&self) -> f64 {
+        self.factor(|s| s.time_s)
+    }
+
+    pub(crate) fn velocity(&self) -> f64 {
+        self.factor(Scales::velocity_m_per_s)
+    }
+
+    /// `name`, followed by its unit where there is one: `time (s)`.
+    pub(crate) fn named(&self, name: &str, unit: &str) -> String {
+        if self.si {
+            format!("{name} ({unit})")
+        } else {
+            name.to_owned()
+        }
+    }
+}
+
+/// The system as it goes into a plan, and the units its results are wanted in.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    pub(crate) system: SystemPlan,
+    pub(crate) units: Units,
+}
+
+impl SystemArgs {
+    pub(crate) fn asked(&self) -> Result<Asked, Failure> {
+        let restitution = self
+            .restitution
+            .ok_or_else(|| Failure::bad("the restitution is not given\nhint: --restitution E, 0 to 1"))?;
+        let machine = self.machine.machine(restitution)?;
+        let second = self.second_gap.or(self.machine.second_gap_m);
+        let second_stop = |unit: f64| {
+            second.map(|gap| SecondStop {
+                gap: gap / unit,
+                restitution: self.second_restitution.unwrap_or(restitution),
+            })
+        };
+        if second.is_none() && self.second_restitution.is_some() {
+            return Err(Failure::bad(
+                "the second stop has a restitution but no gap\nhint: --second-gap D2",
+            ));
+        }
+        let Some(machine) = machine else {
+            if self.units == Convention::Si {
+                return Err(Failure::bad(
+                    "--units si needs the system in physical units\nhint: --mass-kg, --stiffness-n-per-m, --force-n ...",
+                ));
+            }
+            let gap = self
+                .gap
+                .ok_or_else(|| Failure::bad("the gap is not given\nhint: --gap D, in units of F/k"))?;
+            let system = SystemPlan {
+                beta: self.beta,
+                inverse_beta: self.inverse_beta,
+                gap,
+                restitution,
+                damping: self.damping.unwrap_or(0.0),
+                second_stop: second_stop(1.0),
+            };
+            return Ok(Asked {
+                system,
+                units: Units::default(),
+            });
+        };
+        let twice = [
+            ("--beta", self.beta),
+            ("--inverse-beta", self.inverse_beta),
+            ("--gap", self.gap),
+            ("--damping", self.damping),
+            ("--second-gap", self.second_gap),
+        ];
+        if let Some((flag, _)) = twice.iter().find(|(_, value)| value.is_some()) {
+            return Err(Failure::bad(format!(
+                "{flag} cannot go together with a system in physical units"
+            )));
+        }
+        let (osc, scales) = machine.nondimensional()?;
+        let system = SystemPlan {
+            beta: Some(osc.beta()),
+            inverse_beta: None,
+            gap: osc.gap(),
+            restitution,
+            damping: osc.damping(),
+            second_stop: second_stop(scales.length_m),
+        };
+        let si = self.units == Convention::Si;
+        let units = Units {
+            scales: Some(scales),
+            si,
+        };
+        Ok(Asked { system, units })
+    }
+}
+
+impl MachineArgs {
+    /// The machine, if any of its quantities is given; then all must be.
+    fn machine(&self, restitution: f64) -> Result<Option<Machine>, Failure> {
+        let frequency = match (self.frequency_hz, self.omega_rad_per_s) {
+            (Some(hertz), _) => Some(Frequency::Hz(hertz)),
+            (None, omega) => omega.map(Frequency::RadPerS),
+        };
+        let given = [
+            ("--mass-kg", self.mass_kg),
+            ("--damping-ns-per-m", self.damping_ns_per_m),
+            ("--stiffness-n-per-m", self.stiffness_n_per_m),
+            ("--force-n", self.force_n),
+            ("--frequency-hz", frequency.map(Frequency::rad_per_s)),
+            ("--gap-m", self.gap_m),
+        ];
+        if given.iter().all(|(_, value)| value.is_none()) {
+            return match self.second_gap_m {
+                Some(_) => Err(Failure::bad(
+                    "--second-gap-m needs the system in physical units\nhint: --second-gap D2 is its nondimensional twin",
+                )),
+                None => Ok(None),
+            };
+        }
+        let missing: Vec<&str> = given
+            .iter()
+            .filter(|(_, value)| value.is_none())
+            .map(|(flag, _)| *flag)
+            .collect();
+        let (
+            Some(mass_kg),
+            Some(damping_ns_per_m),
+            Some(stiffness_n_per_m),
+            Some(force_n),
+            Some(frequency),
+            Some(gap_m),
+        ) = (
+            self.mass_kg,
+            self.damping_ns_per_m,
+            self.stiffness_n_per_m,
+            self.force_n,
+            frequency,
+            self.gap_m,
+        )
+        else {
+            return Err(Failure::bad(format!(
+                "a system in physical units needs all of its quantities; missing: {}",
+                missing.join(", ")
+            )));
+        };
+        Ok(Some(Machine {
+            mass_kg,
+            damping_ns_per_m,
+            stiffness_n_per_m,
+            force_n,
+            frequency,
+            gap_m,
+            restitution,
+        }))
+    }
+}

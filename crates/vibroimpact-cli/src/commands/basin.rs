@@ -1,0 +1,229 @@
+//! `vibro basin`: which motion each start of a plane leads to.
+
+use crate::args::SystemArgs;
+use crate::exit::Failure;
+use crate::files::Target;
+use crate::plot::{self, Picture};
+use crate::report::csv::{self, Number};
+use crate::report::json::{Document, Motion, Range, SharedMotion};
+use crate::report::text::{self, percent};
+use crate::session::Session;
+use clap::Args;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use vibroimpact::verdict::SettleOptions;
+use vibroimpact_study::{Basin as Computed, BasinPlan, Plan, Span, Task, basin};
+
+/// Which motion each start of a plane of positions and velocities leads to
+///
+/// A:B:N is N values from A to B, both included. Without --csv, --plot or --json the shares are printed.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro basin --beta B --gap D --restitution E --x A:B:N --v A:B:N [OPTIONS]",
+    after_help = "Example:\n  \
+        vibro basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -4:0.75:400 --v -4:4:400 \\\n    \
+        --csv basin.csv --plot basin.png"
+)]
+pub(crate) struct Basin {
+    #[command(flatten)]
+    system: SystemArgs,
+
+    /// Positions, none beyond a stop
+    #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Starts")]
+    x: Span,
+
+    /// Velocities
+    #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Starts")]
+    v: Span,
+
+    /// Phase of the force at all starts, in radians
+    #[arg(long, value_name = "P", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Starts")]
+    phase: f64,
+
+    /// Write one row a start, columns x, v, label, to this file; - for stdout
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw the basin into this file, .svg or .png
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    /// Print one JSON object with the motions and their shares
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    x: Range,
+    v: Range,
+    phase: f64,
+    motions: Vec<SharedMotion>,
+    starts: usize,
+}
+
+/// Columns and rows a picture can show.
+pub(super) const MOST_CELLS: u32 = 16_384;
+
+pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
+    let asked = args.system.asked()?;
+    let units = asked.units;
+    let task = BasinPlan {
+        x: scaled(&args.x, units.length())?,
+        v: scaled(&args.v, units.velocity())?,
+        phase: args.phase,
+    };
+    let plan = Plan::new(asked.system, Task::Basin(task));
+    plan.check()?;
+    let osc = asked.system.oscillator()?;
+    let total = task.starts(&osc)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    outputs.drawable(&args.x, &args.v)?;
+
+    let found = session.tiled(total, "starts", |control, _| {
+        basin(&osc, &task, &SettleOptions::default(), control)
+    })?;
+
+    let silent = outputs.any();
+    outputs.write(
+        session,
+        |out| csv::write(out, "x,v,label", rows(&found, (&args.x, &args.v))),
+        || {
+            let title = plot::title(&osc, asked.system.inverse_beta);
+            let names = (units.named("*ξ*_0", "m"), units.named("*ξ*_0′", "m/s"));
+            plot::basin::figure(&found, (&args.x, &args.v), (&names.0, &names.1), title)
+        },
+    )?;
+    let mut order: Vec<usize> = (0..found.motions.len()).collect();
+    order.sort_by_key(|m| core::cmp::Reverse(found.motions[*m].count));
+    if args.json {
+        let motions = order
+            .iter()
+            .map(|&m| SharedMotion {
+                motion: Motion::new(&found.motions[m].verdict, &osc, &units),
+                share: found.share(m),
+                count: found.motions[m].count,
+            })
+            .collect();
+        let answer = Answer {
+            x: Range::new(&args.x),
+            v: Range::new(&args.v),
+            phase: args.phase,
+            motions,
+            starts: found.cells.len(),
+        };
+        return session.print_json(&Document::new(&asked, &osc, &plan, answer));
+    }
+    if silent {
+        return Ok(());
+    }
+    let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
+    let rows: Vec<Vec<String>> = order
+        .iter()
+        .map(|&m| {
+            let motion = &found.motions[m];
+            vec![
+                percent(found.share(m)),
+                motion.count.to_string(),
+                motion.verdict.label().into_owned(),
+                text::meaning(&motion.verdict),
+            ]
+        })
+        .collect();
+    session.print(&(text::system(&asked, &osc) + "\n" + &text::table(&heads, &rows)))?;
+    session.note("hint: --csv FILE keeps every start, --plot FILE.png draws them");
+    Ok(())
+}
+
+/// The range in nondimensional units.
+fn scaled(span: &Span, unit: f64) -> Result<Span, Failure> {
+    let (a, b) = span.ends();
+    Ok(Span::new(a / unit, b / unit, span.count())?)
+}
+
+/// Rows in the order of the cells, in the units and with the very numbers of the question.
+fn rows<'a>(found: &'a Computed, (x, v): (&'a Span, &'a Span)) -> impl Iterator<Item = String> + 'a {
+    let labels: Vec<String> = found
+        .motions
+        .iter()
+        .map(|motion| motion.verdict.label().into_owned())
+        .collect();
+    let columns = x.count() as usize;
+    let xs: Vec<String> = x.values().map(|x| Number(x).to_string()).collect();
+    let vs: Vec<String> = v.values().map(|v| Number(v).to_string()).collect();
+    found.cells.iter().enumerate().map(move |(k, motion)| {
+        let (x, v) = (&xs[k % columns], &vs[k / columns]);
+        format!("{x},{v},{}", labels[usize::from(*motion)])
+    })
+}
+
+/// The files of a grid command, reserved before anything is computed.
+pub(super) struct Outputs {
+    csv: Option<Sheet>,
+    picture: Option<Picture>,
+    json: bool,
+}
+
+enum Sheet {
+    Stdout,
+    File(Target, String),
+}
+
+impl Outputs {
+    pub(super) fn reserve(
+        csv: Option<&Path>,
+        plot: Option<&Path>,
+        json: bool,
+        session: &Session,
+    ) -> Result<Self, Failure> {
+        let csv = match csv {
+            None => None,
+            Some(path) if path == Path::new("-") && json => {
+                return Err(Failure::bad("--csv - and --json both want stdout"));
+            }
+            Some(path) if path == Path::new("-") => Some(Sheet::Stdout),
+            Some(path) => {
+                let target = Target::reserve(path, session.force)?;
+                Some(Sheet::File(target, path.display().to_string()))
+            }
+        };
+        let picture = plot.map(|path| Picture::reserve(path, session.force)).transpose()?;
+        Ok(Self { csv, picture, json })
+    }
+
+    /// Refuses a picture of more cells than it has room for.
+    pub(super) fn drawable(&self, columns: &Span, rows: &Span) -> Result<(), Failure> {
+        let most = columns.count().max(rows.count());
+        if self.picture.is_some() && most > MOST_CELLS {
+            return Err(Failure::bad(format!(
+                "a figure shows at most {MOST_CELLS} values on an axis, not {most}\nhint: --csv has no such limit"
+            )));
+        }
+        Ok(())
+    }
+
+    /// Whether anything but text was asked for.
+    pub(super) const fn any(&self) -> bool {
+        self.csv.is_some() || self.picture.is_some() || self.json
+    }
+
+    pub(super) fn write(
+        self,
+        session: &Session,
+        table: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+        figure: impl FnOnce() -> Result<vibroimpact_plot::Figure, Failure>,
+    ) -> Result<(), Failure> {
+        if let Some(picture) = self.picture {
+            picture.write(&figure()?)?;
+        }
+        match self.csv {
+            None => Ok(()),
+            Some(Sheet::Stdout) => session.to_stdout(table),
+            Some(Sheet::File(target, name)) => {
+                target.write(table)?;
+                session.note(&format!("wrote {name}"));
+                Ok(())
+            }
+        }
+    }
+}

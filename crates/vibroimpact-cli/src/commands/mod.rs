@@ -1,0 +1,42 @@
+//! The commands, one file each: its arguments, its plan, its run, its report.
+
+mod attractors;
+mod basin;
+mod completions;
+mod man;
+mod map;
+mod orbit;
+mod reproduce;
+mod settle;
+mod simulate;
+
+use crate::exit::Failure;
+use crate::session::Session;
+use clap::Subcommand;
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Simulate(simulate::Simulate),
+    Settle(settle::Settle),
+    Attractors(attractors::Attractors),
+    Orbit(orbit::Orbit),
+    Basin(basin::Basin),
+    Map(map::Map),
+    Reproduce(reproduce::Reproduce),
+    Completions(completions::Completions),
+    Man(man::Man),
+}
+
+pub(crate) fn run(command: &Command, session: &Session) -> Result<(), Failure> {
+    match command {
+        Command::Simulate(args) => simulate::run(args, session),
+        Command::Settle(args) => settle::run(args, session),
+        Command::Attractors(args) => attractors::run(args, session),
+        Command::Orbit(args) => orbit::run(args, session),
+        Command::Basin(args) => basin::run(args, session),
+        Command::Map(args) => map::run(args, session),
+        Command::Reproduce(args) => reproduce::run(args, session),
+        Command::Completions(args) => completions::run(*args, session),
+        Command::Man(args) => man::run(args, session),
+    }
+}

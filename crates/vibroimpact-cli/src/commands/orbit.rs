@@ -1,0 +1,93 @@
+//! `vibro orbit`: the periodic orbits of a label, stable or not.
+
+use crate::args::SystemArgs;
+use crate::exit::Failure;
+use crate::report::json::{Document, Motion};
+use crate::report::text;
+use crate::session::Session;
+use crate::signal;
+use clap::Args;
+use serde::Serialize;
+use vibroimpact::Label;
+use vibroimpact::orbit::{FindOptions, find};
+use vibroimpact::verdict::{Count, LabelError, Verdict};
+use vibroimpact_study::{Plan, Task};
+
+/// All periodic orbits with m impacts in n forcing periods, stable or not
+///
+/// Looked for by Newton's method from many seeds, and in closed form for 1/n. An orbit that is not physical solves the
+/// equations but would pass through a stop on its way. An orbit that no seed leads to is not found.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro orbit --beta B --gap D --restitution E --label m/n [OPTIONS]",
+    after_help = "Example: the unstable 1/1 beside the stable 1/2 it gave way to\n  \
+        vibro orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1\n  \
+        vibro orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2"
+)]
+pub(crate) struct Orbit {
+    #[command(flatten)]
+    system: SystemArgs,
+
+    /// m impacts in n forcing periods, for example 2/1; m and n from 1 to 10000
+    #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Orbit")]
+    label: String,
+
+    /// Print one JSON object instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    orbits: Vec<OrbitObject>,
+}
+
+#[derive(Serialize)]
+struct OrbitObject {
+    #[serde(flatten)]
+    motion: Motion,
+    physical: bool,
+}
+
+pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
+    let asked = args.system.asked()?;
+    let task = Task::Orbit {
+        label: args.label.clone(),
+    };
+    let plan = Plan::new(asked.system, task);
+    plan.check()?;
+    let osc = asked.system.oscillator()?;
+    let label: Label = args.label.parse().map_err(|error: LabelError| Failure::bad(error))?;
+
+    let orbits = signal::interruptible("looking for orbits", move || {
+        find(&osc, label, FindOptions::default())
+    })?;
+
+    if args.json {
+        let orbits = orbits
+            .into_iter()
+            .map(|orbit| OrbitObject {
+                motion: Motion::new(&Verdict::Periodic(orbit.cycle), &osc, &asked.units),
+                physical: orbit.physical,
+            })
+            .collect();
+        session.print_json(&Document::new(&asked, &osc, &plan, Answer { orbits }))?;
+    } else {
+        let mut text = text::system(&asked, &osc);
+        if orbits.is_empty() {
+            text.push_str(&format!("\nno orbit {label} was found\n"));
+        }
+        for orbit in orbits {
+            text.push('\n');
+            if !orbit.physical {
+                text.push_str("not physical, it passes through a stop on its way: ");
+            }
+            text.push_str(&text::motion(&Verdict::Periodic(orbit.cycle), &osc, &asked.units));
+        }
+        session.print(&text)?;
+    }
+    if label.impacts == Count::Infinite {
+        session.note("hint: motions with a complete chatter are found by `vibro settle` and `vibro attractors`");
+    }
+    Ok(())
+}

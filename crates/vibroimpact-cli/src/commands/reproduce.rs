@@ -1,0 +1,50 @@
+//! `vibro reproduce`: the 1971 paper, figure by figure.
+
+use crate::exit::Failure;
+use crate::session::Session;
+use clap::Args;
+use fukaya_irie_1971::{Error, Options, reproduce};
+use std::path::PathBuf;
+
+/// Compute the figures of the 1971 paper anew and compare
+///
+/// Writes every figure as SVG, PNG and CSV with a report that puts beside each thing the paper says what was found
+/// here, and prints that comparison. A full run takes minutes, --quick seconds.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "Example:\n  vibro reproduce --quick --out /tmp/paper")]
+pub(crate) struct Reproduce {
+    /// Folder to write into; made if it does not exist
+    #[arg(long, value_name = "DIR", default_value = "out/fukaya-irie-1971")]
+    out: PathBuf,
+
+    /// Coarser grids and fewer starts
+    #[arg(long)]
+    quick: bool,
+}
+
+pub(super) fn run(args: &Reproduce, session: &Session) -> Result<(), Failure> {
+    let options = Options {
+        quick: args.quick,
+        force: session.force,
+    };
+    let report = session
+        .tiled(0, "points", |control, progress| {
+            let stage = |name: &str, total: u64| progress.stage(name, total);
+            reproduce(&args.out, &options, control, &stage)
+        })
+        .map_err(|error| refused(&error))?;
+    session.print(&report.table())?;
+    session.note(&format!("wrote {}", args.out.display()));
+    Ok(())
+}
+
+fn refused(error: &Error) -> Failure {
+    let sentence = error.to_string();
+    if error.is_stopped() {
+        Failure::Stopped(sentence)
+    } else if error.is_bad_question() {
+        Failure::BadQuestion(sentence)
+    } else {
+        Failure::Failed(sentence)
+    }
+}

@@ -1,0 +1,281 @@
+//! `vibro simulate`: the events of a motion, one after another.
+
+use crate::args::{Asked, StartArgs, SystemArgs};
+use crate::exit::Failure;
+use crate::files::Target;
+use crate::plot::{self, Picture, waveform};
+use crate::report::csv::{self, Number};
+use crate::report::json::{Document, Simulation};
+use crate::report::text::{self, short};
+use crate::session::Session;
+use crate::signal;
+use clap::Args;
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+use vibroimpact::flight::SearchLimits;
+use vibroimpact::motion::{End, Event, EventKind, Motion, sample};
+use vibroimpact::verdict::NoImpact;
+use vibroimpact::{Oscillator, Start};
+use vibroimpact_study::{Plan, Task};
+
+/// Follow a motion event by event: impacts, grazes, sticking, release
+///
+/// Prints every event with its time, the phase of the force and the velocities. It ends after so many impacts, after so
+/// many forcing periods, or when nothing happens any more, and says which.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro simulate --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro simulate --inverse-beta 1.8 --gap 0.25 --restitution 0.5 --impacts 20\n  \
+        vibro simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 4 --plot chatter.svg\n  \
+        vibro simulate --beta 0.9 --gap 0.5 --restitution 0.7 --periods 10 --csv wave.csv --step 0.01"
+)]
+pub(crate) struct Simulate {
+    #[command(flatten)]
+    system: SystemArgs,
+    #[command(flatten)]
+    start: StartArgs,
+
+    /// Stop after so many impacts, 1 to 10000000 [default: 100, or 1000000 with --periods]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Length")]
+    impacts: Option<u64>,
+
+    /// Stop after so many forcing periods, up to 1e9, of 2 pi / beta each
+    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Length")]
+    periods: Option<f64>,
+
+    /// Print one JSON object instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+
+    /// Write the waveform, columns t, x, v, to this file
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Time between points of the waveform [default: a hundredth of the forcing period]
+    #[arg(long, value_name = "T", requires = "csv", allow_negative_numbers = true, help_heading = "Output")]
+    step: Option<f64>,
+
+    /// Draw the waveform into this file, .svg or .png
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+}
+
+/// Points of a waveform at most.
+const MOST_POINTS: f64 = 1e7;
+/// Grazes, sticks and releases without an impact in between before nothing new is expected.
+const IDLE: u32 = 1000;
+
+/// What happened and why it ended there.
+struct Followed {
+    events: Vec<Event>,
+    reason: &'static str,
+    time: f64,
+    horizon: Option<NoImpact>,
+}
+
+pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
+    let asked = args.system.asked()?;
+    let impacts = args
+        .impacts
+        .unwrap_or(if args.periods.is_some() { 1_000_000 } else { 100 });
+    let task = Task::Simulate {
+        start: args.start.plan(&asked.units),
+        impacts: Some(impacts),
+        periods: args.periods,
+    };
+    let plan = Plan::new(asked.system, task);
+    plan.check()?;
+    let osc = asked.system.oscillator()?;
+    let start = args.start.plan(&asked.units).start(&osc)?;
+    let step = args.step.map_or(osc.period() / 100.0, |step| step / asked.units.time());
+    if !(step > 0.0 && step.is_finite()) {
+        return Err(Failure::bad(format!("step = {step} lies outside 0 < step < infinity")));
+    }
+    let csv = args.csv.as_deref().map(|path| Target::reserve(path, session.force)).transpose()?;
+    let picture = args.plot.as_deref().map(|path| Picture::reserve(path, session.force)).transpose()?;
+
+    let followed = follow(&osc, start, impacts, args.periods)?;
+    let until = shown_until(&osc, &followed);
+    if let Some(target) = csv {
+        waveform_csv(target, &osc, start, (until, step), &asked)?;
+    }
+    if let Some(picture) = picture {
+        let title = plot::title(&osc, asked.system.inverse_beta);
+        picture.write(&waveform::figure(&osc, start, (0.0, until), &asked.units, title))?;
+    }
+    if args.json {
+        let end = (followed.reason, followed.time, followed.horizon);
+        let result = Simulation::new(&followed.events, end, asked.units);
+        let document = Document::new(&asked, &osc, &plan, result);
+        session.print_json(&document.start(&start, &asked.units))
+    } else {
+        let head = text::system(&asked, &osc) + &text::start(&start, &asked.units);
+        session.print(&(head + &report(&followed, &asked)))
+    }
+}
+
+fn follow(
+    osc: &Oscillator,
+    start: Start,
+    impacts: u64,
+    periods: Option<f64>,
+) -> Result<Followed, Failure> {
+    let limits = SearchLimits::default();
+    let limits = SearchLimits {
+        periods: limits.periods.max(periods.unwrap_or(0.0)),
+        ..limits
+    };
+    let until = periods.map_or(f64::INFINITY, |n| n * osc.period());
+    let mut motion = Motion::with_limits(osc, start, limits);
+    let mut events: Vec<Event> = Vec::new();
+    let (mut struck, mut idle) = (0, 0);
+    let (reason, time, horizon) = loop {
+        let last = events.last().map_or(0.0, |event| event.time);
+        if signal::flag().load(Ordering::Relaxed) {
+            let done = format!("after {struck} of {impacts} impacts; nothing was written");
+            return Err(Failure::Stopped(done));
+        }
+        let Some(event) = motion.next() else {
+            break ended(motion.end(), last, until, osc.period());
+        };
+        if event.time > until {
+            break ("time_limit", until, None);
+        }
+        events.push(event);
+        if let EventKind::Impact { .. } = event.kind {
+            (struck, idle) = (struck + 1, 0);
+            if struck >= impacts {
+                break ("impact_limit", event.time, None);
+            }
+        } else {
+            idle += 1;
+            if idle >= IDLE {
+                let phase = event.phase;
+                break ("no_more_impacts", event.time, Some(NoImpact::Grazing { phase }));
+            }
+        }
+    };
+    Ok(Followed {
+        events,
+        reason,
+        time,
+        horizon,
+    })
+}
+
+/// Why no further event came, `last` being the time of the last one.
+fn ended(
+    end: Option<End>,
+    last: f64,
+    until: f64,
+    period: f64,
+) -> (&'static str, f64, Option<NoImpact>) {
+    match end {
+        Some(End::Never(why)) => ("no_more_impacts", last, Some(NoImpact::Flight(why))),
+        Some(End::Stuck(_)) => ("stuck", last, None),
+        Some(End::NoneFor(time)) if last + time >= until => ("time_limit", until, None),
+        Some(End::NoneFor(time)) => {
+            let periods = (time / period).floor();
+            let horizon = Some(NoImpact::ForPeriods(periods));
+            // a search that reached its horizon, or one that ran out of steps before
+            if periods >= 999.0 {
+                ("no_more_impacts", last, horizon)
+            } else {
+                ("search_limit", last, horizon)
+            }
+        }
+        None => ("search_limit", last, None),
+    }
+}
+
+/// How long a waveform is worth looking at: a little beyond the last event when nothing follows it.
+fn shown_until(osc: &Oscillator, followed: &Followed) -> f64 {
+    match followed.reason {
+        "impact_limit" | "time_limit" => followed.time,
+        _ => followed.time + 5.0 * osc.period(),
+    }
+}
+
+fn waveform_csv(
+    target: Target,
+    osc: &Oscillator,
+    start: Start,
+    (until, step): (f64, f64),
+    asked: &Asked,
+) -> Result<(), Failure> {
+    if until / step > MOST_POINTS || until.is_nan() {
+        return Err(Failure::bad(format!(
+            "step = {} gives {} points over a time of {}; at most {MOST_POINTS} are allowed\nhint: a longer --step, or fewer --periods or --impacts",
+            short(step),
+            short(until / step),
+            short(until)
+        )));
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1e7
+    let wave = sample(osc, start, until, step, 3 * MOST_POINTS as usize);
+    let units = asked.units;
+    let rows = wave.iter().map(|point| {
+        format!(
+            "{},{},{}",
+            Number(point.time * units.time()),
+            Number(point.x * units.length()),
+            Number(point.v * units.velocity())
+        )
+    });
+    target.write(|out| csv::write(out, "t,x,v", rows))
+}
+
+fn report(followed: &Followed, asked: &Asked) -> String {
+    let units = &asked.units;
+    let heads = [
+        units.named("time", "s"),
+        "phase".into(),
+        "<event".into(),
+        units.named("before", "m/s"),
+        units.named("after", "m/s"),
+    ];
+    let both = asked.system.second_stop.is_some();
+    let rows: Vec<Vec<String>> = followed
+        .events
+        .iter()
+        .map(|event| {
+            let mut row = vec![short(event.time * units.time()), short(event.phase)];
+            let at = if both && event.side == vibroimpact::Side::Lower { " (second stop)" } else { "" };
+            let name = match event.kind {
+                EventKind::Impact { .. } => "impact",
+                EventKind::Graze { .. } => "graze",
+                EventKind::Stick { chatter: true, .. } => "stick after chatter",
+                EventKind::Stick { chatter: false, .. } => "stick",
+                EventKind::Release => "release",
+            };
+            row.push(format!("{name}{at}"));
+            if let EventKind::Impact {
+                velocity_before,
+                velocity_after,
+            } = event.kind
+            {
+                row.push(short(velocity_before * units.velocity()));
+                row.push(short(velocity_after * units.velocity()));
+            }
+            row
+        })
+        .collect();
+    let mut text = if rows.is_empty() {
+        "no events\n".to_owned()
+    } else {
+        text::table(&heads, &rows)
+    };
+    let time = short(followed.time * units.time());
+    text.push_str(&match (followed.reason, &followed.horizon) {
+        ("no_more_impacts", Some(horizon)) => {
+            let why = vibroimpact::verdict::Verdict::NoImpact(*horizon);
+            format!("end     after time {time}: {}\n", text::meaning(&why))
+        }
+        ("stuck", _) => format!("end     after time {time}: it stays on the stop for ever\n"),
+        ("impact_limit", _) => format!("end     at time {time}: the number of impacts asked for\n"),
+        ("time_limit", _) => format!("end     at time {time}: the number of periods asked for\n"),
+        _ => format!("end     after time {time}: the search for the next impact ran out of steps\n"),
+    });
+    text
+}

@@ -1,0 +1,111 @@
+//! How a run ends: 0 done, 1 failed, 2 bad question, 130 stopped.
+
+use crate::session::complain;
+use std::fmt::Display;
+use std::io;
+use std::process::ExitCode;
+use vibroimpact_plot::PlotError;
+use vibroimpact_study::{PlanError, RunError, Stopped};
+
+/// Why a command did not finish. The texts may carry a second line, `hint: ...`.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    /// The question makes no sense, or its answer has nowhere to go.
+    #[error("{0}")]
+    BadQuestion(String),
+    /// It was a good question, but something outside failed.
+    #[error("{0}")]
+    Failed(String),
+    /// Stopped by Ctrl-C.
+    #[error("{0}")]
+    Stopped(String),
+    /// Whoever read the output has enough; that is no failure.
+    #[error("the reader of the output is gone")]
+    PipeClosed,
+}
+
+impl Failure {
+    pub(crate) fn bad(sentence: impl Display) -> Self {
+        Self::BadQuestion(sentence.to_string())
+    }
+
+    /// Writing to `to` went wrong.
+    pub(crate) fn writing(to: impl Display, error: &io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::PipeClosed
+        } else {
+            Self::Failed(format!("cannot write {to}: {error}"))
+        }
+    }
+}
+
+impl From<PlanError> for Failure {
+    fn from(error: PlanError) -> Self {
+        Self::bad(error)
+    }
+}
+
+impl From<vibroimpact::SystemError> for Failure {
+    fn from(error: vibroimpact::SystemError) -> Self {
+        Self::bad(error)
+    }
+}
+
+impl From<Stopped> for Failure {
+    fn from(error: Stopped) -> Self {
+        Self::Stopped(format!("{error}; nothing was written"))
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Plan(error) => error.into(),
+            RunError::Stopped(error) => error.into(),
+        }
+    }
+}
+
+impl From<PlotError> for Failure {
+    fn from(error: PlotError) -> Self {
+        Self::Failed(format!("the figure failed: {error}"))
+    }
+}
+
+/// Says what went wrong and turns it into the exit code.
+pub(crate) fn code(end: Result<(), Failure>) -> ExitCode {
+    let Err(failure) = end else {
+        return ExitCode::SUCCESS;
+    };
+    let code = match failure {
+        Failure::PipeClosed => return ExitCode::SUCCESS,
+        Failure::Failed(_) => 1,
+        Failure::BadQuestion(_) => 2,
+        Failure::Stopped(_) => {
+            complain(&format!("stopped: {}", failure.to_string().trim_start_matches("stopped ")));
+            return ExitCode::from(130);
+        }
+    };
+    complain(&format!("error: {failure}"));
+    ExitCode::from(code)
+}
+
+/// Help and version are answers; what does not parse is a bad question.
+pub(crate) fn parsed(refusal: &clap::Error) -> ExitCode {
+    // where even this cannot be written there is no one left to tell
+    let _ = refusal.print();
+    ExitCode::from(if refusal.use_stderr() { 2 } else { 0 })
+}
+
+/// A defect of ours ends with a sentence someone can report, not with a backtrace.
+pub(crate) fn no_backtraces() {
+    std::panic::set_hook(Box::new(|defect| {
+        let place = defect
+            .location()
+            .map_or_else(String::new, |at| format!(" ({}:{})", at.file(), at.line()));
+        complain(&format!(
+            "error: this is a defect of vibro{place}, not of your question\nhint: please report it with the command line"
+        ));
+        std::process::exit(1);
+    }));
+}

@@ -1,0 +1,119 @@
+//! Output files: refused before anything is computed, written beside their place and renamed into it when complete.
+
+use crate::exit::Failure;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// A place for a file that is known to be writable. Until it is written, nothing at that place changes.
+#[derive(Debug)]
+pub(crate) struct Target {
+    path: PathBuf,
+    /// The complete path with symbolic links followed, and the open file beside it; `None` for a pipe or device, which is
+    /// written straight to.
+    beside: Option<(PathBuf, PathBuf, File)>,
+    force: bool,
+}
+
+impl Target {
+    /// Reserves `path`. An existing file is refused unless `force`.
+    pub(crate) fn reserve(path: &Path, force: bool) -> Result<Self, Failure> {
+        let name = path.display();
+        if path.as_os_str().is_empty() {
+            return Err(Failure::bad("the name of an output file is empty"));
+        }
+        let path = path.to_path_buf();
+        match fs::metadata(&path) {
+            Ok(found) if found.is_dir() => {
+                return Err(Failure::bad(format!("`{name}` is a directory, not a file")));
+            }
+            Ok(found) if !found.is_file() => {
+                return Ok(Self {
+                    path,
+                    beside: None,
+                    force,
+                });
+            }
+            Ok(_) if !force => {
+                return Err(Failure::bad(format!(
+                    "`{name}` exists already\nhint: choose another name, or --force to replace it"
+                )));
+            }
+            _ => {}
+        }
+        let place = fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
+        let (Some(directory), Some(file)) = (place.parent(), place.file_name()) else {
+            return Err(Failure::bad(format!("`{name}` is no name for a file")));
+        };
+        let directory = if directory.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            directory
+        };
+        let temporary = directory.join(format!(
+            ".{}.{}.tmp",
+            file.to_string_lossy(),
+            std::process::id()
+        ));
+        let open = OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&temporary);
+        match open {
+            Ok(file) => Ok(Self {
+                path,
+                beside: Some((place.clone(), temporary, file)),
+                force,
+            }),
+            Err(error) => Err(Failure::bad(match error.kind() {
+                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => format!(
+                    "`{name}` cannot be written: there is no directory `{}`",
+                    directory.display()
+                ),
+                _ => format!(
+                    "`{name}` cannot be written in `{}`: {error}",
+                    directory.display()
+                ),
+            })),
+        }
+    }
+
+    /// Writes the whole file; it appears complete or not at all.
+    pub(crate) fn write(
+        mut self,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let name = format!("`{}`", self.path.display());
+        self.put(content)
+            .map_err(|error| Failure::writing(name, &error))
+    }
+
+    fn put(&mut self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+        let Some((place, temporary, file)) = &self.beside else {
+            let mut out = BufWriter::new(OpenOptions::new().write(true).open(&self.path)?);
+            content(&mut out)?;
+            return out.flush();
+        };
+        let mut out = BufWriter::with_capacity(1 << 16, file);
+        content(&mut out)?;
+        out.flush()?;
+        drop(out);
+        file.sync_all()?;
+        // someone may have put a file there in the meantime
+        if !self.force && place.exists() {
+            return Err(io::Error::from(io::ErrorKind::AlreadyExists));
+        }
+        fs::rename(temporary, place)?;
+        self.beside = None;
+        Ok(())
+    }
+}
+
+impl Drop for Target {
+    /// What was not completed leaves no trace.
+    fn drop(&mut self) {
+        if let Some((_, temporary, _)) = &self.beside {
+            let _ = fs::remove_file(temporary);
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Figures: each file one kind of picture; here their files.
+
+pub(crate) mod basin;
+pub(crate) mod map;
+pub(crate) mod waveform;
+
+use crate::exit::Failure;
+use crate::files::Target;
+use std::path::Path;
+use vibroimpact::Oscillator;
+use vibroimpact_plot::{Colour, DPI_300, Figure};
+
+/// A place for a figure, known to be writable and of a known format.
+#[derive(Debug)]
+pub(crate) struct Picture {
+    target: Target,
+    png: bool,
+}
+
+impl Picture {
+    /// Reserves a file that ends in .svg or .png.
+    pub(crate) fn reserve(path: &Path, force: bool) -> Result<Self, Failure> {
+        let ending = path
+            .extension()
+            .map(|ending| ending.to_string_lossy().to_lowercase());
+        let png = match ending.as_deref() {
+            Some("svg") => false,
+            Some("png") => true,
+            _ => {
+                return Err(Failure::bad(format!(
+                    "the figure `{}` ends in neither .svg nor .png",
+                    path.display()
+                )));
+            }
+        };
+        let target = Target::reserve(path, force)?;
+        Ok(Self { target, png })
+    }
+
+    pub(crate) fn write(self, figure: &Figure) -> Result<(), Failure> {
+        let bytes = if self.png {
+            figure.to_png(DPI_300)?
+        } else {
+            figure.to_svg().into_bytes()
+        };
+        self.target.write(|out| out.write_all(&bytes))
+    }
+}
+
+/// The parameters as a title.
+pub(crate) fn title(osc: &Oscillator, inverse_beta: Option<f64>) -> String {
+    use crate::report::text::short;
+    let inverse = inverse_beta.unwrap_or(1.0 / osc.beta());
+    let mut text = format!(
+        "1/*β* = {}, *δ* = {}, *ε* = {}",
+        short(inverse),
+        short(osc.gap()),
+        short(osc.restitution())
+    );
+    if osc.damping() > 0.0 {
+        text.push_str(&format!(", *ζ* = {}", short(osc.damping())));
+    }
+    text
+}
+
+/// Variant number `k` of a colour: itself, darker, lighter, darker still ... for motions of one class.
+pub(crate) fn variant(colour: Colour, k: usize) -> Colour {
+    let towards = if k % 2 == 1 { 0.0 } else { 255.0 };
+    #[allow(clippy::cast_precision_loss)] // a handful
+    let part = if k == 0 { 0.0 } else { 1.0 - 0.6_f64.powi(i32::try_from(k.div_ceil(2)).unwrap_or(9)) };
+    let mix = |channel: u8| {
+        let mixed = f64::from(channel) + (towards - f64::from(channel)) * part;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 0 and 255
+        {
+            mixed.round() as u8
+        }
+    };
+    Colour {
+        r: mix(colour.r),
+        g: mix(colour.g),
+        b: mix(colour.b),
+        ..colour
+    }
+}

@@ -1,0 +1,85 @@
+//! Position over time, with the stops and the impacts.
+
+use crate::args::Units;
+use vibroimpact::motion::{Motion, sample};
+use vibroimpact::{Oscillator, Side, Start};
+use vibroimpact_plot::{
+    Axis, ClassStyle, Colour, Figure, Hatch, Legend, Line, Panel, Pattern, Points, SERIES, Wall,
+};
+
+/// Samples a picture needs at most: the page is a thousand pixels wide.
+const MOST: f64 = 400_000.0;
+/// Impacts marked one by one; more would be a band.
+const MARKED: usize = 5000;
+
+/// The motion from `start` for a time `until`; times in the figure begin at `from`.
+pub(crate) fn figure(
+    osc: &Oscillator,
+    start: Start,
+    (from, until): (f64, f64),
+    units: &Units,
+    title: String,
+) -> Figure {
+    let fine = osc.period().min(core::f64::consts::TAU) / 60.0;
+    let step = fine.max(until / MOST).max(f64::MIN_POSITIVE);
+    let wave = sample(osc, start, until, step, 2_000_000);
+    let (length, time) = (units.length(), units.time());
+    let xs: Vec<f64> = wave.iter().map(|p| (from + p.time) * time).collect();
+    let ys: Vec<f64> = wave.iter().map(|p| p.x * length).collect();
+    let (low, high) = extremes(osc, &ys, length);
+    let line = Line::new(xs, ys, SERIES[0]);
+    let mut legend = Legend::below().line(line.stroke, "position");
+    let mut panel = Panel::new(
+        Axis::new(units.named("time *τ*", "s")).range(from * time, (from + until) * time),
+        Axis::new(units.named("*ξ*", "m")).range(low, high),
+    );
+    for (side, stop) in osc.stops() {
+        let (at, beyond) = match side {
+            Side::Upper => (stop.gap, vibroimpact_plot::Side::Above),
+            Side::Lower => (-stop.gap, vibroimpact_plot::Side::Below),
+        };
+        panel.add(Wall::new(at * length, beyond));
+    }
+    let (times, places): (Vec<f64>, Vec<f64>) = Motion::new(osc, start)
+        .take(100_000)
+        .take_while(|event| event.time <= until)
+        .filter(|event| matches!(event.kind, vibroimpact::motion::EventKind::Impact { .. }))
+        .map(|event| {
+            let gap = osc.stop(event.side).map_or(0.0, |stop| stop.gap);
+            ((from + event.time) * time, event.side.sign() * gap * length)
+        })
+        .unzip();
+    panel.add(line);
+    if !times.is_empty() && times.len() <= MARKED {
+        let size = if times.len() > 60 { 5.0 } else { 9.0 };
+        let impacts = Points::new(times, places, SERIES[1]).size(size).rim(Colour::WHITE);
+        legend = legend.points(&impacts, "impact");
+        panel.add(impacts);
+    }
+    let wall = ClassStyle {
+        colour: Colour::GREY.alpha(0.12),
+        hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)),
+    };
+    Figure::new(panel)
+        .size(1000.0, 400.0)
+        .title(title)
+        .legend(legend.patch(wall, "stop"))
+}
+
+/// A range that shows the motion and a strip of each stop it comes near.
+fn extremes(osc: &Oscillator, ys: &[f64], length: f64) -> (f64, f64) {
+    let low = ys.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = ys.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let size = (high - low).max(1e-12 * low.abs().max(high.abs()));
+    let near = |at: f64| (low - size..=high + size).contains(&at);
+    let stops: Vec<f64> = osc
+        .stops()
+        .map(|(side, stop)| side.sign() * stop.gap * length)
+        .filter(|at| near(*at))
+        .collect();
+    let (low, high) = stops
+        .iter()
+        .fold((low, high), |(low, high), at| (low.min(*at), high.max(*at)));
+    let air = if high > low { 0.08 * (high - low) } else { 0.5 * length };
+    (low - air, high + air)
+}

@@ -1,0 +1,5 @@
+//! What a command says: JSON for programs, text for people, CSV for tables.
+
+pub(crate) mod csv;
+pub(crate) mod json;
+pub(crate) mod text;

@@ -1,0 +1,341 @@
+//! Text for people: what it is called, what that means, the numbers, and on what grounds.
+
+use crate::args::{Asked, Units};
+use crate::report::json::side;
+use std::fmt::Write;
+use vibroimpact::chaos::Measured;
+use vibroimpact::flight::Horizon;
+use vibroimpact::math::Multiplier;
+use vibroimpact::orbit::Cycle;
+use vibroimpact::verdict::{Count, NoImpact, Undecided, Verdict};
+use vibroimpact::{Oscillator, Side, Start};
+
+/// About six digits, without trailing zeros.
+pub(crate) fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        "0".into()
+    } else if !x.is_finite() {
+        if x.is_nan() { "none".into() } else { "infinite".into() }
+    } else if (1e-4..1e7).contains(&size) {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 0 and 10
+        let places = (5.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
+        let text = format!("{x:.places$}");
+        if text.contains('.') {
+            text.trim_end_matches('0').trim_end_matches('.').into()
+        } else {
+            text
+        }
+    } else {
+        let text = format!("{x:.5e}");
+        let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
+    }
+}
+
+/// The system on one line.
+pub(crate) fn system(asked: &Asked, osc: &Oscillator) -> String {
+    let inverse = asked.system.inverse_beta.unwrap_or(1.0 / osc.beta());
+    let mut line = format!(
+        "beta {} (1/beta {}), gap {}, restitution {}",
+        short(osc.beta()),
+        short(inverse),
+        short(osc.gap()),
+        short(osc.restitution())
+    );
+    if osc.damping() > 0.0 {
+        let _ = write!(line, ", damping {}", short(osc.damping()));
+    }
+    if let Some(stop) = osc.stop(Side::Lower) {
+        let _ = write!(
+            line,
+            ", second gap {}, second restitution {}",
+            short(stop.gap),
+            short(stop.restitution)
+        );
+    }
+    let mut text = format!("system  {line}\n");
+    if let Some(scales) = asked.units.scales {
+        let _ = writeln!(
+            text,
+            "scales  one unit of length {} m, of time {} s, of velocity {} m/s",
+            short(scales.length_m),
+            short(scales.time_s),
+            short(scales.velocity_m_per_s())
+        );
+    }
+    text
+}
+
+pub(crate) fn start(start: &Start, units: &Units) -> String {
+    format!(
+        "start   {} {}, {} {}, phase {}\n",
+        units.named("x", "m"),
+        short(start.x * units.length()),
+        units.named("v", "m/s"),
+        short(start.v * units.velocity()),
+        short(start.phase)
+    )
+}
+
+/// Columns of numbers, right-aligned under their heads; those of words, whose heads begin with `<`, left-aligned.
+pub(crate) fn table(heads: &[String], rows: &[Vec<String>]) -> String {
+    let wide = |text: &str| text.chars().count();
+    let left: Vec<bool> = heads.iter().map(|head| head.starts_with('<')).collect();
+    let heads: Vec<String> = heads
+        .iter()
+        .map(|head| head.trim_start_matches('<').to_owned())
+        .collect();
+    let widths: Vec<usize> = heads
+        .iter()
+        .enumerate()
+        .map(|(k, head)| {
+            rows.iter()
+                .filter_map(|row| row.get(k))
+                .map(|cell| wide(cell))
+                .fold(wide(head), usize::max)
+        })
+        .collect();
+    let mut text = String::new();
+    for row in core::iter::once(heads.as_slice()).chain(rows.iter().map(Vec::as_slice)) {
+        let cells: Vec<String> = row
+            .iter()
+            .zip(widths.iter().zip(&left))
+            .map(|(cell, (width, left))| {
+                let air = " ".repeat(width - wide(cell).min(*width));
+                if *left {
+                    format!("{cell}{air}")
+                } else {
+                    format!("{air}{cell}")
+                }
+            })
+            .collect();
+        let _ = writeln!(text, "  {}", cells.join("  ").trim_end());
+    }
+    text
+}
+
+/// A count in words: `two impacts`.
+fn counted(n: u32, one: &str) -> String {
+    const WORDS: [&str; 11] = [
+        "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+    ];
+    let number = usize::try_from(n)
+        .ok()
+        .and_then(|n| WORDS.get(n))
+        .map_or_else(|| n.to_string(), |word| (*word).to_owned());
+    format!("{number} {one}{}", if n == 1 { "" } else { "s" })
+}
+
+/// What a verdict means, in a sentence without full stop.
+pub(crate) fn meaning(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Periodic(cycle) => {
+            let periods = match cycle.label.periods {
+                1 => "every forcing period".to_owned(),
+                n => format!("every {}", counted(n, "forcing period")),
+            };
+            let rests = u32::try_from(cycle.rests.len()).unwrap_or(u32::MAX);
+            let rest = if rests == 0 {
+                String::new()
+            } else {
+                format!(", and {} on the stop", counted(rests, "rest"))
+            };
+            match cycle.label.impacts {
+                Count::Finite(m) => format!("{}{rest} {periods}", counted(m, "impact")),
+                Count::Infinite => format!("a complete chatter (infinitely many impacts){rest} {periods}"),
+            }
+        }
+        Verdict::NoImpact(NoImpact::ForPeriods(n)) => {
+            format!("no impact for at least {} forcing periods", short(*n))
+        }
+        Verdict::NoImpact(NoImpact::GrazeLimit { .. }) => {
+            "ever gentler impacts: in the limit it only touches the stop".into()
+        }
+        Verdict::NoImpact(NoImpact::Grazing { .. }) => "it touches the stop without impact".into(),
+        Verdict::NoImpact(_) => "no more impacts, ever".into(),
+        Verdict::Chaotic(_) => "impacts that never repeat".into(),
+        Verdict::Stuck(at) => format!("at rest on the {} for ever", stop_name(*at)),
+        Verdict::Undecided(_) => "nothing could be shown within the budget".into(),
+    }
+}
+
+const fn stop_name(side: Side) -> &'static str {
+    match side {
+        Side::Upper => "stop",
+        Side::Lower => "second stop",
+    }
+}
+
+const fn stability(stable: Option<bool>, verdict: &Verdict) -> &'static str {
+    match (stable, verdict) {
+        (Some(true), _) => "stable",
+        (Some(false), Verdict::Chaotic(_)) => "every single motion in it is unstable",
+        (Some(false), _) => "unstable",
+        (None, Verdict::NoImpact(_)) => "neutral: without damping its neighbours keep their distance",
+        (None, _) => "open",
+    }
+}
+
+/// Why it is so.
+fn grounds(verdict: &Verdict, units: &Units) -> String {
+    match verdict {
+        Verdict::Periodic(cycle) if cycle.rests.is_empty() => format!(
+            "Newton's method on the {}-fold impact map returns to itself within {:.0e}; no earlier contact",
+            cycle.points.len(),
+            cycle.residual.max(1e-16)
+        ),
+        Verdict::Periodic(_) => "two releases from the stop: what follows a release is always the same".into(),
+        Verdict::NoImpact(NoImpact::Flight(Horizon::Amplitude)) => {
+            "the free and the forced amplitude together stay short of the stop".into()
+        }
+        Verdict::NoImpact(NoImpact::Flight(Horizon::CommonPeriod { p, q })) => format!(
+            "beta = {p}/{q}: {} natural periods without contact, after which all repeats",
+            q
+        ),
+        Verdict::NoImpact(NoImpact::GrazeLimit { velocity, phase }) => format!(
+            "impact speeds shrink by the restitution each time (last {}), always at phase {}",
+            short(velocity * units.velocity()),
+            short(*phase)
+        ),
+        Verdict::NoImpact(NoImpact::Grazing { phase }) => {
+            format!("touches without speed again and again, at phase {}", short(*phase))
+        }
+        Verdict::NoImpact(NoImpact::ForPeriods(_)) => {
+            "searched that far; nothing is claimed beyond".into()
+        }
+        Verdict::Chaotic(spectrum) => format!(
+            "largest Lyapunov exponent {} per unit of time, {} impacts per forcing period",
+            measured(spectrum.exponents[0], 1.0 / units.time()),
+            measured(spectrum.impacts_per_period, 1.0)
+        ),
+        Verdict::Stuck(_) => "the force never pulls the mass off the stop".into(),
+        Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => format!(
+            "{impacts} impacts without a cycle{}",
+            spectrum.map_or_else(String::new, |s| format!(
+                ", and a largest Lyapunov exponent {} that does not exclude 0",
+                measured(s.exponents[0], 1.0 / units.time())
+            ))
+        ),
+        Verdict::Undecided(Undecided::Search { periods }) => format!(
+            "a flight was followed for {} forcing periods without contact, too few to conclude",
+            short(*periods)
+        ),
+    }
+}
+
+fn measured(m: Measured, factor: f64) -> String {
+    format!("{} +- {}", short(m.value * factor), short(m.error * factor))
+}
+
+/// `0.44, 0.14` or `0.3 +- 0.4i (modulus 0.5)`.
+pub(crate) fn multipliers([a, b]: [Multiplier; 2]) -> String {
+    if a.im == 0.0 {
+        format!("{}, {}", short(a.re), short(b.re))
+    } else {
+        format!("{} +- {}i (modulus {})", short(a.re), short(a.im.abs()), short(a.modulus()))
+    }
+}
+
+/// Everything about one motion.
+pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> String {
+    let mut text = format!("{}: {}\n", verdict.label(), meaning(verdict));
+    if let Verdict::Periodic(cycle) = verdict {
+        text.push_str(&impacts(cycle, osc, units));
+    }
+    let stable = verdict.stable(osc);
+    let verdict_of = stability(stable, verdict);
+    match verdict.multipliers(osc) {
+        Some(m) => {
+            let _ = writeln!(text, "  {verdict_of}; multipliers {}", multipliers(m));
+        }
+        None if stable.is_some() => {
+            let _ = writeln!(text, "  {verdict_of}");
+        }
+        None => {}
+    }
+    let _ = writeln!(text, "  shown by: {}", grounds(verdict, units));
+    text
+}
+
+/// Impacts shown of a long cycle.
+const MOST_IMPACTS: usize = 40;
+
+fn impacts(cycle: &Cycle, osc: &Oscillator, units: &Units) -> String {
+    let both = osc.stop(Side::Lower).is_some();
+    let mut heads = vec![
+        "impact".to_owned(),
+        "phase".into(),
+        units.named("velocity", "m/s"),
+        units.named("interval", "s"),
+    ];
+    if both {
+        heads.push("<stop".into());
+    }
+    let rows: Vec<Vec<String>> = cycle
+        .points
+        .iter()
+        .take(MOST_IMPACTS)
+        .enumerate()
+        .map(|(k, point)| {
+            let mut row = vec![
+                (k + 1).to_string(),
+                short(point.state.phase),
+                short(point.state.velocity * units.velocity()),
+                short(point.interval * units.time()),
+            ];
+            if both {
+                row.push(side(point.state.side).into());
+            }
+            row
+        })
+        .collect();
+    let mut text = table(&heads, &rows);
+    if cycle.points.len() > MOST_IMPACTS {
+        let _ = writeln!(text, "  ... and {} more", cycle.points.len() - MOST_IMPACTS);
+    }
+    for rest in &cycle.rests {
+        let how = if rest.chatter { "chatter ends" } else { "comes to rest" };
+        let _ = writeln!(
+            text,
+            "  {how} on the {} at phase {}, released at phase {}",
+            stop_name(rest.side),
+            short(rest.begin),
+            short(rest.release)
+        );
+    }
+    text
+}
+
+/// A share in per cent: small ones do not read as nothing.
+pub(crate) fn percent(share: f64) -> String {
+    let p = 100.0 * share;
+    if p > 0.0 && p < 0.1 { format!("{p:.2} %") } else { format!("{p:.1} %") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (x, text) in [
+            (0.0, "0"),
+            (1.25, "1.25"),
+            (0.829_989_67, "0.82999"),
+            (123_456.78, "123457"),
+            (1e-9, "1e-9"),
+            (-2.5e12, "-2.5e12"),
+            (100.0, "100"),
+            (f64::INFINITY, "infinite"),
+        ] {
+            assert_eq!(short(x), text);
+        }
+    }
+
+    #[test]
+    fn counts_in_words() {
+        assert_eq!(counted(1, "impact"), "one impact");
+        assert_eq!(counted(12, "impact"), "12 impacts");
+    }
+}

@@ -1,0 +1,82 @@
+//! What all commands share: the global options and the two output streams.
+
+use crate::args::Globals;
+use crate::exit::Failure;
+use crate::progress::Progress;
+use crate::signal;
+use serde::Serialize;
+use std::io::{self, BufWriter, Write};
+use vibroimpact_study::Control;
+
+pub(crate) struct Session {
+    pub(crate) quiet: bool,
+    pub(crate) force: bool,
+    threads: usize,
+}
+
+/// A line on stderr; if stderr is gone there is no one to tell.
+pub(crate) fn complain(line: &str) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+impl Session {
+    pub(crate) fn new(globals: Globals) -> Self {
+        Self {
+            quiet: globals.quiet,
+            force: globals.force,
+            threads: usize::from(globals.threads),
+        }
+    }
+
+    /// Text for stdout.
+    pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
+        self.to_stdout(|out| out.write_all(text.as_bytes()))
+    }
+
+    /// One JSON object for stdout, on one line.
+    pub(crate) fn print_json(&self, value: &impl Serialize) -> Result<(), Failure> {
+        self.to_stdout(|out| {
+            serde_json::to_writer(&mut *out, value)?;
+            out.write_all(b"\n")
+        })
+    }
+
+    pub(crate) fn to_stdout(
+        &self,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
+        write(&mut out)
+            .and_then(|()| out.flush())
+            .map_err(|error| {
+                // what is left in the buffer has nowhere to go
+                let failure = Failure::writing("stdout", &error);
+                drop(out.into_parts());
+                failure
+            })
+    }
+
+    /// A remark for stderr, unless --quiet.
+    pub(crate) fn note(&self, line: &str) {
+        if !self.quiet {
+            complain(line);
+        }
+    }
+
+    /// Runs tiled work with threads, stop flag and progress bar.
+    pub(crate) fn tiled<T>(
+        &self,
+        total: u64,
+        unit: &str,
+        work: impl FnOnce(&Control<'_>, &Progress) -> T,
+    ) -> T {
+        let progress = Progress::new(total, unit, self.quiet);
+        let tell = |done| progress.at(done);
+        let control = Control {
+            stop: signal::flag(),
+            progress: &tell,
+            threads: self.threads,
+        };
+        work(&control, &progress)
+    }
+}

@@ -1,0 +1,150 @@
+//! The plane of 1/beta and delta on the paper's grid, several starts at each point: our verdict of each start, and the
+//! paper's own rule beside it.
+
+use crate::{EPS, Error, Run};
+use vibroimpact::verdict::{
+    Census, Found, PaperRule, PaperVerdict, SettleOptions, StartBox, Verdict, paper_rule,
+    scattered_starts, settle,
+};
+use vibroimpact::{Oscillator, Start};
+use vibroimpact_study::{Span, tiles};
+
+/// Sequence of the scattered starts; any other would do.
+const SEED: u64 = 1971;
+
+/// A point of the plane.
+#[derive(Clone, Debug)]
+pub(crate) struct Point {
+    pub(crate) inverse_beta: f64,
+    pub(crate) gap: f64,
+    /// Amplitude |f| of the motion without a stop.
+    pub(crate) free: f64,
+    /// The distinct motions, the most frequent first.
+    pub(crate) motions: Vec<Found>,
+    /// Each start: our label and what the paper's rule says.
+    pub(crate) starts: Vec<(String, PaperVerdict)>,
+}
+
+impl Point {
+    /// Whether motions with and without impacts are both among the verdicts: (with, without).
+    pub(crate) fn kinds(&self) -> (bool, bool) {
+        let none = |found: &Found| matches!(found.verdict, Verdict::NoImpact(_));
+        (
+            self.motions.iter().any(|found| !none(found)),
+            self.motions.iter().any(none),
+        )
+    }
+
+    /// The share of starts that lead to this motion.
+    #[allow(clippy::cast_precision_loss)] // a few dozen
+    pub(crate) fn share(&self, found: &Found) -> f64 {
+        found.count as f64 / self.starts.len() as f64
+    }
+}
+
+/// The points, rows of rising gap.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    pub(crate) x: Span,
+    pub(crate) gap: Span,
+    pub(crate) starts: u64,
+    pub(crate) points: Vec<Point>,
+}
+
+impl Grid {
+    /// The points that have a motion with this label, and the share of starts that lead to it.
+    pub(crate) fn with<'a>(&'a self, label: &'a str) -> impl Iterator<Item = (&'a Point, f64)> {
+        self.points.iter().filter_map(move |point| {
+            let share: f64 = point
+                .motions
+                .iter()
+                .filter(|found| found.verdict.label() == label)
+                .map(|found| point.share(found))
+                .sum();
+            (share > 0.0).then_some((point, share))
+        })
+    }
+
+    /// All labels with the number of points that have them, in order of first appearance.
+    pub(crate) fn labels(&self) -> Vec<(String, usize)> {
+        let mut list: Vec<(String, usize)> = Vec::new();
+        for point in &self.points {
+            let mut here: Vec<_> = point.motions.iter().map(|found| found.verdict.label()).collect();
+            here.sort();
+            here.dedup();
+            for label in here {
+                match list.iter_mut().find(|(known, _)| *known == label) {
+                    Some((_, count)) => *count += 1,
+                    None => list.push((label.into_owned(), 1)),
+                }
+            }
+        }
+        list
+    }
+}
+
+/// Settles `starts` starts, the first at rest, at each point of a grid.
+pub(crate) fn settle_grid(
+    run: &Run<'_>,
+    stage: &str,
+    (x, gap, starts): (Span, Span, u64),
+) -> Result<Grid, Error> {
+    let columns = u64::from(x.count());
+    let total = columns * u64::from(gap.count());
+    run.stage(stage, total)?;
+    let parts = tiles(total, 2, run.control, |range, tick| {
+        let mut points = Vec::new();
+        for k in range {
+            #[allow(clippy::cast_possible_truncation)] // indices of a small grid
+            let at = (x.at((k % columns) as u32), gap.at((k / columns) as u32));
+            points.push(point(at, starts));
+            if tick() {
+                break;
+            }
+        }
+        points
+    })?;
+    let points = parts.into_iter().flatten().collect::<Result<Vec<_>, _>>()?;
+    Ok(Grid {
+        x,
+        gap,
+        starts,
+        points,
+    })
+}
+
+/// Figure 4's grid: steps 0.05 and 0.125.
+pub(crate) fn settle_all(run: &Run<'_>) -> Result<Grid, Error> {
+    let x = Span::new(0.4, 2.0, run.size(33, 17))?;
+    let gap = Span::new(0.0, 5.0, run.size(41, 21))?;
+    settle_grid(run, "figure 4: the plane", (x, gap, run.size(12, 4)))
+}
+
+fn point((x, gap): (f64, f64), starts: u64) -> Result<Point, Error> {
+    // 0.4 + 0.05 k as it is written, not a rounding away: 1/beta = 1.2 is a fraction, 1.2000000000000002 is none
+    let x = (x * 1e6).round() / 1e6;
+    let osc = Oscillator::from_inverse_beta(x, gap, EPS)?;
+    let area = StartBox::natural(&osc);
+    let options = SettleOptions::default();
+    let (mut census, mut list) = (Census::default(), Vec::new());
+    for index in 0..starts {
+        let start = if index == 0 {
+            Start::at_rest(&osc)
+        } else {
+            scattered_starts(&osc, area, SEED, index)
+        };
+        let verdict = settle(&osc, start, &options).verdict;
+        census.add(&verdict);
+        list.push((
+            verdict.label().into_owned(),
+            paper_rule(&osc, start, PaperRule::default()),
+        ));
+    }
+    Ok(Point {
+        inverse_beta: x,
+        gap,
+        free: osc.free_amplitude(),
+        motions: census.by_share().into_iter().cloned().collect(),
+        starts: list,
+    })
+}

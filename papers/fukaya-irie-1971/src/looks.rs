@@ -1,0 +1,82 @@
+//! How figures and numbers look here: axes of the plane, legends of motions, percentages.
+
+use vibroimpact_plot::{ClassStyle, Figure, GROUPS, Legend, class_style, legend_group, legend_text};
+
+/// Style number of a label's group, for a [`Rects`](vibroimpact_plot::Rects) made with [`styles`].
+pub(crate) fn class(label: &str) -> usize {
+    let group = legend_group(label);
+    GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len() - 1)
+}
+
+/// The styles of all groups.
+pub(crate) fn styles() -> Vec<ClassStyle> {
+    GROUPS.map(class_style).to_vec()
+}
+
+/// A legend of the groups these labels fall in, in the palette's order.
+pub(crate) fn legend<'a>(labels: impl Iterator<Item = &'a str>) -> Legend {
+    let present: Vec<usize> = labels.map(class).collect();
+    GROUPS
+        .into_iter()
+        .enumerate()
+        .filter(|(k, _)| present.contains(k))
+        .fold(Legend::below(), |legend, (_, group)| {
+            legend.patch(class_style(group), legend_text(group))
+        })
+}
+
+/// A figure on one column, its height in units of 1/8 mm.
+pub(crate) fn column(panel: vibroimpact_plot::Panel, height: f64) -> Figure {
+    Figure::new(panel).size(vibroimpact_plot::COLUMN, height)
+}
+
+/// `12.3 %`, with more digits where it is small, and never a rounded 0 or 100.
+pub(crate) fn percent(share: f64) -> String {
+    let p = 100.0 * share;
+    let from_end = p.min(100.0 - p);
+    if from_end <= 0.0 {
+        format!("{p:.0} %")
+    } else if from_end >= 1.0 {
+        format!("{p:.1} %")
+    } else {
+        format!("{p:.3} %")
+    }
+}
+
+/// `1 point`, `2 points`.
+pub(crate) fn count(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
+/// `(1.8, 0.25)`, to four digits at most.
+pub(crate) fn place(x: f64, gap: f64) -> String {
+    let short = |v: f64| (v * 1e4).round() / 1e4;
+    format!("({}, {})", short(x), short(gap))
+}
+
+/// `a, b and c`; at most `most` of them, then `...`.
+pub(crate) fn list(items: &[String], most: usize) -> String {
+    if items.len() > most {
+        return format!("{}, ... ({} in all)", items[..most].join(", "), items.len());
+    }
+    match items {
+        [] => "none".into(),
+        [one] => one.clone(),
+        [rest @ .., last] => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_near_the_ends_keep_their_digits() {
+        assert_eq!(percent(0.1234), "12.3 %");
+        assert_eq!(percent(1.0), "100 %");
+        assert_eq!(percent(0.99999), "99.999 %");
+        assert_eq!(percent(0.0008), "0.080 %");
+        assert_eq!(list(&["a".into(), "b".into(), "c".into()], 3), "a, b and c");
+        assert_eq!(list(&["a".into(), "b".into()], 1), "a, ... (2 in all)");
+    }
+}

@@ -1,0 +1,89 @@
+//! Two parts of figure 4 looked at with finer steps, for the super-sub motions the paper names there.
+
+use crate::folder::Csv;
+use crate::grid::{Grid, settle_grid};
+use crate::{Error, Run, looks};
+use vibroimpact_study::Span;
+
+/// A part of the plane on a finer grid.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    pub(crate) grid: Grid,
+    /// Its window, for sentences.
+    pub(crate) window: String,
+}
+
+impl Part {
+    /// Where a label was found, the place with the largest share first: `5/8 at 7 points, most of the starts (100 %) at
+    /// (0.4, 0.375)`.
+    pub(crate) fn found(&self, label: &str) -> Option<String> {
+        told(&self.grid, label)
+    }
+}
+
+/// Where a label was found on a grid.
+pub(crate) fn told(grid: &Grid, label: &str) -> Option<String> {
+    let mut at: Vec<_> = grid.with(label).collect();
+    at.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let (point, share) = at.first()?;
+    Some(format!(
+        "{label} at {}, from {} of the starts at {}",
+        looks::count(at.len(), "point"),
+        looks::percent(*share),
+        looks::place(point.inverse_beta, point.gap)
+    ))
+}
+
+/// Small 1/beta and small delta, between the areas of 1/1 and 1/2.
+pub(crate) fn lower_left(run: &Run<'_>) -> Result<Part, Error> {
+    let x = Span::new(0.4, 0.5, run.size(9, 5))?;
+    let gap = Span::new(0.25, 0.8125, run.size(19, 7))?;
+    part(run, "figure 4: small 1/beta, small delta", (x, gap, run.size(12, 6)))
+}
+
+/// Large 1/beta, above the areas of 2/1 and 3/1.
+pub(crate) fn right(run: &Run<'_>) -> Result<Part, Error> {
+    let x = Span::new(1.6, 1.85, run.size(11, 6))?;
+    let gap = Span::new(1.0, 2.0, run.size(51, 11))?;
+    part(run, "figure 4: large 1/beta", (x, gap, run.size(4, 2)))
+}
+
+fn part(run: &Run<'_>, stage: &str, (x, gap, starts): (Span, Span, u64)) -> Result<Part, Error> {
+    let window = format!(
+        "1/beta {} to {}, delta {} to {}, {} x {} points, {starts} starts each",
+        x.ends().0,
+        x.ends().1,
+        gap.ends().0,
+        gap.ends().1,
+        x.count(),
+        gap.count(),
+    );
+    let grid = settle_grid(run, stage, (x, gap, starts))?;
+    Ok(Part { grid, window })
+}
+
+/// Both as a table.
+pub(crate) fn csv(parts: &[&Part]) -> Csv {
+    let mut csv = Csv::new(
+        "Figure 4: motions found with finer steps in two parts of the plane",
+        "inverse_beta,delta,motion,share_of_starts",
+    );
+    for part in parts {
+        rows(&part.grid, &mut csv);
+    }
+    csv
+}
+
+/// One row per point and motion.
+pub(crate) fn rows(grid: &Grid, csv: &mut Csv) {
+    for point in &grid.points {
+        for found in &point.motions {
+            csv.row(&[
+                &point.inverse_beta,
+                &point.gap,
+                &found.verdict.label(),
+                &point.share(found),
+            ]);
+        }
+    }
+}
