@@ -22,6 +22,8 @@ pub struct Point {
     pub v: f64,
     /// Acceleration.
     pub a: f64,
+    /// Third derivative.
+    pub j: f64,
     /// How far rounding may have moved `displacement`: a bound on the error of this evaluation, from the size of its
     /// terms and of its arguments.
     pub rounding: f64,
@@ -108,12 +110,13 @@ impl Flight {
             + self.cos * (beta * p.kc);
         let force = self.sin * p.cos_turn + self.cos * p.sin_turn;
         let a = force - (self.x + displacement) - 2.0 * zeta * v;
+        let j = beta * (self.cos * p.cos_turn - self.sin * p.sin_turn) - v - 2.0 * zeta * a;
         // each term carries a few roundings; each angle ws, (beta - w)s/2 is off by half an ulp, which moves the free
         // part by about s |free velocity| and the forced one by s |K'|
         let (x, v0, kc, ks) = (self.x.abs(), self.v.abs(), p.kc.abs(), p.ks.abs());
         let terms = x * p.one_minus_c.max(0.5) + v0 * p.s.abs() + p.forced_size;
         let angles = s * (x * p.s.abs() + v0 * p.c.abs() + p.s.abs() + beta * (kc + ks));
-        Point { displacement, v, a, rounding: HALF_ULP * (5.0 * terms + angles) }
+        Point { displacement, v, a, j, rounding: HALF_ULP * (5.0 * terms + angles) }
     }
 
     #[inline(never)]
@@ -121,21 +124,22 @@ impl Flight {
         let zeta2 = 2.0 * self.response.damping();
         let beta = self.response.beta();
         // derivatives 1.. at the beginning; the force's run through sin, cos, -sin, -cos with a factor beta each
-        let mut d = [0.0; TERMS + 2];
+        let mut d = [0.0; TERMS + 3];
         (d[0], d[1]) = (self.v, self.a);
         let (mut sine, mut cosine) = (self.sin, self.cos);
-        for k in 2..TERMS + 2 {
+        for k in 2..TERMS + 3 {
             (sine, cosine) = (beta * cosine, -beta * sine);
             d[k] = sine - d[k - 2] - zeta2 * d[k - 1];
         }
-        let (mut x, mut v, mut a) = (0.0, 0.0, 0.0);
+        let (mut x, mut v, mut a, mut j) = (0.0, 0.0, 0.0, 0.0);
         for k in (0..TERMS).rev() {
             x = d[k] + x * s * INVERSE[k + 2];
             v = d[k] + v * s * INVERSE[k + 1];
             a = d[k + 1] + a * s * INVERSE[k + 1];
+            j = d[k + 2] + j * s * INVERSE[k + 1];
         }
         let size = s * (self.v.abs() + 0.5 * s * (self.a.abs() + s * (d[2].abs() + s * self.fastest * d[2].abs())));
-        Point { displacement: x * s, v, a, rounding: HALF_ULP * 4.0 * size }
+        Point { displacement: x * s, v, a, j, rounding: HALF_ULP * 4.0 * size }
     }
 
     /// Rate and bounds need the response too.

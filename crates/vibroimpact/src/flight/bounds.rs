@@ -8,7 +8,8 @@
 //! $$`|x^{(4)}| \le B_4 = \beta^2 + B_2 + 2\zeta B_3, \quad |x^{(5)}| \le B_5 = \beta^3 + B_3 + 2\zeta B_4.`$$
 //!
 //! These hold for every $`\beta`$ and $`\zeta`$ and stay small through resonance, where the textbook amplitudes blow up.
-//! With $`c = \min(q + B_3 H, B_2)`$, an upper bound of $`\ddot y`$ in the window,
+//! With $`c = q + \max(0, \min(B_3 H, \dddot y_0 H + \tfrac12 B_4 H^2))`$, at most $`B_2`$, an upper bound of
+//! $`\ddot y`$ in the window,
 //!
 //! $$`y(h) \le y + p h + \tfrac12 c h^2 \qquad (0 \le h \le H),`$$
 //!
@@ -17,6 +18,19 @@
 
 use super::Flight;
 use crate::math::hypot;
+use crate::system::Side;
+
+/// One stop seen from a point of the flight, as if it were the upper one.
+#[derive(Clone, Copy)]
+pub(super) struct View {
+    pub(super) side: Side,
+    /// Distance left.
+    pub(super) g: f64,
+    /// Velocity, acceleration and third derivative towards the stop.
+    pub(super) p: f64,
+    pub(super) q: f64,
+    pub(super) j: f64,
+}
 
 /// Bounds on the derivatives of `x` over a window from a state.
 #[derive(Clone, Copy, Debug)]
@@ -64,12 +78,14 @@ pub(super) fn first_zero(g: f64, p: f64, c: f64) -> f64 {
     }
 }
 
-/// A time over which the stop at distance `g > 0` cannot be reached, from the state with velocity `p` and
-/// acceleration `q` towards it and energy radius `r`; `reach` is the window to try first.
+/// A time over which the stop at distance `g > 0` cannot be reached, from the state with velocity `p`, acceleration `q`
+/// and third derivative `j` towards it and energy radius `r`; `reach` is the window to try first.
 #[inline]
-pub(super) fn safe_time(flight: &Flight, g: f64, p: f64, q: f64, r: f64, reach: f64) -> f64 {
+pub(super) fn safe_time(flight: &Flight, View { g, p, q, j, .. }: View, r: f64, reach: f64) -> f64 {
     let near = Window::new(flight, r, p.abs(), reach);
-    let by_third = first_zero(g, p, (q + near.b3 * reach).min(near.b2)).min(reach);
+    // the largest y'' in the window: q + max(0, j h + B4 h^2/2)
+    let rise = (reach * (j + 0.5 * near.b4(flight) * reach)).max(0.0).min(near.b3 * reach);
+    let by_third = first_zero(g, p, (q + rise).min(near.b2)).min(reach);
     // the second-derivative bound alone needs no short window: for fast forcing it goes further
     let by_second = first_zero(g, p, Window::new(flight, r, p.abs(), FAR).b2).min(FAR);
     by_third.max(by_second)
@@ -128,7 +144,7 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option
 /// A proof that a single transversal contact lies within `(0, span]`: the velocity towards the stop stays positive
 /// and the lower bound of `y` ends up beyond it.
 #[inline]
-pub(super) fn single_contact_within(flight: &Flight, g: f64, p: f64, q: f64, r: f64) -> Option<f64> {
+pub(super) fn single_contact_within(flight: &Flight, View { g, p, q, .. }: View, r: f64) -> Option<f64> {
     if p <= 0.0 {
         return None;
     }

@@ -22,7 +22,7 @@
 //! covered by the grazing rule: a maximum within it is called grazing, one above it is an impact, one below it is
 //! passed.
 
-use super::bounds::{leave_time, radius, safe_time, single_contact_within};
+use super::bounds::{View, leave_time, radius, safe_time, single_contact_within};
 use super::horizon::Outlook;
 use super::{Flight, Horizon, Point, SearchLimits};
 use crate::system::{Oscillator, Side, Stop};
@@ -122,17 +122,6 @@ struct Search<'a> {
     reach: f64,
 }
 
-/// One stop seen from the present point: as if it were the upper one.
-#[derive(Clone, Copy)]
-struct View {
-    side: Side,
-    /// Distance left.
-    g: f64,
-    /// Velocity and acceleration towards the stop.
-    p: f64,
-    q: f64,
-}
-
 impl<'a> Search<'a> {
     fn begin(osc: &'a Oscillator, flight: &'a Flight) -> Result<Self, Contact> {
         let mut room = [f64::INFINITY; 2];
@@ -146,12 +135,12 @@ impl<'a> Search<'a> {
             }
         }
         let reach = FIRST_REACH / (1.0 + flight.response().damping());
-        let start = Point { displacement: 0.0, v: flight.v, a: flight.a, rounding: 0.0 };
+        let start = Point { displacement: 0.0, v: flight.v, a: flight.a, j: flight.jerk(), rounding: 0.0 };
         let mut search = Self { osc, flight, room, s: 0.0, point: start, reach };
         if leave.is_finite() {
             // the other stop must not be reached in the meantime
             let other = search.views().filter(|view| view.g > 0.0);
-            let safe = other.map(|v| safe_time(flight, v.g, v.p, v.q, r, reach)).fold(leave, f64::min);
+            let safe = other.map(|v| safe_time(flight, v, r, reach)).fold(leave, f64::min);
             search.move_to(safe * SLACK);
         }
         Ok(search)
@@ -168,7 +157,13 @@ impl<'a> Search<'a> {
     #[inline]
     fn view(&self, side: Side, point: &Point) -> View {
         let sign = side.sign();
-        View { side, g: self.room[index(side)] - sign * point.displacement, p: sign * point.v, q: sign * point.a }
+        View {
+            side,
+            g: self.room[index(side)] - sign * point.displacement,
+            p: sign * point.v,
+            q: sign * point.a,
+            j: sign * point.j,
+        }
     }
 
     #[inline]
@@ -194,13 +189,13 @@ impl<'a> Search<'a> {
             if view.g <= GRAZING_ZONE * self.point.rounding {
                 return self.at_rounding(view, r);
             }
-            let time = safe_time(self.flight, view.g, view.p, view.q, r, self.reach);
+            let time = safe_time(self.flight, view, r, self.reach);
             if time < safe {
                 (safe, nearest) = (time, Some(view));
             }
         }
         if let Some(view) = nearest
-            && let Some(span) = single_contact_within(self.flight, view.g, view.p, view.q, r)
+            && let Some(span) = single_contact_within(self.flight, view, r)
             && self.others_clear(view.side, span, r)
         {
             return Some(self.refine(view.side, self.s + span));
@@ -217,9 +212,7 @@ impl<'a> Search<'a> {
     }
 
     fn others_clear(&self, side: Side, span: f64, r: f64) -> bool {
-        self.views()
-            .filter(|other| other.side != side)
-            .all(|other| safe_time(self.flight, other.g, other.p, other.q, r, span) >= span)
+        self.views().filter(|other| other.side != side).all(|other| safe_time(self.flight, other, r, span) >= span)
     }
 
     /// The single contact in `(self.s, end]`, by a third-order iteration kept in the bracket.
