@@ -9,10 +9,7 @@ use vibroimpact_study::Control;
 fn main() -> Result<(), Error> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let out = arguments.first().map_or("reproduction", String::as_str);
-    let options = Options {
-        quick: arguments.iter().any(|a| a == "--quick"),
-        force: false,
-    };
+    let options = Options { quick: arguments.iter().any(|a| a == "--quick"), force: false };
     let begin = Instant::now();
     let stage = |name: &str, points: u64| {
         eprintln!("{:6.1} s  {name} ({points})", begin.elapsed().as_secs_f64());

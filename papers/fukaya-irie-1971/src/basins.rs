@@ -7,9 +7,7 @@ use std::collections::BTreeMap;
 use vibroimpact::scenario::{self, Scenario};
 use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_plot::{
-    Axis, ClassStyle, Colour, Legend, Panel, Points, Raster, Shape, class_style, legend_text,
-};
+use vibroimpact_plot::{Axis, ClassStyle, Colour, Legend, Panel, Points, Raster, Shape, class_style, legend_text};
 use vibroimpact_study::{Basin, BasinPlan, Span, basin};
 
 /// A basin and what was measured on it.
@@ -35,7 +33,7 @@ pub(crate) struct Shares {
 
 /// Windows: P, where only starts close to the quiet motion stay without impacts, is shown closer.
 const FIGURES: [(&str, &str, Scenario, f64, f64); 4] = [
-    ("figure-06", "figure 6: starts at P", scenario::P, -3.0, 3.0),
+    ("figure-06", "figure 6: starts at P", scenario::P, -2.0, 2.0),
     ("figure-07", "figure 7: starts at Q", scenario::Q, -8.0, 8.0),
     ("figure-08", "figure 8: starts at R", scenario::R, -8.0, 8.0),
     ("figure-09", "figure 9: starts at S", scenario::S, -8.0, 8.0),
@@ -46,17 +44,12 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<Shares, Error> {
     let mut pictures = Vec::new();
     let mut drawings = Vec::new();
     for (name, stage, point, lowest, fastest) in FIGURES {
-        let plan = BasinPlan {
-            x: Span::new(lowest, point.gap, n)?,
-            v: Span::new(-fastest, fastest, n)?,
-            phase: 0.0,
-        };
+        let plan = BasinPlan { x: Span::new(lowest, point.gap, n)?, v: Span::new(-fastest, fastest, n)?, phase: 0.0 };
         run.stage(stage, u64::from(n) * u64::from(n))?;
         let osc = point.oscillator();
         let basin = basin(&osc, &plan, &SettleOptions::default(), run.control)?;
         let picture = measure(point, osc, basin);
-        run.folder
-            .write(&format!("{name}.csv"), table(&picture).bytes())?;
+        run.folder.write(&format!("{name}.csv"), table(&picture).bytes())?;
         drawings.push(run.folder.figure(name, draw(&picture)?)?);
         pictures.push(picture);
     }
@@ -72,17 +65,11 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<Shares, Error> {
         }
         run.report.sections.push(section);
     }
-    Ok(Shares {
-        at_s: pictures[3].shares.clone(),
-    })
+    Ok(Shares { at_s: pictures[3].shares.clone() })
 }
 
-const TITLES: [&str; 4] = [
-    "Figure 6. Starts at P",
-    "Figure 7. Starts at Q",
-    "Figure 8. Starts at R",
-    "Figure 9. Starts at S",
-];
+const TITLES: [&str; 4] =
+    ["Figure 6. Starts at P", "Figure 7. Starts at Q", "Figure 8. Starts at R", "Figure 9. Starts at S"];
 
 fn caption(p: &Picture) -> String {
     format!(
@@ -144,16 +131,21 @@ fn piece(basin: &Basin) -> f64 {
 }
 
 fn table(p: &Picture) -> Csv {
+    let columns: Vec<String> =
+        std::iter::once("u0".to_owned()).chain(p.basin.plan.x.values().map(|x| x.to_string())).collect();
     let mut csv = Csv::new(
         &format!(
-            "Starts at {}, 1/beta = {}, delta = {}, restitution 0.5, phase 0, and the motion each leads to",
+            "Starts at {}, 1/beta = {}, delta = {}, restitution 0.5, phase 0: the motion each leads to; a row for each u0, a column \
+             for each xi0",
             p.point.name, p.point.inverse_beta, p.point.gap
         ),
-        "xi0,u0,motion",
+        &columns.join(","),
     );
-    for k in 0..p.basin.cells.len() {
-        let start = Basin::start(&p.basin.plan, &p.osc, k as u64);
-        csv.row(&[&start.x, &start.v, &p.basin.label(k)]);
+    let labels: Vec<_> = p.basin.motions.iter().map(|motion| motion.verdict.label()).collect();
+    for (row, v) in p.basin.cells.chunks(columns.len() - 1).zip(p.basin.plan.v.values()) {
+        let mut cells: Vec<&dyn std::fmt::Display> = vec![&v];
+        cells.extend(row.iter().map(|k| &labels[usize::from(*k)] as &dyn std::fmt::Display));
+        csv.row(&cells);
     }
     csv
 }
@@ -161,29 +153,15 @@ fn table(p: &Picture) -> Csv {
 fn draw(p: &Picture) -> Result<vibroimpact_plot::Figure, Error> {
     let (x, v) = (p.basin.plan.x, p.basin.plan.v);
     // one class per motion: all cycles with one label have one colour
-    let palette: Vec<Colour> = p
-        .basin
-        .motions
-        .iter()
-        .map(|motion| class_style(&motion.verdict.label()).colour)
-        .collect();
-    let raster = Raster::centred(
-        x.ends(),
-        v.ends(),
-        (x.count() as usize, v.count() as usize),
-        p.basin.cells.clone(),
-        palette,
-    )?;
-    let origin = Points::new([0.0], [0.0], Colour::BLACK)
-        .shape(Shape::Plus)
-        .size(22.0);
+    let palette: Vec<Colour> =
+        p.basin.motions.iter().map(|motion| class_style(&motion.verdict.label()).colour).collect();
+    let raster =
+        Raster::centred(x.ends(), v.ends(), (x.count() as usize, v.count() as usize), p.basin.cells.clone(), palette)?;
+    let origin = Points::new([0.0], [0.0], Colour::BLACK).shape(Shape::Plus).size(22.0);
     let mut legend = Legend::below();
     for (label, share) in &p.shares {
         // a raster shows fills without hatches, and so must its legend
-        let style = ClassStyle {
-            hatch: None,
-            ..class_style(label)
-        };
+        let style = ClassStyle { hatch: None, ..class_style(label) };
         legend = legend.patch(style, format!("{}, {}", legend_text(label), looks::percent(*share)));
     }
     legend = legend.points(&origin, "origin");

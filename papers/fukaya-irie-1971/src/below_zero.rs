@@ -19,11 +19,8 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     search::rows(&grid, &mut csv);
     run.folder.write("figure-04-below-zero.csv", csv.bytes())?;
     let labels = grid.labels();
-    let panel = Panel::new(
-        Axis::new("1/*β*").range(0.375, 2.025),
-        Axis::new("gap *δ*").range(-1.0625, 0.0625),
-    )
-    .with(cells(&grid));
+    let panel = Panel::new(Axis::new("1/*β*").range(0.375, 2.025), Axis::new("gap *δ*").range(-1.0625, 0.0625))
+        .with(cells(&grid));
     let legend = looks::legend(labels.iter().map(|(label, _)| label.as_str()));
     let figure = looks::column(panel, 380.0).legend(legend);
     let svg = run.folder.figure("figure-04-below-zero", figure)?;
@@ -41,28 +38,13 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
 }
 
 fn claim(section: &mut Section, grid: &Grid) {
-    let inside: Vec<_> = grid
-        .points
-        .iter()
-        .filter(|p| p.gap < 0.0 && p.gap > -1.0)
-        .collect();
-    let sticking = inside
-        .iter()
-        .filter(|p| p.motions.iter().any(|f| f.verdict.label().starts_with("inf/")))
-        .count();
+    let inside: Vec<_> = grid.points.iter().filter(|p| p.gap < 0.0 && p.gap > -1.0).collect();
+    let sticking = inside.iter().filter(|p| p.motions.iter().any(|f| f.verdict.label().starts_with("inf/"))).count();
     let starts: usize = grid.points.iter().map(|p| p.starts.len()).sum();
-    let undecided = grid
-        .points
-        .iter()
-        .flat_map(|p| &p.starts)
-        .filter(|(label, _)| label == "undecided")
-        .count();
+    let undecided = grid.points.iter().flat_map(|p| &p.starts).filter(|(label, _)| label == "undecided").count();
     let mut labels = grid.labels();
     labels.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
-    let told: Vec<String> = labels
-        .iter()
-        .map(|(label, points)| format!("{label} at {points}"))
-        .collect();
+    let told: Vec<String> = labels.iter().map(|(label, points)| format!("{label} at {points}")).collect();
     section.claim(
         "4",
         "at delta < 0 the mass tends to stay on the wall; simulation is difficult and steady motions are hard to tell apart",

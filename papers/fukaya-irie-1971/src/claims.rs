@@ -61,13 +61,7 @@ pub(crate) struct Section {
 
 impl Section {
     pub(crate) fn new(title: &'static str, caption: impl Into<String>) -> Self {
-        Self {
-            title,
-            caption: caption.into(),
-            svg: None,
-            files: Vec::new(),
-            claims: Vec::new(),
-        }
+        Self { title, caption: caption.into(), svg: None, files: Vec::new(), claims: Vec::new() }
     }
 
     pub(crate) fn svg(mut self, name: &str, svg: String, more: &[&str]) -> Self {
@@ -84,12 +78,7 @@ impl Section {
         found: impl Into<String>,
         verdict: Agreement,
     ) {
-        self.claims.push(Claim {
-            figure,
-            says: says.into(),
-            found: found.into(),
-            verdict,
-        });
+        self.claims.push(Claim { figure, says: says.into(), found: found.into(), verdict });
     }
 }
 
@@ -107,10 +96,7 @@ const INDENT: usize = 17;
 
 impl Report {
     pub(crate) const fn new(quick: bool) -> Self {
-        Self {
-            quick,
-            sections: Vec::new(),
-        }
+        Self { quick, sections: Vec::new() }
     }
 
     /// All rows, in the order of the paper.

@@ -46,23 +46,11 @@ fn existence(section: &mut Section, grid: &Grid) {
 }
 
 fn orders(section: &mut Section, plane: &Plane) {
-    let of: Vec<_> = (4..=6)
-        .filter_map(|m| plane.region(m, 1))
-        .filter(|r| r.area > 0.0)
-        .collect();
-    let falling = of
-        .windows(2)
-        .all(|w| w[1].area < w[0].area && w[1].mean_gap < w[0].mean_gap);
+    let of: Vec<_> = (4..=6).filter_map(|m| plane.region(m, 1)).filter(|r| r.area > 0.0).collect();
+    let falling = of.windows(2).all(|w| w[1].area < w[0].area && w[1].mean_gap < w[0].mean_gap);
     let told: Vec<String> = of
         .iter()
-        .map(|r| {
-            format!(
-                "{}: {} at a mean delta of {:.3}",
-                r.label,
-                looks::percent(r.area),
-                r.mean_gap
-            )
-        })
+        .map(|r| format!("{}: {} at a mean delta of {:.3}", r.label, looks::percent(r.area), r.mean_gap))
         .collect();
     section.claim(
         "(2)",
@@ -73,16 +61,10 @@ fn orders(section: &mut Section, plane: &Plane) {
 }
 
 fn choice(section: &mut Section, grid: &Grid, shares: &Shares) {
-    let several = grid
-        .points
-        .iter()
-        .filter(|p| p.motions.iter().filter(|f| f.verdict.label() != "0").count() > 1)
-        .count();
-    let told: Vec<String> = shares
-        .at_s
-        .iter()
-        .map(|(label, share)| format!("{label} from {}", looks::percent(*share)))
-        .collect();
+    let several =
+        grid.points.iter().filter(|p| p.motions.iter().filter(|f| f.verdict.label() != "0").count() > 1).count();
+    let told: Vec<String> =
+        shares.at_s.iter().map(|(label, share)| format!("{label} from {}", looks::percent(*share))).collect();
     section.claim(
         "(3)",
         "where several stable motions with impacts are possible, the start alone decides which of them arises",
@@ -103,10 +85,7 @@ fn amplitude(section: &mut Section, grid: &Grid) {
         (quiet, starts.len())
     };
     let (below, above) = (part(true), part(false));
-    let elsewhere = grid
-        .points
-        .iter()
-        .any(|p| p.gap < p.free && p.kinds().1 && (p.inverse_beta - 2.0).abs() > 1e-9);
+    let elsewhere = grid.points.iter().any(|p| p.gap < p.free && p.kinds().1 && (p.inverse_beta - 2.0).abs() > 1e-9);
     section.claim(
         "(4)",
         "below the free amplitude |f| impacts follow from every start, in a steady motion that theory predicts or in some \

@@ -49,14 +49,9 @@ impl Nodes {
     pub(crate) fn neighbours(&self, k: usize) -> impl Iterator<Item = usize> {
         let (nx, ny) = (self.nx as usize, self.ny as usize);
         let (i, j) = (k % nx, k / nx);
-        [
-            (i > 0).then(|| k - 1),
-            (i + 1 < nx).then(|| k + 1),
-            (j > 0).then(|| k - nx),
-            (j + 1 < ny).then(|| k + nx),
-        ]
-        .into_iter()
-        .flatten()
+        [(i > 0).then(|| k - 1), (i + 1 < nx).then(|| k + 1), (j > 0).then(|| k - nx), (j + 1 < ny).then(|| k + nx)]
+            .into_iter()
+            .flatten()
     }
 }
 
@@ -154,16 +149,9 @@ mod tests {
 
     #[test]
     fn a_disc_has_one_round_outline() {
-        let nodes = Nodes {
-            x: (-1.0, 1.0),
-            y: (-1.0, 1.0),
-            nx: 21,
-            ny: 21,
-        };
+        let nodes = Nodes { x: (-1.0, 1.0), y: (-1.0, 1.0), nx: 21, ny: 21 };
         let ask = |x: f64, y: f64| x * x + y * y < 0.5;
-        let inside: Vec<bool> = (0..nodes.count())
-            .map(|k| ask(nodes.at(k).0, nodes.at(k).1))
-            .collect();
+        let inside: Vec<bool> = (0..nodes.count()).map(|k| ask(nodes.at(k).0, nodes.at(k).1)).collect();
         let lines = outlines(&nodes, &inside, |a, b| bisect(nodes.at(a), nodes.at(b), ask));
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].first(), lines[0].last());
@@ -173,16 +161,9 @@ mod tests {
 
     #[test]
     fn a_half_plane_has_an_open_one() {
-        let nodes = Nodes {
-            x: (0.0, 1.0),
-            y: (0.0, 1.0),
-            nx: 5,
-            ny: 9,
-        };
+        let nodes = Nodes { x: (0.0, 1.0), y: (0.0, 1.0), nx: 5, ny: 9 };
         let inside: Vec<bool> = (0..nodes.count()).map(|k| nodes.at(k).0 < 0.4).collect();
-        let lines = outlines(&nodes, &inside, |a, b| {
-            bisect(nodes.at(a), nodes.at(b), |x, _| x < 0.4)
-        });
+        let lines = outlines(&nodes, &inside, |a, b| bisect(nodes.at(a), nodes.at(b), |x, _| x < 0.4));
         assert_eq!((lines.len(), lines[0].len()), (1, 9));
     }
 }

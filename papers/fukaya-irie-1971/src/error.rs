@@ -58,10 +58,7 @@ impl Error {
     /// Whether another folder (or force) would help.
     #[must_use]
     pub const fn is_bad_question(&self) -> bool {
-        matches!(
-            self,
-            Self::Foreign(_) | Self::NotAFolder(_) | Self::Unusable { .. }
-        )
+        matches!(self, Self::Foreign(_) | Self::NotAFolder(_) | Self::Unusable { .. })
     }
 }
 

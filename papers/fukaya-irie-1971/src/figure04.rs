@@ -36,27 +36,17 @@ const ORDERS: u32 = 6;
 /// The window of the regions: the cells of the grid from end to end. Its nodes avoid 1/beta = 1/2, 1, 3/2, 2, where one
 /// or another closed form is singular on a line without width.
 const X: (f64, f64) = (0.375, 2.025);
+/// The regions end where the paper's grid does; 1/beta = 2 itself is singular, see above.
+const X_REGIONS: (f64, f64) = (0.375, 1.999);
 const GAP: (f64, f64) = (-0.0625, 5.0625);
 
 pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<Plane, Error> {
-    let nodes = Nodes {
-        x: X,
-        y: GAP,
-        nx: run.size(332, 112),
-        ny: run.size(411, 138),
-    };
-    let labels: Vec<Label> = (1..=ORDERS)
-        .map(|m| Label::new(m, 1))
-        .chain([Label::new(1, 2)])
-        .collect();
+    let nodes = Nodes { x: X_REGIONS, y: GAP, nx: run.size(652, 112), ny: run.size(821, 138) };
+    let labels: Vec<Label> = (1..=ORDERS).map(|m| Label::new(m, 1)).chain([Label::new(1, 2)]).collect();
     let regions = regions(run, &nodes, &labels, &seeds(grid))?;
     let lower_left = search::lower_left(run)?;
     let right = search::right(run)?;
-    let plane = Plane {
-        regions,
-        lower_left,
-        right,
-    };
+    let plane = Plane { regions, lower_left, right };
 
     let mut csv = Csv::new(
         "Figure 4: motions found at each point and the share of starts that lead to them, restitution 0.5",
@@ -64,13 +54,10 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<Plane, Error> {
     );
     search::rows(grid, &mut csv);
     run.folder.write("figure-04.csv", csv.bytes())?;
-    run.folder
-        .write("figure-04-curves.csv", curves(&plane).bytes())?;
-    run.folder
-        .write("figure-04-points.csv", points().bytes())?;
+    run.folder.write("figure-04-curves.csv", curves(&plane).bytes())?;
+    run.folder.write("figure-04-points.csv", points().bytes())?;
     let searched = search::csv(&[&plane.lower_left, &plane.right]);
-    run.folder
-        .write("figure-04-search.csv", searched.bytes())?;
+    run.folder.write("figure-04-search.csv", searched.bytes())?;
     let svg = run.folder.figure("figure-04", draw::figure(grid, &plane))?;
 
     let mut section = Section::new(
@@ -101,11 +88,7 @@ fn seeds(grid: &Grid) -> Vec<Seed> {
             if let Verdict::Periodic(cycle) = &found.verdict
                 && let Some(first) = cycle.points.first()
             {
-                seeds.push(Seed {
-                    label: cycle.label,
-                    at: (point.inverse_beta, point.gap),
-                    state: first.state,
-                });
+                seeds.push(Seed { label: cycle.label, at: (point.inverse_beta, point.gap), state: first.state });
             }
         }
     }
@@ -139,10 +122,7 @@ fn curves(plane: &Plane) -> Csv {
 }
 
 fn points() -> Csv {
-    let mut csv = Csv::new(
-        "Figure 4: the points the paper discusses",
-        "point,inverse_beta,delta,amplitude,motions",
-    );
+    let mut csv = Csv::new("Figure 4: the points the paper discusses", "point,inverse_beta,delta,amplitude,motions");
     for point in scenario::PAPER {
         csv.row(&[
             &point.name,

@@ -49,13 +49,10 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     let hits = Points::new(times.clone(), vec![point.gap; times.len()], SERIES[1]).rim(Colour::WHITE);
     let deepest = hops.iter().map(|hop| hop.depth).fold(0.0, f64::max);
     let mut panel = Panel::new(
-        Axis::new("time *τ*").range(0.0, 2.0 * period),
+        Axis::new("time *τ*").range(-0.4, 2.0 * period + 0.4),
         Axis::new("displacement *ξ*").range(point.gap - 1.12 * deepest, point.gap + 0.25 * deepest),
     )
-    .with(VLine::new(
-        period,
-        Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dashed),
-    ))
+    .with(VLine::new(period, Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dashed)))
     .with(Wall::new(point.gap, Side::Above))
     .with(line.clone())
     .with(hits.clone());
@@ -64,13 +61,11 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
             panel.add(Text::new(turn + hop.time, point.gap, format!("{}", k + 1)).shift(0.0, 20.0));
         }
     }
+    panel.add(Text::new(2.0 * period, point.gap, "1").shift(0.0, 20.0));
     let legend = Legend::below()
         .line(line.stroke, "displacement *ξ*(*τ*)")
         .points(&hits, "impact")
-        .line(
-            Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dashed),
-            "one period",
-        );
+        .line(Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dashed), "one period");
     let figure = looks::column(panel, 400.0).legend(legend);
     let svg = run.folder.figure("figure-05", figure)?;
 
@@ -93,12 +88,7 @@ fn hops(osc: &Oscillator, cycle: &Cycle) -> Vec<Hop> {
         .map(|p| {
             let wave = sample(osc, p.state.rebound(osc), p.interval, p.interval / 4000.0, 10_000);
             let lowest = wave.iter().map(|s| s.x).fold(f64::INFINITY, f64::min);
-            let hop = Hop {
-                time,
-                interval: p.interval,
-                speed: p.state.velocity,
-                depth: osc.gap() - lowest,
-            };
+            let hop = Hop { time, interval: p.interval, speed: p.state.velocity, depth: osc.gap() - lowest };
             time += p.interval;
             hop
         })

@@ -26,22 +26,16 @@ pub(crate) struct Folder {
 impl Folder {
     /// Makes the folder, or takes one that is empty, holds an earlier reproduction, or is to be taken by `force`.
     pub(crate) fn open(path: &Path, force: bool) -> Result<Self, Error> {
-        let unusable = |source| Error::Unusable {
-            path: path.to_owned(),
-            source,
-        };
+        let unusable = |source| Error::Unusable { path: path.to_owned(), source };
         if path.exists() && !path.is_dir() {
             return Err(Error::NotAFolder(path.to_owned()));
         }
         fs::create_dir_all(path).map_err(unusable)?;
-        let ours = fs::read_to_string(path.join(MARKER))
-            .is_ok_and(|text| text.lines().next() == ABOUT.lines().next());
+        let ours = fs::read_to_string(path.join(MARKER)).is_ok_and(|text| text.lines().next() == ABOUT.lines().next());
         if !ours && !force && fs::read_dir(path).map_err(unusable)?.next().is_some() {
             return Err(Error::Foreign(path.to_owned()));
         }
-        let folder = Self {
-            path: path.to_owned(),
-        };
+        let folder = Self { path: path.to_owned() };
         // a folder that takes no marker takes no figure either: that is a bad question, not a failed run
         match folder.write(MARKER, ABOUT.as_bytes()) {
             Err(Error::Write { source, .. }) => Err(unusable(source)),
@@ -52,15 +46,11 @@ impl Folder {
     /// Writes a file: under a temporary name, then renamed, so that no reader ever sees half of one.
     pub(crate) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         let path = self.path.join(name);
-        let temporary = self
-            .path
-            .join(format!(".{name}.{}.tmp", std::process::id()));
-        fs::write(&temporary, bytes)
-            .and_then(|()| fs::rename(&temporary, &path))
-            .map_err(|source| {
-                let _ = fs::remove_file(&temporary);
-                Error::Write { path, source }
-            })
+        let temporary = self.path.join(format!(".{name}.{}.tmp", std::process::id()));
+        fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, &path)).map_err(|source| {
+            let _ = fs::remove_file(&temporary);
+            Error::Write { path, source }
+        })
     }
 
     /// Writes `name.svg` and `name.png` and returns the SVG text.

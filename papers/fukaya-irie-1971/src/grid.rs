@@ -3,8 +3,7 @@
 
 use crate::{EPS, Error, Run};
 use vibroimpact::verdict::{
-    Census, Found, PaperRule, PaperVerdict, SettleOptions, StartBox, Verdict, paper_rule,
-    scattered_starts, settle,
+    Census, Found, PaperRule, PaperVerdict, SettleOptions, StartBox, Verdict, paper_rule, scattered_starts, settle,
 };
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::{Span, tiles};
@@ -29,10 +28,7 @@ impl Point {
     /// Whether motions with and without impacts are both among the verdicts: (with, without).
     pub(crate) fn kinds(&self) -> (bool, bool) {
         let none = |found: &Found| matches!(found.verdict, Verdict::NoImpact(_));
-        (
-            self.motions.iter().any(|found| !none(found)),
-            self.motions.iter().any(none),
-        )
+        (self.motions.iter().any(|found| !none(found)), self.motions.iter().any(none))
     }
 
     /// The share of starts that lead to this motion.
@@ -84,11 +80,7 @@ impl Grid {
 }
 
 /// Settles `starts` starts, the first at rest, at each point of a grid.
-pub(crate) fn settle_grid(
-    run: &Run<'_>,
-    stage: &str,
-    (x, gap, starts): (Span, Span, u64),
-) -> Result<Grid, Error> {
+pub(crate) fn settle_grid(run: &Run<'_>, stage: &str, (x, gap, starts): (Span, Span, u64)) -> Result<Grid, Error> {
     let columns = u64::from(x.count());
     let total = columns * u64::from(gap.count());
     run.stage(stage, total)?;
@@ -105,12 +97,7 @@ pub(crate) fn settle_grid(
         points
     })?;
     let points = parts.into_iter().flatten().collect::<Result<Vec<_>, _>>()?;
-    Ok(Grid {
-        x,
-        gap,
-        starts,
-        points,
-    })
+    Ok(Grid { x, gap, starts, points })
 }
 
 /// Figure 4's grid: steps 0.05 and 0.125.
@@ -128,17 +115,10 @@ fn point((x, gap): (f64, f64), starts: u64) -> Result<Point, Error> {
     let options = SettleOptions::default();
     let (mut census, mut list) = (Census::default(), Vec::new());
     for index in 0..starts {
-        let start = if index == 0 {
-            Start::at_rest(&osc)
-        } else {
-            scattered_starts(&osc, area, SEED, index)
-        };
+        let start = if index == 0 { Start::at_rest(&osc) } else { scattered_starts(&osc, area, SEED, index) };
         let verdict = settle(&osc, start, &options).verdict;
         census.add(&verdict);
-        list.push((
-            verdict.label().into_owned(),
-            paper_rule(&osc, start, PaperRule::default()),
-        ));
+        list.push((verdict.label().into_owned(), paper_rule(&osc, start, PaperRule::default())));
     }
     Ok(Point {
         inverse_beta: x,

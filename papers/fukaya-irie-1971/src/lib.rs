@@ -104,13 +104,7 @@ pub fn reproduce(
     stage: &dyn Fn(&str, u64),
 ) -> Result<Report, Error> {
     let folder = Folder::open(out, options.force)?;
-    let mut run = Run {
-        quick: options.quick,
-        control,
-        stage,
-        folder,
-        report: Report::new(options.quick),
-    };
+    let mut run = Run { quick: options.quick, control, stage, folder, report: Report::new(options.quick) };
     figure02::run(&mut run)?;
     let grid = grid::settle_all(&run)?;
     figure03::run(&mut run, &grid)?;
@@ -122,7 +116,6 @@ pub fn reproduce(
     figure11::run(&mut run)?;
     conclusions::run(&mut run, &grid, &plane, &shares);
     run.stage("report", 0)?;
-    run.folder
-        .write("report.html", page::html(&run.report).as_bytes())?;
+    run.folder.write("report.html", page::html(&run.report).as_bytes())?;
     Ok(run.report)
 }

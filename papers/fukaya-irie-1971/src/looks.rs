@@ -20,9 +20,7 @@ pub(crate) fn legend<'a>(labels: impl Iterator<Item = &'a str>) -> Legend {
         .into_iter()
         .enumerate()
         .filter(|(k, _)| present.contains(k))
-        .fold(Legend::below(), |legend, (_, group)| {
-            legend.patch(class_style(group), legend_text(group))
-        })
+        .fold(Legend::below(), |legend, (_, group)| legend.patch(class_style(group), legend_text(group)))
 }
 
 /// A figure on one column, its height in units of 1/8 mm.

@@ -29,11 +29,7 @@ pub(crate) fn html(report: &Report) -> String {
          <li class=\"differs\"><span class=\"verdict\">{differs} differ</span></li></ul>\n<nav><ol>\n"
     ));
     for (k, section) in report.sections.iter().enumerate() {
-        page.push_str(&format!(
-            "<li><a href=\"#s{k}\">{}</a> {}</li>\n",
-            pretty(section.title),
-            marks(section)
-        ));
+        page.push_str(&format!("<li><a href=\"#s{k}\">{}</a> {}</li>\n", pretty(section.title), marks(section)));
     }
     page.push_str("</ol></nav>\n");
     for (k, section) in report.sections.iter().enumerate() {
@@ -50,15 +46,8 @@ pub(crate) fn html(report: &Report) -> String {
 
 fn part(page: &mut String, k: usize, section: &Section) {
     let pictured = if section.svg.is_some() { " class=\"pictured\"" } else { "" };
-    page.push_str(&format!(
-        "<section id=\"s{k}\"{pictured}>\n<h2>{}</h2>\n",
-        pretty(section.title)
-    ));
-    let files: Vec<String> = section
-        .files
-        .iter()
-        .map(|file| format!("<a href=\"{file}\">{file}</a>"))
-        .collect();
+    page.push_str(&format!("<section id=\"s{k}\"{pictured}>\n<h2>{}</h2>\n", pretty(section.title)));
+    let files: Vec<String> = section.files.iter().map(|file| format!("<a href=\"{file}\">{file}</a>")).collect();
     if let Some(svg) = &section.svg {
         page.push_str(&format!(
             "<div class=\"body\">\n<figure><div class=\"sheet\" role=\"img\" aria-label=\"{}\">{}</div>\n\
@@ -127,18 +116,13 @@ fn scalable(svg: &str) -> String {
     let Some((head, rest)) = svg.split_once('>') else {
         return svg.to_owned();
     };
-    let kept: Vec<&str> = head
-        .split(' ')
-        .filter(|word| !word.starts_with("width=") && !word.starts_with("height="))
-        .collect();
+    let kept: Vec<&str> =
+        head.split(' ').filter(|word| !word.starts_with("width=") && !word.starts_with("height=")).collect();
     format!("{}>{rest}", kept.join(" "))
 }
 
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Names of quantities as letters.
@@ -168,11 +152,9 @@ mod tests {
 
     #[test]
     fn the_page_is_escaped_and_lettered() {
-        assert_eq!(
-            pretty("delta <= |f|"),
-            "<i class=\"v\">&delta;</i> &le; |<i class=\"v\">f</i>|"
-        );
-        let svg = scalable("<svg xmlns=\"x\" width=\"680\" height=\"4\" viewBox=\"0 0 680 4\">\n<g width=\"3\"/></svg>");
+        assert_eq!(pretty("delta <= |f|"), "<i class=\"v\">&delta;</i> &le; |<i class=\"v\">f</i>|");
+        let svg =
+            scalable("<svg xmlns=\"x\" width=\"680\" height=\"4\" viewBox=\"0 0 680 4\">\n<g width=\"3\"/></svg>");
         assert_eq!(svg, "<svg xmlns=\"x\" viewBox=\"0 0 680 4\">\n<g width=\"3\"/></svg>");
     }
 }

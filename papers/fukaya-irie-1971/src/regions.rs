@@ -51,12 +51,7 @@ pub(crate) struct Seed {
 }
 
 /// The regions of these labels in the window, in the order asked for.
-pub(crate) fn regions(
-    run: &Run<'_>,
-    nodes: &Nodes,
-    labels: &[Label],
-    seeds: &[Seed],
-) -> Result<Vec<Region>, Error> {
+pub(crate) fn regions(run: &Run<'_>, nodes: &Nodes, labels: &[Label], seeds: &[Seed]) -> Result<Vec<Region>, Error> {
     run.stage("figure 4: regions from theory", labels.len() as u64)?;
     let parts = tiles(labels.len() as u64, 1, run.control, |range, tick| {
         let mut found = Vec::new();
@@ -81,11 +76,8 @@ fn system((inverse_beta, gap): (f64, f64)) -> Option<Oscillator> {
 }
 
 fn closed_at(at: (f64, f64), label: Label) -> bool {
-    system(at).is_some_and(|osc| {
-        one_impact(&osc, label.periods)
-            .iter()
-            .any(|orbit| orbit.physical && orbit.cycle.stable())
-    })
+    system(at)
+        .is_some_and(|osc| one_impact(&osc, label.periods).iter().any(|orbit| orbit.physical && orbit.cycle.stable()))
 }
 
 fn followed_at(at: (f64, f64), label: Label, guess: ImpactState) -> Option<ImpactState> {
@@ -99,9 +91,7 @@ fn followed_at(at: (f64, f64), label: Label, guess: ImpactState) -> Option<Impac
 /// One impact in n periods.
 fn closed(nodes: &Nodes, label: Label, stopped: impl Fn() -> bool) -> Region {
     let ask = |x: f64, gap: f64| !stopped() && closed_at((x, gap), label);
-    let inside: Vec<bool> = (0..nodes.count())
-        .map(|k| ask(nodes.at(k).0, nodes.at(k).1))
-        .collect();
+    let inside: Vec<bool> = (0..nodes.count()).map(|k| ask(nodes.at(k).0, nodes.at(k).1)).collect();
     let lines = outlines(nodes, &inside, |a, b| bisect(nodes.at(a), nodes.at(b), ask));
     region(nodes, label, (&inside, Vec::new()), lines)
 }
@@ -163,13 +153,5 @@ fn region(
             gaps = (gaps.0.min(gap), gaps.1.max(gap));
         }
     }
-    Region {
-        label,
-        outlines,
-        area: count / total,
-        mean_gap: sum / count,
-        gaps,
-        nodes: *nodes,
-        states,
-    }
+    Region { label, outlines, area: count / total, mean_gap: sum / count, gaps, nodes: *nodes, states }
 }

@@ -78,12 +78,7 @@ pub(crate) fn csv(parts: &[&Part]) -> Csv {
 pub(crate) fn rows(grid: &Grid, csv: &mut Csv) {
     for point in &grid.points {
         for found in &point.motions {
-            csv.row(&[
-                &point.inverse_beta,
-                &point.gap,
-                &found.verdict.label(),
-                &point.share(found),
-            ]);
+            csv.row(&[&point.inverse_beta, &point.gap, &found.verdict.label(), &point.share(found)]);
         }
     }
 }

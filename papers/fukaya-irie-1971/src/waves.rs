@@ -23,10 +23,7 @@ pub(crate) fn impacts(osc: &Oscillator, start: Start, count: usize) -> Vec<Impac
     Motion::new(osc, start)
         .take(20 * count)
         .filter_map(|event| match event.kind {
-            EventKind::Impact {
-                velocity_before,
-                velocity_after,
-            } => {
+            EventKind::Impact { velocity_before, velocity_after } => {
                 let impact = Impact {
                     time: event.time,
                     interval: event.time - last,
@@ -57,8 +54,5 @@ pub(crate) fn as_printed(beta: f64, (x, v, phase): (f64, f64, f64), z: f64) -> (
     }
     let f = 1.0 / (1.0 - beta * beta);
     let (d, c) = (x - f * phase.sin(), v - beta * f * phase.cos());
-    (
-        d * cos + c * sin + f * turned.sin(),
-        -d * sin + c * cos + beta * f * turned.cos(),
-    )
+    (d * cos + c * sin + f * turned.sin(), -d * sin + c * cos + beta * f * turned.cos())
 }

@@ -2,12 +2,12 @@
 //!
 //! Positions are reported as displacements from the start, so that the gap left to a stop loses no digits when the
 //! flight begins on that stop and is short - the regime of chattering, where flights of $`10^{-9}`$ still have to be right
-//! to their last bits. While $`\mu s < 1/4`$, with $`\mu = \max(\beta, \zeta + \sqrt{\zeta^2+1})`$ the fastest rate in the
-//! system, the arc is summed as its Taylor series
+//! to their last bits. There the arc is summed as its Taylor series,
 //!
 //! $$`x^{(k+2)} = \beta^k \sin(\varphi + k\pi/2) - x^{(k)} - 2\zeta x^{(k+1)},`$$
 //!
-//! beyond that taken from [`Response`](super::Response).
+//! while $`\mu s`$ is small, $`\mu = \max(\beta, 1 + 2\zeta)`$ being the fastest rate in the system; beyond that it is
+//! taken from [`Response`](super::Response).
 
 use super::response::Response;
 use crate::math::sin_cos;
@@ -18,6 +18,10 @@ use crate::system::{Oscillator, Side, Start, phase};
 pub struct Point {
     /// Displacement $`x(s) - x_0`$ since the beginning.
     pub displacement: f64,
+    /// Position.
+    pub x: f64,
+    /// Whether the start is forgotten so far that the position is known better than the displacement.
+    pub(super) far: bool,
     /// Velocity.
     pub v: f64,
     /// Acceleration.
@@ -46,8 +50,16 @@ pub struct Flight {
     pub(super) fastest: f64,
 }
 
-/// Terms of the Taylor series: at $`\mu s = 1/4`$ the first one left out is below $`2^{-60}`$ of the leading ones.
-const TERMS: usize = 15;
+/// The most terms of the Taylor series, and the reach in $`\mu s`$ for which they suffice: the first one left out is below
+/// $`2^{-64}`$ of the leading ones.
+const TERMS: usize = 24;
+const LONG_REACH: f64 = 1.5;
+/// Twelve terms suffice up to here.
+const SHORT_TERMS: usize = 12;
+const SHORT_REACH: f64 = 0.25;
+/// Below this speed the closed form, whose terms are of the size of the time flown, would cost digits of the
+/// displacement, so the series is used as far as it reaches; above, only where it is cheap.
+const SLOW: f64 = 0.125;
 /// 1/k.
 const INVERSE: [f64; TERMS + 2] = {
     let mut inverse = [0.0; TERMS + 2];
@@ -59,8 +71,6 @@ const INVERSE: [f64; TERMS + 2] = {
     }
     inverse
 };
-/// Reach of the Taylor series in $`\mu s`$.
-const SERIES_REACH: f64 = 0.25;
 /// Half a unit in the last place, relative.
 const HALF_ULP: f64 = 0.5 * f64::EPSILON;
 
@@ -96,7 +106,14 @@ impl Flight {
     #[inline]
     #[must_use]
     pub fn at(&self, s: f64) -> Point {
-        if s * self.fastest < SERIES_REACH { self.by_series(s) } else { self.by_response(s) }
+        let turn = s * self.fastest;
+        if turn < SHORT_REACH {
+            self.by_series(s, SHORT_TERMS)
+        } else if turn < LONG_REACH && self.v.abs() < SLOW {
+            self.by_series(s, TERMS)
+        } else {
+            self.by_response(s)
+        }
     }
 
     fn by_response(&self, s: f64) -> Point {
@@ -111,35 +128,50 @@ impl Flight {
         let force = self.sin * p.cos_turn + self.cos * p.sin_turn;
         let a = force - (self.x + displacement) - 2.0 * zeta * v;
         let j = beta * (self.cos * p.cos_turn - self.sin * p.sin_turn) - v - 2.0 * zeta * a;
-        // each term carries a few roundings; each angle ws, (beta - w)s/2 is off by half an ulp, which moves the free
-        // part by about s |free velocity| and the forced one by s |K'|
-        let (x, v0, kc, ks) = (self.x.abs(), self.v.abs(), p.kc.abs(), p.ks.abs());
-        let terms = x * p.one_minus_c.max(0.5) + v0 * p.s.abs() + p.forced_size;
-        let angles = s * (x * p.s.abs() + v0 * p.c.abs() + p.s.abs() + beta * (kc + ks));
-        Point { displacement, v, a, j, rounding: HALF_ULP * (5.0 * terms + angles) }
+        // past a quarter of a free swing the position itself has the smaller terms
+        let far = p.c < 0.5;
+        let x = if far { self.x * p.c + self.v * p.s + forced } else { self.x + displacement };
+        // each term carries a few roundings; an angle that was rounded moves the free part too
+        let (x0, v0, s_abs) = (self.x.abs(), self.v.abs(), p.s.abs());
+        let start = x0 * if far { p.c.abs() } else { p.free_size };
+        let terms = start + v0 * s_abs + p.forced_size;
+        let angles = p.free_angle * (x0 * s_abs + v0 * p.c.abs());
+        let rounding = HALF_ULP * (5.0 * terms + angles + x.abs().min(displacement.abs()));
+        Point { displacement, x, far, v, a, j, rounding }
     }
 
     #[inline(never)]
-    fn by_series(&self, s: f64) -> Point {
+    fn by_series(&self, s: f64, terms: usize) -> Point {
         let zeta2 = 2.0 * self.response.damping();
         let beta = self.response.beta();
-        // derivatives 1.. at the beginning; the force's run through sin, cos, -sin, -cos with a factor beta each
-        let mut d = [0.0; TERMS + 3];
-        (d[0], d[1]) = (self.v, self.a);
+        // c[k] = x^(k) / k!; the force's own series runs through sin, cos, -sin, -cos with a factor beta / k each
+        let mut c = [0.0; TERMS + 1];
+        (c[1], c[2]) = (self.v, 0.5 * self.a);
         let (mut sine, mut cosine) = (self.sin, self.cos);
-        for k in 2..TERMS + 3 {
-            (sine, cosine) = (beta * cosine, -beta * sine);
-            d[k] = sine - d[k - 2] - zeta2 * d[k - 1];
+        let mut k = 1;
+        let mut real = 1.0;
+        while k + 2 <= terms {
+            (sine, cosine) = (beta * cosine * INVERSE[k], -beta * sine * INVERSE[k]);
+            c[k + 2] = (sine - c[k] - zeta2 * (real + 1.0) * c[k + 1]) * (INVERSE[k + 1] * INVERSE[k + 2]);
+            k += 1;
+            real += 1.0;
         }
-        let (mut x, mut v, mut a, mut j) = (0.0, 0.0, 0.0, 0.0);
-        for k in (0..TERMS).rev() {
-            x = d[k] + x * s * INVERSE[k + 2];
-            v = d[k] + v * s * INVERSE[k + 1];
-            a = d[k + 1] + a * s * INVERSE[k + 1];
-            j = d[k + 2] + j * s * INVERSE[k + 1];
+        let (mut x, mut v, mut a, mut j, mut size) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        real += 1.0; // = terms, as a number
+        for k in (1..=terms).rev() {
+            x = x * s + c[k];
+            size = size * s + c[k].abs();
+            v = v * s + real * c[k];
+            if k >= 2 {
+                a = a * s + real * (real - 1.0) * c[k];
+            }
+            if k >= 3 {
+                j = j * s + real * (real - 1.0) * (real - 2.0) * c[k];
+            }
+            real -= 1.0;
         }
-        let size = s * (self.v.abs() + 0.5 * s * (self.a.abs() + s * (d[2].abs() + s * self.fastest * d[2].abs())));
-        Point { displacement: x * s, v, a, j, rounding: HALF_ULP * 4.0 * size }
+        let displacement = x * s;
+        Point { displacement, x: self.x + displacement, far: false, v, a, j, rounding: HALF_ULP * 4.0 * size * s }
     }
 
     /// Rate and bounds need the response too.
@@ -163,7 +195,7 @@ impl Flight {
     #[must_use]
     pub fn state(&self, s: f64) -> (f64, f64) {
         let point = self.at(s);
-        (self.x + point.displacement, point.v)
+        (point.x, point.v)
     }
 
     /// Phase of the force a time `s` after the beginning, in $`[0, 2\pi)`$.

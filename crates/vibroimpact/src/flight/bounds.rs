@@ -142,9 +142,9 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option
 }
 
 /// A proof that a single transversal contact lies within `(0, span]`: the velocity towards the stop stays positive
-/// and the lower bound of `y` ends up beyond it.
+/// and the lower bound of `y` ends up beyond the stop by more than `rounding`.
 #[inline]
-pub(super) fn single_contact_within(flight: &Flight, View { g, p, q, .. }: View, r: f64) -> Option<f64> {
+pub(super) fn single_contact_within(flight: &Flight, View { g, p, q, .. }: View, r: f64, rounding: f64) -> Option<f64> {
     if p <= 0.0 {
         return None;
     }
@@ -154,8 +154,8 @@ pub(super) fn single_contact_within(flight: &Flight, View { g, p, q, .. }: View,
     }
     let window = Window::new(flight, r, p.abs(), span);
     let lowest = (q - window.b3 * span).max(-window.b2);
-    // the same condition says that y(span) >= (p/2 + lowest span/2) span > 0
-    (p + lowest * span > 0.0).then_some(span)
+    // y(span) >= -g + p span + lowest span^2/2 = g + lowest span^2/2
+    (p + lowest * span > 0.0 && g + 0.5 * lowest * span * span > rounding).then_some(span)
 }
 
 /// Energy radius of a state.

@@ -88,7 +88,7 @@ pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) ->
         }
         if let Some(known) = &outlook {
             if search.s >= known.until {
-                return known.never.map_or(Contact::NoneUntil(search.s), Contact::Never);
+                return search.ended(known);
             }
             if step >= PATIENT
                 && let Some(envelope) = &known.envelope
@@ -116,6 +116,8 @@ struct Search<'a> {
     flight: &'a Flight,
     /// Distance from the start to each stop, exact: `gap - sign x0`.
     room: [f64; 2],
+    /// Distance of each stop from the rest position.
+    gap: [f64; 2],
     /// Nothing was touched up to here.
     s: f64,
     point: Point,
@@ -124,19 +126,27 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn begin(osc: &'a Oscillator, flight: &'a Flight) -> Result<Self, Contact> {
-        let mut room = [f64::INFINITY; 2];
+        let (mut room, mut gap) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
         let mut leave = f64::INFINITY;
         let r = radius(flight.x, flight.v);
         for (side, stop) in osc.stops() {
             let left = stop.gap - side.sign() * flight.x;
-            room[index(side)] = left;
+            (room[index(side)], gap[index(side)]) = (left, stop.gap);
             if left <= 0.0 {
                 leave = leave.min(leave_time(flight, side.sign(), stop.gap, r).ok_or(Contact::Contact { side })?);
             }
         }
         let reach = FIRST_REACH / (1.0 + flight.response().damping());
-        let start = Point { displacement: 0.0, v: flight.v, a: flight.a, j: flight.jerk(), rounding: 0.0 };
-        let mut search = Self { osc, flight, room, s: 0.0, point: start, reach };
+        let start = Point {
+            displacement: 0.0,
+            x: flight.x,
+            far: false,
+            v: flight.v,
+            a: flight.a,
+            j: flight.jerk(),
+            rounding: 0.0,
+        };
+        let mut search = Self { osc, flight, room, gap, s: 0.0, point: start, reach };
         if leave.is_finite() {
             // the other stop must not be reached in the meantime
             let other = search.views().filter(|view| view.g > 0.0);
@@ -144,6 +154,22 @@ impl<'a> Search<'a> {
             search.move_to(safe * SLACK);
         }
         Ok(search)
+    }
+
+    /// The answer when nothing was met as far as one has to look.
+    fn ended(&self, known: &Outlook) -> Contact {
+        match known.never {
+            // a flight that began on a stop is back on it after the common period: at most a touch
+            Some(Horizon::CommonPeriod { .. }) => {
+                let back = self.osc.stops().find(|(side, _)| self.room[index(*side)] <= 0.0);
+                match back {
+                    Some((side, _)) => Contact::Grazing { time: known.until, side, depth: 0.0 },
+                    None => known.never.map_or(Contact::NoneUntil(self.s), Contact::Never),
+                }
+            }
+            Some(why) => Contact::Never(why),
+            None => Contact::NoneUntil(self.s),
+        }
     }
 
     fn walls(&self) -> impl Iterator<Item = (f64, Stop)> {
@@ -156,14 +182,9 @@ impl<'a> Search<'a> {
 
     #[inline]
     fn view(&self, side: Side, point: &Point) -> View {
-        let sign = side.sign();
-        View {
-            side,
-            g: self.room[index(side)] - sign * point.displacement,
-            p: sign * point.v,
-            q: sign * point.a,
-            j: sign * point.j,
-        }
+        let (sign, k) = (side.sign(), index(side));
+        let g = if point.far { self.gap[k] - sign * point.x } else { self.room[k] - sign * point.displacement };
+        View { side, g, p: sign * point.v, q: sign * point.a, j: sign * point.j }
     }
 
     #[inline]
@@ -181,7 +202,7 @@ impl<'a> Search<'a> {
     /// One safe step, or the contact it found.
     #[inline]
     fn advance(&mut self) -> Option<Contact> {
-        let r = radius(self.flight.x + self.point.displacement, self.point.v);
+        let r = radius(self.point.x, self.point.v);
         let mut safe = f64::INFINITY;
         let mut nearest: Option<View> = None;
         for (side, _) in self.osc.stops() {
@@ -189,13 +210,15 @@ impl<'a> Search<'a> {
             if view.g <= GRAZING_ZONE * self.point.rounding {
                 return self.at_rounding(view, r);
             }
-            let time = safe_time(self.flight, view, r, self.reach);
+            // what rounding may hide counts as gone
+            let seen = View { g: view.g - self.point.rounding, ..view };
+            let time = safe_time(self.flight, seen, r, self.reach);
             if time < safe {
                 (safe, nearest) = (time, Some(view));
             }
         }
         if let Some(view) = nearest
-            && let Some(span) = single_contact_within(self.flight, view, r)
+            && let Some(span) = single_contact_within(self.flight, view, r, 2.0 * self.point.rounding)
             && self.others_clear(view.side, span, r)
         {
             return Some(self.refine(view.side, self.s + span));

@@ -21,13 +21,19 @@
 //!
 //! $$`K_c = \frac{2Q\sin A}{\beta+1}, \qquad K_s = \frac{\sin A\cos h}{\beta+1} - Q\cos A.`$$
 //!
-//! From $`\zeta = 1/2`$ up there is no resonance to fear ($`|Z| \ge 0.86`$), and $`K = (e^{i\beta s} - C - i\beta S)/Z`$ with
-//! $`Z = 1-\beta^2+2i\zeta\beta`$ serves for the rest of the underdamped range, critical damping and beyond.
+//! Away from resonance - $`\zeta \ge 1/2`$, or $`\beta`$ outside [1/2, 2], where $`|Z| \ge 0.75`$ - there is nothing to
+//! cancel and the plain quotient $`K = (e^{i\beta s} - C - i\beta S)/Z`$, $`Z = 1-\beta^2+2i\zeta\beta`$, is the better
+//! one: it takes $`\beta s`$ as it is, where the sum $`ws + 2h`$ would carry the rounding of the larger into the smaller.
+//!
+//! $`1 - C`$ is formed without cancellation everywhere: as $`\sin^2 s/(1+\cos s)`$ where the cosine is positive, which
+//! holds its digits at each return to a whole period too.
 
 use crate::math::{exp, exp_m1, sin_cos};
 
-/// From this damping on, the plain quotient by $`Z`$ is used: resonance is too flat to cancel anything.
+/// From this damping on resonance is too flat to cancel anything.
 const HEAVY: f64 = 0.5;
+/// Frequency ratios near enough to resonance for the formula that holds through it.
+const NEAR: core::ops::RangeInclusive<f64> = 0.5..=2.0;
 
 /// The free and forced responses after a time, from which any flight of the same oscillator is a linear combination.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +52,11 @@ pub struct Propagator {
     pub sin_turn: f64,
     /// $`\cos\beta s`$.
     pub cos_turn: f64,
-    /// Size of the terms that $`K`$ was put together from: what its rounding is a fraction of.
+    /// Size of the terms that $`1 - C`$ was put together from.
+    pub free_size: f64,
+    /// The angle of the free part if it had to be rounded (damped), else 0: its rounding is a fraction of it.
+    pub free_angle: f64,
+    /// Size of the terms that $`K`$ was put together from, with what the rounding of its angles adds.
     pub forced_size: f64,
 }
 
@@ -55,33 +65,42 @@ pub struct Propagator {
 pub struct Response {
     beta: f64,
     damping: f64,
+    /// $`\sqrt{|1-\zeta^2|}`$.
+    root: f64,
     regime: Regime,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Regime {
-    /// $`\zeta = 0`$: `detuning` $`= \beta - 1`$, `over_sum` $`= 1/(\beta+1)`$.
+    /// $`\zeta = 0`$ near resonance: `detuning` $`= \beta - 1`$, `over_sum` $`= 1/(\beta+1)`$.
     Undamped { detuning: f64, over_sum: f64 },
-    /// $`0 < \zeta < 1/2`$: `w`, `detuning` $`= \beta - w`$.
-    Light { w: f64, detuning: f64 },
-    /// $`1/2 \le \zeta`$: `root` $`= \sqrt{|1-\zeta^2|}`$.
-    Heavy { root: f64 },
+    /// $`0 < \zeta < 1/2`$ near resonance: `detuning` $`= \beta - w`$.
+    Light { detuning: f64 },
+    /// Away from resonance.
+    Plain,
+}
+
+/// The free part of the response.
+#[derive(Clone, Copy)]
+struct Free {
+    c: f64,
+    one_minus_c: f64,
+    s: f64,
+    size: f64,
 }
 
 impl Response {
     /// For checked parameters: `beta > 0`, `damping >= 0`, both finite.
     pub(crate) fn new(beta: f64, damping: f64) -> Self {
-        let regime = if damping == 0.0 {
+        let root = ((1.0 - damping) * (1.0 + damping)).abs().sqrt();
+        let regime = if !NEAR.contains(&beta) || damping >= HEAVY {
+            Regime::Plain
+        } else if damping == 0.0 {
             Regime::Undamped { detuning: beta - 1.0, over_sum: 1.0 / (beta + 1.0) }
         } else {
-            let root = ((1.0 - damping) * (1.0 + damping)).abs().sqrt();
-            if damping < HEAVY {
-                Regime::Light { w: root, detuning: (beta - 1.0) + damping * damping / (1.0 + root) }
-            } else {
-                Regime::Heavy { root }
-            }
+            Regime::Light { detuning: (beta - 1.0) + damping * damping / (1.0 + root) }
         };
-        Self { beta, damping, regime }
+        Self { beta, damping, root, regime }
     }
 
     /// Frequency ratio $`\beta`$.
@@ -108,25 +127,29 @@ impl Response {
                 let (sh, ch) = sin_cos(0.5 * detuning * s);
                 let q = if detuning == 0.0 { 0.5 * s } else { sh / detuning };
                 let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
+                let one_minus_c = versine(ss, cs);
                 // beta s = A + h
                 Propagator {
-                    one_minus_c: if s < SMALL { self.one_minus_c_series(s) } else { 1.0 - cs },
+                    one_minus_c,
                     c: cs,
                     s: ss,
                     kc: 2.0 * q * (sa * over_sum),
                     ks: (sa * over_sum) * ch - q * ca,
                     sin_turn: sa * ch + ca * sh,
                     cos_turn: ca * ch - sa * sh,
-                    forced_size: (sa * over_sum).abs() + q.abs(),
+                    free_size: one_minus_c,
+                    free_angle: 0.0,
+                    // s itself is exact: only h was rounded
+                    forced_size: ((sa * over_sum).abs() + q.abs()) * (1.0 + (0.25 * detuning * s).abs()),
                 }
             }
-            Regime::Light { w, detuning } => self.light(s, w, detuning),
-            Regime::Heavy { root } => self.heavy(s, root),
+            Regime::Light { detuning } => self.light(s, detuning),
+            Regime::Plain => self.plain(s),
         }
     }
 
-    fn light(&self, s: f64, w: f64, detuning: f64) -> Propagator {
-        let zeta = self.damping;
+    fn light(&self, s: f64, detuning: f64) -> Propagator {
+        let (zeta, w) = (self.damping, self.root);
         let (sw, cw) = sin_cos(w * s);
         let (sh, ch) = sin_cos(0.5 * detuning * s);
         let (sa, ca) = (sw * ch + cw * sh, cw * ch - sw * sh);
@@ -137,56 +160,83 @@ impl Response {
         // e^{iA} first - e^{ih} second, then divided by 2iw
         let re = (ca * first.0 - sa * first.1) - (ch * second.0 - sh * second.1);
         let im = (sa * first.0 + ca * first.1) - (sh * second.0 + ch * second.1);
-        let free_s = kept * sw / w;
-        let free_c = kept * cw + zeta * free_s;
+        let free = self.swing(s, (sw, cw), loss);
         Propagator {
-            one_minus_c: if s < SMALL { self.one_minus_c_series(s) } else { 1.0 - free_c },
-            c: free_c,
-            s: free_s,
+            one_minus_c: free.one_minus_c,
+            c: free.c,
+            s: free.s,
             kc: im / (2.0 * w),
             ks: -re / (2.0 * w),
             sin_turn: sa * ch + ca * sh,
             cos_turn: ca * ch - sa * sh,
-            forced_size: (first.0.abs() + first.1.abs() + second.0.abs() + second.1.abs()) / w,
+            free_size: free.size,
+            free_angle: w * s,
+            forced_size: (first.0.abs() + first.1.abs() + second.0.abs() + second.1.abs()) / w
+                * (1.0 + 0.25 * (w * s + (0.5 * detuning * s).abs())),
         }
     }
 
-    fn heavy(&self, s: f64, root: f64) -> Propagator {
-        let zeta = self.damping;
-        let (st, ct) = sin_cos(self.beta * s);
-        let (free_c, free_s) = if zeta < 1.0 {
-            let (sw, cw) = sin_cos(root * s);
-            let kept = exp(-zeta * s);
-            let free_s = kept * if root * s < 1e-8 { s } else { sw / root };
-            (kept * cw + zeta * free_s, free_s)
+    fn plain(&self, s: f64) -> Propagator {
+        let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * self.damping * self.beta));
+        let (st, ct) = sin_cos(beta * s);
+        let free = if self.damping < 1.0 {
+            let loss = if self.damping == 0.0 { 0.0 } else { -exp_m1(-self.damping * s) };
+            self.swing(s, sin_cos(self.root * s), loss)
         } else {
-            // slow root zeta - root = 1/(zeta + root), spread 2 root
-            let slow = exp(-s / (zeta + root));
-            let spread = -exp_m1(-2.0 * root * s); // 1 - e^{-2 root s}
-            let free_s = slow * if root * s < 1e-8 { s } else { spread / (2.0 * root) };
-            (slow * (1.0 - 0.5 * spread) + zeta * free_s, free_s)
+            self.creep(s)
         };
-        let one_minus_c = if s * (1.0 + zeta) < SMALL {
-            self.one_minus_c_series(s)
-        } else if zeta > 2.0 {
-            // -(l1 expm1(l2 s) - l2 expm1(l1 s)) / (l1 - l2), l1 = -1/(zeta+root), l2 = -(zeta+root)
-            let fast = zeta + root;
-            (exp_m1(-fast * s) / fast - fast * exp_m1(-s / fast)) / (2.0 * root)
-        } else {
-            1.0 - free_c
-        };
-        let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * zeta * self.beta));
-        let (kc, ks) = divide(((ct - 1.0) + one_minus_c, st - beta * free_s), z);
+        let (kc, ks) = divide((free.one_minus_c - versine(st, ct), st - beta * free.s), z);
         Propagator {
-            one_minus_c,
-            c: free_c,
-            s: free_s,
+            one_minus_c: free.one_minus_c,
+            c: free.c,
+            s: free.s,
             kc,
             ks,
             sin_turn: st,
             cos_turn: ct,
-            forced_size: ((1.0 - ct) + one_minus_c + st.abs() + (beta * free_s).abs()) / (z.0.abs() + z.1),
+            free_size: free.size,
+            free_angle: if self.damping == 0.0 { 0.0 } else { s * (self.damping + 1.0) },
+            forced_size: (versine(st, ct) + free.size + st.abs() + (beta * free.s).abs() + 0.25 * beta * s)
+                / (z.0.abs() + z.1),
         }
+    }
+
+    /// The free part below critical damping, from the sine and cosine of `w s` and the `loss` $`1 - e^{-\zeta s}`$.
+    #[inline]
+    fn swing(&self, s: f64, (sw, cw): (f64, f64), loss: f64) -> Free {
+        let (zeta, kept) = (self.damping, 1.0 - loss);
+        let free_s = kept * if self.root == 0.0 { s } else { sw / self.root };
+        let versine = versine(sw, cw);
+        let (one_minus_c, size) = if zeta == 0.0 {
+            (versine, versine)
+        } else if s * (1.0 + zeta) < SMALL {
+            let sum = self.one_minus_c_series(s);
+            (sum, sum)
+        } else {
+            let sum = (loss - zeta * free_s) + kept * versine;
+            (sum, loss + (zeta * free_s).abs() + kept * versine)
+        };
+        Free { c: kept * cw + zeta * free_s, one_minus_c, s: free_s, size }
+    }
+
+    /// The free part from critical damping on.
+    fn creep(&self, s: f64) -> Free {
+        let (zeta, root) = (self.damping, self.root);
+        // slow exponent zeta - root = 1/(zeta + root), spread 2 root
+        let fast = zeta + root;
+        let slow = exp(-s / fast);
+        let spread = -exp_m1(-2.0 * root * s); // 1 - e^{-2 root s}
+        let free_s = slow * if root == 0.0 { s } else { spread / (2.0 * root) };
+        let c = slow * (1.0 - 0.5 * spread) + zeta * free_s;
+        let one_minus_c = if s * (1.0 + zeta) < SMALL {
+            self.one_minus_c_series(s)
+        } else if zeta > 2.0 {
+            // -(l1 expm1(l2 s) - l2 expm1(l1 s)) / (l1 - l2), l1 = -1/fast, l2 = -fast
+            (exp_m1(-fast * s) / fast - fast * exp_m1(-s / fast)) / (2.0 * root)
+        } else {
+            1.0 - c
+        };
+        Free { c, one_minus_c, s: free_s, size: one_minus_c.max(if zeta > 2.0 { 0.0 } else { 0.5 }) }
     }
 
     /// $`1 - C`$ by its Taylor series, for `s (1 + zeta) <` [`SMALL`]: $`c_{k+2} = -c_k - 2\zeta c_{k+1}`$.
@@ -203,7 +253,13 @@ impl Response {
     }
 }
 
-/// Below this, $`1 - C`$ is summed as a series; above, the subtraction loses at most four bits.
+/// $`1 - \cos`$ without cancellation.
+#[inline]
+fn versine(sin: f64, cos: f64) -> f64 {
+    if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos }
+}
+
+/// Below this, damped, $`1 - C`$ is summed as a series; above, the subtraction loses at most four bits.
 const SMALL: f64 = 0.4;
 
 /// Complex quotient.

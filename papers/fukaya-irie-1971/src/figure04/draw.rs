@@ -4,29 +4,21 @@ use super::{GAP, Plane, X, free_amplitude};
 use crate::grid::Grid;
 use crate::looks;
 use vibroimpact::scenario;
-use vibroimpact_plot::{
-    Axis, Colour, Dash, Figure, Key, Line, Panel, Points, Rects, Stroke, Text,
-};
+use vibroimpact_plot::{Axis, Colour, Dash, Figure, Key, Line, Panel, Points, Rects, Stroke, Text};
 
 /// The regions drawn, and where their names stand.
-const DRAWN: [((u32, u32), (f64, f64)); 4] = [
-    ((1, 1), (1.0, 0.9)),
-    ((2, 1), (1.55, 0.9)),
-    ((3, 1), (1.93, 0.32)),
-    ((1, 2), (0.62, 2.6)),
-];
+const DRAWN: [((u32, u32), (f64, f64)); 4] =
+    [((1, 1), (1.0, 0.9)), ((2, 1), (1.55, 0.9)), ((3, 1), (1.9, 0.52)), ((1, 2), (1.17, 2.5))];
 
 pub(super) fn figure(grid: &Grid, plane: &Plane) -> Figure {
-    let mut panel = Panel::new(
-        Axis::new("1/*β*").range(X.0, X.1),
-        Axis::new("gap *δ*").range(GAP.0, GAP.1),
-    )
-    .with(cells(grid));
+    let mut panel =
+        Panel::new(Axis::new("1/*β*").range(X.0, X.1), Axis::new("gap *δ*").range(GAP.0, GAP.1)).with(cells(grid));
     for ((m, n), _) in DRAWN {
         let Some(region) = plane.region(m, n) else {
             continue;
         };
-        for outline in &region.outlines {
+        // crumbs at the tip of a region, smaller than a cell of the map, are left to the table
+        for outline in region.outlines.iter().filter(|line| extent(line) > CRUMB) {
             let (xs, ys): (Vec<f64>, Vec<f64>) = outline.iter().copied().unzip();
             panel.add(Line::new(xs.clone(), ys.clone(), Colour::WHITE).width(4.5));
             panel.add(Line::new(xs, ys, Colour::BLACK).width(2.0));
@@ -36,36 +28,39 @@ pub(super) fn figure(grid: &Grid, plane: &Plane) -> Figure {
     for part in amplitude() {
         let (xs, ys): (Vec<f64>, Vec<f64>) = part.into_iter().unzip();
         panel.add(Line::new(xs.clone(), ys.clone(), Colour::WHITE).width(6.0));
-        panel.add(Line {
-            xs,
-            ys,
-            stroke: dashed,
-        });
+        panel.add(Line { xs, ys, stroke: dashed });
     }
     for ((m, n), (x, gap)) in DRAWN {
         panel.add(Text::new(x, gap, format!("**{m}/{n}**")).size(24.0));
     }
-    let points = Points::new(
-        scenario::PAPER.map(|p| p.inverse_beta),
-        scenario::PAPER.map(|p| p.gap),
-        Colour::BLACK,
-    )
-    .size(11.0)
-    .rim(Colour::WHITE);
+    let points = Points::new(scenario::PAPER.map(|p| p.inverse_beta), scenario::PAPER.map(|p| p.gap), Colour::BLACK)
+        .size(11.0)
+        .rim(Colour::WHITE);
     panel.add(points.clone());
     for point in scenario::PAPER {
         let text = Text::new(point.inverse_beta, point.gap, format!("***{}***", point.name));
-        panel.add(text.size(24.0).shift(16.0, 14.0));
+        let side = if point.name == "N" { -15.0 } else { 16.0 };
+        panel.add(text.size(24.0).shift(side, 14.0));
     }
     let labels = grid.labels();
     let legend = looks::legend(labels.iter().map(|(label, _)| label.as_str()))
-        .entry(
-            Key::Outline(Stroke::new(Colour::BLACK).width(2.0)),
-            "stable by theory",
-        )
+        .entry(Key::Outline(Stroke::new(Colour::BLACK).width(2.0)), "stable by theory")
         .line(dashed, "amplitude |*f*|")
         .points(&points, "*N* to *U*");
     looks::column(panel, 760.0).legend(legend)
+}
+
+/// See [`figure`]: in units of the window.
+const CRUMB: f64 = 0.02;
+
+/// The longer side of a line's box, the window being 1 by 1.
+fn extent(line: &[(f64, f64)]) -> f64 {
+    let side = |of: &dyn Fn(&(f64, f64)) -> f64, (a, b): (f64, f64)| {
+        let (lo, hi) =
+            line.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
+        (hi - lo) / (b - a)
+    };
+    side(&|p| p.0, X).max(side(&|p| p.1, GAP))
 }
 
 /// Vermilion: far from every class it crosses, for all eyes.
@@ -75,16 +70,9 @@ const AMPLITUDE: Colour = Colour::hex(0xd5_1e00);
 pub(crate) fn cells(grid: &Grid) -> Rects {
     let mut rects = Rects::new(looks::styles());
     let half = |(a, b): (f64, f64), n: u32| (b - a) / f64::from(n - 1) / 2.0;
-    let (dx, dy) = (
-        half(grid.x.ends(), grid.x.count()),
-        half(grid.gap.ends(), grid.gap.count()),
-    );
+    let (dx, dy) = (half(grid.x.ends(), grid.x.count()), half(grid.gap.ends(), grid.gap.count()));
     for point in &grid.points {
-        let mut classes: Vec<usize> = point
-            .motions
-            .iter()
-            .map(|found| looks::class(&found.verdict.label()))
-            .collect();
+        let mut classes: Vec<usize> = point.motions.iter().map(|found| looks::class(&found.verdict.label())).collect();
         classes.sort_unstable();
         classes.dedup();
         let (x, y) = (point.inverse_beta, point.gap);
@@ -97,14 +85,6 @@ pub(crate) fn cells(grid: &Grid) -> Rects {
 pub(super) fn amplitude() -> [Vec<(f64, f64)>; 2] {
     // |f| = top at 1/beta^2 = 1 +- 1/top
     let top = GAP.1 + 0.1;
-    let ends = [
-        (X.0, (top / (top + 1.0)).sqrt()),
-        ((top / (top - 1.0)).sqrt(), X.1),
-    ];
-    ends.map(|(a, b)| {
-        (0..=200)
-            .map(|k| a + (b - a) * f64::from(k) / 200.0)
-            .map(|x| (x, free_amplitude(x)))
-            .collect()
-    })
+    let ends = [(X.0, (top / (top + 1.0)).sqrt()), ((top / (top - 1.0)).sqrt(), X.1)];
+    ends.map(|(a, b)| (0..=200).map(|k| a + (b - a) * f64::from(k) / 200.0).map(|x| (x, free_amplitude(x))).collect())
 }
