@@ -122,9 +122,7 @@ impl Flight {
         let free = self.v * p.s - self.x * p.one_minus_c;
         let forced = self.sin * p.kc + self.cos * p.ks;
         let displacement = free + forced;
-        let v = self.v * (p.c - 2.0 * zeta * p.s) - self.x * p.s
-            + self.sin * (p.s - beta * p.ks)
-            + self.cos * (beta * p.kc);
+        let v = self.v * p.s_rate - self.x * p.s + self.sin * (p.s - beta * p.ks) + self.cos * (beta * p.kc);
         let force = self.sin * p.cos_turn + self.cos * p.sin_turn;
         let a = force - (self.x + displacement) - 2.0 * zeta * v;
         let j = beta * (self.cos * p.cos_turn - self.sin * p.sin_turn) - v - 2.0 * zeta * a;

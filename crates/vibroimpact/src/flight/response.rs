@@ -28,7 +28,7 @@
 //! $`1 - C`$ is formed without cancellation everywhere: as $`\sin^2 s/(1+\cos s)`$ where the cosine is positive, which
 //! holds its digits at each return to a whole period too.
 
-use crate::math::{exp, exp_m1, sin_cos};
+use crate::math::{exp, exp_m1, sin_cos, two_prod};
 
 /// From this damping on resonance is too flat to cancel anything.
 const HEAVY: f64 = 0.5;
@@ -44,6 +44,8 @@ pub struct Propagator {
     pub c: f64,
     /// $`S(s)`$, response to a unit velocity.
     pub s: f64,
+    /// $`S'(s) = C - 2\zeta S`$, without cancellation under heavy damping.
+    pub s_rate: f64,
     /// $`K_c(s)`$, response from rest to the force $`\cos\beta s`$.
     pub kc: f64,
     /// $`K_s(s)`$, response from rest to the force $`\sin\beta s`$.
@@ -65,8 +67,11 @@ pub struct Propagator {
 pub struct Response {
     beta: f64,
     damping: f64,
-    /// $`\sqrt{|1-\zeta^2|}`$.
+    /// $`\sqrt{|1-\zeta^2|}`$, its rounding error, and below critical damping the shift of frequency $`1 - w`$ from
+    /// which they come.
     root: f64,
+    root_low: f64,
+    shift: f64,
     regime: Regime,
 }
 
@@ -86,21 +91,26 @@ struct Free {
     c: f64,
     one_minus_c: f64,
     s: f64,
+    s_rate: f64,
     size: f64,
+    /// The angle that carries a rounding.
+    angle: f64,
 }
 
 impl Response {
     /// For checked parameters: `beta > 0`, `damping >= 0`, both finite.
     pub(crate) fn new(beta: f64, damping: f64) -> Self {
         let root = ((1.0 - damping) * (1.0 + damping)).abs().sqrt();
+        let shift = damping * damping / (1.0 + root);
+        let (root, root_low) = if damping < HEAVY { (1.0 - shift, (1.0 - (1.0 - shift)) - shift) } else { (root, 0.0) };
         let regime = if !NEAR.contains(&beta) || damping >= HEAVY {
             Regime::Plain
         } else if damping == 0.0 {
             Regime::Undamped { detuning: beta - 1.0, over_sum: 1.0 / (beta + 1.0) }
         } else {
-            Regime::Light { detuning: (beta - 1.0) + damping * damping / (1.0 + root) }
+            Regime::Light { detuning: (beta - 1.0) + shift }
         };
-        Self { beta, damping, root, regime }
+        Self { beta, damping, root, root_low, shift, regime }
     }
 
     /// Frequency ratio $`\beta`$.
@@ -133,6 +143,7 @@ impl Response {
                     one_minus_c,
                     c: cs,
                     s: ss,
+                    s_rate: cs,
                     kc: 2.0 * q * (sa * over_sum),
                     ks: (sa * over_sum) * ch - q * ca,
                     sin_turn: sa * ch + ca * sh,
@@ -150,7 +161,7 @@ impl Response {
 
     fn light(&self, s: f64, detuning: f64) -> Propagator {
         let (zeta, w) = (self.damping, self.root);
-        let (sw, cw) = sin_cos(w * s);
+        let (sw, cw) = self.swing_angle(s);
         let (sh, ch) = sin_cos(0.5 * detuning * s);
         let (sa, ca) = (sw * ch + cw * sh, cw * ch - sw * sh);
         let loss = -exp_m1(-zeta * s); // 1 - E
@@ -165,14 +176,15 @@ impl Response {
             one_minus_c: free.one_minus_c,
             c: free.c,
             s: free.s,
+            s_rate: free.s_rate,
             kc: im / (2.0 * w),
             ks: -re / (2.0 * w),
             sin_turn: sa * ch + ca * sh,
             cos_turn: ca * ch - sa * sh,
             free_size: free.size,
-            free_angle: w * s,
+            free_angle: free.angle,
             forced_size: (first.0.abs() + first.1.abs() + second.0.abs() + second.1.abs()) / w
-                * (1.0 + 0.25 * (w * s + (0.5 * detuning * s).abs())),
+                * (1.0 + 0.25 * (free.angle + (0.5 * detuning * s).abs())),
         }
     }
 
@@ -181,7 +193,7 @@ impl Response {
         let (st, ct) = sin_cos(beta * s);
         let free = if self.damping < 1.0 {
             let loss = if self.damping == 0.0 { 0.0 } else { -exp_m1(-self.damping * s) };
-            self.swing(s, sin_cos(self.root * s), loss)
+            self.swing(s, self.swing_angle(s), loss)
         } else {
             self.creep(s)
         };
@@ -190,15 +202,26 @@ impl Response {
             one_minus_c: free.one_minus_c,
             c: free.c,
             s: free.s,
+            s_rate: free.s_rate,
             kc,
             ks,
             sin_turn: st,
             cos_turn: ct,
             free_size: free.size,
-            free_angle: if self.damping == 0.0 { 0.0 } else { s * (self.damping + 1.0) },
-            forced_size: (versine(st, ct) + free.size + st.abs() + (beta * free.s).abs() + 0.25 * beta * s)
-                / (z.0.abs() + z.1),
+            free_angle: free.angle,
+            forced_size: (versine(st, ct) + free.size + st.abs() + (beta * free.s).abs() + 0.25 * beta * s) * 1.5
+                / z.0.abs().max(z.1),
         }
+    }
+
+    /// Sine and cosine of $`ws`$, the rounding of the product and of $`w`$ itself made good: late in a long, lightly damped
+    /// flight it would be what limits the position.
+    #[inline]
+    fn swing_angle(&self, s: f64) -> (f64, f64) {
+        let (angle, low) = two_prod(self.root, s);
+        let (sin, cos) = sin_cos(angle);
+        let rest = low + self.root_low * s;
+        (sin + cos * rest, cos - sin * rest)
     }
 
     /// The free part below critical damping, from the sine and cosine of `w s` and the `loss` $`1 - e^{-\zeta s}`$.
@@ -216,7 +239,8 @@ impl Response {
             let sum = (loss - zeta * free_s) + kept * versine;
             (sum, loss + (zeta * free_s).abs() + kept * versine)
         };
-        Free { c: kept * cw + zeta * free_s, one_minus_c, s: free_s, size }
+        let s_rate = kept * cw - zeta * free_s;
+        Free { c: kept * cw + zeta * free_s, one_minus_c, s: free_s, s_rate, size, angle: self.shift * s }
     }
 
     /// The free part from critical damping on.
@@ -236,7 +260,14 @@ impl Response {
         } else {
             1.0 - c
         };
-        Free { c, one_minus_c, s: free_s, size: one_minus_c.max(if zeta > 2.0 { 0.0 } else { 0.5 }) }
+        let s_rate = if zeta > 2.0 {
+            // (fast e^{-fast s} - e^{-s/fast}/fast) / (2 root)
+            slow * (fast * (1.0 - spread) - 1.0 / fast) / (2.0 * root)
+        } else {
+            slow * (1.0 - 0.5 * spread) - zeta * free_s
+        };
+        let size = one_minus_c.max(if zeta > 2.0 { 0.0 } else { 0.5 });
+        Free { c, one_minus_c, s: free_s, s_rate, size, angle: s / fast }
     }
 
     /// $`1 - C`$ by its Taylor series, for `s (1 + zeta) <` [`SMALL`]: $`c_{k+2} = -c_k - 2\zeta c_{k+1}`$.

@@ -101,7 +101,7 @@ pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, int
     let p = osc.response().at(interval);
     let (sin, cos) = sin_cos(start.phase);
     let (x_phase, x_v) = (cos * p.kc - sin * p.ks, p.s);
-    let (v_phase, v_v) = (cos * (p.s - beta * p.ks) - sin * beta * p.kc, p.c - 2.0 * zeta * p.s);
+    let (v_phase, v_v) = (cos * (p.s - beta * p.ks) - sin * beta * p.kc, p.s_rate);
     let sign = next.side.sign();
     let v1 = sign * next.velocity;
     let a1 = Flight::new(osc, start).at(interval).a;
