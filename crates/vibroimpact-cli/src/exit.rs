@@ -106,6 +106,7 @@ pub(crate) fn no_backtraces() {
         complain(&format!(
             "error: this is a defect of vibro{place}, not of your question\nhint: please report it with the command line"
         ));
+        crate::files::sweep();
         std::process::exit(1);
     }));
 }

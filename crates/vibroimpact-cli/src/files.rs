@@ -4,6 +4,17 @@ use crate::exit::Failure;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// Files begun and not yet complete.
+static BEGUN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Removes what was begun and will not be completed, before an end that runs no destructors.
+pub(crate) fn sweep() {
+    for path in BEGUN.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+        let _ = fs::remove_file(path);
+    }
+}
 
 /// A place for a file that is known to be writable. Until it is written, nothing at that place changes.
 #[derive(Debug)]
@@ -60,11 +71,15 @@ impl Target {
             .create_new(true)
             .open(&temporary);
         match open {
-            Ok(file) => Ok(Self {
-                path,
-                beside: Some((place.clone(), temporary, file)),
-                force,
-            }),
+            Ok(file) => {
+                let mut begun = BEGUN.lock().unwrap_or_else(PoisonError::into_inner);
+                begun.push(temporary.clone());
+                Ok(Self {
+                    path,
+                    beside: Some((place.clone(), temporary, file)),
+                    force,
+                })
+            }
             Err(error) => Err(Failure::bad(match error.kind() {
                 io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => format!(
                     "`{name}` cannot be written: there is no directory `{}`",
@@ -104,9 +119,15 @@ impl Target {
             return Err(io::Error::from(io::ErrorKind::AlreadyExists));
         }
         fs::rename(temporary, place)?;
+        forget(temporary);
         self.beside = None;
         Ok(())
     }
+}
+
+fn forget(path: &Path) {
+    let mut begun = BEGUN.lock().unwrap_or_else(PoisonError::into_inner);
+    begun.retain(|other| other != path);
 }
 
 impl Drop for Target {
@@ -114,6 +135,7 @@ impl Drop for Target {
     fn drop(&mut self) {
         if let Some((_, temporary, _)) = &self.beside {
             let _ = fs::remove_file(temporary);
+            forget(temporary);
         }
     }
 }

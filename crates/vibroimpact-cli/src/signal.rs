@@ -1,6 +1,10 @@
 //! Ctrl-C: the first asks for a clean stop, the second ends at once.
+//!
+//! Work that checks the flag stops within milliseconds. A single motion that takes longer cannot hold the program: a
+//! little later it ends anyhow, just as cleanly, because files appear only when they are complete.
 
 use crate::exit::Failure;
+use crate::{files, session};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -16,9 +20,22 @@ pub(crate) fn flag() -> &'static AtomicBool {
 pub(crate) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
+            end();
         }
+        std::thread::spawn(|| {
+            std::thread::sleep(PATIENCE);
+            session::complain("stopped in the middle of a long motion; nothing was written");
+            end();
+        });
     });
+}
+
+/// How long a clean stop may take.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+fn end() -> ! {
+    files::sweep();
+    std::process::exit(130)
 }
 
 /// Does one piece of work that knows no stop flag, and leaves it behind when asked to stop.

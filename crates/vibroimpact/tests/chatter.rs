@@ -54,10 +54,12 @@ fn time_advances_and_the_mass_stays_on_its_side() {
                     let leg = motion.leg().unwrap();
                     for k in 0..=24 {
                         let s = leg.duration * f64::from(k) / 24.0;
-                        let (x, _) = leg.state(&osc, s);
-                        // rounding as the evaluation itself bounds it, plus that of adding the start
+                        let (x, v) = leg.state(&osc, s);
+                        // rounding as the evaluation itself bounds it, plus that of adding the start and of the time
                         let rounding = match &leg.path {
-                            Path::Flight(flight) => flight.at(s).rounding + f64::EPSILON * (x.abs() + gap.abs()),
+                            Path::Flight(flight) => {
+                                flight.at(s).rounding + f64::EPSILON * (x.abs() + gap.abs() + s * v.abs())
+                            }
                             Path::Rest(_) => 0.0,
                         };
                         assert!(x <= gap + rounding, "beyond the stop by {:e}, rounding {rounding:e}", x - gap);

@@ -186,7 +186,7 @@ fn similar(section: &mut Section, period: f64, list: &[Impact], passes: &[Pass])
         .iter()
         .map(|p| {
             format!(
-                "it comes to {} as near as {:.3} within {SHOWN} impacts (number {}) and {:.4} within 20000",
+                "it comes to {} as near as {:.3} within {SHOWN} impacts (number {}) and {:.1e} within 20000",
                 p.label, p.shown.1, p.shown.0, p.long.1
             )
         })

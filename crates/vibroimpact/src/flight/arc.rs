@@ -52,8 +52,8 @@ pub struct Flight {
 
 /// The most terms of the Taylor series, and the reach in $`\mu s`$ for which they suffice: the first one left out is below
 /// $`2^{-64}`$ of the leading ones.
-const TERMS: usize = 24;
-const LONG_REACH: f64 = 1.5;
+const TERMS: usize = 32;
+const LONG_REACH: f64 = 3.0;
 /// Twelve terms suffice up to here.
 const SHORT_TERMS: usize = 12;
 const SHORT_REACH: f64 = 0.25;
@@ -125,7 +125,8 @@ impl Flight {
         let v = self.v * p.s_rate - self.x * p.s + self.sin * (p.s - beta * p.ks) + self.cos * (beta * p.kc);
         let force = self.sin * p.cos_turn + self.cos * p.sin_turn;
         let a = force - (self.x + displacement) - 2.0 * zeta * v;
-        let j = beta * (self.cos * p.cos_turn - self.sin * p.sin_turn) - v - 2.0 * zeta * a;
+        let force_rate = self.cos * p.cos_turn - self.sin * p.sin_turn;
+        let j = beta * force_rate - v - 2.0 * zeta * a;
         // past a quarter of a free swing the position itself has the smaller terms
         let far = p.c < 0.5;
         let x = if far { self.x * p.c + self.v * p.s + forced } else { self.x + displacement };
@@ -133,7 +134,7 @@ impl Flight {
         let (x0, v0, s_abs) = (self.x.abs(), self.v.abs(), p.s.abs());
         let start = x0 * if far { p.c.abs() } else { p.free_size };
         let terms = start + v0 * s_abs + p.forced_size;
-        let angles = p.free_angle * (x0 * s_abs + v0 * p.c.abs());
+        let angles = p.free_angle * (x0 * s_abs + v0 * p.c.abs()) + p.forced_angle * force_rate.abs();
         let rounding = HALF_ULP * (5.0 * terms + angles + x.abs().min(displacement.abs()));
         Point { displacement, x, far, v, a, j, rounding }
     }

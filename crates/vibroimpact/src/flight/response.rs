@@ -32,6 +32,8 @@ use crate::math::{exp, exp_m1, sin_cos, two_prod};
 
 /// From this damping on resonance is too flat to cancel anything.
 const HEAVY: f64 = 0.5;
+/// From this damping on the two exponents are far enough apart to divide by their difference.
+const TWO_ROOTS: f64 = 1.2;
 /// Frequency ratios near enough to resonance for the formula that holds through it.
 const NEAR: core::ops::RangeInclusive<f64> = 0.5..=2.0;
 
@@ -58,8 +60,10 @@ pub struct Propagator {
     pub free_size: f64,
     /// The angle of the free part if it had to be rounded (damped), else 0: its rounding is a fraction of it.
     pub free_angle: f64,
-    /// Size of the terms that $`K`$ was put together from, with what the rounding of its angles adds.
+    /// Size of the terms that $`K`$ was put together from.
     pub forced_size: f64,
+    /// How much of the angle of the force, over $`|Z|`$, had to be rounded: moves the forced part along its velocity.
+    pub forced_angle: f64,
 }
 
 /// Closed-form responses for one $`\beta`$ and $`\zeta`$, with what does not depend on time worked out once.
@@ -150,8 +154,9 @@ impl Response {
                     cos_turn: ca * ch - sa * sh,
                     free_size: one_minus_c,
                     free_angle: 0.0,
-                    // s itself is exact: only h was rounded
-                    forced_size: ((sa * over_sum).abs() + q.abs()) * (1.0 + (0.25 * detuning * s).abs()),
+                    forced_size: (sa * over_sum).abs() + q.abs(),
+                    // s itself is exact, only h was rounded: 2|h|/|Z|
+                    forced_angle: s * over_sum,
                 }
             }
             Regime::Light { detuning } => self.light(s, detuning),
@@ -164,14 +169,13 @@ impl Response {
         let (sw, cw) = self.swing_angle(s);
         let (sh, ch) = sin_cos(0.5 * detuning * s);
         let (sa, ca) = (sw * ch + cw * sh, cw * ch - sw * sh);
-        let loss = -exp_m1(-zeta * s); // 1 - E
-        let kept = 1.0 - loss;
+        let (kept, loss) = decay(zeta * s);
         let first = divide((loss * ch, (1.0 + kept) * sh), (zeta, detuning));
         let second = divide((loss * ca, (1.0 + kept) * sa), (zeta, self.beta + w));
         // e^{iA} first - e^{ih} second, then divided by 2iw
         let re = (ca * first.0 - sa * first.1) - (ch * second.0 - sh * second.1);
         let im = (sa * first.0 + ca * first.1) - (sh * second.0 + ch * second.1);
-        let free = self.swing(s, (sw, cw), loss);
+        let free = self.swing(s, (sw, cw), (kept, loss));
         Propagator {
             one_minus_c: free.one_minus_c,
             c: free.c,
@@ -184,7 +188,8 @@ impl Response {
             free_size: free.size,
             free_angle: free.angle,
             forced_size: (first.0.abs() + first.1.abs() + second.0.abs() + second.1.abs()) / w
-                * (1.0 + 0.25 * (free.angle + (0.5 * detuning * s).abs())),
+                * (1.0 + 0.25 * free.angle),
+            forced_angle: s / (self.beta + w),
         }
     }
 
@@ -192,12 +197,13 @@ impl Response {
         let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * self.damping * self.beta));
         let (st, ct) = sin_cos(beta * s);
         let free = if self.damping < 1.0 {
-            let loss = if self.damping == 0.0 { 0.0 } else { -exp_m1(-self.damping * s) };
-            self.swing(s, self.swing_angle(s), loss)
+            let decay = if self.damping == 0.0 { (1.0, 0.0) } else { decay(self.damping * s) };
+            self.swing(s, self.swing_angle(s), decay)
         } else {
             self.creep(s)
         };
         let (kc, ks) = divide((free.one_minus_c - versine(st, ct), st - beta * free.s), z);
+        let over = z.0.abs().max(z.1); // |Z|, or a little less
         Propagator {
             one_minus_c: free.one_minus_c,
             c: free.c,
@@ -209,8 +215,8 @@ impl Response {
             cos_turn: ct,
             free_size: free.size,
             free_angle: free.angle,
-            forced_size: (versine(st, ct) + free.size + st.abs() + (beta * free.s).abs() + 0.25 * beta * s) * 1.5
-                / z.0.abs().max(z.1),
+            forced_size: (versine(st, ct) + free.size + st.abs() + (beta * free.s).abs()) * 1.5 / over,
+            forced_angle: beta * s / over,
         }
     }
 
@@ -224,10 +230,10 @@ impl Response {
         (sin + cos * rest, cos - sin * rest)
     }
 
-    /// The free part below critical damping, from the sine and cosine of `w s` and the `loss` $`1 - e^{-\zeta s}`$.
+    /// The free part below critical damping, from the sine and cosine of `w s` and the decay.
     #[inline]
-    fn swing(&self, s: f64, (sw, cw): (f64, f64), loss: f64) -> Free {
-        let (zeta, kept) = (self.damping, 1.0 - loss);
+    fn swing(&self, s: f64, (sw, cw): (f64, f64), (kept, loss): (f64, f64)) -> Free {
+        let zeta = self.damping;
         let free_s = kept * if self.root == 0.0 { s } else { sw / self.root };
         let versine = versine(sw, cw);
         let (one_minus_c, size) = if zeta == 0.0 {
@@ -249,24 +255,24 @@ impl Response {
         // slow exponent zeta - root = 1/(zeta + root), spread 2 root
         let fast = zeta + root;
         let slow = exp(-s / fast);
-        let spread = -exp_m1(-2.0 * root * s); // 1 - e^{-2 root s}
+        let (left, spread) = decay(2.0 * root * s);
         let free_s = slow * if root == 0.0 { s } else { spread / (2.0 * root) };
         let c = slow * (1.0 - 0.5 * spread) + zeta * free_s;
         let one_minus_c = if s * (1.0 + zeta) < SMALL {
             self.one_minus_c_series(s)
-        } else if zeta > 2.0 {
+        } else if zeta > TWO_ROOTS {
             // -(l1 expm1(l2 s) - l2 expm1(l1 s)) / (l1 - l2), l1 = -1/fast, l2 = -fast
             (exp_m1(-fast * s) / fast - fast * exp_m1(-s / fast)) / (2.0 * root)
         } else {
             1.0 - c
         };
-        let s_rate = if zeta > 2.0 {
+        let s_rate = if zeta > TWO_ROOTS {
             // (fast e^{-fast s} - e^{-s/fast}/fast) / (2 root)
-            slow * (fast * (1.0 - spread) - 1.0 / fast) / (2.0 * root)
+            slow * (fast * left - 1.0 / fast) / (2.0 * root)
         } else {
             slow * (1.0 - 0.5 * spread) - zeta * free_s
         };
-        let size = one_minus_c.max(if zeta > 2.0 { 0.0 } else { 0.5 });
+        let size = one_minus_c.max(if zeta > TWO_ROOTS { 0.0 } else { 0.5 });
         Free { c, one_minus_c, s: free_s, s_rate, size, angle: s / fast }
     }
 
@@ -274,7 +280,7 @@ impl Response {
     fn one_minus_c_series(&self, s: f64) -> f64 {
         let (mut a, mut b) = (1.0, 0.0); // derivatives of C at 0
         let (mut power, mut sum) = (s, 0.0);
-        for k in 2..18 {
+        for k in 2..30 {
             let next = -a - 2.0 * self.damping * b;
             power *= s / f64::from(k);
             sum -= next * power;
@@ -284,14 +290,21 @@ impl Response {
     }
 }
 
+/// $`e^{-x}`$ and $`1 - e^{-x}`$, both to their last bits.
+#[inline]
+fn decay(x: f64) -> (f64, f64) {
+    let loss = -exp_m1(-x);
+    (if loss < 0.5 { 1.0 - loss } else { exp(-x) }, loss)
+}
+
 /// $`1 - \cos`$ without cancellation.
 #[inline]
 fn versine(sin: f64, cos: f64) -> f64 {
     if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos }
 }
 
-/// Below this, damped, $`1 - C`$ is summed as a series; above, the subtraction loses at most four bits.
-const SMALL: f64 = 0.4;
+/// Below this, damped, $`1 - C`$ is summed as a series; above, the subtraction loses at most two bits.
+const SMALL: f64 = 1.0;
 
 /// Complex quotient.
 #[inline]
