@@ -66,13 +66,18 @@ impl Target {
             file.to_string_lossy(),
             std::process::id()
         ));
+        let mut begun = BEGUN.lock().unwrap_or_else(PoisonError::into_inner);
+        if begun.contains(&temporary) {
+            return Err(Failure::bad(format!("`{name}` is asked for twice")));
+        }
+        // one of the same name is left from a run that was killed
         let open = OpenOptions::new()
             .write(true)
-            .create_new(true)
+            .create(true)
+            .truncate(true)
             .open(&temporary);
         match open {
             Ok(file) => {
-                let mut begun = BEGUN.lock().unwrap_or_else(PoisonError::into_inner);
                 begun.push(temporary.clone());
                 Ok(Self {
                     path,

@@ -68,3 +68,8 @@ pub mod verdict;
 
 pub use system::{Frequency, Machine, Oscillator, Scales, Side, Start, Stop, SystemError};
 pub use verdict::Label;
+
+/// The listings of the README are compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -6,6 +6,7 @@
 
 mod command;
 mod docs;
+mod figures;
 mod licences;
 mod links;
 mod spdx;
@@ -22,6 +23,7 @@ usage: cargo xtask COMMAND
                           --fast  format, lints and tests only
                           --long  the long-running tests too (VIBROIMPACT_LONG=1)
   docs                    the API documentation, with formulas, in target/doc
+  figures                 the pictures of the README, by `vibro reproduce`
   licences                the licence of every dependency against the allow-list
   links                   every relative link in the Markdown files
 ";
@@ -39,6 +41,7 @@ fn main() -> ExitCode {
             Err(sentence) => bad_question(&sentence),
         },
         ["docs"] => finish(docs::build(&root)),
+        ["figures"] => finish(figures::draw(&root)),
         ["licences"] => finish(licences::check(&root)),
         ["links"] => finish(links::check(&root)),
         ["help" | "--help" | "-h"] => {

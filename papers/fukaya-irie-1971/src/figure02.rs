@@ -57,7 +57,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     for (k, impact) in list.iter().enumerate() {
         panel.add(Text::new(impact.time, point.gap, format!("{}", k + 1)).shift(0.0, 20.0));
     }
-    panel.add(Text::new(0.0, point.gap, "stop *ξ* = *δ*").anchor(vibroimpact_plot::Anchor::Start).shift(10.0, 62.0));
+    panel.add(Text::new(0.0, point.gap, "stop *ξ* = *δ*").anchor(vibroimpact_plot::Anchor::Start).shift(10.0, 46.0));
     let figure = looks::column(panel, 400.0).legend(legend);
     let svg = run.folder.figure("figure-02", figure)?;
 
@@ -120,8 +120,8 @@ fn model(section: &mut Section, osc: &Oscillator, list: &[Impact]) {
          impacts u+ = -eps u- (9)",
         format!(
             "our flights, which need no separate formula at resonance, differ from the printed (6) and (8) by at most \
-             {worst:.0e}, from (3)' and (4)' by {resonant:.0e}; u+/u- misses -eps by {}",
-            if law == 0.0 { "nothing".to_owned() } else { format!("{law:.0e}") }
+             {worst:.0e}, from (3)' and (4)' by {resonant:.0e}; u+/u- is -eps {}",
+            if law == 0.0 { "exactly".to_owned() } else { format!("to within {law:.0e}") }
         ),
         Agreement::of(worst < 1e-11 && resonant < 1e-11 && law < 1e-14, worst < 1e-6),
     );

@@ -173,6 +173,11 @@ fn simple(section: &mut Section, orbits: &[(Label, Vec<Orbit>)]) {
     );
 }
 
+/// Three places, or powers of ten where they would show nothing.
+fn distance(d: f64) -> String {
+    if d < 1e-3 { format!("{d:.1e}") } else { format!("{d:.3}") }
+}
+
 /// How near the motion comes to the two orbits, and how long it looks like them.
 fn similar(section: &mut Section, period: f64, list: &[Impact], passes: &[Pass]) {
     let like = |periods: f64| -> (usize, usize) {
@@ -186,8 +191,11 @@ fn similar(section: &mut Section, period: f64, list: &[Impact], passes: &[Pass])
         .iter()
         .map(|p| {
             format!(
-                "it comes to {} as near as {:.3} within {SHOWN} impacts (number {}) and {:.1e} within 20000",
-                p.label, p.shown.1, p.shown.0, p.long.1
+                "it comes to {} as near as {:.3} within {SHOWN} impacts (number {}) and {} within 20000",
+                p.label,
+                p.shown.1,
+                p.shown.0,
+                distance(p.long.1)
             )
         })
         .collect();

@@ -89,7 +89,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
         session,
         |out| csv::write(out, "x,v,label", rows(&found, (&args.x, &args.v))),
         || {
-            let title = plot::title(&osc, asked.system.inverse_beta);
+            let title = plot::title(&asked.system);
             let names = (units.named("*ξ*_0", "m"), units.named("*ξ*_0′", "m/s"));
             plot::basin::figure(&found, (&args.x, &args.v), (&names.0, &names.1), title)
         },

@@ -1,6 +1,6 @@
 //! `vibro settle`: what the motion from one start settles into.
 
-use crate::args::{StartArgs, SystemArgs, Units};
+use crate::args::{Asked, StartArgs, SystemArgs};
 use crate::exit::Failure;
 use crate::plot::{self, Picture, waveform};
 use crate::report::json::{Document, Motion as MotionObject};
@@ -15,7 +15,6 @@ use vibroimpact::verdict::{
     PaperRule, PaperVerdict, SettleOptions, Settled, Verdict, paper_rule, settle,
 };
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_plot::plain;
 use vibroimpact_study::{Plan, Task};
 
 /// What the motion from a start settles into, and why that is so
@@ -104,7 +103,7 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
         (settled, rule.map(|rule| (rule, paper_rule(&osc, start, rule))))
     })?;
     if let Some(picture) = picture {
-        picture.write(&steady(&osc, start, &settled, &asked.units, asked.system.inverse_beta))?;
+        picture.write(&steady(&osc, start, &settled, &asked))?;
     }
     if args.json {
         let answer = Answer {
@@ -168,8 +167,7 @@ fn steady(
     osc: &Oscillator,
     start: Start,
     settled: &Settled,
-    units: &Units,
-    inverse_beta: Option<f64>,
+    asked: &Asked,
 ) -> vibroimpact_plot::Figure {
     let (from, time) = last_event(osc, start, settled.time);
     let periods = match &settled.verdict {
@@ -180,10 +178,10 @@ fn steady(
         Verdict::Chaotic(_) | Verdict::Undecided(_) => 4.0 * SHOWN,
         _ => SHOWN,
     };
-    let label = settled.verdict.label();
-    let name = if label == "0" { "no impact".into() } else { plain(&label) };
-    let title = format!("{}: {name}", plot::title(osc, inverse_beta));
-    waveform::figure(osc, from, (time, periods * osc.period()), units, title)
+    let label = plot::label(&settled.verdict.label());
+    let title = format!("{}: {label}", plot::title(&asked.system));
+    let span = (time, periods * osc.period());
+    waveform::figure(osc, from, span, &asked.units, title)
 }
 
 /// The state after the last event up to a time, and the time of that event.

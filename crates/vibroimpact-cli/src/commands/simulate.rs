@@ -101,7 +101,7 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
         waveform_csv(target, &osc, start, (until, step), &asked)?;
     }
     if let Some(picture) = picture {
-        let title = plot::title(&osc, asked.system.inverse_beta);
+        let title = plot::title(&asked.system);
         picture.write(&waveform::figure(&osc, start, (0.0, until), &asked.units, title))?;
     }
     if args.json {

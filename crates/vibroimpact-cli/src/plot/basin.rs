@@ -3,7 +3,7 @@
 use crate::exit::Failure;
 use crate::plot::variant;
 use vibroimpact_plot::{
-    Axis, ClassStyle, Colour, Figure, Legend, Panel, Raster, class_style, legend_group, plain,
+    Axis, ClassStyle, Colour, Figure, Legend, Panel, Raster, class_style, legend_group,
 };
 use vibroimpact_study::{Basin, Span};
 
@@ -31,10 +31,7 @@ pub(crate) fn figure(
         }
         colours[m] = variant(class_style(&label).colour, twins);
         let share = crate::report::text::percent(basin.share(m));
-        let name = match &*label {
-            "0" => "no impact".to_owned(),
-            label => plain(label).replace("inf", "∞"),
-        };
+        let name = crate::plot::label(&label);
         legend = legend.patch(ClassStyle::plain(colours[m]), format!("{name}, {share}"));
     }
     if basin.motions.len() > NAMED {

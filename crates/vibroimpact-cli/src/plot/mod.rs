@@ -7,8 +7,9 @@ pub(crate) mod waveform;
 use crate::exit::Failure;
 use crate::files::Target;
 use std::path::Path;
-use vibroimpact::Oscillator;
-use vibroimpact_plot::{Colour, DPI_300, Figure};
+use crate::report::text::short;
+use vibroimpact_plot::{Colour, DPI_300, Figure, plain};
+use vibroimpact_study::SystemPlan;
 
 /// A place for a figure, known to be writable and of a known format.
 #[derive(Debug)]
@@ -47,20 +48,30 @@ impl Picture {
     }
 }
 
-/// The parameters as a title.
-pub(crate) fn title(osc: &Oscillator, inverse_beta: Option<f64>) -> String {
-    use crate::report::text::short;
-    let inverse = inverse_beta.unwrap_or(1.0 / osc.beta());
+/// The parameters as a title, the frequency as it was given.
+pub(crate) fn title(system: &SystemPlan) -> String {
+    let (name, value) = match (system.inverse_beta, system.beta) {
+        (Some(inverse), _) => ("1/*β*", inverse),
+        (None, beta) => ("*β*", beta.unwrap_or(f64::NAN)),
+    };
     let mut text = format!(
-        "1/*β* = {}, *δ* = {}, *ε* = {}",
-        short(inverse),
-        short(osc.gap()),
-        short(osc.restitution())
+        "{name} = {}, *δ* = {}, *ε* = {}",
+        short(value),
+        short(system.gap),
+        short(system.restitution)
     );
-    if osc.damping() > 0.0 {
-        text.push_str(&format!(", *ζ* = {}", short(osc.damping())));
+    if system.damping > 0.0 {
+        text.push_str(&format!(", *ζ* = {}", short(system.damping)));
     }
-    text
+    text.replace('-', "−")
+}
+
+/// A label as a figure shows it.
+pub(crate) fn label(label: &str) -> String {
+    match label {
+        "0" => "no impact".into(),
+        label => plain(label).replace("inf", "∞"),
+    }
 }
 
 /// Variant number `k` of a colour: itself, darker, lighter, darker still ... for motions of one class.

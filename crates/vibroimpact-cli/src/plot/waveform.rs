@@ -20,7 +20,7 @@ pub(crate) fn figure(
     units: &Units,
     title: String,
 ) -> Figure {
-    let fine = osc.period().min(core::f64::consts::TAU) / 60.0;
+    let fine = osc.period().min(core::f64::consts::TAU) / 240.0;
     let step = fine.max(until / MOST).max(f64::MIN_POSITIVE);
     let wave = sample(osc, start, until, step, 2_000_000);
     let (length, time) = (units.length(), units.time());

@@ -141,7 +141,7 @@ fn right(section: &mut Section, grid: &Grid, plane: &Plane) {
     let finer = named.iter().flatten().cloned().collect::<Vec<_>>();
     section.claim(
         "4",
-        "at large 1/beta and large delta, the upper right, super-sub motions such as 3/2, 4/3, ...",
+        "at large 1/beta and large delta, the upper right, super-sub motions such as 3/2 and 4/3",
         format!(
             "motions m/n with m > n > 1 ({}) at {} points, {inside} of them with 1/beta >= 1.5 and delta >= 1, most of \
              those below delta = {:.2}; {on_grid}; with finer steps ({}): {}",

@@ -1,0 +1,186 @@
+//! What the commands say, field by field.
+
+use crate::{S, json, vibro};
+use serde_json::Value;
+
+#[test]
+fn the_papers_points() {
+    for (name, system, labels) in [
+        ("N", "--inverse-beta 1.8 --gap 0.25", vec!["4/1"]),
+        ("P", "--inverse-beta 0.6 --gap 0.75", vec!["0", "1/1"]),
+        ("Q", "--inverse-beta 0.7 --gap 2.5", vec!["0", "1/1"]),
+        ("R", "--inverse-beta 1.7 --gap 2.25", vec!["0", "2/1"]),
+        ("S", "--inverse-beta 1.3 --gap 0.75", vec!["1/1", "2/1"]),
+        ("T", "--inverse-beta 1.11 --gap 2", vec!["1/2"]),
+        ("U", "--inverse-beta 1.11 --gap 3", vec!["chaotic"]),
+    ] {
+        let answer = json(&format!(
+            "attractors {system} --restitution 0.5 --starts 200"
+        ));
+        let motions = answer["motions"].as_array().unwrap();
+        let mut found: Vec<&str> = motions
+            .iter()
+            .map(|m| m["label"].as_str().unwrap())
+            .collect();
+        found.sort_unstable();
+        assert_eq!(found, labels, "{name}");
+        let share: f64 = motions.iter().map(|m| m["share"].as_f64().unwrap()).sum();
+        assert!((share - 1.0).abs() < 1e-12 && answer["starts"] == 200);
+        let settled = json(&format!("settle {system} --restitution 0.5"));
+        let label = settled["motion"]["label"].as_str().unwrap();
+        assert!(labels.contains(&label), "{name}: {label}");
+    }
+}
+
+#[test]
+fn a_periodic_motion_has_its_cycle_and_multipliers() {
+    let answer = json("settle --inverse-beta 1.8 --gap 0.25 --restitution 0.5 --phase 0.1");
+    assert_eq!(answer["system"]["inverse_beta"], 1.8);
+    assert_eq!(answer["system"]["gap"], 0.25);
+    assert_eq!(answer["system"]["damping"], 0.0);
+    assert_eq!(answer["start"]["phase"], 0.1);
+    let motion = &answer["motion"];
+    assert_eq!(motion["kind"], "periodic");
+    assert_eq!((&motion["impacts"], &motion["periods"]), (&4.into(), &1.into()));
+    assert_eq!((&motion["sticks"], &motion["stable"]), (&0.into(), &true.into()));
+    let cycle = motion["cycle"].as_array().unwrap();
+    assert_eq!(cycle.len(), 4);
+    let first = &cycle[0];
+    assert!((first["phase"].as_f64().unwrap() - 0.185_568_221_573_524_7).abs() < 1e-12);
+    assert!((first["velocity_before"].as_f64().unwrap() - 1.513_140_069_144_015_8).abs() < 1e-12);
+    let period: f64 = cycle.iter().map(|p| p["interval"].as_f64().unwrap()).sum();
+    assert!((period - 1.8 * core::f64::consts::TAU).abs() < 1e-12);
+    let product = motion["multipliers"][0][0].as_f64().unwrap()
+        * motion["multipliers"][1][0].as_f64().unwrap();
+    assert!((product - 0.5_f64.powi(8)).abs() < 1e-12);
+}
+
+#[test]
+fn other_kinds_of_motion() {
+    let chaotic = &json("settle --inverse-beta 1.11 --gap 3 --restitution 0.5")["motion"];
+    assert_eq!((&chaotic["kind"], &chaotic["stable"]), (&"chaotic".into(), &false.into()));
+    let exponent = &chaotic["lyapunov"];
+    assert!(exponent["value"].as_f64() > exponent["error"].as_f64());
+
+    let free = &json("settle --inverse-beta 0.7 --gap 4 --restitution 0.5")["motion"];
+    assert_eq!((&free["kind"], &free["label"]), (&"no_impact".into(), &"0".into()));
+    assert_eq!((&free["impacts"], &free["periods"]), (&0.into(), &1.into()));
+    assert_eq!((&free["stable"], &free["horizon"]["kind"]), (&Value::Null, &"forever".into()));
+
+    let stuck = &json("settle --beta 0.9 --gap -1.5 --restitution 0.5 --x -3")["motion"];
+    assert_eq!((&stuck["kind"], &stuck["label"]), (&"stuck".into(), &"stuck".into()));
+
+    let chatter = &json("settle --inverse-beta 1.11 --gap -0.5 --restitution 0.5")["motion"];
+    assert_eq!((&chatter["label"], &chatter["sticks"]), (&"inf/1".into(), &1.into()));
+    assert_eq!(chatter["impacts"], Value::Null);
+    let release = core::f64::consts::PI + 0.5_f64.asin();
+    assert!((chatter["release"].as_f64().unwrap() - release).abs() < 1e-12);
+    assert!(chatter["chatter_end"].as_f64().unwrap() < release);
+}
+
+#[test]
+fn the_papers_own_rule() {
+    let answer = json("settle --inverse-beta 1.8 --gap 0.25 --restitution 0.5 --v -1 --rule paper");
+    assert_eq!(answer["paper_rule"]["verdict"], "settled");
+    assert_eq!(answer["paper_rule"]["label"], "4/1");
+    assert_eq!(answer["motion"]["label"], "4/1");
+}
+
+#[test]
+fn events_one_after_another() {
+    let answer = json(&format!("simulate {S} --impacts 7"));
+    assert_eq!(answer["events"].as_array().unwrap().len(), 7);
+    for event in answer["events"].as_array().unwrap() {
+        assert_eq!(event["kind"], "impact");
+        let (before, after) = (&event["velocity_before"], &event["velocity_after"]);
+        assert_eq!(-0.5 * before.as_f64().unwrap(), after.as_f64().unwrap());
+    }
+    assert_eq!(answer["end"]["reason"], "impact_limit");
+    assert_eq!(answer["end"]["time"], answer["events"][6]["time"]);
+
+    let chatter = json("simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 2");
+    assert_eq!(chatter["end"]["reason"], "time_limit");
+    let kinds = |answer: &Value| -> Vec<String> {
+        let kind = |e: &Value| e["kind"].as_str().unwrap().to_owned();
+        answer["events"].as_array().unwrap().iter().map(kind).collect()
+    };
+    let found = kinds(&chatter);
+    assert_eq!((found[0].as_str(), found[1].as_str()), ("stick", "release"));
+    assert_eq!(chatter["start"]["x"], -0.5, "on the stop when the gap is negative");
+
+    let free = json("simulate --inverse-beta 0.7 --gap 9 --restitution 0.5");
+    assert_eq!(free["end"]["reason"], "no_more_impacts");
+    assert_eq!(free["end"]["horizon"]["kind"], "forever");
+    let stuck = json("simulate --beta 0.9 --gap -1.5 --restitution 0.5 --x -3");
+    assert_eq!(stuck["end"]["reason"], "stuck");
+    assert_eq!(kinds(&stuck).last().unwrap(), "stick");
+}
+
+#[test]
+fn orbits_stable_or_not() {
+    let one = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1");
+    let physical: Vec<&Value> = one["orbits"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|orbit| orbit["physical"] == true)
+        .collect();
+    assert_eq!(physical.len(), 1);
+    assert_eq!(physical[0]["stable"], false);
+    let half = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2");
+    assert!(
+        half["orbits"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|orbit| orbit["stable"] == true && orbit["label"] == "1/2")
+    );
+}
+
+#[test]
+fn grids_in_short() {
+    let basin = json(&format!("basin {S} --x -4:0.75:20 --v -4:4:20"));
+    assert_eq!(basin["starts"], 400);
+    assert_eq!(basin["motions"].as_array().unwrap().len(), 2);
+    let map = json("map --inverse-beta 0.6:1.3:2 --gap 0.75:0.75:1 --restitution 0.5 --starts 200");
+    assert_eq!(map["points"], 2);
+    let labels: Vec<&str> = map["labels"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|l| l["label"].as_str().unwrap())
+        .collect();
+    assert_eq!(labels, ["0", "1/1", "2/1"]);
+}
+
+#[test]
+fn a_machine_in_physical_units() {
+    let machine = "--mass-kg 2 --damping-ns-per-m 1 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 25 \
+                   --gap-m 0.01 --restitution 0.5";
+    let plain = json(&format!("settle {machine}"));
+    assert_eq!((&plain["system"]["beta"], &plain["system"]["gap"]), (&1.25.into(), &2.0.into()));
+    assert_eq!(plain["system"]["scales"]["length_m"], 0.005);
+    let si = json(&format!("settle {machine} --units si"));
+    let velocity = |answer: &Value| answer["motion"]["cycle"][0]["velocity_before"].as_f64().unwrap();
+    assert!((velocity(&si) - 0.1 * velocity(&plain)).abs() < 1e-15);
+}
+
+#[test]
+fn text_help_and_pages() {
+    for (line, expected) in [
+        (format!("settle {S}"), "2/1: two impacts every forcing period"),
+        (format!("simulate {S} --impacts 3"), "end "),
+        (format!("attractors {S} --starts 50"), "1/1"),
+        (format!("basin {S} --x -4:0:5 --v -4:4:5"), "share"),
+        (format!("orbit {S} --label 1/1"), "1/1: one impact every"),
+        ("completions bash".into(), "vibro"),
+        ("man".into(), "vibro"),
+        ("--help".into(), "attractors"),
+        ("map --help".into(), "Example"),
+        ("--version".into(), "vibro "),
+    ] {
+        let output = vibro(&line).output().unwrap();
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && said.contains(expected), "{line}: {said}");
+    }
+}

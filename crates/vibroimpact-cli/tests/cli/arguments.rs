@@ -1,0 +1,151 @@
+//! Whatever the arguments: an answer or a refusal, soon, and never a defect.
+
+use crate::vibro;
+use proptest::prelude::*;
+use std::time::{Duration, Instant};
+
+/// The time one small question may take, on a slow machine that does other things as well.
+const BOUND: Duration = Duration::from_secs(20);
+
+fn number() -> impl Strategy<Value = String> {
+    prop_oneof![
+        6 => (-4.0..4.0_f64).prop_map(|x| x.to_string()),
+        4 => (0.0..2.0_f64).prop_map(|x| x.to_string()),
+        2 => (-12.0..12.0_f64).prop_map(|x| 10_f64.powf(x).to_string()),
+        1 => (-320.0..309.0_f64).prop_map(|x| format!("1e{}", x.round())),
+        2 => prop::sample::select(vec![
+            "nan", "inf", "-inf", "1e308", "-1e308", "-0", "0", "", "1e-320", "1", "-1", "0.5", "1e400", "x", "0x10",
+            "1e-9", "1000000", "--", "1.0000000001", "∞",
+        ]).prop_map(str::to_owned),
+    ]
+}
+
+fn restitution() -> impl Strategy<Value = String> {
+    prop_oneof![
+        6 => (0.0..=1.0_f64).prop_map(|x| x.to_string()),
+        2 => prop::sample::select(vec!["0", "1", "0.5", "0.999999", "1e-12"]).prop_map(str::to_owned),
+        1 => number(),
+    ]
+}
+
+fn count() -> impl Strategy<Value = String> {
+    prop_oneof![
+        6 => (1..5_u32).prop_map(|n| n.to_string()),
+        1 => prop::sample::select(vec!["0", "-1", "1e3", "1000000000000000000", "2.5", ""]).prop_map(str::to_owned),
+    ]
+}
+
+fn range() -> impl Strategy<Value = String> {
+    prop_oneof![
+        8 => (number(), number(), count()).prop_map(|(a, b, n)| format!("{a}:{b}:{n}")),
+        3 => (-3.0..0.0_f64, 0.001..1.0_f64, 2..4_u32).prop_map(|(a, w, n)| format!("{a}:{}:{n}", a + w)),
+        2 => (0.3..1.0_f64, 0.1..1.0_f64).prop_map(|(a, w)| format!("{a}:{}:2", a + w)),
+        1 => prop::sample::select(vec!["", ":", "::", "1:2", "1:2:3:4", "a:b:c"]).prop_map(str::to_owned),
+    ]
+}
+
+fn label() -> impl Strategy<Value = String> {
+    prop_oneof![
+        4 => (1..5_u32, 1..4_u32).prop_map(|(m, n)| format!("{m}/{n}")),
+        1 => prop::sample::select(vec!["3/0", "0/1", "inf/1", "1", "", "-1/1", "nan", "1/1/1", "∞/1"])
+            .prop_map(str::to_owned),
+    ]
+}
+
+fn option(
+    name: &'static str,
+    often: f64,
+    value: impl Strategy<Value = String>,
+) -> impl Strategy<Value = Vec<String>> {
+    prop::option::weighted(often, value)
+        .prop_map(move |value| value.map_or_else(Vec::new, |v| vec![format!("{name}={v}")]))
+}
+
+fn always(
+    name: &'static str,
+    value: impl Strategy<Value = String>,
+) -> impl Strategy<Value = Vec<String>> {
+    value.prop_map(move |v| vec![format!("{name}={v}")])
+}
+
+fn system() -> impl Strategy<Value = Vec<String>> {
+    let frequency = prop_oneof![Just("--beta"), Just("--inverse-beta")];
+    (
+        (frequency, number()).prop_map(|(name, value)| vec![format!("{name}={value}")]),
+        option("--gap", 0.98, number()),
+        option("--restitution", 0.98, restitution()),
+        option("--damping", 0.3, number()),
+        option("--second-gap", 0.2, number()),
+    )
+        .prop_map(|(a, b, c, d, e)| [a, b, c, d, e].concat())
+}
+
+fn start() -> impl Strategy<Value = Vec<String>> {
+    (
+        option("--x", 0.5, number()),
+        option("--v", 0.5, number()),
+        option("--phase", 0.5, number()),
+    )
+        .prop_map(|(a, b, c)| [a, b, c].concat())
+}
+
+fn command() -> impl Strategy<Value = Vec<String>> {
+    let named = |name: &str| Just(vec![name.to_owned()]);
+    let joined = |(a, b, c): (Vec<String>, Vec<String>, Vec<String>)| [a, b, c].concat();
+    let commands = prop_oneof![
+        3 => (named("settle"), system(), start()).prop_map(joined),
+        2 => (
+            named("simulate"),
+            system(),
+            (start(), option("--impacts", 0.5, count()), option("--periods", 0.3, number()))
+                .prop_map(joined),
+        ).prop_map(joined),
+        1 => (named("attractors"), system(), always("--starts", count())).prop_map(joined),
+        1 => (named("orbit"), system(), always("--label", label())).prop_map(joined),
+        1 => (
+            named("basin"),
+            system(),
+            (always("--x", range()), always("--v", range()), option("--phase", 0.3, number()))
+                .prop_map(joined),
+        ).prop_map(joined),
+        1 => (
+            named("map"),
+            (always("--inverse-beta", range()), always("--gap", range()), always("--restitution", restitution()))
+                .prop_map(joined),
+            always("--starts", count()),
+        ).prop_map(joined),
+    ];
+    (commands, any::<bool>()).prop_map(|(mut line, json)| {
+        if json {
+            line.push("--json".into());
+        }
+        line
+    })
+}
+
+/// Short in the everyday loop; `PROPTEST_CASES=20000` for a long search.
+fn cases() -> u32 {
+    std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(150)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: cases(), failure_persistence: None, max_shrink_iters: 60, ..ProptestConfig::default() })]
+
+    #[test]
+    fn an_answer_or_a_refusal(line in command()) {
+        let begun = Instant::now();
+        let output = vibro("").args(&line).timeout(BOUND).output().unwrap();
+        let took = begun.elapsed();
+        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+        let code = output.status.code();
+        prop_assert!(matches!(code, Some(0 | 2)), "{line:?}: {code:?} {took:?} {complaint}");
+        prop_assert!(!complaint.contains("panicked") && !complaint.contains("defect"), "{line:?}: {complaint}");
+        if code == Some(0) && line.iter().any(|arg| arg == "--json") {
+            let object: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+            prop_assert!(object["system"].is_object());
+        }
+        if code == Some(2) {
+            prop_assert!(output.stdout.is_empty() && complaint.starts_with("error: "), "{line:?}: {complaint}");
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Files and pipes: complete or absent, never overwritten unasked, the same for any number of threads.
+
+use crate::{S, vibro};
+use std::fs;
+use std::io::Read;
+use std::process::{Command, Stdio};
+
+const GRID: &str = "--x -4:0.75:37 --v -4:4:29";
+const PLANE: &str = "--inverse-beta 0.5:1.9:8 --gap -0.5:3:6 --restitution 0.5 --starts 6";
+
+#[test]
+fn tables_do_not_depend_on_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, line, header, rows) in [
+        ("basin", format!("basin {S} {GRID}"), "x,v,label", 37 * 29),
+        ("map", format!("map {PLANE}"), "inverse_beta,gap,label,share", 8 * 6),
+    ] {
+        let mut tables = Vec::new();
+        for threads in [1, 2, 3] {
+            let file = format!("{name}{threads}.csv");
+            let line = format!("{line} --csv {file} --threads {threads} --quiet");
+            let output = vibro(&line).current_dir(&folder).output().unwrap();
+            assert!(output.status.success() && output.stderr.is_empty());
+            tables.push(fs::read_to_string(folder.path().join(file)).unwrap());
+        }
+        assert_eq!(tables[0].lines().next(), Some(header));
+        assert!(tables[0].lines().count() > rows, "{name}");
+        assert!(tables.iter().all(|table| *table == tables[0]), "{name}");
+        let stdout = vibro(&format!("{line} --csv -")).output().unwrap().stdout;
+        assert_eq!(stdout, tables[0].as_bytes());
+    }
+    let names: Vec<_> = folder.path().read_dir().unwrap().collect();
+    assert_eq!(names.len(), 6, "no temporary file is left: {names:?}");
+}
+
+#[test]
+fn existing_files_stay_unless_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("keep.csv");
+    fs::write(&file, "precious").unwrap();
+    for line in [
+        format!("basin {S} {GRID} --csv keep.csv"),
+        format!("map {PLANE} --csv keep.csv"),
+        format!("simulate {S} --csv keep.csv"),
+    ] {
+        let output = vibro(&line).current_dir(&folder).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("`keep.csv` exists already"));
+        assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
+    }
+    let forced = format!("simulate {S} --csv keep.csv --force");
+    assert!(vibro(&forced).current_dir(&folder).output().unwrap().status.success());
+    assert!(fs::read_to_string(&file).unwrap().starts_with("t,x,v\n0,0,0\n"));
+}
+
+#[test]
+fn places_that_cannot_hold_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "").unwrap();
+    fs::create_dir(folder.path().join("directory.svg")).unwrap();
+    for (place, sentence) in [
+        ("--csv nowhere/a.csv", "there is no directory"),
+        ("--csv file/a.csv", "cannot be written"),
+        ("--plot directory.svg", "is a directory"),
+        ("--plot nowhere/a.png", "there is no directory"),
+    ] {
+        let line = format!("simulate {S} {place}");
+        let output = vibro(&line).current_dir(&folder).output().unwrap();
+        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{complaint}");
+        assert!(complaint.contains(sentence), "{complaint}");
+    }
+    let twice = format!("basin {S} {GRID} --csv same.svg --plot same.svg");
+    let output = vibro(&twice).current_dir(&folder).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(folder.path().read_dir().unwrap().count(), 2);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_directory_without_permission() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let locked = folder.path().join("locked");
+    fs::create_dir(&locked).unwrap();
+    fs::set_permissions(&locked, fs::Permissions::from_mode(0o555)).unwrap();
+    // root may write everywhere
+    if fs::write(locked.join("probe"), "").is_err() {
+        let line = format!("simulate {S} --csv locked/a.csv");
+        let output = vibro(&line).current_dir(&folder).output().unwrap();
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
+
+#[test]
+fn pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, line) in [
+        ("wave", format!("simulate {S} --periods 5 --plot wave.svg --csv wave.csv --step 0.1")),
+        ("steady", "settle --beta 0.9 --gap -0.5 --restitution 0.5 --plot steady.png".into()),
+        ("two", format!("settle {S} --second-gap 1 --plot two.svg")),
+        ("basin", format!("basin {S} {GRID} --plot basin.png")),
+        ("map", format!("map {PLANE} --plot map.svg")),
+    ] {
+        let output = vibro(&line).current_dir(&folder).output().unwrap();
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        let svg = folder.path().join(format!("{name}.svg"));
+        if svg.exists() {
+            assert!(fs::read_to_string(svg).unwrap().starts_with("<svg"));
+        } else {
+            let png = fs::read(folder.path().join(format!("{name}.png"))).unwrap();
+            assert!(png.starts_with(b"\x89PNG"));
+        }
+    }
+}
+
+#[test]
+fn manual_pages() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(vibro("man .").current_dir(&folder).output().unwrap().status.success());
+    for page in ["vibro.1", "vibro-settle.1", "vibro-map.1"] {
+        assert!(fs::read_to_string(folder.path().join(page)).unwrap().contains("vibro"));
+    }
+    assert_eq!(vibro("man .").current_dir(&folder).output().unwrap().status.code(), Some(2));
+}
+
+#[test]
+fn a_reader_that_has_enough_is_no_failure() {
+    for line in [
+        "simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 2000 --json".to_owned(),
+        format!("basin {S} --x -4:0.75:100 --v -4:4:100 --csv -"),
+        "man".into(),
+        "--help".into(),
+    ] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_vibro"))
+            .args(line.split_whitespace())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut stdout = child.stdout.take().unwrap();
+        let _ = stdout.read(&mut [0; 8]).unwrap();
+        drop(stdout);
+        let output = child.wait_with_output().unwrap();
+        let complaint = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{line}: {complaint}");
+        assert!(!complaint.contains("error"), "{complaint}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure() {
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_vibro"))
+        .args(format!("simulate {S}").split_whitespace())
+        .stdout(full)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[cfg(unix)]
+#[test]
+fn control_c_stops_cleanly() {
+    let folder = tempfile::tempdir().unwrap();
+    let child = Command::new(env!("CARGO_BIN_EXE_vibro"))
+        .args(format!("basin {S} --x -4:0.75:9000 --v -4:4:9000 --csv big.csv").split_whitespace())
+        .current_dir(&folder)
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    while folder.path().read_dir().unwrap().count() == 0 {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let pid = child.id().to_string();
+    Command::new("kill").args(["-INT", &pid]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{complaint}");
+    assert!(complaint.contains("stopped"), "{complaint}");
+    assert_eq!(folder.path().read_dir().unwrap().count(), 0);
+}

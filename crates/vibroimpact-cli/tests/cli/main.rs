@@ -1,0 +1,29 @@
+//! The `vibro` command from outside: answers, refusals, files, and whatever arguments chance brings.
+
+mod answers;
+mod arguments;
+mod files;
+mod refusals;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+/// A run of `vibro` that cannot take for ever.
+fn vibro(line: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_vibro"));
+    command
+        .args(line.split_whitespace())
+        .timeout(std::time::Duration::from_secs(60));
+    command
+}
+
+/// The JSON object a command prints.
+fn json(line: &str) -> Value {
+    let output = vibro(line).arg("--json").output().unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{line}: {complaint}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// S of the 1971 paper, where two motions coexist.
+const S: &str = "--inverse-beta 1.3 --gap 0.75 --restitution 0.5";

@@ -1,0 +1,74 @@
+//! Questions that make no sense: one sentence, exit 2, nothing computed, nothing overwritten.
+
+use crate::{S, vibro};
+
+#[test]
+fn bad_questions_are_named() {
+    let rest = "--gap 1 --restitution 0.5";
+    let grid = "--x -1:0.5:3 --v -1:1:3";
+    for (line, sentence) in [
+        (format!("settle --beta nan {rest}"), "beta = NaN lies outside 0 < beta"),
+        (format!("settle --beta inf {rest}"), "beta = inf lies outside"),
+        (format!("settle --beta 0 {rest}"), "beta = 0 lies outside"),
+        (format!("settle --beta -2 {rest}"), "beta = -2 lies outside"),
+        (format!("settle --beta 1e400 {rest}"), "beta = inf"),
+        (format!("settle --inverse-beta 0 {rest}"), "1/beta = 0"),
+        (format!("settle {rest}"), "exactly one of beta and inverse beta"),
+        (format!("settle --beta 1 --inverse-beta 1 {rest}"), "cannot be used with"),
+        ("settle --beta 1 --gap nan --restitution 0.5".into(), "gap delta = NaN"),
+        ("settle --beta 1 --restitution 0.5".into(), "the gap is not given"),
+        ("settle --beta 1 --gap 1".into(), "the restitution is not given"),
+        ("settle --beta 1 --gap 1 --restitution 1.1".into(), "eps = 1.1 lies outside 0 <= eps <= 1"),
+        ("settle --beta 1 --gap 1 --restitution -0.1".into(), "eps = -0.1"),
+        (format!("settle --beta 1 {rest} --damping -1"), "zeta = -1 lies outside"),
+        (format!("settle --beta 1 {rest} --x 1.5"), "x = 1.5 lies beyond the stop"),
+        (format!("settle --beta 1 {rest} --v nan"), "start v = NaN"),
+        (format!("settle --beta 1 {rest} --second-gap -1"), "no room"),
+        (format!("settle --beta 1 {rest} --second-restitution 1"), "no gap"),
+        (format!("settle --beta 1 {rest} --units si"), "physical units"),
+        (format!("settle --mass-kg 1 {rest}"), "missing: --damping-ns-per-m"),
+        (format!("settle --beta 1 {rest} --limit 5"), "--rule paper"),
+        (format!("settle --beta 1 {rest} --rule paper --percent 0"), "percent = 0"),
+        (format!("settle --beta 1 {rest} --frobnicate"), "unexpected argument"),
+        (format!("settle --beta one {rest}"), "invalid value 'one'"),
+        (format!("settle --beta= {rest}"), "--beta"),
+        (format!("simulate --beta 1 {rest} --impacts 0"), "impacts = 0 lies outside 1 <= impacts"),
+        (format!("simulate --beta 1 {rest} --periods -1"), "periods = -1"),
+        (format!("simulate --beta 1 {rest} --csv a.csv --step 0"), "step = 0"),
+        (format!("orbit {S} --label 3/0"), "label `3/0`"),
+        (format!("orbit {S} --label -1/1"), "label `-1/1`"),
+        (format!("orbit {S} --label 0"), "label `0`"),
+        (format!("attractors {S} --starts 0"), "starts = 0 lies outside 1 <= starts"),
+        (format!("attractors {S} --starts 1e9"), "invalid value"),
+        (format!("attractors {S} --starts 1000000000000"), "starts = 1000000000000"),
+        (format!("attractors {S} --starts 5 --threads 99999"), "99999"),
+        (format!("basin {S} --x 1:2 --v 0:1:3"), "A:B:N"),
+        (format!("basin {S} --x -1:0.75:0 --v 0:1:3"), "allowed is 1 to 1000000"),
+        (format!("basin {S} --x -1:0.75:1000000000000000000 --v 0:1:3"), "allowed is 1 to 1000000"),
+        (format!("basin {S} --x -1:0.75:1000000 --v 0:1:1000000"), "at most 100000000"),
+        (format!("basin {S} --x -1:2:10 --v 0:1:10"), "x = 2 lies beyond the stop"),
+        (format!("basin {S} {grid} --phase inf"), "phase = inf"),
+        (format!("basin {S} {grid} --plot figure.pdf"), "neither .svg nor .png"),
+        (format!("basin {S} {grid} --plot .png"), "neither .svg nor .png"),
+        (format!("basin {S} {grid} --csv - --json"), "both want stdout"),
+        ("map --inverse-beta 0:1:3 --gap 0:1:3 --restitution 0.5 --starts 3".into(), "1/beta = 0"),
+        ("map --inverse-beta 1:2:3 --gap 0:1:3 --restitution 2 --starts 3".into(), "eps = 2"),
+        ("frobnicate".into(), "unrecognized subcommand"),
+        ("completions tcsh-of-old".into(), "invalid value"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let output = vibro(&line).current_dir(&folder).output().unwrap();
+        let complaint = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{line}: {complaint}");
+        assert!(complaint.contains(sentence), "{line}: {complaint}");
+        assert!(complaint.starts_with("error: ") && output.stdout.is_empty(), "{line}");
+        assert_eq!(folder.path().read_dir().unwrap().count(), 0, "{line}");
+    }
+}
+
+#[test]
+fn nothing_asked_is_answered_with_help() {
+    let output = vibro("").output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("Usage"));
+}

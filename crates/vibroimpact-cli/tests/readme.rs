@@ -1,0 +1,55 @@
+//! The README, typed as it stands: every `vibro` line runs, and what it shows is what comes out.
+
+use assert_cmd::Command;
+use std::fs;
+use std::path::Path;
+
+/// Fenced blocks of one language.
+fn blocks(text: &str, language: &str) -> Vec<String> {
+    let fence = format!("```{language}\n");
+    text.split(&fence).skip(1).filter_map(|rest| rest.split("```").next()).map(str::to_owned).collect()
+}
+
+fn readme() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).unwrap()
+}
+
+fn vibro(line: &str, folder: &Path) -> std::process::Output {
+    let words = line.split_whitespace().skip(1);
+    Command::cargo_bin("vibro").unwrap().args(words).current_dir(folder).output().unwrap()
+}
+
+#[test]
+fn shown_output_is_real_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut shown = 0;
+    for block in blocks(&readme(), "console") {
+        let (command, expected) = block.split_once('\n').unwrap();
+        let output = vibro(command.trim_start_matches("$ "), folder.path());
+        assert!(output.status.success(), "{command}");
+        let out = String::from_utf8(output.stdout).unwrap();
+        let mut lines = out.lines();
+        for want in expected.lines().filter(|line| !line.is_empty()) {
+            assert!(lines.any(|line| line == want), "{command}\nshould print, in this order\n{want}\nbut prints\n{out}");
+            shown += 1;
+        }
+    }
+    assert!(shown > 8);
+}
+
+#[test]
+fn every_command_line_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut ran = 0;
+    for block in blocks(&readme(), "sh") {
+        for line in block.lines().filter(|line| line.starts_with("vibro ")) {
+            let output = vibro(line, folder.path());
+            assert!(output.status.success(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
+            ran += 1;
+        }
+    }
+    assert!(ran >= 4);
+    for file in ["basin.csv", "basin.png", "map.csv", "map.svg"] {
+        assert!(folder.path().join(file).exists(), "{file}");
+    }
+}
