@@ -100,9 +100,7 @@ pub(crate) fn parsed(refusal: &clap::Error) -> ExitCode {
 /// A defect of ours ends with a sentence someone can report, not with a backtrace.
 pub(crate) fn no_backtraces() {
     std::panic::set_hook(Box::new(|defect| {
-        let place = defect
-            .location()
-            .map_or_else(String::new, |at| format!(" ({}:{})", at.file(), at.line()));
+        let place = defect.location().map_or_else(String::new, |at| format!(" ({}:{})", at.file(), at.line()));
         complain(&format!(
             "error: this is a defect of vibro{place}, not of your question\nhint: please report it with the command line"
         ));

@@ -39,11 +39,7 @@ impl Target {
                 return Err(Failure::bad(format!("`{name}` is a directory, not a file")));
             }
             Ok(found) if !found.is_file() => {
-                return Ok(Self {
-                    path,
-                    beside: None,
-                    force,
-                });
+                return Ok(Self { path, beside: None, force });
             }
             Ok(_) if !force => {
                 return Err(Failure::bad(format!(
@@ -56,56 +52,32 @@ impl Target {
         let (Some(directory), Some(file)) = (place.parent(), place.file_name()) else {
             return Err(Failure::bad(format!("`{name}` is no name for a file")));
         };
-        let directory = if directory.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            directory
-        };
-        let temporary = directory.join(format!(
-            ".{}.{}.tmp",
-            file.to_string_lossy(),
-            std::process::id()
-        ));
+        let directory = if directory.as_os_str().is_empty() { Path::new(".") } else { directory };
+        let temporary = directory.join(format!(".{}.{}.tmp", file.to_string_lossy(), std::process::id()));
         let mut begun = BEGUN.lock().unwrap_or_else(PoisonError::into_inner);
         if begun.contains(&temporary) {
             return Err(Failure::bad(format!("`{name}` is asked for twice")));
         }
         // one of the same name is left from a run that was killed
-        let open = OpenOptions::new()
-            .write(true)
-            .create(true)
-            .truncate(true)
-            .open(&temporary);
+        let open = OpenOptions::new().write(true).create(true).truncate(true).open(&temporary);
         match open {
             Ok(file) => {
                 begun.push(temporary.clone());
-                Ok(Self {
-                    path,
-                    beside: Some((place.clone(), temporary, file)),
-                    force,
-                })
+                Ok(Self { path, beside: Some((place.clone(), temporary, file)), force })
             }
             Err(error) => Err(Failure::bad(match error.kind() {
-                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => format!(
-                    "`{name}` cannot be written: there is no directory `{}`",
-                    directory.display()
-                ),
-                _ => format!(
-                    "`{name}` cannot be written in `{}`: {error}",
-                    directory.display()
-                ),
+                io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => {
+                    format!("`{name}` cannot be written: there is no directory `{}`", directory.display())
+                }
+                _ => format!("`{name}` cannot be written in `{}`: {error}", directory.display()),
             })),
         }
     }
 
     /// Writes the whole file; it appears complete or not at all.
-    pub(crate) fn write(
-        mut self,
-        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+    pub(crate) fn write(mut self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         let name = format!("`{}`", self.path.display());
-        self.put(content)
-            .map_err(|error| Failure::writing(name, &error))
+        self.put(content).map_err(|error| Failure::writing(name, &error))
     }
 
     fn put(&mut self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {

@@ -21,11 +21,7 @@ pub(crate) fn complain(line: &str) {
 
 impl Session {
     pub(crate) fn new(globals: Globals) -> Self {
-        Self {
-            quiet: globals.quiet,
-            force: globals.force,
-            threads: usize::from(globals.threads),
-        }
+        Self { quiet: globals.quiet, force: globals.force, threads: usize::from(globals.threads) }
     }
 
     /// Text for stdout.
@@ -41,19 +37,14 @@ impl Session {
         })
     }
 
-    pub(crate) fn to_stdout(
-        &self,
-        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+    pub(crate) fn to_stdout(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
-        write(&mut out)
-            .and_then(|()| out.flush())
-            .map_err(|error| {
-                // what is left in the buffer has nowhere to go
-                let failure = Failure::writing("stdout", &error);
-                drop(out.into_parts());
-                failure
-            })
+        write(&mut out).and_then(|()| out.flush()).map_err(|error| {
+            // what is left in the buffer has nowhere to go
+            let failure = Failure::writing("stdout", &error);
+            drop(out.into_parts());
+            failure
+        })
     }
 
     /// A remark for stderr, unless --quiet.
@@ -64,19 +55,10 @@ impl Session {
     }
 
     /// Runs tiled work with threads, stop flag and progress bar.
-    pub(crate) fn tiled<T>(
-        &self,
-        total: u64,
-        unit: &str,
-        work: impl FnOnce(&Control<'_>, &Progress) -> T,
-    ) -> T {
+    pub(crate) fn tiled<T>(&self, total: u64, unit: &str, work: impl FnOnce(&Control<'_>, &Progress) -> T) -> T {
         let progress = Progress::new(total, unit, self.quiet);
         let tell = |done| progress.at(done);
-        let control = Control {
-            stop: signal::flag(),
-            progress: &tell,
-            threads: self.threads,
-        };
+        let control = Control { stop: signal::flag(), progress: &tell, threads: self.threads };
         work(&control, &progress)
     }
 }

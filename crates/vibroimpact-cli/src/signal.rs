@@ -53,9 +53,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
         match receiver.recv_timeout(Duration::from_millis(50)) {
             Ok(result) => return Ok(result),
             Err(RecvTimeoutError::Timeout) if STOP.load(Ordering::Relaxed) => {
-                return Err(Failure::Stopped(format!(
-                    "while {what}; nothing was written"
-                )));
+                return Err(Failure::Stopped(format!("while {what}; nothing was written")));
             }
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => {

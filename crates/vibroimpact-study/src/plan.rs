@@ -42,11 +42,7 @@ impl Plan {
             if (1..=1_000_000_000).contains(&n) { Ok(()) } else { Err(PlanError::Starts(n)) }
         };
         match &self.task {
-            Task::Simulate {
-                start,
-                impacts,
-                periods,
-            } => {
+            Task::Simulate { start, impacts, periods } => {
                 if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
                     return Err(PlanError::Impacts(n));
                 }
@@ -252,12 +248,7 @@ const MOST_CELLS: u64 = 100_000_000;
 fn cells(what: &'static str, columns: &Span, rows: &Span) -> Result<u64, PlanError> {
     let (columns, rows) = (u64::from(columns.count()), u64::from(rows.count()));
     if columns * rows > MOST_CELLS {
-        return Err(PlanError::Size {
-            what,
-            columns,
-            rows,
-            most: MOST_CELLS,
-        });
+        return Err(PlanError::Size { what, columns, rows, most: MOST_CELLS });
     }
     Ok(columns * rows)
 }
@@ -294,11 +285,7 @@ mod tests {
         assert_eq!(later.check(), Err(PlanError::Version(2)));
         let none = Plan { task: Task::Attractors { starts: 0, seed: 0 }, ..plan() };
         assert_eq!(none.check(), Err(PlanError::Starts(0)));
-        let too_many = BasinPlan {
-            x: "-3:0.75:20000".parse().unwrap(),
-            v: "-1:1:20000".parse().unwrap(),
-            phase: 0.0,
-        };
+        let too_many = BasinPlan { x: "-3:0.75:20000".parse().unwrap(), v: "-1:1:20000".parse().unwrap(), phase: 0.0 };
         for (task, sentence) in [
             (Task::Basin(too_many), "20000 x 20000 = 400000000 starts"),
             (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
@@ -311,10 +298,6 @@ mod tests {
     }
 
     fn simulate(impacts: Option<u64>, periods: Option<f64>) -> Task {
-        Task::Simulate {
-            start: StartPlan::default(),
-            impacts,
-            periods,
-        }
+        Task::Simulate { start: StartPlan::default(), impacts, periods }
     }
 }

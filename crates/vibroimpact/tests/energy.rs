@@ -2,6 +2,7 @@
 //!
 //! The work of the force is integrated by Gauss-Legendre quadrature along the flights, independently of the impact
 //! search, and compared with what the impacts and the damper took.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use vibroimpact::motion::{EventKind, Motion, Path};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};

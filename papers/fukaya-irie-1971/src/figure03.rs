@@ -63,7 +63,7 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<(), Error> {
             part(none),
             part(chaotic)
         ),
-        Agreement::of(ratio(all.0, all.1) > 0.95, ratio(all.0, all.1) > 0.5),
+        Agreement::of(ratio(all.0, all.1) > 0.95, ratio(few.0, few.1) > 0.8),
     );
     section.claim(
         "3",

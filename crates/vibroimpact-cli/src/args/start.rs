@@ -22,10 +22,6 @@ pub(crate) struct StartArgs {
 
 impl StartArgs {
     pub(crate) fn plan(&self, units: &Units) -> StartPlan {
-        StartPlan {
-            x: self.x.map(|x| x / units.length()),
-            v: self.v / units.velocity(),
-            phase: self.phase,
-        }
+        StartPlan { x: self.x.map(|x| x / units.length()), v: self.v / units.velocity(), phase: self.phase }
     }
 }

@@ -118,11 +118,7 @@ impl Units {
 
     /// `name`, followed by its unit where there is one: `time (s)`.
     pub(crate) fn named(&self, name: &str, unit: &str) -> String {
-        if self.si {
-            format!("{name} ({unit})")
-        } else {
-            name.to_owned()
-        }
+        if self.si { format!("{name} ({unit})") } else { name.to_owned() }
     }
 }
 
@@ -141,15 +137,11 @@ impl SystemArgs {
         let machine = self.machine.machine(restitution)?;
         let second = self.second_gap.or(self.machine.second_gap_m);
         let second_stop = |unit: f64| {
-            second.map(|gap| SecondStop {
-                gap: gap / unit,
-                restitution: self.second_restitution.unwrap_or(restitution),
-            })
+            second
+                .map(|gap| SecondStop { gap: gap / unit, restitution: self.second_restitution.unwrap_or(restitution) })
         };
         if second.is_none() && self.second_restitution.is_some() {
-            return Err(Failure::bad(
-                "the second stop has a restitution but no gap\nhint: --second-gap D2",
-            ));
+            return Err(Failure::bad("the second stop has a restitution but no gap\nhint: --second-gap D2"));
         }
         let Some(machine) = machine else {
             if self.units == Convention::Si {
@@ -157,9 +149,7 @@ impl SystemArgs {
                     "--units si needs the system in physical units\nhint: --mass-kg, --stiffness-n-per-m, --force-n ...",
                 ));
             }
-            let gap = self
-                .gap
-                .ok_or_else(|| Failure::bad("the gap is not given\nhint: --gap D, in units of F/k"))?;
+            let gap = self.gap.ok_or_else(|| Failure::bad("the gap is not given\nhint: --gap D, in units of F/k"))?;
             let system = SystemPlan {
                 beta: self.beta,
                 inverse_beta: self.inverse_beta,
@@ -168,10 +158,7 @@ impl SystemArgs {
                 damping: self.damping.unwrap_or(0.0),
                 second_stop: second_stop(1.0),
             };
-            return Ok(Asked {
-                system,
-                units: Units::default(),
-            });
+            return Ok(Asked { system, units: Units::default() });
         };
         let twice = [
             ("--beta", self.beta),
@@ -181,9 +168,7 @@ impl SystemArgs {
             ("--second-gap", self.second_gap),
         ];
         if let Some((flag, _)) = twice.iter().find(|(_, value)| value.is_some()) {
-            return Err(Failure::bad(format!(
-                "{flag} cannot go together with a system in physical units"
-            )));
+            return Err(Failure::bad(format!("{flag} cannot go together with a system in physical units")));
         }
         let (osc, scales) = machine.nondimensional()?;
         let system = SystemPlan {
@@ -195,10 +180,7 @@ impl SystemArgs {
             second_stop: second_stop(scales.length_m),
         };
         let si = self.units == Convention::Si;
-        let units = Units {
-            scales: Some(scales),
-            si,
-        };
+        let units = Units { scales: Some(scales), si };
         Ok(Asked { system, units })
     }
 }
@@ -226,11 +208,7 @@ impl MachineArgs {
                 None => Ok(None),
             };
         }
-        let missing: Vec<&str> = given
-            .iter()
-            .filter(|(_, value)| value.is_none())
-            .map(|(flag, _)| *flag)
-            .collect();
+        let missing: Vec<&str> = given.iter().filter(|(_, value)| value.is_none()).map(|(flag, _)| *flag).collect();
         let (
             Some(mass_kg),
             Some(damping_ns_per_m),
@@ -238,28 +216,13 @@ impl MachineArgs {
             Some(force_n),
             Some(frequency),
             Some(gap_m),
-        ) = (
-            self.mass_kg,
-            self.damping_ns_per_m,
-            self.stiffness_n_per_m,
-            self.force_n,
-            frequency,
-            self.gap_m,
-        )
+        ) = (self.mass_kg, self.damping_ns_per_m, self.stiffness_n_per_m, self.force_n, frequency, self.gap_m)
         else {
             return Err(Failure::bad(format!(
                 "a system in physical units needs all of its quantities; missing: {}",
                 missing.join(", ")
             )));
         };
-        Ok(Some(Machine {
-            mass_kg,
-            damping_ns_per_m,
-            stiffness_n_per_m,
-            force_n,
-            frequency,
-            gap_m,
-            restitution,
-        }))
+        Ok(Some(Machine { mass_kg, damping_ns_per_m, stiffness_n_per_m, force_n, frequency, gap_m, restitution }))
     }
 }

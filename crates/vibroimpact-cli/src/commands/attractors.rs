@@ -55,10 +55,7 @@ struct Area {
 
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
-    let task = Task::Attractors {
-        starts: args.starts,
-        seed: args.seed,
-    };
+    let task = Task::Attractors { starts: args.starts, seed: args.seed };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
     let osc = asked.system.oscillator()?;
@@ -72,11 +69,7 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let found = census.by_share();
     let units = &asked.units;
     let scaled = |(a, b): (f64, f64), unit: f64| (a * unit, b * unit);
-    let area = Area {
-        x: scaled(area.x, units.length()),
-        v: scaled(area.v, units.velocity()),
-        phase: area.phase,
-    };
+    let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
     if args.json {
         let motions = found
             .iter()
@@ -86,12 +79,7 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
                 count: found.count,
             })
             .collect();
-        let answer = Answer {
-            motions,
-            starts: args.starts,
-            seed: args.seed,
-            area,
-        };
+        let answer = Answer { motions, starts: args.starts, seed: args.seed, area };
         return session.print_json(&Document::new(&asked, &osc, &plan, answer));
     }
     let heads = ["share", "starts", "<label", "multipliers", "<meaning"].map(str::to_owned);
@@ -102,10 +90,7 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
                 percent(census.share(found)),
                 found.count.to_string(),
                 found.verdict.label().into_owned(),
-                found
-                    .verdict
-                    .multipliers(&osc)
-                    .map_or_else(|| "-".into(), multipliers),
+                found.verdict.multipliers(&osc).map_or_else(|| "-".into(), multipliers),
                 text::meaning(&found.verdict),
             ]
         })

@@ -68,11 +68,8 @@ pub(super) const MOST_CELLS: u32 = 16_384;
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let units = asked.units;
-    let task = BasinPlan {
-        x: scaled(&args.x, units.length())?,
-        v: scaled(&args.v, units.velocity())?,
-        phase: args.phase,
-    };
+    let task =
+        BasinPlan { x: scaled(&args.x, units.length())?, v: scaled(&args.v, units.velocity())?, phase: args.phase };
     let plan = Plan::new(asked.system, Task::Basin(task));
     plan.check()?;
     let osc = asked.system.oscillator()?;
@@ -80,9 +77,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     outputs.drawable(&args.x, &args.v)?;
 
-    let found = session.tiled(total, "starts", |control, _| {
-        basin(&osc, &task, &SettleOptions::default(), control)
-    })?;
+    let found = session.tiled(total, "starts", |control, _| basin(&osc, &task, &SettleOptions::default(), control))?;
 
     let silent = outputs.any();
     outputs.write(
@@ -143,11 +138,7 @@ fn scaled(span: &Span, unit: f64) -> Result<Span, Failure> {
 
 /// Rows in the order of the cells, in the units and with the very numbers of the question.
 fn rows<'a>(found: &'a Computed, (x, v): (&'a Span, &'a Span)) -> impl Iterator<Item = String> + 'a {
-    let labels: Vec<String> = found
-        .motions
-        .iter()
-        .map(|motion| motion.verdict.label().into_owned())
-        .collect();
+    let labels: Vec<String> = found.motions.iter().map(|motion| motion.verdict.label().into_owned()).collect();
     let columns = x.count() as usize;
     let xs: Vec<String> = x.values().map(|x| Number(x).to_string()).collect();
     let vs: Vec<String> = v.values().map(|v| Number(v).to_string()).collect();

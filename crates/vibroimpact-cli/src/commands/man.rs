@@ -44,8 +44,6 @@ pub(super) fn run(args: &Man, session: &Session) -> Result<(), Failure> {
 
 fn rendered(command: clap::Command) -> Result<Vec<u8>, Failure> {
     let mut page = Vec::new();
-    Page::new(command)
-        .render(&mut page)
-        .map_err(|error| Failure::writing("the manual page", &error))?;
+    Page::new(command).render(&mut page).map_err(|error| Failure::writing("the manual page", &error))?;
     Ok(page)
 }

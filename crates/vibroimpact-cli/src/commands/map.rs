@@ -110,37 +110,25 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         gap: args.gap.ends().0,
         restitution: args.restitution,
         damping: args.damping,
-        second_stop: args.second_gap.map(|gap| SecondStop {
-            gap,
-            restitution: args.second_restitution.unwrap_or(args.restitution),
-        }),
+        second_stop: args
+            .second_gap
+            .map(|gap| SecondStop { gap, restitution: args.second_restitution.unwrap_or(args.restitution) }),
     };
-    let task = MapPlan {
-        inverse_beta: args.inverse_beta,
-        gap: args.gap,
-        starts: args.starts,
-        seed: args.seed,
-    };
+    let task = MapPlan { inverse_beta: args.inverse_beta, gap: args.gap, starts: args.starts, seed: args.seed };
     let plan = Plan::new(system, Task::Map(task));
     plan.check()?;
     let total = task.oscillators(&system)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     outputs.drawable(&args.inverse_beta, &args.gap)?;
 
-    let found = session.tiled(total, "points", |control, _| {
-        map(&system, &task, &SettleOptions::default(), control)
-    })?;
+    let found = session.tiled(total, "points", |control, _| map(&system, &task, &SettleOptions::default(), control))?;
 
     let silent = outputs.any();
     outputs.write(
         session,
         |out| csv::write(out, "inverse_beta,gap,label,share", rows(&found)),
         || {
-            let damping = if args.damping > 0.0 {
-                format!(", *ζ* = {}", short(args.damping))
-            } else {
-                String::new()
-            };
+            let damping = if args.damping > 0.0 { format!(", *ζ* = {}", short(args.damping)) } else { String::new() };
             plot::map::figure(&found, format!("*ε* = {}{damping}", short(args.restitution)))
         },
     )?;
@@ -151,10 +139,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
             system: SystemObject {
                 restitution: args.restitution,
                 damping: args.damping,
-                second_stop: system.second_stop.map(|stop| StopObject {
-                    gap: stop.gap,
-                    restitution: stop.restitution,
-                }),
+                second_stop: system.second_stop.map(|stop| StopObject { gap: stop.gap, restitution: stop.restitution }),
             },
             inverse_beta: Range::new(&args.inverse_beta),
             gap: Range::new(&args.gap),
@@ -171,16 +156,8 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         return Ok(());
     }
     let heads = ["<label", "points", "share of starts"].map(str::to_owned);
-    let rows: Vec<Vec<String>> = labels
-        .iter()
-        .map(|count| {
-            vec![
-                count.label.clone(),
-                count.points.to_string(),
-                percent(count.share),
-            ]
-        })
-        .collect();
+    let rows: Vec<Vec<String>> =
+        labels.iter().map(|count| vec![count.label.clone(), count.points.to_string(), percent(count.share)]).collect();
     session.print(&format!(
         "{} points, {} starts each; several motions coexist at {coexisting} of them\n\n{}",
         found.points.len(),
@@ -224,12 +201,5 @@ fn counts(found: &RegionMap) -> Vec<LabelCount> {
     }
     #[allow(clippy::cast_precision_loss)] // at most 1e8
     let all = found.points.len() as f64;
-    counts
-        .into_iter()
-        .map(|((_, label), (points, share))| LabelCount {
-            label,
-            points,
-            share: share / all,
-        })
-        .collect()
+    counts.into_iter().map(|((_, label), (points, share))| LabelCount { label, points, share: share / all }).collect()
 }

@@ -51,17 +51,13 @@ struct OrbitObject {
 
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
-    let task = Task::Orbit {
-        label: args.label.clone(),
-    };
+    let task = Task::Orbit { label: args.label.clone() };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
     let osc = asked.system.oscillator()?;
     let label: Label = args.label.parse().map_err(|error: LabelError| Failure::bad(error))?;
 
-    let orbits = signal::interruptible("looking for orbits", move || {
-        find(&osc, label, FindOptions::default())
-    })?;
+    let orbits = signal::interruptible("looking for orbits", move || find(&osc, label, FindOptions::default()))?;
 
     if args.json {
         let orbits = orbits

@@ -23,10 +23,7 @@ pub(crate) struct Reproduce {
 }
 
 pub(super) fn run(args: &Reproduce, session: &Session) -> Result<(), Failure> {
-    let options = Options {
-        quick: args.quick,
-        force: session.force,
-    };
+    let options = Options { quick: args.quick, force: session.force };
     let report = session
         .tiled(0, "points", |control, progress| {
             let stage = |name: &str, total: u64| progress.stage(name, total);

@@ -11,9 +11,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::path::PathBuf;
 use vibroimpact::motion::{EventKind, ImpactState, Motion};
-use vibroimpact::verdict::{
-    PaperRule, PaperVerdict, SettleOptions, Settled, Verdict, paper_rule, settle,
-};
+use vibroimpact::verdict::{PaperRule, PaperVerdict, SettleOptions, Settled, Verdict, paper_rule, settle};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::{Plan, Task};
 
@@ -123,7 +121,12 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
         short(settled.time * asked.units.time())
     ));
     if let Some((rule, verdict)) = paper {
-        text.push_str(&format!("\nthe paper's rule ({} %, at most {} impacts): {}\n", rule.percent, rule.limit, said(verdict)));
+        text.push_str(&format!(
+            "\nthe paper's rule ({} %, at most {} impacts): {}\n",
+            rule.percent,
+            rule.limit,
+            said(verdict)
+        ));
     }
     session.print(&text)?;
     session.note("hint: `vibro attractors` shows what other starts lead to");
@@ -139,21 +142,13 @@ impl Settle {
             };
         }
         let usual = PaperRule::default();
-        let rule = PaperRule {
-            percent: self.percent.unwrap_or(usual.percent),
-            limit: self.limit.unwrap_or(usual.limit),
-        };
+        let rule =
+            PaperRule { percent: self.percent.unwrap_or(usual.percent), limit: self.limit.unwrap_or(usual.limit) };
         if !(rule.percent > 0.0 && rule.percent.is_finite()) {
-            return Err(Failure::bad(format!(
-                "percent = {} lies outside 0 < percent < infinity",
-                rule.percent
-            )));
+            return Err(Failure::bad(format!("percent = {} lies outside 0 < percent < infinity", rule.percent)));
         }
         if !(2..=100_000).contains(&rule.limit) {
-            return Err(Failure::bad(format!(
-                "limit = {} lies outside 2 <= limit <= 100000",
-                rule.limit
-            )));
+            return Err(Failure::bad(format!("limit = {} lies outside 2 <= limit <= 100000", rule.limit)));
         }
         Ok(Some(rule))
     }
@@ -163,12 +158,7 @@ impl Settle {
 const SHOWN: f64 = 6.0;
 
 /// The motion once it has settled.
-fn steady(
-    osc: &Oscillator,
-    start: Start,
-    settled: &Settled,
-    asked: &Asked,
-) -> vibroimpact_plot::Figure {
+fn steady(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> vibroimpact_plot::Figure {
     let (from, time) = last_event(osc, start, settled.time);
     let periods = match &settled.verdict {
         Verdict::Periodic(cycle) => {
@@ -188,16 +178,9 @@ fn steady(
 fn last_event(osc: &Oscillator, start: Start, until: f64) -> (Start, f64) {
     let (mut state, mut time) = (start, 0.0);
     for event in Motion::new(osc, start).take_while(|event| event.time <= until) {
-        let at_stop = ImpactState {
-            phase: event.phase,
-            velocity: 0.0,
-            side: event.side,
-        };
+        let at_stop = ImpactState { phase: event.phase, velocity: 0.0, side: event.side };
         let at_stop = match event.kind {
-            EventKind::Impact { velocity_before, .. } => ImpactState {
-                velocity: velocity_before,
-                ..at_stop
-            },
+            EventKind::Impact { velocity_before, .. } => ImpactState { velocity: velocity_before, ..at_stop },
             EventKind::Stick { .. } | EventKind::Release => at_stop,
             EventKind::Graze { .. } => continue,
         };
@@ -208,14 +191,8 @@ fn last_event(osc: &Oscillator, start: Start, until: f64) -> (Start, f64) {
 
 impl PaperAnswer {
     fn new(rule: PaperRule, verdict: PaperVerdict) -> Self {
-        let bare = Self {
-            percent: rule.percent,
-            limit: rule.limit,
-            verdict: "unstable",
-            label: None,
-            n: None,
-            impacts: None,
-        };
+        let bare =
+            Self { percent: rule.percent, limit: rule.limit, verdict: "unstable", label: None, n: None, impacts: None };
         match verdict {
             PaperVerdict::Settled { m, n, impacts } => Self {
                 verdict: "settled",
@@ -225,14 +202,8 @@ impl PaperAnswer {
                 ..bare
             },
             PaperVerdict::Unstable => bare,
-            PaperVerdict::NoMoreImpacts => Self {
-                verdict: "no_more_impacts",
-                ..bare
-            },
-            PaperVerdict::Sticks => Self {
-                verdict: "sticks",
-                ..bare
-            },
+            PaperVerdict::NoMoreImpacts => Self { verdict: "no_more_impacts", ..bare },
+            PaperVerdict::Sticks => Self { verdict: "sticks", ..bare },
         }
     }
 }

@@ -76,14 +76,8 @@ struct Followed {
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
-    let impacts = args
-        .impacts
-        .unwrap_or(if args.periods.is_some() { 1_000_000 } else { 100 });
-    let task = Task::Simulate {
-        start: args.start.plan(&asked.units),
-        impacts: Some(impacts),
-        periods: args.periods,
-    };
+    let impacts = args.impacts.unwrap_or(if args.periods.is_some() { 1_000_000 } else { 100 });
+    let task = Task::Simulate { start: args.start.plan(&asked.units), impacts: Some(impacts), periods: args.periods };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
     let osc = asked.system.oscillator()?;
@@ -115,17 +109,9 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     }
 }
 
-fn follow(
-    osc: &Oscillator,
-    start: Start,
-    impacts: u64,
-    periods: Option<f64>,
-) -> Result<Followed, Failure> {
+fn follow(osc: &Oscillator, start: Start, impacts: u64, periods: Option<f64>) -> Result<Followed, Failure> {
     let limits = SearchLimits::default();
-    let limits = SearchLimits {
-        periods: limits.periods.max(periods.unwrap_or(0.0)),
-        ..limits
-    };
+    let limits = SearchLimits { periods: limits.periods.max(periods.unwrap_or(0.0)), ..limits };
     let until = periods.map_or(f64::INFINITY, |n| n * osc.period());
     let mut motion = Motion::with_limits(osc, start, limits);
     let mut events: Vec<Event> = Vec::new();
@@ -156,21 +142,11 @@ fn follow(
             }
         }
     };
-    Ok(Followed {
-        events,
-        reason,
-        time,
-        horizon,
-    })
+    Ok(Followed { events, reason, time, horizon })
 }
 
 /// Why no further event came, `last` being the time of the last one.
-fn ended(
-    end: Option<End>,
-    last: f64,
-    until: f64,
-    period: f64,
-) -> (&'static str, f64, Option<NoImpact>) {
+fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> (&'static str, f64, Option<NoImpact>) {
     match end {
         Some(End::Never(why)) => ("no_more_impacts", last, Some(NoImpact::Flight(why))),
         Some(End::Stuck(_)) => ("stuck", last, None),
@@ -179,11 +155,7 @@ fn ended(
             let periods = (time / period).floor();
             let horizon = Some(NoImpact::ForPeriods(periods));
             // a search that reached its horizon, or one that ran out of steps before
-            if periods >= 999.0 {
-                ("no_more_impacts", last, horizon)
-            } else {
-                ("search_limit", last, horizon)
-            }
+            if periods >= 999.0 { ("no_more_impacts", last, horizon) } else { ("search_limit", last, horizon) }
         }
         None => ("search_limit", last, None),
     }
@@ -250,22 +222,14 @@ fn report(followed: &Followed, asked: &Asked) -> String {
                 EventKind::Release => "release",
             };
             row.push(format!("{name}{at}"));
-            if let EventKind::Impact {
-                velocity_before,
-                velocity_after,
-            } = event.kind
-            {
+            if let EventKind::Impact { velocity_before, velocity_after } = event.kind {
                 row.push(short(velocity_before * units.velocity()));
                 row.push(short(velocity_after * units.velocity()));
             }
             row
         })
         .collect();
-    let mut text = if rows.is_empty() {
-        "no events\n".to_owned()
-    } else {
-        text::table(&heads, &rows)
-    };
+    let mut text = if rows.is_empty() { "no events\n".to_owned() } else { text::table(&heads, &rows) };
     let time = short(followed.time * units.time());
     text.push_str(&match (followed.reason, &followed.horizon) {
         ("no_more_impacts", Some(horizon)) => {

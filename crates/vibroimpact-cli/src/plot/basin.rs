@@ -2,9 +2,7 @@
 
 use crate::exit::Failure;
 use crate::plot::variant;
-use vibroimpact_plot::{
-    Axis, ClassStyle, Colour, Figure, Legend, Panel, Raster, class_style, legend_group,
-};
+use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Raster, class_style, legend_group};
 use vibroimpact_study::{Basin, Span};
 
 /// Motions with an entry of their own in the legend.
@@ -42,10 +40,7 @@ pub(crate) fn figure(
     let size = (count(x), count(v));
     let raster = Raster::centred(x.ends(), v.ends(), size, basin.cells.clone(), colours)?;
     let panel = Panel::new(axis(x_name, x), axis(v_name, v)).with(raster);
-    Ok(Figure::new(panel)
-        .size(680.0, 620.0)
-        .title(title)
-        .legend(legend))
+    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(legend))
 }
 
 /// An axis that shows the cells around the first and last value whole.
@@ -58,9 +53,5 @@ pub(crate) fn axis(name: &str, span: &Span) -> Axis {
 /// Half the distance of two values.
 pub(crate) fn half_cell(span: &Span) -> f64 {
     let (a, b) = span.ends();
-    if span.count() > 1 {
-        (b / 2.0 - a / 2.0).abs() / f64::from(span.count() - 1)
-    } else {
-        0.5
-    }
+    if span.count() > 1 { (b / 2.0 - a / 2.0).abs() / f64::from(span.count() - 1) } else { 0.5 }
 }

@@ -3,8 +3,7 @@
 use crate::exit::Failure;
 use crate::plot::basin::{axis, half_cell};
 use vibroimpact_plot::{
-    ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_group,
-    legend_text,
+    ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_group, legend_text,
 };
 use vibroimpact_study::{MapPoint, RegionMap};
 
@@ -45,10 +44,7 @@ pub(crate) fn figure(map: &RegionMap, title: String) -> Result<Figure, Failure> 
         let style = if split { style } else { ClassStyle::plain(style.colour) };
         legend = legend.patch(style, legend_text(group));
     }
-    Ok(Figure::new(panel)
-        .size(680.0, 620.0)
-        .title(title)
-        .legend(legend))
+    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(legend))
 }
 
 /// The groups of the motions at a point, each once, in the order of the legend where all are shown.

@@ -6,8 +6,8 @@ pub(crate) mod waveform;
 
 use crate::exit::Failure;
 use crate::files::Target;
-use std::path::Path;
 use crate::report::text::short;
+use std::path::Path;
 use vibroimpact_plot::{Colour, DPI_300, Figure, plain};
 use vibroimpact_study::SystemPlan;
 
@@ -21,17 +21,12 @@ pub(crate) struct Picture {
 impl Picture {
     /// Reserves a file that ends in .svg or .png.
     pub(crate) fn reserve(path: &Path, force: bool) -> Result<Self, Failure> {
-        let ending = path
-            .extension()
-            .map(|ending| ending.to_string_lossy().to_lowercase());
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let png = match ending.as_deref() {
             Some("svg") => false,
             Some("png") => true,
             _ => {
-                return Err(Failure::bad(format!(
-                    "the figure `{}` ends in neither .svg nor .png",
-                    path.display()
-                )));
+                return Err(Failure::bad(format!("the figure `{}` ends in neither .svg nor .png", path.display())));
             }
         };
         let target = Target::reserve(path, force)?;
@@ -39,11 +34,7 @@ impl Picture {
     }
 
     pub(crate) fn write(self, figure: &Figure) -> Result<(), Failure> {
-        let bytes = if self.png {
-            figure.to_png(DPI_300)?
-        } else {
-            figure.to_svg().into_bytes()
-        };
+        let bytes = if self.png { figure.to_png(DPI_300)? } else { figure.to_svg().into_bytes() };
         self.target.write(|out| out.write_all(&bytes))
     }
 }
@@ -54,12 +45,8 @@ pub(crate) fn title(system: &SystemPlan) -> String {
         (Some(inverse), _) => ("1/*β*", inverse),
         (None, beta) => ("*β*", beta.unwrap_or(f64::NAN)),
     };
-    let mut text = format!(
-        "{name} = {}, *δ* = {}, *ε* = {}",
-        short(value),
-        short(system.gap),
-        short(system.restitution)
-    );
+    let mut text =
+        format!("{name} = {}, *δ* = {}, *ε* = {}", short(value), short(system.gap), short(system.restitution));
     if system.damping > 0.0 {
         text.push_str(&format!(", *ζ* = {}", short(system.damping)));
     }
@@ -86,10 +73,5 @@ pub(crate) fn variant(colour: Colour, k: usize) -> Colour {
             mixed.round() as u8
         }
     };
-    Colour {
-        r: mix(colour.r),
-        g: mix(colour.g),
-        b: mix(colour.b),
-        ..colour
-    }
+    Colour { r: mix(colour.r), g: mix(colour.g), b: mix(colour.b), ..colour }
 }

@@ -3,9 +3,7 @@
 use crate::args::Units;
 use vibroimpact::motion::{Motion, sample};
 use vibroimpact::{Oscillator, Side, Start};
-use vibroimpact_plot::{
-    Axis, ClassStyle, Colour, Figure, Hatch, Legend, Line, Panel, Pattern, Points, SERIES, Wall,
-};
+use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Hatch, Legend, Line, Panel, Pattern, Points, SERIES, Wall};
 
 /// Samples a picture needs at most: the page is a thousand pixels wide.
 const MOST: f64 = 400_000.0;
@@ -56,14 +54,8 @@ pub(crate) fn figure(
         legend = legend.points(&impacts, "impact");
         panel.add(impacts);
     }
-    let wall = ClassStyle {
-        colour: Colour::GREY.alpha(0.12),
-        hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)),
-    };
-    Figure::new(panel)
-        .size(1000.0, 400.0)
-        .title(title)
-        .legend(legend.patch(wall, "stop"))
+    let wall = ClassStyle { colour: Colour::GREY.alpha(0.12), hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)) };
+    Figure::new(panel).size(1000.0, 400.0).title(title).legend(legend.patch(wall, "stop"))
 }
 
 /// A range that shows the motion and a strip of each stop it comes near.
@@ -72,14 +64,9 @@ fn extremes(osc: &Oscillator, ys: &[f64], length: f64) -> (f64, f64) {
     let high = ys.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let size = (high - low).max(1e-12 * low.abs().max(high.abs()));
     let near = |at: f64| (low - size..=high + size).contains(&at);
-    let stops: Vec<f64> = osc
-        .stops()
-        .map(|(side, stop)| side.sign() * stop.gap * length)
-        .filter(|at| near(*at))
-        .collect();
-    let (low, high) = stops
-        .iter()
-        .fold((low, high), |(low, high), at| (low.min(*at), high.max(*at)));
+    let stops: Vec<f64> =
+        osc.stops().map(|(side, stop)| side.sign() * stop.gap * length).filter(|at| near(*at)).collect();
+    let (low, high) = stops.iter().fold((low, high), |(low, high), at| (low.min(*at), high.max(*at)));
     let air = if high > low { 0.08 * (high - low) } else { 0.5 * length };
     (low - air, high + air)
 }

@@ -10,11 +10,7 @@ impl Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // minus zero is zero
         let x = self.0 + 0.0;
-        if x == 0.0 || (1e-5..1e16).contains(&x.abs()) {
-            write!(f, "{x}")
-        } else {
-            write!(f, "{x:e}")
-        }
+        if x == 0.0 || (1e-5..1e16).contains(&x.abs()) { write!(f, "{x}") } else { write!(f, "{x:e}") }
     }
 }
 
@@ -37,14 +33,9 @@ mod tests {
 
     #[test]
     fn numbers_read_back() {
-        for (x, text) in [
-            (0.1, "0.1"),
-            (-0.0, "0"),
-            (1.0, "1"),
-            (1e-7, "1e-7"),
-            (1e300, "1e300"),
-            (-123_456.789, "-123456.789"),
-        ] {
+        for (x, text) in
+            [(0.1, "0.1"), (-0.0, "0"), (1.0, "1"), (1e-7, "1e-7"), (1e300, "1e300"), (-123_456.789, "-123456.789")]
+        {
             assert_eq!(Number(x).to_string(), text);
             assert_eq!(text.parse::<f64>(), Ok(x));
         }

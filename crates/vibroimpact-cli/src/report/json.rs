@@ -38,11 +38,7 @@ impl<'a, T: Serialize> Document<'a, T> {
 
     pub(crate) fn start(self, start: &Start, units: &Units) -> Self {
         Self {
-            start: Some(StartPoint {
-                x: start.x * units.length(),
-                v: start.v * units.velocity(),
-                phase: start.phase,
-            }),
+            start: Some(StartPoint { x: start.x * units.length(), v: start.v * units.velocity(), phase: start.phase }),
             ..self
         }
     }
@@ -97,10 +93,7 @@ impl System {
             gap: osc.gap(),
             restitution: osc.restitution(),
             damping: osc.damping(),
-            second_stop: osc.stop(Side::Lower).map(|stop| SecondStop {
-                gap: stop.gap,
-                restitution: stop.restitution,
-            }),
+            second_stop: osc.stop(Side::Lower).map(|stop| SecondStop { gap: stop.gap, restitution: stop.restitution }),
             scales: asked.units.scales.map(|s| Scales {
                 length_m: s.length_m,
                 time_s: s.time_s,
@@ -142,19 +135,12 @@ impl<'a> Simulation<'a> {
     ) -> Self {
         Self {
             events: (events, units),
-            end: EndPoint {
-                reason,
-                time: time * units.time(),
-                horizon: horizon.as_ref().map(HorizonObject::new),
-            },
+            end: EndPoint { reason, time: time * units.time(), horizon: horizon.as_ref().map(HorizonObject::new) },
         }
     }
 }
 
-fn each_event<S: Serializer>(
-    (events, units): &(&[Event], Units),
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
+fn each_event<S: Serializer>((events, units): &(&[Event], Units), serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(events.iter().map(|event| EventObject::new(event, units)))
 }
 
@@ -190,26 +176,16 @@ impl EventObject {
             side: side(event.side),
         };
         match event.kind {
-            EventKind::Impact {
-                velocity_before,
-                velocity_after,
-            } => Self {
+            EventKind::Impact { velocity_before, velocity_after } => Self {
                 kind: "impact",
                 velocity_before: Some(velocity_before * units.velocity()),
                 velocity_after: Some(velocity_after * units.velocity()),
                 ..bare
             },
-            EventKind::Graze { depth } => Self {
-                kind: "graze",
-                depth: Some(depth * units.length()),
-                ..bare
-            },
-            EventKind::Stick { chatter, error } => Self {
-                kind: "stick",
-                chatter: Some(chatter),
-                error: Some(error * units.time()),
-                ..bare
-            },
+            EventKind::Graze { depth } => Self { kind: "graze", depth: Some(depth * units.length()), ..bare },
+            EventKind::Stick { chatter, error } => {
+                Self { kind: "stick", chatter: Some(chatter), error: Some(error * units.time()), ..bare }
+            }
             EventKind::Release => bare,
         }
     }
@@ -268,10 +244,7 @@ pub(crate) struct Estimate {
 
 impl Estimate {
     fn per_time(of: Measured, units: &Units) -> Self {
-        Self {
-            value: of.value / units.time(),
-            error: of.error / units.time(),
-        }
+        Self { value: of.value / units.time(), error: of.error / units.time() }
     }
 }
 
@@ -303,29 +276,16 @@ struct CommonPeriod {
 
 impl HorizonObject {
     fn new(no_impact: &NoImpact) -> Self {
-        let forever = |why| Self {
-            kind: "forever",
-            periods: None,
-            why,
-            common_period: None,
-        };
+        let forever = |why| Self { kind: "forever", periods: None, why, common_period: None };
         match no_impact {
             NoImpact::Flight(Horizon::Amplitude) => forever("amplitude"),
             NoImpact::Flight(Horizon::CommonPeriod { p, q }) => Self {
-                common_period: Some(CommonPeriod {
-                    forcing_periods: *p,
-                    natural_periods: *q,
-                }),
+                common_period: Some(CommonPeriod { forcing_periods: *p, natural_periods: *q }),
                 ..forever("common_period")
             },
             NoImpact::GrazeLimit { .. } => forever("graze_limit"),
             NoImpact::Grazing { .. } => forever("grazing"),
-            NoImpact::ForPeriods(n) => Self {
-                kind: "periods",
-                periods: Some(*n),
-                why: "search",
-                common_period: None,
-            },
+            NoImpact::ForPeriods(n) => Self { kind: "periods", periods: Some(*n), why: "search", common_period: None },
         }
     }
 }
@@ -361,11 +321,9 @@ impl Motion {
                 horizon: Some(HorizonObject::new(no_impact)),
                 ..bare
             },
-            Verdict::Chaotic(spectrum) => Self {
-                kind: "chaotic",
-                lyapunov: Some(Estimate::per_time(spectrum.exponents[0], units)),
-                ..bare
-            },
+            Verdict::Chaotic(spectrum) => {
+                Self { kind: "chaotic", lyapunov: Some(Estimate::per_time(spectrum.exponents[0], units)), ..bare }
+            }
             Verdict::Stuck(at) => Self {
                 kind: "stuck",
                 impacts: Some(0),
@@ -382,14 +340,9 @@ impl Motion {
                 }),
                 ..bare
             },
-            Verdict::Undecided(Undecided::Search { periods }) => Self {
-                tried: Some(Tried {
-                    impacts: None,
-                    periods: Some(*periods),
-                    lyapunov: None,
-                }),
-                ..bare
-            },
+            Verdict::Undecided(Undecided::Search { periods }) => {
+                Self { tried: Some(Tried { impacts: None, periods: Some(*periods), lyapunov: None }), ..bare }
+            }
         }
     }
 
@@ -397,12 +350,7 @@ impl Motion {
         let rests: Vec<Rest> = cycle
             .rests
             .iter()
-            .map(|rest| Rest {
-                side: side(rest.side),
-                chatter: rest.chatter,
-                begin: rest.begin,
-                release: rest.release,
-            })
+            .map(|rest| Rest { side: side(rest.side), chatter: rest.chatter, begin: rest.begin, release: rest.release })
             .collect();
         // the list of impacts begins at the release that ends the last rest
         let last = cycle.rests.last();
@@ -453,10 +401,6 @@ pub(crate) struct Range {
 impl Range {
     pub(crate) fn new(span: &Span) -> Self {
         let (from, to) = span.ends();
-        Self {
-            from,
-            to,
-            count: span.count(),
-        }
+        Self { from, to, count: span.count() }
     }
 }

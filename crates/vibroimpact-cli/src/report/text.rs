@@ -21,11 +21,7 @@ pub(crate) fn short(x: f64) -> String {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 0 and 10
         let places = (5.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
         let text = format!("{x:.places$}");
-        if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').into()
-        } else {
-            text
-        }
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
     } else {
         let text = format!("{x:.5e}");
         let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
@@ -47,12 +43,7 @@ pub(crate) fn system(asked: &Asked, osc: &Oscillator) -> String {
         let _ = write!(line, ", damping {}", short(osc.damping()));
     }
     if let Some(stop) = osc.stop(Side::Lower) {
-        let _ = write!(
-            line,
-            ", second gap {}, second restitution {}",
-            short(stop.gap),
-            short(stop.restitution)
-        );
+        let _ = write!(line, ", second gap {}, second restitution {}", short(stop.gap), short(stop.restitution));
     }
     let mut text = format!("system  {line}\n");
     if let Some(scales) = asked.units.scales {
@@ -82,19 +73,11 @@ pub(crate) fn start(start: &Start, units: &Units) -> String {
 pub(crate) fn table(heads: &[String], rows: &[Vec<String>]) -> String {
     let wide = |text: &str| text.chars().count();
     let left: Vec<bool> = heads.iter().map(|head| head.starts_with('<')).collect();
-    let heads: Vec<String> = heads
-        .iter()
-        .map(|head| head.trim_start_matches('<').to_owned())
-        .collect();
+    let heads: Vec<String> = heads.iter().map(|head| head.trim_start_matches('<').to_owned()).collect();
     let widths: Vec<usize> = heads
         .iter()
         .enumerate()
-        .map(|(k, head)| {
-            rows.iter()
-                .filter_map(|row| row.get(k))
-                .map(|cell| wide(cell))
-                .fold(wide(head), usize::max)
-        })
+        .map(|(k, head)| rows.iter().filter_map(|row| row.get(k)).map(|cell| wide(cell)).fold(wide(head), usize::max))
         .collect();
     let mut text = String::new();
     for row in core::iter::once(heads.as_slice()).chain(rows.iter().map(Vec::as_slice)) {
@@ -103,11 +86,7 @@ pub(crate) fn table(heads: &[String], rows: &[Vec<String>]) -> String {
             .zip(widths.iter().zip(&left))
             .map(|(cell, (width, left))| {
                 let air = " ".repeat(width - wide(cell).min(*width));
-                if *left {
-                    format!("{cell}{air}")
-                } else {
-                    format!("{air}{cell}")
-                }
+                if *left { format!("{cell}{air}") } else { format!("{air}{cell}") }
             })
             .collect();
         let _ = writeln!(text, "  {}", cells.join("  ").trim_end());
@@ -117,13 +96,9 @@ pub(crate) fn table(heads: &[String], rows: &[Vec<String>]) -> String {
 
 /// A count in words: `two impacts`.
 fn counted(n: u32, one: &str) -> String {
-    const WORDS: [&str; 11] = [
-        "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
-    ];
-    let number = usize::try_from(n)
-        .ok()
-        .and_then(|n| WORDS.get(n))
-        .map_or_else(|| n.to_string(), |word| (*word).to_owned());
+    const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+    let number =
+        usize::try_from(n).ok().and_then(|n| WORDS.get(n)).map_or_else(|| n.to_string(), |word| (*word).to_owned());
     format!("{number} {one}{}", if n == 1 { "" } else { "s" })
 }
 
@@ -136,11 +111,7 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
                 n => format!("every {}", counted(n, "forcing period")),
             };
             let rests = u32::try_from(cycle.rests.len()).unwrap_or(u32::MAX);
-            let rest = if rests == 0 {
-                String::new()
-            } else {
-                format!(", and {} on the stop", counted(rests, "rest"))
-            };
+            let rest = if rests == 0 { String::new() } else { format!(", and {} on the stop", counted(rests, "rest")) };
             match cycle.label.impacts {
                 Count::Finite(m) => format!("{}{rest} {periods}", counted(m, "impact")),
                 Count::Infinite => format!("a complete chatter (infinitely many impacts){rest} {periods}"),
@@ -189,10 +160,9 @@ fn grounds(verdict: &Verdict, units: &Units) -> String {
         Verdict::NoImpact(NoImpact::Flight(Horizon::Amplitude)) => {
             "the free and the forced amplitude together stay short of the stop".into()
         }
-        Verdict::NoImpact(NoImpact::Flight(Horizon::CommonPeriod { p, q })) => format!(
-            "beta = {p}/{q}: {} natural periods without contact, after which all repeats",
-            q
-        ),
+        Verdict::NoImpact(NoImpact::Flight(Horizon::CommonPeriod { p, q })) => {
+            format!("beta = {p}/{q}: {q} natural periods without contact, after which all repeats")
+        }
         Verdict::NoImpact(NoImpact::GrazeLimit { velocity, phase }) => format!(
             "impact speeds shrink by the restitution each time (last {}), always at phase {}",
             short(velocity * units.velocity()),
@@ -201,9 +171,7 @@ fn grounds(verdict: &Verdict, units: &Units) -> String {
         Verdict::NoImpact(NoImpact::Grazing { phase }) => {
             format!("touches without speed again and again, at phase {}", short(*phase))
         }
-        Verdict::NoImpact(NoImpact::ForPeriods(_)) => {
-            "searched that far; nothing is claimed beyond".into()
-        }
+        Verdict::NoImpact(NoImpact::ForPeriods(_)) => "searched that far; nothing is claimed beyond".into(),
         Verdict::Chaotic(spectrum) => format!(
             "largest Lyapunov exponent {} per unit of time, {} impacts per forcing period",
             measured(spectrum.exponents[0], 1.0 / units.time()),
@@ -263,12 +231,8 @@ const MOST_IMPACTS: usize = 40;
 
 fn impacts(cycle: &Cycle, osc: &Oscillator, units: &Units) -> String {
     let both = osc.stop(Side::Lower).is_some();
-    let mut heads = vec![
-        "impact".to_owned(),
-        "phase".into(),
-        units.named("velocity", "m/s"),
-        units.named("interval", "s"),
-    ];
+    let mut heads =
+        vec!["impact".to_owned(), "phase".into(), units.named("velocity", "m/s"), units.named("interval", "s")];
     if both {
         heads.push("<stop".into());
     }

@@ -14,14 +14,9 @@ fn the_papers_points() {
         ("T", "--inverse-beta 1.11 --gap 2", vec!["1/2"]),
         ("U", "--inverse-beta 1.11 --gap 3", vec!["chaotic"]),
     ] {
-        let answer = json(&format!(
-            "attractors {system} --restitution 0.5 --starts 200"
-        ));
+        let answer = json(&format!("attractors {system} --restitution 0.5 --starts 200"));
         let motions = answer["motions"].as_array().unwrap();
-        let mut found: Vec<&str> = motions
-            .iter()
-            .map(|m| m["label"].as_str().unwrap())
-            .collect();
+        let mut found: Vec<&str> = motions.iter().map(|m| m["label"].as_str().unwrap()).collect();
         found.sort_unstable();
         assert_eq!(found, labels, "{name}");
         let share: f64 = motions.iter().map(|m| m["share"].as_f64().unwrap()).sum();
@@ -50,8 +45,7 @@ fn a_periodic_motion_has_its_cycle_and_multipliers() {
     assert!((first["velocity_before"].as_f64().unwrap() - 1.513_140_069_144_015_8).abs() < 1e-12);
     let period: f64 = cycle.iter().map(|p| p["interval"].as_f64().unwrap()).sum();
     assert!((period - 1.8 * core::f64::consts::TAU).abs() < 1e-12);
-    let product = motion["multipliers"][0][0].as_f64().unwrap()
-        * motion["multipliers"][1][0].as_f64().unwrap();
+    let product = motion["multipliers"][0][0].as_f64().unwrap() * motion["multipliers"][1][0].as_f64().unwrap();
     assert!((product - 0.5_f64.powi(8)).abs() < 1e-12);
 }
 
@@ -119,22 +113,12 @@ fn events_one_after_another() {
 #[test]
 fn orbits_stable_or_not() {
     let one = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1");
-    let physical: Vec<&Value> = one["orbits"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter(|orbit| orbit["physical"] == true)
-        .collect();
+    let physical: Vec<&Value> =
+        one["orbits"].as_array().unwrap().iter().filter(|orbit| orbit["physical"] == true).collect();
     assert_eq!(physical.len(), 1);
     assert_eq!(physical[0]["stable"], false);
     let half = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2");
-    assert!(
-        half["orbits"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .any(|orbit| orbit["stable"] == true && orbit["label"] == "1/2")
-    );
+    assert!(half["orbits"].as_array().unwrap().iter().any(|orbit| orbit["stable"] == true && orbit["label"] == "1/2"));
 }
 
 #[test]
@@ -144,12 +128,7 @@ fn grids_in_short() {
     assert_eq!(basin["motions"].as_array().unwrap().len(), 2);
     let map = json("map --inverse-beta 0.6:1.3:2 --gap 0.75:0.75:1 --restitution 0.5 --starts 200");
     assert_eq!(map["points"], 2);
-    let labels: Vec<&str> = map["labels"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|l| l["label"].as_str().unwrap())
-        .collect();
+    let labels: Vec<&str> = map["labels"].as_array().unwrap().iter().map(|l| l["label"].as_str().unwrap()).collect();
     assert_eq!(labels, ["0", "1/1", "2/1"]);
 }
 

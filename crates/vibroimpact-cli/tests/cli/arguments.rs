@@ -12,10 +12,9 @@ fn number() -> impl Strategy<Value = String> {
         6 => (-4.0..4.0_f64).prop_map(|x| x.to_string()),
         4 => (0.0..2.0_f64).prop_map(|x| x.to_string()),
         2 => (-12.0..12.0_f64).prop_map(|x| 10_f64.powf(x).to_string()),
-        1 => (-320.0..309.0_f64).prop_map(|x| format!("1e{}", x.round())),
         2 => prop::sample::select(vec![
             "nan", "inf", "-inf", "1e308", "-1e308", "-0", "0", "", "1e-320", "1", "-1", "0.5", "1e400", "x", "0x10",
-            "1e-9", "1000000", "--", "1.0000000001", "∞",
+            "1e-9", "1000000", "--", "1.0000000001", "∞", "1e140", "-1e-200",
         ]).prop_map(str::to_owned),
     ]
 }
@@ -52,19 +51,12 @@ fn label() -> impl Strategy<Value = String> {
     ]
 }
 
-fn option(
-    name: &'static str,
-    often: f64,
-    value: impl Strategy<Value = String>,
-) -> impl Strategy<Value = Vec<String>> {
+fn option(name: &'static str, often: f64, value: impl Strategy<Value = String>) -> impl Strategy<Value = Vec<String>> {
     prop::option::weighted(often, value)
         .prop_map(move |value| value.map_or_else(Vec::new, |v| vec![format!("{name}={v}")]))
 }
 
-fn always(
-    name: &'static str,
-    value: impl Strategy<Value = String>,
-) -> impl Strategy<Value = Vec<String>> {
+fn always(name: &'static str, value: impl Strategy<Value = String>) -> impl Strategy<Value = Vec<String>> {
     value.prop_map(move |v| vec![format!("{name}={v}")])
 }
 
@@ -81,11 +73,7 @@ fn system() -> impl Strategy<Value = Vec<String>> {
 }
 
 fn start() -> impl Strategy<Value = Vec<String>> {
-    (
-        option("--x", 0.5, number()),
-        option("--v", 0.5, number()),
-        option("--phase", 0.5, number()),
-    )
+    (option("--x", 0.5, number()), option("--v", 0.5, number()), option("--phase", 0.5, number()))
         .prop_map(|(a, b, c)| [a, b, c].concat())
 }
 
@@ -129,7 +117,14 @@ fn cases() -> u32 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(), failure_persistence: None, max_shrink_iters: 60, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: cases(),
+        // the same questions every day, so that a slow one is no lottery
+        rng_seed: proptest::test_runner::RngSeed::Fixed(1971),
+        failure_persistence: None,
+        max_shrink_iters: 60,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn an_answer_or_a_refusal(line in command()) {

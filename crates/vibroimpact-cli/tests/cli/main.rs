@@ -11,18 +11,16 @@ use serde_json::Value;
 /// A run of `vibro` that cannot take for ever.
 fn vibro(line: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_vibro"));
-    command
-        .args(line.split_whitespace())
-        .timeout(std::time::Duration::from_secs(60));
+    command.args(line.split_whitespace()).timeout(std::time::Duration::from_secs(60));
     command
 }
 
 /// The JSON object a command prints.
 fn json(line: &str) -> Value {
-    let output = vibro(line).arg("--json").output().unwrap();
+    let output = vibro(line).arg("--json").output().expect("vibro runs");
     let complaint = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{line}: {complaint}");
-    serde_json::from_slice(&output.stdout).unwrap()
+    serde_json::from_slice(&output.stdout).expect("stdout is one JSON object")
 }
 
 /// S of the 1971 paper, where two motions coexist.

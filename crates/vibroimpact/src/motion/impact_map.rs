@@ -96,7 +96,7 @@ pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -
 #[must_use]
 pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, interval: f64) -> Matrix2 {
     let start = state.rebound(osc);
-    let (beta, zeta) = (osc.beta(), osc.damping());
+    let beta = osc.beta();
     let eps = osc.stop(state.side).map_or(0.0, |stop| stop.restitution);
     let p = osc.response().at(interval);
     let (sin, cos) = sin_cos(start.phase);

@@ -91,6 +91,17 @@ impl<'a> Motion<'a> {
         Self { osc, limits, time: Sum::default(), mode: Mode::Flying(Flight::new(osc, start)), last: None }
     }
 
+    /// The motion that follows a release from the stop on `side`, at the phase where the force lets go; over at once,
+    /// without an event, if that stop never releases the mass.
+    #[must_use]
+    pub fn released(osc: &'a Oscillator, side: Side) -> Self {
+        let mode = match sticking::release_phase(osc, side) {
+            Some(phase) => Mode::Flying(Flight::release(osc, side, phase)),
+            None => Mode::Ended(End::Stuck(side)),
+        };
+        Self { osc, limits: SearchLimits::default(), time: Sum::default(), mode, last: None }
+    }
+
     /// Why there is no further event; `None` while the motion goes on.
     #[must_use]
     pub const fn end(&self) -> Option<End> {

@@ -1,6 +1,6 @@
 //! All periodic orbits of a label: the closed form where there is one, Newton's method from many seeds everywhere.
 
-use super::{Cycle, one_impact, shoot};
+use super::{Cycle, DEFAULT_EVENTS, from_release, one_impact, shoot};
 use crate::flight::SearchLimits;
 use crate::motion::{ImpactState, Mapped, impact_map};
 use crate::system::{Oscillator, Side};
@@ -32,16 +32,21 @@ impl Default for FindOptions {
     }
 }
 
-/// The orbits of `osc` that are called `label`, stable or not, the fastest last; empty for a label with infinitely many
-/// impacts, whose motions are found by settling.
+/// The orbits of `osc` that are called `label`, stable or not, the fastest last.
 ///
-/// The search is deterministic but not exhaustive: an orbit that no seed leads to is not found.
+/// Orbits with a rest in them - all `inf/n`, and m/n with restitution 0 - come from their release, and none can be
+/// missed. The search for the others is deterministic but not exhaustive: an orbit that no seed leads to is not found.
 #[must_use]
 pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> {
-    let Count::Finite(m) = label.impacts else {
-        return Vec::new();
-    };
-    let mut orbits: Vec<Orbit> = Vec::new();
+    let mut orbits: Vec<Orbit> = osc
+        .stops()
+        .filter_map(|(side, _)| from_release(osc, side, DEFAULT_EVENTS))
+        .filter(|cycle| cycle.label == label)
+        .map(|cycle| Orbit { cycle, physical: true })
+        .collect();
+    // with two stops one cycle may have a release from each
+    orbits.dedup_by(|a, b| a.cycle.same_as(&b.cycle, options.tolerance));
+    let Count::Finite(m) = label.impacts else { return orbits };
     if m == 1 {
         orbits
             .extend(one_impact(osc, label.periods).into_iter().map(|o| Orbit { cycle: o.cycle, physical: o.physical }));

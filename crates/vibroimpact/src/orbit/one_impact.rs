@@ -42,18 +42,19 @@ pub struct OneImpact {
 /// ```
 #[must_use]
 pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
-    let (beta, zeta, eps, gap) = (osc.beta(), osc.damping(), osc.restitution(), osc.gap());
+    let (beta, eps, gap) = (osc.beta(), osc.restitution(), osc.gap());
     let interval = osc.period() * f64::from(n);
     let p = osc.response().at(interval);
     let (a, b, c, d) = (p.kc, p.ks, p.s - beta * p.ks, beta * p.kc);
     let det = a * d - b * c;
     // n/beta a whole number and no resonance: the force does no net work on the oscillator and drives no such orbit
-    if det.abs() <= 1e-14 * (a * d).abs().max((b * c).abs()).max(1e-300) {
+    let scale = osc.free_amplitude().min(interval);
+    if det.abs() <= 1e-13 * scale * scale {
         return Vec::new();
     }
     let solve = |r: [f64; 2]| [(d * r[0] - b * r[1]) / det, (a * r[1] - c * r[0]) / det];
     let base = solve([gap * p.one_minus_c, gap * p.s]);
-    let slope = solve([eps * p.s, 1.0 + eps * (p.c - 2.0 * zeta * p.s)]);
+    let slope = solve([eps * p.s, 1.0 + eps * p.s_rate]);
     // |base + U slope|^2 = 1
     let (qa, qb) = (slope[0] * slope[0] + slope[1] * slope[1], base[0] * slope[0] + base[1] * slope[1]);
     let qc = base[0] * base[0] + base[1] * base[1] - 1.0;
@@ -123,6 +124,16 @@ mod tests {
         let f = 1.0 / (1.0 - 4.0_f64);
         let cycle = at(2.0, 0.2, 1);
         assert!((cycle.points[0].state.velocity - 4.0 * (f * f - 0.04_f64).sqrt() / 0.5).abs() < 1e-13);
+    }
+
+    #[test]
+    fn whole_natural_periods_drive_no_orbit() {
+        for (inverse, n) in [(1.5, 2), (0.5, 2), (2.0, 1), (3.0, 1), (1.0 / 3.0, 3)] {
+            for gap in [0.1, 0.5, 1.3] {
+                let osc = Oscillator::from_inverse_beta(inverse, gap, 0.5).unwrap();
+                assert_eq!(one_impact(&osc, n).len(), 0, "1/beta {inverse} n {n} gap {gap}");
+            }
+        }
     }
 
     /// On the fold curve both roots meet and a multiplier is +1; on the doubling curve one is -1 (closed forms from

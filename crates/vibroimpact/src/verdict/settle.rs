@@ -9,19 +9,18 @@
 //!   *captured*: it is close and its next turn obeys the cycle's linear law to a fraction of the contraction. A
 //!   transient that merely passes a cycle fails the last point and is followed on. Newton's flights end at first contact, so the
 //!   cycle is physical by construction;
-//! - **periodic with a stick**: after a release everything repeats, so two releases from the same stop are a proof by
-//!   themselves; the multipliers are 0;
+//! - **periodic with a stick**: what follows a release is one motion, so a release that leads back to itself is a proof
+//!   by itself ([`from_release`]); the multipliers are 0;
 //! - **chaotic**: the largest Lyapunov exponent exceeds its error bar of three standard errors;
 //! - **stuck**: the force will never lift the mass again;
 //! - **undecided**: none of these within the budget; what was tried is in the verdict.
 
 use super::outcome::{NoImpact, Undecided, Verdict};
-use super::{Count, Label, graze_limit, recurrence};
+use super::{graze_limit, recurrence};
 use crate::chaos::{Spectrum, lyapunov};
 use crate::flight::SearchLimits;
-use crate::math::Multiplier;
 use crate::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
-use crate::orbit::{Cycle, CyclePoint, RestSpan, shoot};
+use crate::orbit::{Cycle, DEFAULT_EVENTS, from_release, shoot};
 use crate::system::{Oscillator, Side, Start};
 
 /// How far to follow a motion and how close is close.
@@ -82,8 +81,7 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
         osc,
         options,
         impacts: Vec::with_capacity(64),
-        rests: Vec::new(),
-        releases: Vec::new(),
+        released: [false; 2],
         last_impact: 0.0,
         candidate: None,
         grazes: 0,
@@ -105,22 +103,14 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
                 follow.impact(state, time)
             }
             EventKind::Graze { .. } => follow.graze(event.phase),
-            EventKind::Stick { chatter, .. } => {
-                follow
-                    .rests
-                    .push((RestSpan { side: event.side, chatter, begin: event.phase, release: f64::NAN }, time));
-                None
-            }
-            EventKind::Release => follow.release(event.side, event.phase, time),
+            EventKind::Stick { .. } => None,
+            EventKind::Release => follow.release(event.side),
         };
         if let Some(verdict) = shown {
             return done(verdict, &follow, time);
         }
         let count = follow.impacts.len();
-        if count >= options.chaos_after as usize
-            && spectrum.is_none()
-            && follow.releases.is_empty()
-            && matches!(event.kind, EventKind::Impact { .. })
+        if count >= options.chaos_after as usize && spectrum.is_none() && matches!(event.kind, EventKind::Impact { .. })
         {
             spectrum = Some(lyapunov(osc, follow.impacts[count - 1].0, options.chaos_over));
             if let Some(Some(found)) = &spectrum
@@ -164,10 +154,8 @@ struct Follow<'a> {
     options: &'a SettleOptions,
     /// Each impact and the time since the one before.
     impacts: Vec<(ImpactState, f64)>,
-    /// Each rest and the time of its beginning.
-    rests: Vec<(RestSpan, f64)>,
-    /// Each release: stop, time, impacts and rests before it.
-    releases: Vec<(Side, f64, usize, usize)>,
+    /// The stops whose release was followed and did not come back.
+    released: [bool; 2],
     last_impact: f64,
     candidate: Option<Cycle>,
     grazes: u32,
@@ -222,44 +210,12 @@ impl Follow<'_> {
         (self.grazes > MAX_TOUCHES).then_some(Verdict::NoImpact(NoImpact::Grazing { phase }))
     }
 
-    fn release(&mut self, side: Side, phase: f64, time: f64) -> Option<Verdict> {
-        if let Some((rest, _)) = self.rests.last_mut() {
-            rest.release = phase;
+    /// A release decides all that follows: if it leads back to itself, that is the cycle.
+    fn release(&mut self, side: Side) -> Option<Verdict> {
+        if core::mem::replace(&mut self.released[usize::from(side == Side::Lower)], true) {
+            return None;
         }
-        let before = self.releases.iter().rev().find(|(other, ..)| *other == side).copied();
-        self.releases.push((side, time, self.impacts.len(), self.rests.len()));
-        let (_, since, impacts, rests) = before?;
-        let periods = ((time - since) / self.osc.period()).round();
-        let rests: Vec<(RestSpan, f64)> = self.rests[rests..].to_vec();
-        let slice = &self.impacts[impacts..];
-        let mut points: Vec<CyclePoint> = Vec::with_capacity(slice.len());
-        // the interval after an impact is the one stored with the next; after the last one before a rest, to the rest
-        let mut at = since;
-        for (k, (state, since_last)) in slice.iter().enumerate() {
-            at = if k == 0 { self.time_of(impacts) } else { at + since_last };
-            let to_next = slice.get(k + 1).map_or(f64::INFINITY, |(_, interval)| *interval);
-            let to_rest = rests.iter().map(|(_, t)| t - at).find(|dt| *dt >= 0.0).unwrap_or(f64::INFINITY);
-            points.push(CyclePoint { state: *state, interval: to_next.min(to_rest) });
-        }
-        let chatter = rests.iter().any(|(rest, _)| rest.chatter);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        // a count of forcing periods
-        let periods = periods as u32;
-        let count = u32::try_from(points.len()).unwrap_or(u32::MAX);
-        let impacts = if chatter { Count::Infinite } else { Count::Finite(count) };
-        Some(Verdict::Periodic(Cycle {
-            label: Label { impacts, periods },
-            points,
-            rests: rests.into_iter().map(|(rest, _)| rest).collect(),
-            multipliers: [Multiplier::default(); 2],
-            residual: 0.0,
-        }))
-    }
-
-    /// Time of the impact with that index.
-    fn time_of(&self, index: usize) -> f64 {
-        let later: f64 = self.impacts[index + 1..].iter().map(|(_, interval)| interval).sum();
-        self.last_impact - later
+        from_release(self.osc, side, DEFAULT_EVENTS).map(Verdict::Periodic)
     }
 }
 
@@ -267,6 +223,7 @@ impl Follow<'_> {
 mod tests {
     use super::*;
     use crate::scenario;
+    use crate::verdict::{Count, Label};
 
     #[test]
     fn the_papers_points_from_rest() {
@@ -301,12 +258,6 @@ mod tests {
         let Verdict::Periodic(cycle) = settled.verdict else { panic!("{:?}", settled.verdict) };
         assert_eq!(cycle.label.impacts, Count::Infinite);
         assert!(cycle.rests.len() == 1 && cycle.stable());
-        let total: f64 = cycle.points.iter().map(|p| p.interval).sum();
-        let rest = crate::system::phase::wrap(cycle.rests[0].release - cycle.rests[0].begin) / osc.beta();
-        let first = crate::system::phase::wrap(cycle.points[0].state.phase - cycle.rests[0].release) / osc.beta();
-        // from the release: flight to the first impact, the impacts, the rest; together whole periods up to whole periods
-        let turns = (total + rest + first) / osc.period();
-        assert!((turns - turns.round()).abs() < 1e-12, "{turns}");
     }
 
     #[test]
