@@ -11,12 +11,13 @@ fn blocks(text: &str, language: &str) -> Vec<String> {
 }
 
 fn readme() -> String {
-    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md")).unwrap()
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md"))
+        .expect("README.md is beside the workspace")
 }
 
 fn vibro(line: &str, folder: &Path) -> std::process::Output {
     let words = line.split_whitespace().skip(1);
-    Command::cargo_bin("vibro").unwrap().args(words).current_dir(folder).output().unwrap()
+    Command::cargo_bin("vibro").expect("vibro is built").args(words).current_dir(folder).output().expect("vibro runs")
 }
 
 #[test]
@@ -30,7 +31,10 @@ fn shown_output_is_real_output() {
         let out = String::from_utf8(output.stdout).unwrap();
         let mut lines = out.lines();
         for want in expected.lines().filter(|line| !line.is_empty()) {
-            assert!(lines.any(|line| line == want), "{command}\nshould print, in this order\n{want}\nbut prints\n{out}");
+            assert!(
+                lines.any(|line| line == want),
+                "{command}\nshould print, in this order\n{want}\nbut prints\n{out}"
+            );
             shown += 1;
         }
     }

@@ -44,7 +44,7 @@ pub(crate) struct SystemArgs {
     units: Convention,
 }
 
-/// The oscillator as a machine: all of these together with --restitution, instead of --beta, --gap and --damping.
+/// The oscillator as a machine: all of these (damping may be left out) with --restitution, instead of --beta, --gap and --damping.
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "System in physical units (instead of beta, gap and damping)")]
 struct MachineArgs {
@@ -52,7 +52,7 @@ struct MachineArgs {
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     mass_kg: Option<f64>,
 
-    /// Viscous damping in N s/m, 0 or more
+    /// Viscous damping in N s/m, 0 or more [default: 0]
     #[arg(long, value_name = "C", allow_negative_numbers = true)]
     damping_ns_per_m: Option<f64>,
 
@@ -194,13 +194,12 @@ impl MachineArgs {
         };
         let given = [
             ("--mass-kg", self.mass_kg),
-            ("--damping-ns-per-m", self.damping_ns_per_m),
             ("--stiffness-n-per-m", self.stiffness_n_per_m),
             ("--force-n", self.force_n),
             ("--frequency-hz", frequency.map(Frequency::rad_per_s)),
             ("--gap-m", self.gap_m),
         ];
-        if given.iter().all(|(_, value)| value.is_none()) {
+        if given.iter().all(|(_, value)| value.is_none()) && self.damping_ns_per_m.is_none() {
             return match self.second_gap_m {
                 Some(_) => Err(Failure::bad(
                     "--second-gap-m needs the system in physical units\nhint: --second-gap D2 is its nondimensional twin",
@@ -209,20 +208,15 @@ impl MachineArgs {
             };
         }
         let missing: Vec<&str> = given.iter().filter(|(_, value)| value.is_none()).map(|(flag, _)| *flag).collect();
-        let (
-            Some(mass_kg),
-            Some(damping_ns_per_m),
-            Some(stiffness_n_per_m),
-            Some(force_n),
-            Some(frequency),
-            Some(gap_m),
-        ) = (self.mass_kg, self.damping_ns_per_m, self.stiffness_n_per_m, self.force_n, frequency, self.gap_m)
+        let (Some(mass_kg), Some(stiffness_n_per_m), Some(force_n), Some(frequency), Some(gap_m)) =
+            (self.mass_kg, self.stiffness_n_per_m, self.force_n, frequency, self.gap_m)
         else {
             return Err(Failure::bad(format!(
                 "a system in physical units needs all of its quantities; missing: {}",
                 missing.join(", ")
             )));
         };
+        let damping_ns_per_m = self.damping_ns_per_m.unwrap_or(0.0);
         Ok(Some(Machine { mass_kg, damping_ns_per_m, stiffness_n_per_m, force_n, frequency, gap_m, restitution }))
     }
 }

@@ -26,7 +26,7 @@ fn bad_questions_are_named() {
         (format!("settle --beta 1 {rest} --second-gap -1"), "no room"),
         (format!("settle --beta 1 {rest} --second-restitution 1"), "no gap"),
         (format!("settle --beta 1 {rest} --units si"), "physical units"),
-        (format!("settle --mass-kg 1 {rest}"), "missing: --damping-ns-per-m"),
+        (format!("settle --mass-kg 1 {rest}"), "missing: --stiffness-n-per-m"),
         (format!("settle --beta 1 {rest} --limit 5"), "--rule paper"),
         (format!("settle --beta 1 {rest} --rule paper --percent 0"), "percent = 0"),
         (format!("settle --beta 1 {rest} --frobnicate"), "unexpected argument"),
