@@ -36,6 +36,8 @@ pub struct Spectrum {
     pub last: ImpactState,
 }
 
+/// How far each flight is followed: a motion with longer ones is not one whose exponents can be measured.
+const LIMITS: SearchLimits = SearchLimits { periods: 1000.0, steps: 2_000 };
 /// Blocks the run is divided into.
 const BLOCKS: u32 = 25;
 
@@ -59,7 +61,7 @@ pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spe
     for _ in 0..BLOCKS {
         let (mut time, mut one, mut two) = (Sum::default(), Sum::default(), Sum::default());
         for _ in 0..per_block {
-            let Mapped::Impact { state: next, interval } = impact_map(osc, &state, SearchLimits::default()) else {
+            let Mapped::Impact { state: next, interval } = impact_map(osc, &state, LIMITS) else {
                 return None;
             };
             let d = derivative(osc, &state, &next, interval);

@@ -72,9 +72,14 @@ pub enum Contact {
 /// ```
 #[must_use]
 pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Contact {
+    counted(osc, flight, limits).0
+}
+
+/// The first contact, and the steps it took to find.
+pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> (Contact, u32) {
     let mut search = match Search::begin(osc, flight) {
         Ok(search) => search,
-        Err(contact) => return contact,
+        Err(contact) => return (contact, 0),
     };
     // most flights end within a few steps: what needs arctangents waits until then
     let mut outlook: Option<Outlook> = None;
@@ -82,13 +87,13 @@ pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) ->
         if step == QUICK {
             let known = Outlook::new(osc, flight, limits);
             if known.never == Some(Horizon::Amplitude) && known.until == 0.0 {
-                return Contact::Never(Horizon::Amplitude);
+                return (Contact::Never(Horizon::Amplitude), step);
             }
             outlook = Some(known);
         }
         if let Some(known) = &outlook {
             if search.s >= known.until {
-                return search.ended(known);
+                return (search.ended(known), step);
             }
             if step >= PATIENT
                 && let Some(envelope) = &known.envelope
@@ -98,10 +103,10 @@ pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) ->
             }
         }
         if let Some(contact) = search.advance() {
-            return contact;
+            return (contact, step + 1);
         }
     }
-    Contact::NoneUntil(search.s)
+    (Contact::NoneUntil(search.s), limits.steps)
 }
 
 /// Steps after which the outlook of the whole flight is worked out.

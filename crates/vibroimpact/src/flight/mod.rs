@@ -14,6 +14,7 @@ mod horizon;
 mod response;
 
 pub use arc::{Flight, Point};
+pub(crate) use first_contact::counted;
 pub use first_contact::{Contact, first_contact};
 pub use horizon::{Horizon, SearchLimits};
 pub use response::{Propagator, Response};

@@ -5,7 +5,7 @@
 
 use super::{End, Event, EventKind};
 use crate::contact::{chatter, sticking};
-use crate::flight::{Contact, Flight, SearchLimits, first_contact};
+use crate::flight::{Contact, Flight, SearchLimits, counted};
 use crate::math::Sum;
 use crate::system::{Oscillator, Side, Start};
 
@@ -58,6 +58,7 @@ pub struct Motion<'a> {
     time: Sum,
     mode: Mode,
     last: Option<Leg>,
+    steps: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +89,7 @@ impl<'a> Motion<'a> {
     /// The same, searching each flight only as far as `limits`.
     #[must_use]
     pub fn with_limits(osc: &'a Oscillator, start: Start, limits: SearchLimits) -> Self {
-        Self { osc, limits, time: Sum::default(), mode: Mode::Flying(Flight::new(osc, start)), last: None }
+        Self { osc, limits, time: Sum::default(), mode: Mode::Flying(Flight::new(osc, start)), last: None, steps: 0 }
     }
 
     /// The motion that follows a release from the stop on `side`, at the phase where the force lets go; over at once,
@@ -99,7 +100,7 @@ impl<'a> Motion<'a> {
             Some(phase) => Mode::Flying(Flight::release(osc, side, phase)),
             None => Mode::Ended(End::Stuck(side)),
         };
-        Self { osc, limits: SearchLimits::default(), time: Sum::default(), mode, last: None }
+        Self { osc, limits: SearchLimits::default(), time: Sum::default(), mode, last: None, steps: 0 }
     }
 
     /// Why there is no further event; `None` while the motion goes on.
@@ -117,6 +118,12 @@ impl<'a> Motion<'a> {
         self.last.as_ref()
     }
 
+    /// Search steps taken so far, a measure of the work done: some thirty an impact, far more where flights are long.
+    #[must_use]
+    pub const fn steps(&self) -> u64 {
+        self.steps
+    }
+
     fn event(&mut self, leg: Leg, phase: f64, side: Side, kind: EventKind) -> Event {
         self.time.add(leg.duration);
         self.last = Some(leg);
@@ -131,7 +138,9 @@ impl<'a> Motion<'a> {
     fn fly(&mut self, flight: Flight) -> Option<Event> {
         let leg =
             |duration| Leg { begin: self.time.value(), duration, phase: flight.phase, path: Path::Flight(flight) };
-        let (duration, side, velocity) = match first_contact(self.osc, &flight, self.limits) {
+        let (contact, steps) = counted(self.osc, &flight, self.limits);
+        self.steps += u64::from(steps);
+        let (duration, side, velocity) = match contact {
             Contact::Impact { time, side, velocity } => (time, side, velocity),
             Contact::Contact { side } => {
                 let velocity = side.sign() * flight.v;

@@ -1,7 +1,6 @@
 //! All periodic orbits of a label: the closed form where there is one, Newton's method from many seeds everywhere.
 
-use super::{Cycle, DEFAULT_EVENTS, from_release, one_impact, shoot};
-use crate::flight::SearchLimits;
+use super::{Cycle, DEFAULT_EVENTS, flight_limits, from_release, one_impact, shoot};
 use crate::motion::{ImpactState, Mapped, impact_map};
 use crate::system::{Oscillator, Side};
 use crate::verdict::{Count, Label};
@@ -88,7 +87,7 @@ fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item =
 fn promising(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> bool {
     let (mut state, mut time) = (guess, 0.0);
     for _ in 0..m {
-        match impact_map(osc, &state, SearchLimits { periods: 4.0 * f64::from(n), ..Default::default() }) {
+        match impact_map(osc, &state, flight_limits(n)) {
             Mapped::Impact { state: next, interval } => {
                 state = next;
                 time += interval;

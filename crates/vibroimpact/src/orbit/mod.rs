@@ -21,4 +21,4 @@ pub use release::{DEFAULT_EVENTS, from_release};
 pub use shooting::{ShootingError, shoot};
 
 pub(crate) use cycle::distance as cycle_distance;
-pub(crate) use shooting::Lap;
+pub(crate) use shooting::{Lap, flight_limits};

@@ -46,7 +46,7 @@ pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cyc
     let mut state = guess;
     let mut best: Option<(f64, Vec<(ImpactState, f64)>)> = None;
     for step in 0..MAX_STEPS {
-        let lap = Lap::fly(osc, state, m)?;
+        let lap = Lap::fly(osc, state, m, flight_limits(n))?;
         let advance = lap.turned - TAU * f64::from(n);
         let miss = [advance, lap.last.velocity - state.velocity];
         let residual = miss[0].abs().max(miss[1].abs() / state.velocity);
@@ -76,6 +76,11 @@ pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cyc
     }
 }
 
+/// How far a flight of a cycle over `n` forcing periods is followed: generously, but not for ever.
+pub(crate) fn flight_limits(n: u32) -> SearchLimits {
+    SearchLimits { periods: 2.0 * f64::from(n) + 2.0, steps: 400 + n.saturating_mul(50).min(50_000) }
+}
+
 /// One turn through m impacts.
 pub(crate) struct Lap {
     /// Each impact from the first, and the time to the next.
@@ -89,11 +94,16 @@ pub(crate) struct Lap {
 }
 
 impl Lap {
-    pub(crate) fn fly(osc: &Oscillator, start: ImpactState, m: u32) -> Result<Self, ShootingError> {
+    pub(crate) fn fly(
+        osc: &Oscillator,
+        start: ImpactState,
+        m: u32,
+        limits: SearchLimits,
+    ) -> Result<Self, ShootingError> {
         let mut lap = Self { points: Vec::new(), last: start, turned: 0.0, derivative: Matrix2::IDENTITY };
         let mut turns = 0.0_f64;
         for _ in 0..m {
-            let Mapped::Impact { state, interval } = impact_map(osc, &lap.last, SearchLimits::default()) else {
+            let Mapped::Impact { state, interval } = impact_map(osc, &lap.last, limits) else {
                 return Err(ShootingError::Broken);
             };
             lap.derivative = derivative(osc, &lap.last, &state, interval).times(lap.derivative);
@@ -178,7 +188,7 @@ mod tests {
         let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap().with_damping(0.05).unwrap();
         let guess = ImpactState { phase: 1.19, velocity: 2.5, side: Side::Upper };
         let cycle = shoot(&osc, guess, 1, 1).unwrap();
-        let lap = Lap::fly(&osc, cycle.points[0].state, 1).unwrap();
+        let lap = Lap::fly(&osc, cycle.points[0].state, 1, flight_limits(1)).unwrap();
         let [one, two] = cycle.multipliers;
         let det = one.re * two.re - one.im * two.im;
         assert!((lap.derivative.determinant() - det).abs() < 1e-12);

@@ -1,7 +1,7 @@
 //! Recurrence suggests a period; the proof comes after.
 
 use crate::motion::ImpactState;
-use crate::orbit::{Cycle, Lap, cycle_distance};
+use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits};
 use crate::system::Oscillator;
 use core::f64::consts::TAU;
 
@@ -39,7 +39,8 @@ pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> 
         return false;
     }
     let m = u32::try_from(cycle.points.len()).unwrap_or(u32::MAX);
-    let (Ok(reference), Ok(real)) = (Lap::fly(osc, nearest.state, m), Lap::fly(osc, *state, m)) else {
+    let fly = |from| Lap::fly(osc, from, m, flight_limits(cycle.label.periods));
+    let (Ok(reference), Ok(real)) = (fly(nearest.state), fly(*state)) else {
         return false;
     };
     if apart <= AT_ROUNDING {

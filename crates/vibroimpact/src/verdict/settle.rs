@@ -38,10 +38,13 @@ pub struct SettleOptions {
     pub recurrence: f64,
     /// How far each flight is searched.
     pub limits: SearchLimits,
+    /// Search steps over all flights followed before giving up: what bounds the time where every flight is long.
+    pub max_steps: u64,
 }
 
 impl Default for SettleOptions {
-    /// 20 000 impacts, chaos measured over 4000 after 1000, periods up to 128 impacts.
+    /// 20 000 impacts or two million search steps (a tenth of a second, where flights are plain), chaos measured over 4000 impacts after 1000,
+    /// periods up to 128 impacts.
     fn default() -> Self {
         Self {
             max_impacts: 20_000,
@@ -50,6 +53,7 @@ impl Default for SettleOptions {
             longest: 128,
             recurrence: 1e-2,
             limits: SearchLimits::default(),
+            max_steps: 2_000_000,
         }
     }
 }
@@ -91,7 +95,7 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
     let (mut time, mut spectrum) = (0.0, None);
     let done = |verdict, follow: &Follow<'_>, time| Settled { verdict, impacts: follow.impacts.len() as u64, time };
     // every event but an impact is followed by one or ends the motion, except runs of grazes, which are cut short
-    while follow.impacts.len() < options.max_impacts as usize {
+    while follow.impacts.len() < options.max_impacts as usize && motion.steps() < options.max_steps {
         let Some(event) = motion.next() else {
             let verdict = ended(osc, motion.end(), options.limits);
             return done(verdict, &follow, time);
