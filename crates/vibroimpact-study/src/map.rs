@@ -2,8 +2,8 @@
 
 use crate::basin::RunError;
 use crate::{Control, MapPlan, SystemPlan, tiles};
+use vibroimpact::Oscillator;
 use vibroimpact::verdict::{Census, SettleOptions, StartBox, Verdict, scattered_starts, settle};
-use vibroimpact::{Oscillator, Start};
 
 /// A motion at a point, and the share of starts that led to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,12 +71,10 @@ pub fn map(
     Ok(RegionMap { plan: *plan, points })
 }
 
-/// The first start at rest, the others scattered.
 fn census(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions) -> Census {
     let area = StartBox::natural(osc);
     let mut census = Census::default();
-    census.add(&settle(osc, Start::at_rest(osc), options).verdict);
-    for index in 1..plan.starts {
+    for index in 0..plan.starts {
         census.add(&settle(osc, scattered_starts(osc, area, plan.seed, index), options).verdict);
     }
     census

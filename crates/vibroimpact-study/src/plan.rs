@@ -212,7 +212,7 @@ pub struct MapPlan {
     pub inverse_beta: Span,
     /// Values of $`\delta`$.
     pub gap: Span,
-    /// Starts per point: the first at rest, the others scattered.
+    /// Starts per point: the first at rest, the second on the free motion if it clears the stops, the others scattered.
     pub starts: u64,
     /// Which sequence of them.
     #[serde(default)]

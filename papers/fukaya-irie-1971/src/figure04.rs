@@ -63,8 +63,8 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<Plane, Error> {
     let mut section = Section::new(
         "Figure 4. Which motions there are",
         format!(
-            "The plane of 1/beta and delta in the paper's steps{}, {} starts at each point, the first at rest, the others \
-             spread over positions, velocities and phases. Each cell has the colours of the motions found there. Lines: \
+            "The plane of 1/beta and delta in the paper's steps{}, {} starts at each point, the first at rest, the second \
+             on the free motion where it clears the wall, the others spread over positions, velocities and phases. Each cell has the colours of the motions found there. Lines: \
              where theory has a stable, possible motion 1/1, 2/1, 3/1 and 1/2. Dashed: |f|, the amplitude without a wall.",
             if run.quick { " doubled (quick run)" } else { " 0.05 and 0.125" },
             grid.starts

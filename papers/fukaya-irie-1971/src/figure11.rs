@@ -223,7 +223,7 @@ fn rule(section: &mut Section, osc: &Oscillator) {
     let unstable = |percent: f64| {
         (0..STARTS)
             .filter(|index| {
-                let start = if *index == 0 { Start::at_rest(osc) } else { scattered_starts(osc, area, 1, *index) };
+                let start = scattered_starts(osc, area, 1, *index);
                 paper_rule(osc, start, with_tolerance(percent)) == PaperVerdict::Unstable
             })
             .count()

@@ -2,10 +2,10 @@
 //! paper's own rule beside it.
 
 use crate::{EPS, Error, Run};
+use vibroimpact::Oscillator;
 use vibroimpact::verdict::{
     Census, Found, PaperRule, PaperVerdict, SettleOptions, StartBox, Verdict, paper_rule, scattered_starts, settle,
 };
-use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::{Span, tiles};
 
 /// Sequence of the scattered starts; any other would do.
@@ -79,7 +79,7 @@ impl Grid {
     }
 }
 
-/// Settles `starts` starts, the first at rest, at each point of a grid.
+/// Settles `starts` starts, the first at rest and the second on the free motion if it clears the wall, at each point of a grid.
 pub(crate) fn settle_grid(run: &Run<'_>, stage: &str, (x, gap, starts): (Span, Span, u64)) -> Result<Grid, Error> {
     let columns = u64::from(x.count());
     let total = columns * u64::from(gap.count());
@@ -115,7 +115,7 @@ fn point((x, gap): (f64, f64), starts: u64) -> Result<Point, Error> {
     let options = SettleOptions::default();
     let (mut census, mut list) = (Census::default(), Vec::new());
     for index in 0..starts {
-        let start = if index == 0 { Start::at_rest(&osc) } else { scattered_starts(&osc, area, SEED, index) };
+        let start = scattered_starts(&osc, area, SEED, index);
         let verdict = settle(&osc, start, &options).verdict;
         census.add(&verdict);
         list.push((verdict.label().into_owned(), paper_rule(&osc, start, PaperRule::default())));

@@ -24,7 +24,7 @@ pub(crate) struct Attractors {
     system: SystemArgs,
 
     /// How many starts, 1 to 1e9
-    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Starts")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
     starts: u64,
 
     /// Which sequence of starts

@@ -37,7 +37,7 @@ pub(crate) struct Basin {
     v: Span,
 
     /// Phase of the force at all starts, in radians
-    #[arg(long, value_name = "P", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "Starts")]
+    #[arg(long, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "Starts")]
     phase: f64,
 
     /// Write one row a start, columns x, v, label, to this file; - for stdout

@@ -35,23 +35,23 @@ pub(crate) struct Map {
     gap: Span,
 
     /// Restitution: rebound speed over arrival speed, 0 to 1
-    #[arg(long, value_name = "E", allow_negative_numbers = true, help_heading = "System")]
+    #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "System")]
     restitution: f64,
 
     /// Damping ratio zeta, 0 or more
-    #[arg(long, value_name = "Z", default_value_t = 0.0, allow_negative_numbers = true, help_heading = "System")]
+    #[arg(long, value_name = "Z", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "System")]
     damping: f64,
 
     /// A second stop on the other side, at x = -D2 at every point
-    #[arg(long, value_name = "D2", allow_negative_numbers = true, help_heading = "System")]
+    #[arg(long, value_name = "D2", allow_hyphen_values = true, help_heading = "System")]
     second_gap: Option<f64>,
 
     /// Restitution of the second stop [default: that of the first]
-    #[arg(long, value_name = "E2", allow_negative_numbers = true, requires = "second_gap", help_heading = "System")]
+    #[arg(long, value_name = "E2", allow_hyphen_values = true, requires = "second_gap", help_heading = "System")]
     second_restitution: Option<f64>,
 
     /// Starts at each point, 1 to 1e9
-    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Starts")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
     starts: u64,
 
     /// Which sequence of starts

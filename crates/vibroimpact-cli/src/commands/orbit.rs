@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 use vibroimpact::Label;
 use vibroimpact::orbit::{FindOptions, find};
-use vibroimpact::verdict::{Count, LabelError, Verdict};
+use vibroimpact::verdict::{LabelError, Verdict};
 use vibroimpact_study::{Plan, Task};
 
 /// All periodic orbits with m impacts in n forcing periods, stable or not
@@ -81,9 +81,6 @@ pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
             text.push_str(&text::motion(&Verdict::Periodic(orbit.cycle), &osc, &asked.units));
         }
         session.print(&text)?;
-    }
-    if label.impacts == Count::Infinite {
-        session.note("hint: motions with a complete chatter are found by `vibro settle` and `vibro attractors`");
     }
     Ok(())
 }

@@ -40,11 +40,11 @@ pub(crate) struct Settle {
     rule: Rule,
 
     /// Tolerance of the paper's rule in per cent, positive [default: 0.1]
-    #[arg(long, value_name = "P", allow_negative_numbers = true, help_heading = "Rule")]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, help_heading = "Rule")]
     percent: Option<f64>,
 
     /// Impacts after which the paper's rule calls a motion unstable, 2 to 100000 [default: 100]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Rule")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Rule")]
     limit: Option<u32>,
 
     /// Print one JSON object instead of text

@@ -37,11 +37,11 @@ pub(crate) struct Simulate {
     start: StartArgs,
 
     /// Stop after so many impacts, 1 to 10000000 [default: 100, or 1000000 with --periods]
-    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Length")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
     impacts: Option<u64>,
 
     /// Stop after so many forcing periods, up to 1e9, of 2 pi / beta each
-    #[arg(long, value_name = "N", allow_negative_numbers = true, help_heading = "Length")]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
     periods: Option<f64>,
 
     /// Print one JSON object instead of text
@@ -53,7 +53,7 @@ pub(crate) struct Simulate {
     csv: Option<PathBuf>,
 
     /// Time between points of the waveform [default: a hundredth of the forcing period]
-    #[arg(long, value_name = "T", requires = "csv", allow_negative_numbers = true, help_heading = "Output")]
+    #[arg(long, value_name = "T", requires = "csv", allow_hyphen_values = true, help_heading = "Output")]
     step: Option<f64>,
 
     /// Draw the waveform into this file, .svg or .png

@@ -156,7 +156,9 @@ fn grounds(verdict: &Verdict, units: &Units) -> String {
             cycle.points.len(),
             cycle.residual.max(1e-16)
         ),
-        Verdict::Periodic(_) => "two releases from the stop: what follows a release is always the same".into(),
+        Verdict::Periodic(_) => {
+            "its release leads back to itself, and what follows a release is always the same".into()
+        }
         Verdict::NoImpact(NoImpact::Flight(Horizon::Amplitude)) => {
             "the free and the forced amplitude together stay short of the stop".into()
         }

@@ -48,10 +48,41 @@ impl Start {
         Self { x: 0.0_f64.clamp(lowest, highest), v: 0.0, phase: 0.0 }
     }
 
+    /// On the steady motion that the oscillator has without stops, at phase 0; `None` where that motion does not clear
+    /// the stops (or does not exist: undamped resonance).
+    #[must_use]
+    pub fn free_motion(osc: &Oscillator) -> Option<Self> {
+        let amplitude = osc.free_amplitude();
+        if !osc.stops().all(|(_, stop)| amplitude < stop.gap) {
+            return None;
+        }
+        let beta = osc.beta();
+        let (re, im) = ((1.0 - beta) * (1.0 + beta), 2.0 * osc.damping() * beta);
+        let square = amplitude * amplitude;
+        Some(Self { x: -im * square, v: beta * re * square, phase: 0.0 })
+    }
+
     /// The range of positions the stops allow.
     #[must_use]
     pub fn room(osc: &Oscillator) -> (f64, f64) {
         let lowest = osc.stop(super::Side::Lower).map_or(f64::NEG_INFINITY, |stop| -stop.gap);
         (lowest, osc.gap())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_free_motion_goes_on_without_a_trace_of_transient() {
+        for (beta, damping, gap) in [(0.5, 0.0, 2.0), (1.7, 0.2, 1.0), (1.0, 0.3, 2.0)] {
+            let osc = Oscillator::new(beta, gap, 0.5).unwrap().with_damping(damping).unwrap();
+            let start = Start::free_motion(&osc).unwrap();
+            let (x, v) = crate::flight::Flight::new(&osc, start).state(osc.period());
+            assert!((x - start.x).abs() < 1e-14 && (v - start.v).abs() < 1e-14);
+        }
+        assert_eq!(Start::free_motion(&Oscillator::new(0.9, 2.0, 0.5).unwrap()), None);
+        assert_eq!(Start::free_motion(&Oscillator::new(1.0, 1e300, 0.5).unwrap()), None);
     }
 }

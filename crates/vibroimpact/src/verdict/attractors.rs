@@ -95,11 +95,24 @@ impl StartBox {
     }
 }
 
-/// Start number `index` of the sequence with that `seed`: points spread evenly over the box (the additive recurrence of
-/// the generalised golden ratio in three dimensions, M. Roberts 2018, shifted by the seed). The same for every machine.
+/// Start number `index` of the sequence with that `seed`.
+///
+/// The first is at rest and the second on the steady motion without stops, where it clears them: what everybody would
+/// try, and a motion without impacts is not overlooked because few starts lead to it. The others are points spread
+/// evenly over the box (the additive recurrence of the generalised golden ratio in three dimensions, M. Roberts 2018,
+/// shifted by the seed). The same for every machine.
 #[must_use]
 #[allow(clippy::cast_precision_loss)] // 53 bits are kept on purpose
 pub fn scattered_starts(osc: &Oscillator, area: StartBox, seed: u64, index: u64) -> Start {
+    match index {
+        0 => return Start::at_rest(osc),
+        1 => {
+            if let Some(start) = Start::free_motion(osc) {
+                return start;
+            }
+        }
+        _ => {}
+    }
     // 2^64 / g, 2^64 / g^2, 2^64 / g^3 with g^4 = g + 1
     const STEP: [u64; 3] = [0xD1B5_4A32_D192_ED03, 0xABC9_8388_FB8F_AC03, 0x8CB9_2BA7_2F3D_8DD7];
     let unit = |k: usize| {
@@ -154,7 +167,7 @@ mod tests {
     #[test]
     fn the_papers_points() {
         for point in scenario::PAPER {
-            let census = attractors(&point.oscillator(), 200, 1, &SettleOptions::default());
+            let census = attractors(&point.oscillator(), 50, 1, &SettleOptions::default());
             let mut labels: Vec<_> = census.motions().iter().map(|found| found.verdict.label().into_owned()).collect();
             labels.sort();
             let mut expected = point.motions.to_vec();
@@ -175,6 +188,6 @@ mod tests {
             quarters[usize::from(right) + 2 * usize::from(up)] += 1;
         }
         assert!(quarters.iter().all(|q| (235..=265).contains(q)), "{quarters:?}");
-        assert_ne!(scattered_starts(&osc, area, 7, 0), scattered_starts(&osc, area, 8, 0));
+        assert_ne!(scattered_starts(&osc, area, 7, 2), scattered_starts(&osc, area, 8, 2));
     }
 }
