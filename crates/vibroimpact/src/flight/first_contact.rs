@@ -19,8 +19,10 @@
 //!
 //! Bounds are evaluated in rounded arithmetic. They are used with a relative slack of $`10^{-12}`$, far above the
 //! rounding of their few operations and far below anything that costs a step. What rounding can do to the *values* is
-//! covered by the grazing rule: a maximum within it is called grazing, one above it is an impact, one below it is
-//! passed.
+//! covered from both sides: a distance that rounding may hide counts as gone, so nothing within it is stepped over, and an
+//! impact is only claimed where the mass is proven beyond the stop by more than rounding. A maximum within it is called
+//! grazing, one above it is an impact, one below it is passed. An undamped flight that began on a stop is back on it
+//! after the common period, if there is one: where nothing came before, that is a touch.
 
 use super::bounds::{View, leave_time, radius, safe_time, single_contact_within};
 use super::horizon::Outlook;
