@@ -2,6 +2,7 @@
 //!
 //! | idea | file |
 //! |---|---|
+//! | the free response for every $`\zeta`$ | `free` |
 //! | free and forced response for every $`\beta`$ and $`\zeta`$ | [`Response`] |
 //! | the arc from a state | [`Flight`] |
 //! | what can be said before searching: never, or how far to look | [`Horizon`] |
@@ -10,6 +11,7 @@
 mod arc;
 mod bounds;
 mod first_contact;
+mod free;
 mod horizon;
 mod response;
 

@@ -25,15 +25,11 @@
 //! cancel and the plain quotient $`K = (e^{i\beta s} - C - i\beta S)/Z`$, $`Z = 1-\beta^2+2i\zeta\beta`$, is the better
 //! one: it takes $`\beta s`$ as it is, where the sum $`ws + 2h`$ would carry the rounding of the larger into the smaller.
 //!
-//! $`1 - C`$ is formed without cancellation everywhere: as $`\sin^2 s/(1+\cos s)`$ where the cosine is positive, which
-//! holds its digits at each return to a whole period too.
-
-use crate::math::{exp, exp_m1, sin_cos, two_prod};
+use super::free::{FreeResponse, decay, versine};
+use crate::math::sin_cos;
 
 /// From this damping on resonance is too flat to cancel anything.
-const HEAVY: f64 = 0.5;
-/// From this damping on the two exponents are far enough apart to divide by their difference.
-const TWO_ROOTS: f64 = 1.2;
+pub(super) const HEAVY: f64 = 0.5;
 /// Frequency ratios near enough to resonance for the formula that holds through it.
 const NEAR: core::ops::RangeInclusive<f64> = 0.5..=2.0;
 
@@ -70,12 +66,7 @@ pub struct Propagator {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     beta: f64,
-    damping: f64,
-    /// $`\sqrt{|1-\zeta^2|}`$, its rounding error, and below critical damping the shift of frequency $`1 - w`$ from
-    /// which they come.
-    root: f64,
-    root_low: f64,
-    shift: f64,
+    free: FreeResponse,
     regime: Regime,
 }
 
@@ -89,32 +80,18 @@ enum Regime {
     Plain,
 }
 
-/// The free part of the response.
-#[derive(Clone, Copy)]
-struct Free {
-    c: f64,
-    one_minus_c: f64,
-    s: f64,
-    s_rate: f64,
-    size: f64,
-    /// The angle that carries a rounding.
-    angle: f64,
-}
-
 impl Response {
     /// For checked parameters: `beta > 0`, `damping >= 0`, both finite.
     pub(crate) fn new(beta: f64, damping: f64) -> Self {
-        let root = ((1.0 - damping) * (1.0 + damping)).abs().sqrt();
-        let shift = damping * damping / (1.0 + root);
-        let (root, root_low) = if damping < HEAVY { (1.0 - shift, (1.0 - (1.0 - shift)) - shift) } else { (root, 0.0) };
+        let free = FreeResponse::new(damping);
         let regime = if !NEAR.contains(&beta) || damping >= HEAVY {
             Regime::Plain
         } else if damping == 0.0 {
             Regime::Undamped { detuning: beta - 1.0, over_sum: 1.0 / (beta + 1.0) }
         } else {
-            Regime::Light { detuning: (beta - 1.0) + shift }
+            Regime::Light { detuning: (beta - 1.0) + free.shift }
         };
-        Self { beta, damping, root, root_low, shift, regime }
+        Self { beta, free, regime }
     }
 
     /// Frequency ratio $`\beta`$.
@@ -128,7 +105,7 @@ impl Response {
     #[inline]
     #[must_use]
     pub const fn damping(&self) -> f64 {
-        self.damping
+        self.free.damping
     }
 
     /// The responses after a time `s >= 0`.
@@ -165,8 +142,8 @@ impl Response {
     }
 
     fn light(&self, s: f64, detuning: f64) -> Propagator {
-        let (zeta, w) = (self.damping, self.root);
-        let (sw, cw) = self.swing_angle(s);
+        let (zeta, w) = (self.free.damping, self.free.root);
+        let (sw, cw) = self.free.swing_angle(s);
         let (sh, ch) = sin_cos(0.5 * detuning * s);
         let (sa, ca) = (sw * ch + cw * sh, cw * ch - sw * sh);
         let (kept, loss) = decay(zeta * s);
@@ -175,7 +152,7 @@ impl Response {
         // e^{iA} first - e^{ih} second, then divided by 2iw
         let re = (ca * first.0 - sa * first.1) - (ch * second.0 - sh * second.1);
         let im = (sa * first.0 + ca * first.1) - (sh * second.0 + ch * second.1);
-        let free = self.swing(s, (sw, cw), (kept, loss));
+        let free = self.free.swing(s, (sw, cw), (kept, loss));
         Propagator {
             one_minus_c: free.one_minus_c,
             c: free.c,
@@ -194,14 +171,9 @@ impl Response {
     }
 
     fn plain(&self, s: f64) -> Propagator {
-        let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * self.damping * self.beta));
+        let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * self.free.damping * self.beta));
         let (st, ct) = sin_cos(beta * s);
-        let free = if self.damping < 1.0 {
-            let decay = if self.damping == 0.0 { (1.0, 0.0) } else { decay(self.damping * s) };
-            self.swing(s, self.swing_angle(s), decay)
-        } else {
-            self.creep(s)
-        };
+        let free = self.free.at(s);
         let (kc, ks) = divide((free.one_minus_c - versine(st, ct), st - beta * free.s), z);
         let over = z.0.abs().max(z.1); // |Z|, or a little less
         Propagator {
@@ -219,92 +191,7 @@ impl Response {
             forced_angle: beta * s / over,
         }
     }
-
-    /// Sine and cosine of $`ws`$, the rounding of the product and of $`w`$ itself made good: late in a long, lightly damped
-    /// flight it would be what limits the position.
-    #[inline]
-    fn swing_angle(&self, s: f64) -> (f64, f64) {
-        let (angle, low) = two_prod(self.root, s);
-        let (sin, cos) = sin_cos(angle);
-        let rest = low + self.root_low * s;
-        (sin + cos * rest, cos - sin * rest)
-    }
-
-    /// The free part below critical damping, from the sine and cosine of `w s` and the decay.
-    #[inline]
-    fn swing(&self, s: f64, (sw, cw): (f64, f64), (kept, loss): (f64, f64)) -> Free {
-        let zeta = self.damping;
-        let free_s = kept * if self.root == 0.0 { s } else { sw / self.root };
-        let versine = versine(sw, cw);
-        let (one_minus_c, size) = if zeta == 0.0 {
-            (versine, versine)
-        } else if s * (1.0 + zeta) < SMALL {
-            let sum = self.one_minus_c_series(s);
-            (sum, sum)
-        } else {
-            let sum = (loss - zeta * free_s) + kept * versine;
-            (sum, loss + (zeta * free_s).abs() + kept * versine)
-        };
-        let s_rate = kept * cw - zeta * free_s;
-        Free { c: kept * cw + zeta * free_s, one_minus_c, s: free_s, s_rate, size, angle: self.shift * s }
-    }
-
-    /// The free part from critical damping on.
-    fn creep(&self, s: f64) -> Free {
-        let (zeta, root) = (self.damping, self.root);
-        // slow exponent zeta - root = 1/(zeta + root), spread 2 root
-        let fast = zeta + root;
-        let slow = exp(-s / fast);
-        let (left, spread) = decay(2.0 * root * s);
-        let free_s = slow * if root == 0.0 { s } else { spread / (2.0 * root) };
-        let c = slow * (1.0 - 0.5 * spread) + zeta * free_s;
-        let one_minus_c = if s * (1.0 + zeta) < SMALL {
-            self.one_minus_c_series(s)
-        } else if zeta > TWO_ROOTS {
-            // -(l1 expm1(l2 s) - l2 expm1(l1 s)) / (l1 - l2), l1 = -1/fast, l2 = -fast
-            (exp_m1(-fast * s) / fast - fast * exp_m1(-s / fast)) / (2.0 * root)
-        } else {
-            1.0 - c
-        };
-        let s_rate = if zeta > TWO_ROOTS {
-            // (fast e^{-fast s} - e^{-s/fast}/fast) / (2 root)
-            slow * (fast * left - 1.0 / fast) / (2.0 * root)
-        } else {
-            slow * (1.0 - 0.5 * spread) - zeta * free_s
-        };
-        let size = one_minus_c.max(if zeta > TWO_ROOTS { 0.0 } else { 0.5 });
-        Free { c, one_minus_c, s: free_s, s_rate, size, angle: s / fast }
-    }
-
-    /// $`1 - C`$ by its Taylor series, for `s (1 + zeta) <` [`SMALL`]: $`c_{k+2} = -c_k - 2\zeta c_{k+1}`$.
-    fn one_minus_c_series(&self, s: f64) -> f64 {
-        let (mut a, mut b) = (1.0, 0.0); // derivatives of C at 0
-        let (mut power, mut sum) = (s, 0.0);
-        for k in 2..30 {
-            let next = -a - 2.0 * self.damping * b;
-            power *= s / f64::from(k);
-            sum -= next * power;
-            (a, b) = (b, next);
-        }
-        sum
-    }
 }
-
-/// $`e^{-x}`$ and $`1 - e^{-x}`$, both to their last bits.
-#[inline]
-fn decay(x: f64) -> (f64, f64) {
-    let loss = -exp_m1(-x);
-    (if loss < 0.5 { 1.0 - loss } else { exp(-x) }, loss)
-}
-
-/// $`1 - \cos`$ without cancellation.
-#[inline]
-fn versine(sin: f64, cos: f64) -> f64 {
-    if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos }
-}
-
-/// Below this, damped, $`1 - C`$ is summed as a series; above, the subtraction loses at most two bits.
-const SMALL: f64 = 1.0;
 
 /// Complex quotient.
 #[inline]

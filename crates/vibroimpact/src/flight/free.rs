@@ -1,0 +1,140 @@
+//! The free part of the response: no force, a displacement or a velocity at the beginning.
+//!
+//! $$`C = e^{-\zeta s}\Bigl(\cos ws + \zeta\frac{\sin ws}{w}\Bigr), \quad S = e^{-\zeta s}\frac{\sin ws}{w}, \quad
+//!   S' = C - 2\zeta S, \quad w = \sqrt{1-\zeta^2},`$$
+//!
+//! and with hyperbolic functions beyond critical damping. $`1 - C`$ is formed without cancellation everywhere: $`1 - \cos`$
+//! as $`\sin^2/(1+\cos)`$ where the cosine is positive, which holds its digits at each return to a whole period too, and
+//! under damping by its Taylor series while $`s`$ is small.
+
+use super::response::HEAVY;
+use crate::math::{exp, exp_m1, sin_cos, two_prod};
+
+/// From this damping on the two exponents are far enough apart to divide by their difference.
+const TWO_ROOTS: f64 = 1.2;
+/// Below this, damped, $`1 - C`$ is summed as a series; above, the subtraction loses at most two bits.
+const SMALL: f64 = 1.0;
+
+/// Free responses for one damping, with what does not depend on time worked out once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct FreeResponse {
+    pub(super) damping: f64,
+    /// $`\sqrt{|1-\zeta^2|}`$, its rounding error, and below critical damping the shift of frequency $`1 - w`$ from
+    /// which they come.
+    pub(super) root: f64,
+    root_low: f64,
+    pub(super) shift: f64,
+}
+
+/// The free part of the response.
+#[derive(Clone, Copy)]
+pub(super) struct Free {
+    pub(super) c: f64,
+    pub(super) one_minus_c: f64,
+    pub(super) s: f64,
+    pub(super) s_rate: f64,
+    pub(super) size: f64,
+    /// The angle that carries a rounding.
+    pub(super) angle: f64,
+}
+
+impl FreeResponse {
+    pub(super) fn new(damping: f64) -> Self {
+        let root = ((1.0 - damping) * (1.0 + damping)).abs().sqrt();
+        let shift = damping * damping / (1.0 + root);
+        let (root, root_low) = if damping < HEAVY { (1.0 - shift, (1.0 - (1.0 - shift)) - shift) } else { (root, 0.0) };
+        Self { damping, root, root_low, shift }
+    }
+
+    /// The responses after a time `s >= 0`.
+    pub(super) fn at(&self, s: f64) -> Free {
+        if self.damping < 1.0 {
+            let decay = if self.damping == 0.0 { (1.0, 0.0) } else { decay(self.damping * s) };
+            self.swing(s, self.swing_angle(s), decay)
+        } else {
+            self.creep(s)
+        }
+    }
+
+    /// Sine and cosine of $`ws`$, the rounding of the product and of $`w`$ itself made good: late in a long, lightly damped
+    /// flight it would be what limits the position.
+    #[inline]
+    pub(super) fn swing_angle(&self, s: f64) -> (f64, f64) {
+        let (angle, low) = two_prod(self.root, s);
+        let (sin, cos) = sin_cos(angle);
+        let rest = low + self.root_low * s;
+        (sin + cos * rest, cos - sin * rest)
+    }
+
+    /// The free part below critical damping, from the sine and cosine of `w s` and the decay.
+    #[inline]
+    pub(super) fn swing(&self, s: f64, (sw, cw): (f64, f64), (kept, loss): (f64, f64)) -> Free {
+        let zeta = self.damping;
+        let free_s = kept * if self.root == 0.0 { s } else { sw / self.root };
+        let versine = versine(sw, cw);
+        let (one_minus_c, size) = if zeta == 0.0 {
+            (versine, versine)
+        } else if s * (1.0 + zeta) < SMALL {
+            let sum = self.one_minus_c_series(s);
+            (sum, sum)
+        } else {
+            let sum = (loss - zeta * free_s) + kept * versine;
+            (sum, loss + (zeta * free_s).abs() + kept * versine)
+        };
+        let s_rate = kept * cw - zeta * free_s;
+        Free { c: kept * cw + zeta * free_s, one_minus_c, s: free_s, s_rate, size, angle: self.shift * s }
+    }
+
+    /// The free part from critical damping on.
+    fn creep(&self, s: f64) -> Free {
+        let (zeta, root) = (self.damping, self.root);
+        // slow exponent zeta - root = 1/(zeta + root), spread 2 root
+        let fast = zeta + root;
+        let slow = exp(-s / fast);
+        let (left, spread) = decay(2.0 * root * s);
+        let free_s = slow * if root == 0.0 { s } else { spread / (2.0 * root) };
+        let c = slow * (1.0 - 0.5 * spread) + zeta * free_s;
+        let one_minus_c = if s * (1.0 + zeta) < SMALL {
+            self.one_minus_c_series(s)
+        } else if zeta > TWO_ROOTS {
+            // -(l1 expm1(l2 s) - l2 expm1(l1 s)) / (l1 - l2), l1 = -1/fast, l2 = -fast
+            (exp_m1(-fast * s) / fast - fast * exp_m1(-s / fast)) / (2.0 * root)
+        } else {
+            1.0 - c
+        };
+        let s_rate = if zeta > TWO_ROOTS {
+            // (fast e^{-fast s} - e^{-s/fast}/fast) / (2 root)
+            slow * (fast * left - 1.0 / fast) / (2.0 * root)
+        } else {
+            slow * (1.0 - 0.5 * spread) - zeta * free_s
+        };
+        let size = one_minus_c.max(if zeta > TWO_ROOTS { 0.0 } else { 0.5 });
+        Free { c, one_minus_c, s: free_s, s_rate, size, angle: s / fast }
+    }
+
+    /// $`1 - C`$ by its Taylor series, for `s (1 + zeta) <` [`SMALL`]: $`c_{k+2} = -c_k - 2\zeta c_{k+1}`$.
+    fn one_minus_c_series(&self, s: f64) -> f64 {
+        let (mut a, mut b) = (1.0, 0.0); // derivatives of C at 0
+        let (mut power, mut sum) = (s, 0.0);
+        for k in 2..30 {
+            let next = -a - 2.0 * self.damping * b;
+            power *= s / f64::from(k);
+            sum -= next * power;
+            (a, b) = (b, next);
+        }
+        sum
+    }
+}
+
+/// $`e^{-x}`$ and $`1 - e^{-x}`$, both to their last bits.
+#[inline]
+pub(super) fn decay(x: f64) -> (f64, f64) {
+    let loss = -exp_m1(-x);
+    (if loss < 0.5 { 1.0 - loss } else { exp(-x) }, loss)
+}
+
+/// $`1 - \cos`$ without cancellation.
+#[inline]
+pub(super) fn versine(sin: f64, cos: f64) -> f64 {
+    if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos }
+}
