@@ -6,7 +6,7 @@
 //! | free and forced response for every $`\beta`$ and $`\zeta`$ | [`Response`] |
 //! | the arc from a state | [`Flight`] |
 //! | what can be said before searching: never, or how far to look | [`Horizon`] |
-//! | the first contact, never missed | [`first_contact`] |
+//! | the first contact, never missed, and the search for it | [`first_contact`], `search` |
 
 mod arc;
 mod bounds;
@@ -14,6 +14,7 @@ mod first_contact;
 mod free;
 mod horizon;
 mod response;
+mod search;
 
 pub use arc::{Flight, Point};
 pub(crate) use first_contact::counted;

@@ -1,0 +1,272 @@
+//! The search for a first contact, step by step: [`first_contact`](super::first_contact) says what is guaranteed and why.
+
+use super::bounds::{View, leave_time, radius, safe_time, single_contact_within};
+use super::horizon::Outlook;
+use super::{Contact, Flight, Horizon, Point};
+use crate::system::{Oscillator, Side, Stop};
+
+/// Bounds are used up to this fraction, so that their own rounding cannot matter.
+const SLACK: f64 = 1.0 - 1e-12;
+
+/// A search under way: nothing was touched up to the present point.
+pub(super) struct Search<'a> {
+    osc: &'a Oscillator,
+    flight: &'a Flight,
+    /// Distance from the start to each stop, exact: `gap - sign x0`.
+    room: [f64; 2],
+    /// Distance of each stop from the rest position.
+    gap: [f64; 2],
+    /// Time of the present point.
+    pub(super) s: f64,
+    point: Point,
+    reach: f64,
+}
+
+impl<'a> Search<'a> {
+    /// The search from the beginning of a flight; the contact there, if the mass is on a stop and does not leave it.
+    pub(super) fn begin(osc: &'a Oscillator, flight: &'a Flight) -> Result<Self, Contact> {
+        let (mut room, mut gap) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
+        let mut leave = f64::INFINITY;
+        let r = radius(flight.x, flight.v);
+        for (side, stop) in osc.stops() {
+            let left = stop.gap - side.sign() * flight.x;
+            (room[index(side)], gap[index(side)]) = (left, stop.gap);
+            if left <= 0.0 {
+                leave = leave.min(leave_time(flight, side.sign(), stop.gap, r).ok_or(Contact::Contact { side })?);
+            }
+        }
+        let reach = FIRST_REACH / (1.0 + flight.response().damping());
+        let start = Point {
+            displacement: 0.0,
+            x: flight.x,
+            far: false,
+            v: flight.v,
+            a: flight.a,
+            j: flight.jerk(),
+            rounding: 0.0,
+        };
+        let mut search = Self { osc, flight, room, gap, s: 0.0, point: start, reach };
+        if leave.is_finite() {
+            // the other stop must not be reached in the meantime
+            let other = search.views().filter(|view| view.g > 0.0);
+            let safe = other.map(|v| safe_time(flight, v, r, reach)).fold(leave, f64::min);
+            search.move_to(safe * SLACK);
+        }
+        Ok(search)
+    }
+
+    /// The answer when nothing was met as far as one has to look.
+    pub(super) fn ended(&self, known: &Outlook) -> Contact {
+        match known.never {
+            // a flight that began on a stop is back on it after the common period: at most a touch
+            Some(Horizon::CommonPeriod { .. }) => {
+                let back = self.osc.stops().find(|(side, _)| self.room[index(*side)] <= 0.0);
+                match back {
+                    Some((side, _)) => Contact::Grazing { time: known.until, side, depth: 0.0 },
+                    None => known.never.map_or(Contact::NoneUntil(self.s), Contact::Never),
+                }
+            }
+            Some(why) => Contact::Never(why),
+            None => Contact::NoneUntil(self.s),
+        }
+    }
+
+    /// Each stop and the sign that turns it into an upper one.
+    pub(super) fn walls(&self) -> impl Iterator<Item = (f64, Stop)> {
+        self.osc.stops().map(|(side, stop)| (side.sign(), stop))
+    }
+
+    fn views(&self) -> impl Iterator<Item = View> {
+        self.osc.stops().map(|(side, _)| self.view(side, &self.point))
+    }
+
+    #[inline]
+    fn view(&self, side: Side, point: &Point) -> View {
+        let (sign, k) = (side.sign(), index(side));
+        let g = if point.far { self.gap[k] - sign * point.x } else { self.room[k] - sign * point.displacement };
+        View { side, g, p: sign * point.v, q: sign * point.a, j: sign * point.j }
+    }
+
+    #[inline]
+    fn move_to(&mut self, s: f64) {
+        self.s = s;
+        self.point = self.flight.at(s);
+    }
+
+    /// Goes on to `s`, if that is ahead, up to where contact is known to be impossible.
+    pub(super) fn stride_to(&mut self, s: f64) {
+        if s > self.s {
+            self.move_to(s);
+        }
+    }
+
+    /// One safe step, or the contact it found.
+    #[inline]
+    pub(super) fn advance(&mut self) -> Option<Contact> {
+        let r = radius(self.point.x, self.point.v);
+        let mut safe = f64::INFINITY;
+        let mut nearest: Option<View> = None;
+        for (side, _) in self.osc.stops() {
+            let view = self.view(side, &self.point);
+            if view.g <= GRAZING_ZONE * self.point.rounding {
+                return self.at_rounding(view, r);
+            }
+            // what rounding may hide counts as gone
+            let seen = View { g: view.g - self.point.rounding, ..view };
+            let time = safe_time(self.flight, seen, r, self.reach);
+            if time < safe {
+                (safe, nearest) = (time, Some(view));
+            }
+        }
+        if let Some(view) = nearest
+            && let Some(span) = single_contact_within(self.flight, view, r, 2.0 * self.point.rounding)
+            && self.others_clear(view.side, span, r)
+        {
+            return Some(self.refine(view.side, self.s + span));
+        }
+        let step = safe * SLACK;
+        self.reach = if step >= self.reach { 2.0 * step } else { 1.25 * step };
+        let next = self.s + step;
+        if next <= self.s {
+            // the bound no longer moves the clock: the contact is here, to the last bit
+            return nearest.and_then(|view| self.at_rounding(view, r));
+        }
+        self.move_to(next);
+        None
+    }
+
+    fn others_clear(&self, side: Side, span: f64, r: f64) -> bool {
+        self.views().filter(|other| other.side != side).all(|other| safe_time(self.flight, other, r, span) >= span)
+    }
+
+    /// The single contact in `(self.s, end]`, by a third-order iteration kept in the bracket.
+    fn refine(&self, side: Side, end: f64) -> Contact {
+        let (mut low, mut high) = (self.s, end);
+        let (mut s, mut view) = (self.s, self.view(side, &self.point));
+        for _ in 0..MAX_REFINEMENTS {
+            let disc = view.p * view.p + 2.0 * view.q * view.g;
+            let step = 2.0 * view.g / (view.p + disc.max(0.0).sqrt());
+            let mut next = s + step;
+            if !(next >= low && next <= high) {
+                next = 0.5 * (low + high);
+            }
+            // the step is already as good as the next evaluation could judge
+            if step.abs() <= CONVERGED * next {
+                return Contact::Impact { time: next, side, velocity: (view.p + view.q * (next - s)).max(0.0) };
+            }
+            s = next;
+            let point = self.flight.at(s);
+            view = self.view(side, &point);
+            if view.g > 0.0 {
+                low = s;
+            } else {
+                high = s;
+            }
+        }
+        Contact::Impact { time: s, side, velocity: view.p.max(0.0) }
+    }
+
+    /// The distance to this stop is down to rounding: decide what kind of contact it is, or pass.
+    #[cold]
+    fn at_rounding(&mut self, view: View, r: f64) -> Option<Contact> {
+        let rounding = self.point.rounding.max(f64::MIN_POSITIVE);
+        // transversal: the velocity carries it through the zone of rounding within a time too short to matter
+        let curvature = 1.0 + r * (1.0 + 2.0 * self.flight.response().damping());
+        if view.p > 0.0 && view.p * view.p > 16.0 * curvature * rounding {
+            let width = 4.0 * GRAZING_ZONE * rounding / view.p;
+            return Some(self.refine_freely(view, width));
+        }
+        // tangential: find the extremum of y nearby, y' = 0
+        let (mut s, mut here) = (self.s, view);
+        for _ in 0..MAX_REFINEMENTS {
+            if here.q == 0.0 {
+                break;
+            }
+            let step = -here.p / here.q;
+            let next = (s + step).max(0.0);
+            if !next.is_finite() || (next - self.s).abs() > 1.0 {
+                break;
+            }
+            let moved = (next - s).abs();
+            s = next;
+            let point = self.flight.at(s);
+            here = self.view(view.side, &point);
+            if moved <= CONVERGED * s {
+                break;
+            }
+        }
+        let apex = self.flight.at(s);
+        let depth = self.view(view.side, &apex).g;
+        let zone = GRAZING_ZONE * apex.rounding.max(rounding);
+        if here.q < 0.0 && s >= self.s {
+            if depth > zone {
+                // clear after all: go on from the closest point
+                self.s = s;
+                self.point = apex;
+                self.reach = FIRST_REACH;
+                return None;
+            }
+            if depth >= -zone {
+                return Some(Contact::Grazing { time: s, side: view.side, depth });
+            }
+            // it does pass the stop: the contact lies between here and the apex
+            return Some(self.bisect(view.side, self.s, s));
+        }
+        if view.p < 0.0 && here.q <= 0.0 {
+            // leaving: the closest point was passed within rounding
+            return Some(Contact::Grazing { time: self.s, side: view.side, depth: view.g });
+        }
+        // approaching with the force behind it: contact is imminent
+        Some(self.refine_freely(view, 1e-6))
+    }
+
+    /// Contact right here, to within `width`.
+    fn refine_freely(&self, view: View, width: f64) -> Contact {
+        let (mut s, mut here) = (self.s, view);
+        for _ in 0..4 {
+            let disc = here.p * here.p + 2.0 * here.q * here.g;
+            let denominator = here.p + disc.max(0.0).sqrt();
+            let step = if denominator > 0.0 { 2.0 * here.g / denominator } else { 0.0 };
+            let step = step.clamp(-width, width);
+            s = (s + step).max(0.0);
+            here = self.view(view.side, &self.flight.at(s));
+            if step.abs() <= CONVERGED * s {
+                break;
+            }
+        }
+        Contact::Impact { time: s, side: view.side, velocity: here.p.max(0.0) }
+    }
+
+    /// The contact between `low`, short of the stop, and `high`, beyond it and at the extremum.
+    fn bisect(&self, side: Side, mut low: f64, mut high: f64) -> Contact {
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if self.view(side, &self.flight.at(middle)).g > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Contact::Impact { time: high, side, velocity: self.view(side, &self.flight.at(high)).p.max(0.0) }
+    }
+}
+
+/// Window of the first step.
+const FIRST_REACH: f64 = 0.7;
+/// A maximum within this many times the rounding of its evaluation counts as grazing.
+const GRAZING_ZONE: f64 = 1.0;
+/// Relative step at which a root is refined: one more third-order step would move it by less than its last bit.
+const CONVERGED: f64 = 1e-9;
+/// The iteration converges in two or three steps; this caps it.
+const MAX_REFINEMENTS: u32 = 60;
+
+#[inline]
+const fn index(side: Side) -> usize {
+    match side {
+        Side::Upper => 0,
+        Side::Lower => 1,
+    }
+}
