@@ -1,16 +1,16 @@
 //! `vibro basin`: which motion each start of a plane leads to.
 
 use crate::args::SystemArgs;
+use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
-use crate::files::Target;
-use crate::plot::{self, Picture};
+use crate::plot;
 use crate::report::csv::{self, Number};
 use crate::report::json::{Document, Motion, Range, SharedMotion};
 use crate::report::text::{self, percent};
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use vibroimpact::verdict::SettleOptions;
 use vibroimpact_study::{Basin as Computed, BasinPlan, Plan, Span, Task, basin};
 
@@ -61,9 +61,6 @@ struct Answer {
     motions: Vec<SharedMotion>,
     starts: usize,
 }
-
-/// Columns and rows a picture can show.
-pub(super) const MOST_CELLS: u32 = 16_384;
 
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
@@ -146,75 +143,4 @@ fn rows<'a>(found: &'a Computed, (x, v): (&'a Span, &'a Span)) -> impl Iterator<
         let (x, v) = (&xs[k % columns], &vs[k / columns]);
         format!("{x},{v},{}", labels[usize::from(*motion)])
     })
-}
-
-/// The files of a grid command, reserved before anything is computed.
-pub(super) struct Outputs {
-    csv: Option<Sheet>,
-    picture: Option<Picture>,
-    json: bool,
-}
-
-enum Sheet {
-    Stdout,
-    File(Target, String),
-}
-
-impl Outputs {
-    pub(super) fn reserve(
-        csv: Option<&Path>,
-        plot: Option<&Path>,
-        json: bool,
-        session: &Session,
-    ) -> Result<Self, Failure> {
-        let csv = match csv {
-            None => None,
-            Some(path) if path == Path::new("-") && json => {
-                return Err(Failure::bad("--csv - and --json both want stdout"));
-            }
-            Some(path) if path == Path::new("-") => Some(Sheet::Stdout),
-            Some(path) => {
-                let target = Target::reserve(path, session.force)?;
-                Some(Sheet::File(target, path.display().to_string()))
-            }
-        };
-        let picture = plot.map(|path| Picture::reserve(path, session.force)).transpose()?;
-        Ok(Self { csv, picture, json })
-    }
-
-    /// Refuses a picture of more cells than it has room for.
-    pub(super) fn drawable(&self, columns: &Span, rows: &Span) -> Result<(), Failure> {
-        let most = columns.count().max(rows.count());
-        if self.picture.is_some() && most > MOST_CELLS {
-            return Err(Failure::bad(format!(
-                "a figure shows at most {MOST_CELLS} values on an axis, not {most}\nhint: --csv has no such limit"
-            )));
-        }
-        Ok(())
-    }
-
-    /// Whether anything but text was asked for.
-    pub(super) const fn any(&self) -> bool {
-        self.csv.is_some() || self.picture.is_some() || self.json
-    }
-
-    pub(super) fn write(
-        self,
-        session: &Session,
-        table: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
-        figure: impl FnOnce() -> Result<vibroimpact_plot::Figure, Failure>,
-    ) -> Result<(), Failure> {
-        if let Some(picture) = self.picture {
-            picture.write(&figure()?)?;
-        }
-        match self.csv {
-            None => Ok(()),
-            Some(Sheet::Stdout) => session.to_stdout(table),
-            Some(Sheet::File(target, name)) => {
-                target.write(table)?;
-                session.note(&format!("wrote {name}"));
-                Ok(())
-            }
-        }
-    }
 }

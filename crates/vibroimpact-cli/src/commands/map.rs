@@ -1,6 +1,6 @@
 //! `vibro map`: which motions there are at each point of the plane of inverse frequency and gap.
 
-use crate::commands::basin::Outputs;
+use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::plot;
 use crate::report::csv::{self, Number};
@@ -17,7 +17,8 @@ use vibroimpact_study::{MapPlan, Plan, RegionMap, SecondStop, Span, SystemPlan, 
 
 /// Which motions there are at each point of the plane of 1/beta and gap
 ///
-/// At each point so many starts are settled: the first from rest, the others scattered over a box around the motion.
+/// At each point so many starts are settled: the first from rest, the second on the motion
+/// without stops if that clears them, the others scattered over a box around the motion.
 /// A:B:N is N values from A to B, both included. Without --csv, --plot or --json a summary is printed.
 #[derive(Clone, Debug, Args)]
 #[command(

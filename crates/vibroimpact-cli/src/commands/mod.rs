@@ -6,6 +6,7 @@ mod completions;
 mod man;
 mod map;
 mod orbit;
+mod outputs;
 mod reproduce;
 mod settle;
 mod simulate;

@@ -13,7 +13,7 @@
 //!    that ends at its limit says so: none until then.
 
 use super::Flight;
-use crate::math::{asin, atan2, exp, hypot, ln};
+use crate::math::{asin, atan2, exp, hypot, ln, sin_cos};
 use crate::system::{Oscillator, phase};
 use core::f64::consts::{E, FRAC_PI_2, TAU};
 
@@ -81,8 +81,8 @@ impl Envelope {
             return None;
         }
         let steady_angle = flight.phase - atan2(zi, zr);
-        let (xf, vf) =
-            (flight.x - steady * libm::sin(steady_angle), flight.v - beta * steady * libm::cos(steady_angle));
+        let (sin, cos) = sin_cos(steady_angle);
+        let (xf, vf) = (flight.x - steady * sin, flight.v - beta * steady * cos);
         let (rho, kappa) = if zeta == 0.0 {
             (hypot(xf, vf), 0.0)
         } else if zeta < 0.9 {

@@ -69,7 +69,7 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
 /// Arrivals spread over phase and velocity. Speeds go up to what n periods of forcing, the gap and the free response
 /// could feed, geometrically towards small ones.
 fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item = ImpactState> {
-    let top = 4.0 * (1.0 + osc.gap().abs() + osc.free_amplitude().min(10.0)) / (1.0 - osc.restitution()).max(0.1);
+    let top = 4.0 * osc.size() / (1.0 - osc.restitution()).max(0.1);
     let sides: Vec<Side> = osc.stops().map(|(side, _)| side).collect();
     sides.into_iter().flat_map(move |side| {
         (0..speeds).flat_map(move |k| {

@@ -170,6 +170,12 @@ impl Oscillator {
         1.0 / hypot((1.0 - beta) * (1.0 + beta), 2.0 * self.damping() * beta)
     }
 
+    /// A length of the order of its motions, $`1 + |\delta| + \min(|f|, 10)`$: what boxes of starts and seeds are measured
+    /// in.
+    pub(crate) fn size(&self) -> f64 {
+        1.0 + self.gap().abs() + self.free_amplitude().min(10.0)
+    }
+
     /// The closed-form response this oscillator flies by.
     #[inline]
     #[must_use]

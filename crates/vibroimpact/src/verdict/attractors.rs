@@ -88,7 +88,7 @@ impl StartBox {
     /// second stop) to $`\delta`$, velocities within $`\pm A(1+\beta)/2`$ but at most $`\pm 2A`$, all phases.
     #[must_use]
     pub fn natural(osc: &Oscillator) -> Self {
-        let size = 1.0 + osc.gap().abs() + osc.free_amplitude().min(10.0);
+        let size = osc.size();
         let (lowest, highest) = Start::room(osc);
         let speed = size * (0.5 * (1.0 + osc.beta())).min(2.0);
         Self { x: (lowest.max(highest - 2.0 * size), highest), v: (-speed, speed), phase: (0.0, TAU) }
