@@ -59,6 +59,7 @@
 pub mod chaos;
 pub mod contact;
 pub mod flight;
+pub mod lanes;
 pub mod math;
 pub mod motion;
 pub mod orbit;

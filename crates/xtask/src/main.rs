@@ -1,9 +1,10 @@
 //! `cargo xtask`: what a developer does to this repository, one command in one file.
 //!
-//! The arguments are three words and two switches, so they are read by hand: the
+//! The arguments are a few words and switches, so they are read by hand: the
 //! command starts in seconds from a fresh checkout, before anything else is built.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal: printing is what it is for")]
 
+mod bench_peers;
 mod command;
 mod docs;
 mod figures;
@@ -24,6 +25,9 @@ usage: cargo xtask COMMAND
                           --long  the long-running tests too (VIBROIMPACT_LONG=1)
   docs                    the API documentation, with formulas, in target/doc
   figures                 the pictures of the README, by `vibro reproduce`
+  bench-peers [--rounds N] [--seconds S] [--quick]
+                          vibroimpact beside other programs, into docs/performance.md
+                          --quick  a look, into target/peers/performance.md
   licences                the licence of every dependency against the allow-list
   links                   every relative link in the Markdown files
 ";
@@ -42,6 +46,10 @@ fn main() -> ExitCode {
         },
         ["docs"] => finish(docs::build(&root)),
         ["figures"] => finish(figures::draw(&root)),
+        ["bench-peers", switches @ ..] => match bench_peers::Options::parse(switches) {
+            Ok(options) => finish(bench_peers::run(&root, options)),
+            Err(sentence) => bad_question(&sentence),
+        },
         ["licences"] => finish(licences::check(&root)),
         ["links"] => finish(links::check(&root)),
         ["help" | "--help" | "-h"] => {

@@ -43,6 +43,10 @@ pub struct Completion {
 /// values save impacts (each factor of 10 some three of them at restitution 1/2) and cost accuracy.
 pub const DEFAULT_SMALLNESS: f64 = 1e-4;
 
+/// A rebound faster than this times the acceleration into the stop is never summed: the small parameter is of the order of
+/// their quotient, and where it vanishes by coincidence it is no measure.
+pub(crate) const SLOW: f64 = 0.01;
+
 /// The accumulation of the chatter that follows an impact with `rebound` speed on the stop at `side`; `None` while it
 /// is not certain that there is one, or when it is too far off for the sum to be accurate.
 #[must_use]
@@ -52,7 +56,7 @@ pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smalln
     let (w, eps, zeta, beta) = (rebound, stop.restitution, osc.damping(), osc.beta());
     let (a, j, q) = (sin - stop.gap, beta * cos, -beta * beta * sin);
     let r = 1.0 - eps;
-    if !(a > 0.0 && r > 0.0) {
+    if !(a > 0.0 && r > 0.0 && w < SLOW * a) {
         return None;
     }
     let first = 2.0 * w / (a * r);

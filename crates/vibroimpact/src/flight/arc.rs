@@ -43,8 +43,9 @@ pub struct Flight {
     pub v: f64,
     /// Phase of the force at the beginning.
     pub phase: f64,
-    sin: f64,
-    cos: f64,
+    /// Sine and cosine of it.
+    pub(crate) sin: f64,
+    pub(crate) cos: f64,
     /// Acceleration at the beginning.
     pub(super) a: f64,
     pub(super) fastest: f64,

@@ -26,7 +26,7 @@
 //! one: it takes $`\beta s`$ as it is, where the sum $`ws + 2h`$ would carry the rounding of the larger into the smaller.
 //!
 use super::free::{FreeResponse, decay, versine};
-use crate::math::sin_cos;
+use crate::math::{Lane, sin_cos};
 
 /// From this damping on resonance is too flat to cancel anything.
 pub(super) const HEAVY: f64 = 0.5;
@@ -114,30 +114,34 @@ impl Response {
     pub fn at(&self, s: f64) -> Propagator {
         match self.regime {
             Regime::Undamped { detuning, over_sum } => {
-                let (ss, cs) = sin_cos(s);
-                let (sh, ch) = sin_cos(0.5 * detuning * s);
-                let q = if detuning == 0.0 { 0.5 * s } else { sh / detuning };
-                let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
-                let one_minus_c = versine(ss, cs);
-                // beta s = A + h
+                let near = Undamped::near(s, detuning, over_sum);
                 Propagator {
-                    one_minus_c,
-                    c: cs,
-                    s: ss,
-                    s_rate: cs,
-                    kc: 2.0 * q * (sa * over_sum),
-                    ks: (sa * over_sum) * ch - q * ca,
-                    sin_turn: sa * ch + ca * sh,
-                    cos_turn: ca * ch - sa * sh,
-                    free_size: one_minus_c,
+                    one_minus_c: near.one_minus_c,
+                    c: near.c,
+                    s: near.s,
+                    s_rate: near.c,
+                    kc: near.kc,
+                    ks: near.ks,
+                    sin_turn: near.sin_turn,
+                    cos_turn: near.cos_turn,
+                    free_size: near.one_minus_c,
                     free_angle: 0.0,
-                    forced_size: (sa * over_sum).abs() + q.abs(),
+                    forced_size: near.forced_size,
                     // s itself is exact, only h was rounded: 2|h|/|Z|
                     forced_angle: s * over_sum,
                 }
             }
             Regime::Light { detuning } => self.light(s, detuning),
             Regime::Plain => self.plain(s),
+        }
+    }
+
+    /// The responses without damping, in lanes; times up to 1e5.
+    #[inline(always)]
+    pub(crate) fn undamped<L: Lane>(&self, s: L) -> Undamped<L> {
+        match self.regime {
+            Regime::Undamped { detuning, over_sum } => Undamped::near(s, detuning, over_sum),
+            _ => Undamped::plain(s, self.beta),
         }
     }
 
@@ -191,6 +195,69 @@ impl Response {
             forced_angle: beta * s / over,
         }
     }
+}
+
+/// The responses without damping ($`S' = C`$).
+#[derive(Clone, Copy)]
+pub(crate) struct Undamped<L> {
+    pub(crate) one_minus_c: L,
+    pub(crate) c: L,
+    pub(crate) s: L,
+    pub(crate) kc: L,
+    pub(crate) ks: L,
+    pub(crate) sin_turn: L,
+    pub(crate) cos_turn: L,
+    forced_size: L,
+}
+
+impl<L: Lane> Undamped<L> {
+    /// Near resonance, and through it.
+    #[inline(always)]
+    fn near(s: L, detuning: f64, over_sum: f64) -> Self {
+        let (ss, cs) = s.sine_and_cosine();
+        let (sh, ch) = (L::splat(0.5 * detuning) * s).sine_and_cosine();
+        let q = if detuning == 0.0 { L::splat(0.5) * s } else { sh / L::splat(detuning) };
+        let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
+        let part = sa * L::splat(over_sum);
+        Self {
+            one_minus_c: versine_lanes(ss, cs),
+            c: cs,
+            s: ss,
+            kc: L::splat(2.0) * q * part,
+            ks: part * ch - q * ca,
+            // beta s = A + h
+            sin_turn: sa * ch + ca * sh,
+            cos_turn: ca * ch - sa * sh,
+            forced_size: part.abs() + q.abs(),
+        }
+    }
+
+    /// Away from resonance: $`K = (e^{i\beta s} - C - i\beta S)/(1-\beta^2)`$.
+    #[inline(always)]
+    fn plain(s: L, beta: f64) -> Self {
+        let (ss, cs) = s.sine_and_cosine();
+        let (st, ct) = (L::splat(beta) * s).sine_and_cosine();
+        let (free, turn) = (versine_lanes(ss, cs), versine_lanes(st, ct));
+        let z = L::splat((1.0 - beta) * (1.0 + beta));
+        let forced = L::splat(beta) * ss;
+        Self {
+            one_minus_c: free,
+            c: cs,
+            s: ss,
+            kc: (free - turn) / z,
+            ks: (st - forced) / z,
+            sin_turn: st,
+            cos_turn: ct,
+            forced_size: L::splat(0.0),
+        }
+    }
+}
+
+/// $`1 - \cos`$ without cancellation.
+#[inline(always)]
+fn versine_lanes<L: Lane>(sin: L, cos: L) -> L {
+    let one = L::splat(1.0);
+    L::choose(L::splat(0.0).less(cos), sin * sin / (one + cos), one - cos)
 }
 
 /// Complex quotient.

@@ -1,8 +1,10 @@
 //! Error-free transformations: sums and products that keep what rounding would lose (Dekker 1971, doi:10.1007/BF01397083).
 
+use super::lane::Lane;
+
 /// `a + b` as a rounded sum and its exact error.
-#[inline]
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+#[inline(always)]
+pub(crate) fn two_sum<L: Lane>(a: L, b: L) -> (L, L) {
     let s = a + b;
     let bb = s - a;
     (s, (a - (s - bb)) + (b - bb))
@@ -11,18 +13,17 @@ pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 /// `a * b` as a rounded product and its exact error, for magnitudes below about 1e291.
 ///
 /// Veltkamp splitting: no fused multiply-add, so every machine does the same operations.
-#[inline]
-pub(crate) fn two_prod(a: f64, b: f64) -> (f64, f64) {
+#[inline(always)]
+pub(crate) fn two_prod<L: Lane>(a: L, b: L) -> (L, L) {
     let (ah, al) = split(a);
     let (bh, bl) = split(b);
     let p = a * b;
     (p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
 }
 
-#[inline]
-fn split(a: f64) -> (f64, f64) {
-    const SPLITTER: f64 = 134_217_729.0; // 2^27 + 1
-    let t = SPLITTER * a;
+#[inline(always)]
+fn split<L: Lane>(a: L) -> (L, L) {
+    let t = L::splat(134_217_729.0) * a; // 2^27 + 1
     let hi = t - (t - a);
     (hi, a - hi)
 }

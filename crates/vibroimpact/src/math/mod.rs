@@ -6,12 +6,15 @@
 //! would be a slow library call, and using it on some machines only would change the bits.
 
 mod exact;
+mod lane;
 mod matrix;
 mod trig;
 
 pub(crate) use exact::{Sum, two_prod, two_sum};
+pub(crate) use lane::{Lane, Mask};
 pub use matrix::{Matrix2, Multiplier, eigenvalues};
 pub use trig::sin_cos;
+pub(crate) use trig::sin_cos_lanes;
 
 /// $`e^x`$.
 pub(crate) fn exp(x: f64) -> f64 {

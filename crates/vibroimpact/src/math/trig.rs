@@ -5,7 +5,7 @@
 //! two polynomials are the minimax ones of Sun's fdlibm (`k_sin.c`, `k_cos.c`, freely usable), with the low part of the
 //! reduced argument carried through.
 
-use super::{two_prod, two_sum};
+use super::{Lane, two_prod, two_sum};
 use core::f64::consts::FRAC_2_PI;
 
 /// π/2 in pieces of 33 bits: `n * piece` is exact for |n| < 2^20.
@@ -31,11 +31,12 @@ const MEANINGLESS: f64 = 9_007_199_254_740_992.0;
 /// ```
 #[inline]
 #[must_use]
+#[allow(clippy::cast_possible_truncation)] // |n| < 2^53, or NaN which becomes 0 and stays NaN in r
 pub fn sin_cos(x: f64) -> (f64, f64) {
     let (n, r, lo) = if x.abs() <= FAST { reduce_fast(x) } else { reduce_large(x) };
     let s = kernel_sin(r, lo);
     let c = kernel_cos(r, lo);
-    match n & 3 {
+    match n as i64 & 3 {
         0 => (s, c),
         1 => (c, -s),
         2 => (-s, -c),
@@ -43,32 +44,38 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
-/// The nearest whole number, ties to even, by the classic 1.5 * 2^52 shift.
-#[inline]
-fn nearest(x: f64) -> f64 {
-    const SHIFT: f64 = 6_755_399_441_055_744.0;
-    (x + SHIFT) - SHIFT
+/// The same in lanes, bit for bit, for arguments of at most 1e6 in magnitude.
+#[inline(always)]
+pub(crate) fn sin_cos_lanes<L: Lane>(x: L) -> (L, L) {
+    let (n, r, lo) = reduce_fast(x);
+    let (s, c) = (kernel_sin(r, lo), kernel_cos(r, lo));
+    // the quadrant, 0 to 3: odd ones swap, the sine is negative in the last two, the cosine in the middle two
+    let quadrant = n - L::splat(4.0) * (n * L::splat(0.25)).floor();
+    let (first, second) = (L::splat(0.5).less(quadrant), L::splat(1.5).less(quadrant));
+    let third = L::splat(2.5).less(quadrant);
+    let sine = L::choose(third, c, L::choose(second, s, L::choose(first, c, s)));
+    let cosine = L::choose(third, s, L::choose(second, c, L::choose(first, s, c)));
+    let turned = L::choose(first, -cosine, cosine);
+    (L::choose(second, -sine, sine), L::choose(third, cosine, turned))
 }
 
-#[inline]
-#[allow(clippy::cast_possible_truncation)] // |n| < 2^20
-fn reduce_fast(x: f64) -> (i64, f64, f64) {
-    let n = nearest(x * FRAC_2_PI);
-    let (r, e) = two_sum(x - n * P1, -(n * P2));
-    let lo = e - n * P3;
+#[inline(always)]
+fn reduce_fast<L: Lane>(x: L) -> (L, L, L) {
+    let n = (x * L::splat(FRAC_2_PI)).nearest();
+    let (r, e) = two_sum(x - n * L::splat(P1), -(n * L::splat(P2)));
+    let lo = e - n * L::splat(P3);
     let hi = r + lo;
-    (n as i64, hi, (r - hi) + lo)
+    (n, hi, (r - hi) + lo)
 }
 
 #[cold]
-#[allow(clippy::cast_possible_truncation)] // |n| < 2^53, or NaN which becomes 0 and stays NaN in r
-fn reduce_large(x: f64) -> (i64, f64, f64) {
+fn reduce_large(x: f64) -> (f64, f64, f64) {
     let x = if x.abs() < MEANINGLESS { x } else { x % core::f64::consts::TAU };
     // the product is rounded, so near a half-integer it may choose the wrong neighbour: look once more
     let n = (x * FRAC_2_PI).round();
     let n = n + (subtract_quarters(x, n).0 * FRAC_2_PI).round();
     let (hi, lo) = subtract_quarters(x, n);
-    (n as i64, hi, lo)
+    (n, hi, lo)
 }
 
 /// $`x - n \pi/2`$ as high and low part.
@@ -82,39 +89,42 @@ fn subtract_quarters(x: f64, n: f64) -> (f64, f64) {
     (hi, (r - hi) + lo)
 }
 
-#[inline]
-fn kernel_sin(x: f64, lo: f64) -> f64 {
-    const S: [f64; 6] = [
-        -0.166_666_666_666_666_32,
-        0.008_333_333_333_322_49,
-        -0.000_198_412_698_298_579_5,
-        2.755_731_370_707_006_8e-6,
-        -2.505_076_025_340_686_3e-8,
-        1.589_690_995_211_55e-10,
-    ];
+const S: [f64; 6] = [
+    -0.166_666_666_666_666_32,
+    0.008_333_333_333_322_49,
+    -0.000_198_412_698_298_579_5,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+const C: [f64; 6] = [
+    0.041_666_666_666_666_6,
+    -0.001_388_888_888_887_411,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
+#[inline(always)]
+fn kernel_sin<L: Lane>(x: L, lo: L) -> L {
     let z = x * x;
     let w = z * z;
-    let r = S[1] + z * (S[2] + z * S[3]) + z * w * (S[4] + z * S[5]);
+    let r = L::splat(S[1]) + z * (L::splat(S[2]) + z * L::splat(S[3])) + z * w * (L::splat(S[4]) + z * L::splat(S[5]));
     let v = z * x;
-    x - ((z * (0.5 * lo - v * r) - lo) - v * S[0])
+    x - ((z * (L::splat(0.5) * lo - v * r) - lo) - v * L::splat(S[0]))
 }
 
-#[inline]
-fn kernel_cos(x: f64, lo: f64) -> f64 {
-    const C: [f64; 6] = [
-        0.041_666_666_666_666_6,
-        -0.001_388_888_888_887_411,
-        2.480_158_728_947_673e-5,
-        -2.755_731_435_139_066_3e-7,
-        2.087_572_321_298_175e-9,
-        -1.135_964_755_778_819_5e-11,
-    ];
+#[inline(always)]
+fn kernel_cos<L: Lane>(x: L, lo: L) -> L {
+    let one = L::splat(1.0);
     let z = x * x;
     let w = z * z;
-    let r = z * (C[0] + z * (C[1] + z * C[2])) + w * w * (C[3] + z * (C[4] + z * C[5]));
-    let hz = 0.5 * z;
-    let w = 1.0 - hz;
-    w + (((1.0 - w) - hz) + (z * r - x * lo))
+    let r = z * (L::splat(C[0]) + z * (L::splat(C[1]) + z * L::splat(C[2])))
+        + w * w * (L::splat(C[3]) + z * (L::splat(C[4]) + z * L::splat(C[5])));
+    let hz = L::splat(0.5) * z;
+    let w = one - hz;
+    w + (((one - w) - hz) + (z * r - x * lo))
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@
 
 use super::{End, Event, EventKind};
 use crate::contact::{chatter, sticking};
-use crate::flight::{Contact, Flight, SearchLimits, counted};
+use crate::flight::{Contact, Flight, SearchLimits};
+use crate::lanes::{self, Stride};
 use crate::math::Sum;
 use crate::system::{Oscillator, Side, Start};
 
@@ -54,6 +55,7 @@ impl Leg {
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<'a> {
     osc: &'a Oscillator,
+    stride: Option<Stride>,
     limits: SearchLimits,
     time: Sum,
     mode: Mode,
@@ -89,7 +91,7 @@ impl<'a> Motion<'a> {
     /// The same, searching each flight only as far as `limits`.
     #[must_use]
     pub fn with_limits(osc: &'a Oscillator, start: Start, limits: SearchLimits) -> Self {
-        Self { osc, limits, time: Sum::default(), mode: Mode::Flying(Flight::new(osc, start)), last: None, steps: 0 }
+        Self::begin(osc, limits, Mode::Flying(Flight::new(osc, start)))
     }
 
     /// The motion that follows a release from the stop on `side`, at the phase where the force lets go; over at once,
@@ -100,7 +102,11 @@ impl<'a> Motion<'a> {
             Some(phase) => Mode::Flying(Flight::release(osc, side, phase)),
             None => Mode::Ended(End::Stuck(side)),
         };
-        Self { osc, limits: SearchLimits::default(), time: Sum::default(), mode, last: None, steps: 0 }
+        Self::begin(osc, SearchLimits::default(), mode)
+    }
+
+    fn begin(osc: &'a Oscillator, limits: SearchLimits, mode: Mode) -> Self {
+        Self { osc, stride: Stride::new(osc), limits, time: Sum::default(), mode, last: None, steps: 0 }
     }
 
     /// Why there is no further event; `None` while the motion goes on.
@@ -138,7 +144,7 @@ impl<'a> Motion<'a> {
     fn fly(&mut self, flight: Flight) -> Option<Event> {
         let leg =
             |duration| Leg { begin: self.time.value(), duration, phase: flight.phase, path: Path::Flight(flight) };
-        let (contact, steps) = counted(self.osc, &flight, self.limits);
+        let (contact, steps) = lanes::found(self.stride.as_ref(), self.osc, &flight, self.limits);
         self.steps += u64::from(steps);
         let (duration, side, velocity) = match contact {
             Contact::Impact { time, side, velocity } => (time, side, velocity),

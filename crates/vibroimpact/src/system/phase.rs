@@ -4,7 +4,7 @@
 //! $`\beta s`$ is formed exactly (as a product and its error) and reduced by a $`2\pi`$ of 107 bits, so the phase is right
 //! to its last place however long the flight: nothing drifts over 1e9 impacts.
 
-use crate::math::{two_prod, two_sum};
+use crate::math::{Lane, two_prod, two_sum};
 use core::f64::consts::TAU;
 
 /// $`2\pi - `$ [`TAU`].
@@ -20,6 +20,12 @@ pub fn wrap(angle: f64) -> f64 {
 #[inline]
 #[must_use]
 pub fn advance(phase: f64, beta: f64, s: f64) -> f64 {
+    advance_lanes(phase, beta, s)
+}
+
+/// The same in lanes.
+#[inline(always)]
+pub(crate) fn advance_lanes<L: Lane>(phase: L, beta: L, s: L) -> L {
     let (turn, turn_low) = two_prod(beta, s);
     let (hi, lo) = two_sum(phase, turn);
     reduce(hi, lo + turn_low)
@@ -33,20 +39,17 @@ pub fn difference(a: f64, b: f64) -> f64 {
     d - TAU * (d / TAU).round()
 }
 
-#[inline]
-fn reduce(hi: f64, lo: f64) -> f64 {
-    let turns = (hi / TAU).floor();
-    let (p, pe) = two_prod(turns, TAU);
-    let r = (hi - p) + ((lo - pe) - turns * TAU_LOW);
+#[inline(always)]
+fn reduce<L: Lane>(hi: L, lo: L) -> L {
+    let (tau, tau_low, zero) = (L::splat(TAU), L::splat(TAU_LOW), L::splat(0.0));
+    let turns = (hi / tau).floor();
+    let (p, pe) = two_prod(turns, tau);
+    let r = (hi - p) + ((lo - pe) - turns * tau_low);
     // rounding of hi / TAU may choose the neighbouring turn
-    if r < 0.0 {
-        let up = (r + TAU) + TAU_LOW;
-        if up < TAU { up } else { 0.0 }
-    } else if r >= TAU {
-        ((r - TAU) - TAU_LOW).max(0.0)
-    } else {
-        r
-    }
+    let up = (r + tau) + tau_low;
+    let up = L::choose(up.less(tau), up, zero);
+    let down = ((r - tau) - tau_low).max(zero);
+    L::choose(r.less(zero), up, L::choose(r.less(tau), r, down))
 }
 
 #[cfg(test)]

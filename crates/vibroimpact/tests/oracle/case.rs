@@ -2,7 +2,7 @@
 
 use core::fmt;
 use vibroimpact::flight::{Contact, Flight, SearchLimits, first_contact};
-use vibroimpact::{Oscillator, Side, Start};
+use vibroimpact::{Oscillator, Side, Start, lanes};
 
 /// An oscillator and the state a flight of it begins with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,18 +34,27 @@ impl Case {
         osc.unwrap_or_else(|error| panic!("{self}: {error}"))
     }
 
-    /// The answer of the library.
+    /// The answer that a motion gets: by strides where they suffice.
     pub(crate) fn answer(&self, limits: SearchLimits) -> Contact {
         let osc = self.oscillator();
-        let flight = match self.release {
-            Some(side) => Flight::release(&osc, side, self.phase),
+        lanes::first_contact(&osc, &self.flight(&osc), limits)
+    }
+
+    /// The answer of the careful search alone.
+    pub(crate) fn careful_answer(&self, limits: SearchLimits) -> Contact {
+        let osc = self.oscillator();
+        first_contact(&osc, &self.flight(&osc), limits)
+    }
+
+    fn flight(&self, osc: &Oscillator) -> Flight {
+        match self.release {
+            Some(side) => Flight::release(osc, side, self.phase),
             None => {
-                let start = Start::new(&osc, self.x, self.v, self.phase).unwrap_or_else(|e| panic!("{self}: {e}"));
+                let start = Start::new(osc, self.x, self.v, self.phase).unwrap_or_else(|e| panic!("{self}: {e}"));
                 assert_eq!(start.phase, self.phase, "phases are asked in [0, 2 pi)");
-                Flight::new(&osc, start)
+                Flight::new(osc, start)
             }
-        };
-        first_contact(&osc, &flight, limits)
+        }
     }
 
     /// The stop the flight begins on.

@@ -1,0 +1,134 @@
+//! The lane type of x86-64 with AVX2: four numbers in a register.
+//!
+//! # Safety
+//! All `unsafe` here is the same: an intrinsic that needs AVX (or an unaligned load or store within a slice whose length
+//! was checked). A value of this type exists only below [`super::width`]'s entry for AVX2, which is taken
+//! after the processor was asked, so the instructions are there.
+#![allow(unsafe_code)]
+
+use crate::math::{Lane, Mask};
+use core::arch::x86_64::{
+    __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_cmp_pd,
+    _mm256_div_pd, _mm256_floor_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
+    _mm256_permute2f128_pd, _mm256_set_pd, _mm256_set1_pd, _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd,
+    _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
+};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Four numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Four(__m256d);
+
+/// Four truth values: all bits of a place, or none.
+#[derive(Clone, Copy)]
+pub(super) struct FourMask(__m256d);
+
+macro_rules! by_intrinsic {
+    ($($operation:ident $method:ident $intrinsic:ident),*) => {$(
+        impl $operation for Four {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(unsafe { $intrinsic(self.0, other.0) })
+            }
+        }
+    )*};
+}
+by_intrinsic!(Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256_mul_pd, Div div _mm256_div_pd);
+
+impl Neg for Four {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(unsafe { _mm256_xor_pd(self.0, _mm256_set1_pd(-0.0)) })
+    }
+}
+
+impl Mask for FourMask {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(unsafe { _mm256_and_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        unsafe { _mm256_movemask_pd(self.0) }.cast_unsigned()
+    }
+}
+
+impl Lane for Four {
+    type Mask = FourMask;
+    const WIDTH: usize = 4;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self(unsafe { _mm256_set1_pd(x) })
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        let four: &[f64; 4] = from.first_chunk().unwrap_or(&[0.0; 4]);
+        Self(unsafe { _mm256_loadu_pd(four.as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        if let Some(four) = to.first_chunk_mut::<4>() {
+            unsafe { _mm256_storeu_pd(four.as_mut_ptr(), self.0) }
+        }
+    }
+    #[inline(always)]
+    fn gather(from: &[f64], at: &[u32]) -> Self {
+        let (a, b) = (from[at[0] as usize], from[at[1] as usize]);
+        let (c, d) = (from[at[2] as usize], from[at[3] as usize]);
+        Self(unsafe { _mm256_set_pd(d, c, b, a) })
+    }
+    #[inline(always)]
+    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
+        let (row_a, row_b) = (&table[at[0] as usize], &table[at[1] as usize]);
+        let (row_c, row_d) = (&table[at[2] as usize], &table[at[3] as usize]);
+        let mut columns = [Self::splat(0.0); N];
+        // four columns at a time: load a quarter of each row, then transpose
+        let mut first = 0;
+        while first < N {
+            let (a, b) = (Self::load(&row_a[first..]).0, Self::load(&row_b[first..]).0);
+            let (c, d) = (Self::load(&row_c[first..]).0, Self::load(&row_d[first..]).0);
+            unsafe {
+                let (ab_low, ab_high) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+                let (cd_low, cd_high) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+                columns[first] = Self(_mm256_permute2f128_pd::<0x20>(ab_low, cd_low));
+                columns[first + 1] = Self(_mm256_permute2f128_pd::<0x20>(ab_high, cd_high));
+                columns[first + 2] = Self(_mm256_permute2f128_pd::<0x31>(ab_low, cd_low));
+                columns[first + 3] = Self(_mm256_permute2f128_pd::<0x31>(ab_high, cd_high));
+            }
+            first += 4;
+        }
+        columns
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(unsafe { _mm256_sqrt_pd(self.0) })
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self(unsafe { _mm256_floor_pd(self.0) })
+    }
+    // `maxpd` and `minpd` give the second operand unless the first is greater (less): what the trait asks
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(unsafe { _mm256_max_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(unsafe { _mm256_min_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> FourMask {
+        FourMask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn choose(mask: FourMask, yes: Self, no: Self) -> Self {
+        Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+    }
+}

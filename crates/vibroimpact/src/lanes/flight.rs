@@ -1,0 +1,214 @@
+//! A flight from its launch to its first contact: steps that are proven clear, then a strike; where neither can be proven,
+//! halved steps; where halving does not help, nothing is claimed.
+
+use super::stride::{LEVELS, NODES, Propagators, State, Stride};
+use super::strike::{Launch, Strike};
+use crate::flight::{Contact, Flight, SearchLimits, counted};
+use crate::math::Lane;
+use crate::system::{Oscillator, Side};
+
+/// The first contact of `flight` with the stops of `osc`, as a [`Motion`](crate::motion::Motion) gets it: by strides where they
+/// can prove it, else by the careful search [`flight::first_contact`](crate::flight::first_contact), which says what the answers mean
+/// and what `limits` are.
+#[must_use]
+pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Contact {
+    found(Stride::new(osc).as_ref(), osc, flight, limits).0
+}
+
+/// The same with the oscillator's strides at hand; and the steps it took.
+pub(crate) fn found(
+    stride: Option<&Stride>,
+    osc: &Oscillator,
+    flight: &Flight,
+    limits: SearchLimits,
+) -> (Contact, u32) {
+    match stride.and_then(|stride| stride.first_contact(flight)) {
+        Some(hit) if hit.time <= limits.horizon(osc) => (hit.into(), 1),
+        _ => counted(osc, flight, limits),
+    }
+}
+
+/// Nearer to a stop than this, and slower, is left to the careful search at once.
+const LINGERS: f64 = 1e-9;
+
+/// A first contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hit {
+    /// Time since the launch.
+    pub(crate) time: f64,
+    /// Speed of arrival.
+    pub(crate) velocity: f64,
+    /// +1 at the upper stop, -1 at the lower.
+    pub(crate) side: f64,
+}
+
+/// How a stretch of a flight went.
+pub(super) enum Progress {
+    /// Struck.
+    Hit(Hit),
+    /// The step that was in doubt is clear; the flight goes on from here.
+    Clear(State<f64>),
+    /// Left to the careful search.
+    Rare,
+}
+
+impl Stride {
+    /// The first contact of a flight, `None` where it takes the careful search to tell.
+    pub(crate) fn first_contact(&self, flight: &Flight) -> Option<Hit> {
+        self.fly(&Launch { x: flight.x, v: flight.v, sin: flight.sin, cos: flight.cos })
+    }
+
+    fn fly(&self, launch: &Launch<f64>) -> Option<Hit> {
+        if self.lingers(launch) {
+            return None;
+        }
+        let mut state = launch.state();
+        loop {
+            let next = self.pace.step(state);
+            if self.clear(&self.pace.scale, &self.end(&state), &self.end(&next), false) {
+                state = next;
+                if self.late(state.s) {
+                    return None;
+                }
+                continue;
+            }
+            let strike = self.strike(launch, self.pace.h, (&state, &next), self);
+            if strike.proven {
+                return Some(strike.into());
+            }
+            match self.refine(launch, state, self) {
+                Progress::Hit(hit) => return Some(hit),
+                Progress::Clear(on) => state = on,
+                Progress::Rare => return None,
+            }
+        }
+    }
+
+    /// On a stop, or as good as on it, and not leaving: nothing here will help.
+    pub(super) fn lingers(&self, launch: &Launch<f64>) -> bool {
+        let at = |gap: f64, x: f64, v: f64| gap - x < LINGERS * (1.0 + gap.abs()) && v > -LINGERS;
+        at(self.gap[0], launch.x, launch.v) || at(self.gap[1], -launch.x, -launch.v)
+    }
+
+    /// Past the last step that lanes fly.
+    #[inline(always)]
+    pub(super) fn late<L: Lane>(&self, s: L) -> L::Mask {
+        #[allow(clippy::cast_precision_loss)] // a small number
+        L::splat(NODES as f64 * self.pace.h).less(s)
+    }
+
+    /// The level to begin with: a flight that is pressed back at once returns after some 2v/a.
+    fn promising(&self, state: &State<f64>) -> usize {
+        let a = self.end(state).a;
+        let back = if state.v * a < 0.0 { -4.0 * state.v / a } else { f64::INFINITY };
+        let mut h = self.pace.h;
+        let mut level = 0;
+        while h > back && level < LEVELS - 1 {
+            h *= 0.5;
+            level += 1;
+        }
+        level.max(1)
+    }
+
+    /// Goes on from the beginning of a step in doubt in halved steps, to its end or to a contact.
+    pub(super) fn refine(
+        &self,
+        launch: &Launch<f64>,
+        mut state: State<f64>,
+        propagators: &impl Propagators<f64>,
+    ) -> Progress {
+        let end = state.s + self.pace.h;
+        let mut level = self.promising(&state);
+        while level < LEVELS {
+            let pace = propagators.pace(level);
+            let next = pace.step(state);
+            if self.clear(&pace.scale, &self.end(&state), &self.end(&next), false) {
+                state = next;
+                // lengths are dyadic fractions: the sums are exact
+                if state.s >= end {
+                    return Progress::Clear(state);
+                }
+                continue;
+            }
+            let strike = self.strike(launch, pace.h, (&state, &next), propagators);
+            if strike.proven {
+                return Progress::Hit(strike.into());
+            }
+            level += 1;
+        }
+        Progress::Rare
+    }
+}
+
+impl Launch<f64> {
+    /// The state at the launch.
+    pub(super) fn state(&self) -> State<f64> {
+        State { s: 0.0, x: self.x, v: self.v, sin: self.sin, cos: self.cos }
+    }
+}
+
+impl From<Hit> for Contact {
+    fn from(hit: Hit) -> Self {
+        let side = if hit.side < 0.0 { Side::Lower } else { Side::Upper };
+        Self::Impact { time: hit.time, side, velocity: hit.velocity }
+    }
+}
+
+impl From<Strike<f64>> for Hit {
+    fn from(strike: Strike<f64>) -> Self {
+        Self { time: strike.time, velocity: strike.velocity, side: strike.side }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+    use crate::system::Start;
+    use crate::verdict::{StartBox, scattered_starts};
+
+    /// The contacts that are flown, against the careful search; how many were left.
+    fn compare(osc: &Oscillator, starts: impl Iterator<Item = Start>) -> u32 {
+        let stride = Stride::new(osc).unwrap();
+        let mut rare = 0;
+        for start in starts {
+            let flight = Flight::new(osc, start);
+            let Some(hit) = stride.first_contact(&flight) else {
+                rare += 1;
+                continue;
+            };
+            let (contact, _) = counted(osc, &flight, SearchLimits::default());
+            let Contact::Impact { time, side, velocity } = contact else {
+                panic!("{osc:?} {start:?} {hit:?} {contact:?}")
+            };
+            let close = 2e-14 * (osc.gap().abs() + start.x.abs() + start.v.abs() + time) * (1.0 + 1.0 / velocity);
+            assert!(
+                (hit.time - time).abs() < close && (hit.velocity - velocity).abs() < close && hit.side == side.sign(),
+                "{osc:?} {start:?} {hit:?} {contact:?}"
+            );
+        }
+        rare
+    }
+
+    #[test]
+    fn contacts_are_those_of_the_careful_search() {
+        for point in scenario::PAPER {
+            for (damping, lower) in [(0.0, None), (0.02, None), (0.7, None), (0.0, Some(1.2)), (0.1, Some(0.4))] {
+                let mut osc = point.oscillator().with_damping(damping).unwrap();
+                if let Some(gap) = lower {
+                    osc = osc.with_second_stop(gap, 0.6).unwrap();
+                }
+                let area = StartBox::natural(&osc);
+                let scattered = (2..1000).map(|k| scattered_starts(&osc, area, 5, k));
+                let rare = compare(&osc, scattered);
+                assert!(damping > 0.0 || rare < 200, "{} {damping} {lower:?} {rare}", point.name);
+                let launched = (2..1000).map(|k| {
+                    let start = scattered_starts(&osc, area, 6, k);
+                    Start { x: osc.gap(), v: -start.v.abs() * 0.7, ..start }
+                });
+                let rare = compare(&osc, launched);
+                assert!(damping > 0.0 || rare < 20, "{} {damping} {lower:?} {rare}", point.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! A proof that a step stays clear of the stops: the Bernstein hull of its Hermite interpolant, with the error term.
+//!
+//! Over a step $`s = s_0 + ht`$, $`0 \le t \le 1`$, position, velocity and acceleration at both ends fix a quintic $`q`$ with
+//!
+//! $$`x(s) - q(t) = \frac{x^{(6)}(\xi)}{720}\,h^6\,t^3(t-1)^3, \qquad
+//!   |x - q| \le \frac{B_6 h^6}{14\,400}\,\binom63 t^3(1-t)^3 ,`$$
+//!
+//! so the error is a multiple of the middle Bernstein polynomial of degree 6. Written in that degree the quintic has the
+//! coefficients
+//!
+//! $$`x_0,\ x_0 + \tfrac h6 v_0,\ x_0 + \tfrac h3 v_0 + \tfrac{h^2}{30} a_0,\
+//!   \tfrac12(b_2 + b_3),\ x_1 - \tfrac h3 v_1 + \tfrac{h^2}{30} a_1,\ x_1 - \tfrac h6 v_1,\ x_1,`$$
+//!
+//! $`b_{2,3} = x_{0,1} \pm \tfrac{2h}5 v_{0,1} + \tfrac{h^2}{20}a_{0,1}`$, and the arc lies in their convex hull, the middle one moved by
+//! the error. If all but the first are below the stop, the stop is not reached for $`0 < t \le 1`$ - also when the step begins
+//! on it: the known contact at $`t = 0`$ is the first coefficient and is divided out by leaving it aside.
+//!
+//! $`B_6`$ grows with the energy radius (`flight/bounds.rs`); $`\sqrt{x^2+v^2} \le |x| + |v|`$.
+
+use super::stride::{HullScale, State, Stride};
+use crate::math::{Lane, Mask};
+
+/// Motion at an end of the arc.
+#[derive(Clone, Copy)]
+pub(super) struct End<L> {
+    pub(super) x: L,
+    pub(super) v: L,
+    pub(super) a: L,
+}
+
+/// What rounding may do to a coefficient, relative to 1 + |gap| + |x| + |v|: far above the few dozen roundings of a step and
+/// of the states it starts from.
+pub(super) const MARGIN: f64 = 1e-12;
+
+impl Stride {
+    /// The end of an arc at a state of the way.
+    #[inline(always)]
+    pub(super) fn end<L: Lane>(&self, state: &State<L>) -> End<L> {
+        let force = state.sin - state.x;
+        let a = if self.drag == 0.0 { force } else { force - L::splat(self.drag) * state.v };
+        End { x: state.x, v: state.v, a }
+    }
+
+    /// Where the arc is proven clear of the stops, its beginning left aside.
+    #[inline(always)]
+    pub(super) fn clear<L: Lane>(&self, scale: &HullScale<L>, from: &End<L>, to: &End<L>, arrives: bool) -> L::Mask {
+        let size = from.x.abs() + from.v.abs();
+        let error = scale.error + scale.error_rate * size;
+        let margin = L::splat(MARGIN) * size;
+        let (leave, arrive) = (scale.sixth * from.v, scale.sixth * to.v);
+        let c1 = from.x + leave;
+        let c2 = from.x + ((leave + leave) + scale.thirtieth * from.a);
+        let b2 = from.x + (scale.two_fifths * from.v + scale.twentieth * from.a);
+        let b3 = to.x - (scale.two_fifths * to.v - scale.twentieth * to.a);
+        let c3 = L::splat(0.5) * (b2 + b3);
+        let c4 = to.x - ((arrive + arrive) - scale.thirtieth * to.a);
+        let c5 = to.x - arrive;
+        let mut highest = c1.max(c2).max((c3 + error).max(c4)).max(c5);
+        if !arrives {
+            highest = highest.max(to.x);
+        }
+        let clear = highest.less(L::splat(room(self.gap[0])) - margin);
+        if !self.two_stops {
+            return clear;
+        }
+        let mut lowest = c1.min(c2).min((c3 - error).min(c4)).min(c5);
+        if !arrives {
+            lowest = lowest.min(to.x);
+        }
+        clear.and((-lowest).less(L::splat(room(self.gap[1])) - margin))
+    }
+}
+
+/// The gap less its own share of the margin.
+#[inline(always)]
+fn room(gap: f64) -> f64 {
+    gap - MARGIN * (1.0 + gap.abs())
+}

@@ -1,0 +1,100 @@
+//! The portable lane type: an array, operated on place by place, which the compiler turns into whatever vector
+//! instructions the target has (NEON on ARM, SSE2 on any x86-64, AVX-512 where a caller enables it).
+
+use crate::math::{Lane, Mask};
+use core::array::from_fn;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// `N` numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Pack<const N: usize>([f64; N]);
+
+/// `N` truth values.
+#[derive(Clone, Copy)]
+pub(super) struct PackMask<const N: usize>([bool; N]);
+
+macro_rules! place_by_place {
+    ($($operation:ident $method:ident),*) => {$(
+        impl<const N: usize> $operation for Pack<N> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(from_fn(|k| self.0[k].$method(other.0[k])))
+            }
+        }
+    )*};
+}
+place_by_place!(Add add, Sub sub, Mul mul, Div div);
+
+impl<const N: usize> Neg for Pack<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(from_fn(|k| -self.0[k]))
+    }
+}
+
+impl<const N: usize> Mask for PackMask<N> {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(from_fn(|k| self.0[k] & other.0[k]))
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0.iter().rev().fold(0, |bits, &set| bits << 1 | u32::from(set))
+    }
+}
+
+impl<const N: usize> Lane for Pack<N> {
+    type Mask = PackMask<N>;
+    const WIDTH: usize = N;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self([x; N])
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        Self(from_fn(|k| from[k]))
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        to[..N].copy_from_slice(&self.0);
+    }
+    #[inline(always)]
+    fn gather(from: &[f64], at: &[u32]) -> Self {
+        Self(from_fn(|k| from[at[k] as usize]))
+    }
+    #[inline(always)]
+    fn rows<const M: usize>(table: &[[f64; M]], at: &[u32]) -> [Self; M] {
+        from_fn(|column| Self(from_fn(|k| table[at[k] as usize][column])))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(from_fn(|k| self.0[k].abs()))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(from_fn(|k| self.0[k].sqrt()))
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self(from_fn(|k| self.0[k].floor()))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(from_fn(|k| Lane::max(self.0[k], other.0[k])))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(from_fn(|k| Lane::min(self.0[k], other.0[k])))
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> Self::Mask {
+        PackMask(from_fn(|k| self.0[k] < other.0[k]))
+    }
+    #[inline(always)]
+    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(from_fn(|k| if mask.0[k] { yes.0[k] } else { no.0[k] }))
+    }
+}

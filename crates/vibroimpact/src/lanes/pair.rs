@@ -1,0 +1,106 @@
+//! Two lanes side by side: twice the independent work between one result and the next that needs it.
+
+use crate::math::{Lane, Mask};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Two of the same.
+#[derive(Clone, Copy)]
+pub(super) struct Pair<T>(T, T);
+
+macro_rules! both {
+    ($($operation:ident $method:ident),*) => {$(
+        impl<L: Lane> $operation for Pair<L> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(self.0.$method(other.0), self.1.$method(other.1))
+            }
+        }
+    )*};
+}
+both!(Add add, Sub sub, Mul mul, Div div);
+
+impl<L: Lane> Neg for Pair<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+
+/// The truth values of a pair, and how many the first has.
+#[derive(Clone, Copy)]
+pub(super) struct PairMask<M>(M, M, usize);
+
+impl<M: Mask> Mask for PairMask<M> {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(self.0.and(other.0), self.1.and(other.1), self.2)
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.0.bits() | self.1.bits() << self.2
+    }
+}
+
+impl<L: Lane> Lane for Pair<L> {
+    type Mask = PairMask<L::Mask>;
+    const WIDTH: usize = 2 * L::WIDTH;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self(L::splat(x), L::splat(x))
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        Self(L::load(from), L::load(&from[L::WIDTH..]))
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        self.0.store(to);
+        self.1.store(&mut to[L::WIDTH..]);
+    }
+    #[inline(always)]
+    fn gather(from: &[f64], at: &[u32]) -> Self {
+        Self(L::gather(from, at), L::gather(from, &at[L::WIDTH..]))
+    }
+    #[inline(always)]
+    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
+        let (first, second) = (L::rows(table, at), L::rows(table, &at[L::WIDTH..]));
+        let mut columns = [Self::splat(0.0); N];
+        let mut k = 0;
+        while k < N {
+            columns[k] = Self(first[k], second[k]);
+            k += 1;
+        }
+        columns
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt(), self.1.sqrt())
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self(self.0.floor(), self.1.floor())
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0), self.1.max(other.1))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0), self.1.min(other.1))
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> Self::Mask {
+        PairMask(self.0.less(other.0), self.1.less(other.1), L::WIDTH)
+    }
+    #[inline(always)]
+    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(L::choose(mask.0, yes.0, no.0), L::choose(mask.1, yes.1, no.1))
+    }
+}

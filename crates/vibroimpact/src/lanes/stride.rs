@@ -1,0 +1,443 @@
+//! What an oscillator's flights are marched with: everything that does not depend on the flight, worked out once.
+//!
+//! A flight is crossed in steps of one length $`h`$. Over a step the state $`(x, v, \sin\theta, \cos\theta)`$ is multiplied
+//! by a constant matrix, the propagator of [`Response`](crate::flight::Response) at $`h`$ and the rotation by $`\beta h`$: no
+//! sine is evaluated on the way, and no formula divides by $`1 - \beta^2`$. The state at any time is composed of the
+//! propagator at the nearest whole step, applied to the launch, and of the one over the rest, at most half a step, whose
+//! four functions
+//!
+//! $$`1 - C(t),\quad S(t),\quad K_c(t),\quad K_s(t) \qquad (|t| \le h/2)`$$
+//!
+//! are power series with coefficients from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$. The step obeys
+//! $`\mu h \le 3/2`$, $`\mu = \max(\beta, 1 + 2\zeta)`$, so that eight terms of each parity leave out less than $`2^{-54}`$.
+
+use crate::flight::Response;
+use crate::math::{Lane, Mask};
+use crate::system::{Oscillator, Side};
+
+/// Times a step may be halved before a flight is handed to the careful search.
+pub(super) const LEVELS: usize = 16;
+/// Whole steps from a launch after which a flight is handed over: those that may last for ever are decided there.
+pub(super) const NODES: usize = 64;
+/// Terms of each parity of the series.
+const TERMS: usize = 8;
+/// The longest step, and the most of $`\mu h`$.
+const LONGEST: f64 = 1.5;
+/// Shorter steps than this are not worth it (forcing, or damping, a hundred times faster than the oscillator).
+const SHORTEST: f64 = 1.0 / 64.0;
+/// Steps are multiples of this, so that their multiples are exact.
+const GRAIN: f64 = 1.0 / 1024.0;
+
+/// The numbers of one step length: a row that lanes can broadcast or gather.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pace<L> {
+    pub(super) h: L,
+    c: L,
+    s: L,
+    kc: L,
+    ks: L,
+    s_rate: L,
+    ks_rate: L,
+    kc_rate: L,
+    cos: L,
+    sin: L,
+    pub(super) scale: HullScale<L>,
+}
+
+/// The multiples of the step that the hull is made with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HullScale<L> {
+    /// h/6.
+    pub(super) sixth: L,
+    /// h^2/30.
+    pub(super) thirtieth: L,
+    /// 2h/5.
+    pub(super) two_fifths: L,
+    /// h^2/20.
+    pub(super) twentieth: L,
+    /// The error coefficient is `error + error_rate * (|x| + |v|)`.
+    pub(super) error: L,
+    pub(super) error_rate: L,
+}
+
+/// Coefficients of the four functions, by parity: `even` in powers of t^2 from t^2, `odd` from t (K: from t^3).
+#[derive(Clone, Copy, Debug)]
+struct Coefficients {
+    even: [f64; TERMS],
+    odd: [f64; TERMS],
+}
+
+/// The propagator over a time, as eight columns: 1 - C, C, S, S', Kc, Ks, sin, cos of the force's turn.
+pub(super) type Row<L> = [L; 8];
+
+/// The constants of an oscillator's flights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stride {
+    pub(super) beta: f64,
+    /// 2 zeta.
+    pub(super) drag: f64,
+    /// The stops: upper, lower; infinite where there is none.
+    pub(super) gap: [f64; 2],
+    pub(super) restitution: [f64; 2],
+    pub(super) two_stops: bool,
+    /// A whole step.
+    pub(super) pace: Pace<f64>,
+    /// B6 over a window from a state with |x| + |v| = 0, and its growth with that.
+    bound: [f64; 2],
+    /// 1 - C, S, Kc, Ks.
+    series: [Coefficients; 4],
+    response: Response,
+}
+
+impl Stride {
+    /// For oscillators whose flights the lanes can fly; `None`: all of them go to the careful search.
+    pub(crate) fn new(osc: &Oscillator) -> Option<Self> {
+        let (beta, zeta) = (osc.beta(), osc.damping());
+        let fastest = beta.max(1.0 + 2.0 * zeta);
+        let h = (LONGEST / fastest / GRAIN).floor() * GRAIN;
+        let upper = osc.stop(Side::Upper)?;
+        if !(h >= SHORTEST) || upper.restitution == 0.0 || upper.gap.abs() > FAR {
+            return None;
+        }
+        let lower = osc.stop(Side::Lower);
+        if lower.is_some_and(|stop| stop.restitution == 0.0 || stop.gap.abs() > FAR) {
+            return None;
+        }
+        let drag = 2.0 * zeta;
+        let bound = sixth_derivative(beta, drag);
+        let response = *osc.response();
+        Some(Self {
+            beta,
+            drag,
+            gap: [upper.gap, lower.map_or(f64::INFINITY, |stop| stop.gap)],
+            restitution: [upper.restitution, lower.map_or(0.0, |stop| stop.restitution)],
+            two_stops: lower.is_some(),
+            pace: Pace::new(&response, h, bound),
+            bound,
+            series: series(beta, drag),
+            response,
+        })
+    }
+
+    /// The propagator over a time of either sign, at most half a step.
+    #[inline(always)]
+    pub(super) fn rest<L: Lane>(&self, t: L) -> Row<L> {
+        let (beta, drag) = (L::splat(self.beta), L::splat(self.drag));
+        let z = t * t;
+        let zz = z * z;
+        let [free_c, free_s, forced_c, forced_s] = &self.series;
+        let (mut omc, mut s) = (z * sum(&free_c.even, z, zz), t * sum(&free_s.odd, z, zz));
+        let (mut kc, mut ks) = (z * sum(&forced_c.even, z, zz), t * (z * sum(&forced_s.odd, z, zz)));
+        if self.drag != 0.0 {
+            let zt = z * t;
+            omc = omc + zt * sum(&free_c.odd, z, zz);
+            s = s + z * sum(&free_s.even, z, zz);
+            kc = kc + zt * sum(&forced_c.odd, z, zz);
+            ks = ks + zz * sum(&forced_s.even, z, zz);
+        }
+        let c = L::splat(1.0) - omc;
+        let s_rate = c - drag * s;
+        // the force's own turn follows from K'' + 2 zeta K' + K = e^{i beta t}
+        let detuning = L::splat((1.0 - self.beta) * (1.0 + self.beta));
+        let cross = drag * beta;
+        let (cos, sin) = if self.drag == 0.0 {
+            (c + detuning * kc, beta * s + detuning * ks)
+        } else {
+            (c + detuning * kc - cross * ks, beta * s + detuning * ks + cross * kc)
+        };
+        [omc, c, s, s_rate, kc, ks, sin, cos]
+    }
+
+    /// The propagator without damping over any time from 0 on, to the last bits: by the series over the first half step, where
+    /// differences are small, else by the closed form.
+    #[inline(always)]
+    pub(super) fn whole<L: Lane>(&self, time: L) -> Row<L> {
+        let p = self.response.undamped(time);
+        let row = [p.one_minus_c, p.c, p.s, p.c, p.kc, p.ks, p.sin_turn, p.cos_turn];
+        let early = time.less(L::splat(0.5 * self.pace.h));
+        if early.bits() == 0 {
+            return row;
+        }
+        let series = self.rest(time);
+        let mut chosen = row;
+        let mut k = 0;
+        while k < chosen.len() {
+            chosen[k] = L::choose(early, series[k], row[k]);
+            k += 1;
+        }
+        chosen
+    }
+
+    /// The multiples of a step of any length that the hull is made with.
+    #[inline(always)]
+    pub(super) fn scale<L: Lane>(&self, h: L) -> HullScale<L> {
+        HullScale::new(h, [L::splat(self.bound[0]), L::splat(self.bound[1])])
+    }
+}
+
+/// Where the propagators come from that are not always needed.
+pub(super) trait Propagators<L> {
+    /// Over `k` whole steps.
+    fn node(&self, k: L) -> Row<L>;
+    /// Over a step halved `level` times.
+    fn pace(&self, level: usize) -> Pace<f64>;
+}
+
+/// A motion alone works them out as it needs them.
+impl Propagators<f64> for Stride {
+    #[inline]
+    fn node(&self, k: f64) -> Row<f64> {
+        let p = self.response.at(k * self.pace.h);
+        [p.one_minus_c, p.c, p.s, p.s_rate, p.kc, p.ks, p.sin_turn, p.cos_turn]
+    }
+
+    fn pace(&self, level: usize) -> Pace<f64> {
+        let mut h = self.pace.h;
+        for _ in 0..level {
+            h *= 0.5;
+        }
+        Pace::new(&self.response, h, self.bound)
+    }
+}
+
+/// A batch works them out once: a table.
+#[derive(Clone, Debug)]
+pub(super) struct Table {
+    nodes: Vec<Row<f64>>,
+    paces: [Pace<f64>; LEVELS],
+}
+
+impl Table {
+    pub(super) fn new(stride: &Stride) -> Self {
+        let mut k = -1.0;
+        let nodes = core::iter::repeat_with(|| {
+            k += 1.0;
+            stride.node(k)
+        });
+        Self { nodes: nodes.take(NODES + 4).collect(), paces: core::array::from_fn(|level| stride.pace(level)) }
+    }
+}
+
+impl<L: Lane> Propagators<L> for Table {
+    #[inline(always)]
+    fn node(&self, k: L) -> Row<L> {
+        let mut numbers = [0.0; WIDEST];
+        k.store(&mut numbers);
+        let mut which = [0; WIDEST];
+        for (which, k) in which.iter_mut().zip(numbers) {
+            // whole numbers of a few dozen; nonsense saturates
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let k = k as u32;
+            *which = k.min(NODES as u32 + 3);
+        }
+        L::rows(&self.nodes, &which)
+    }
+
+    fn pace(&self, level: usize) -> Pace<f64> {
+        self.paces[level]
+    }
+}
+
+/// The widest lanes there are: arrays are padded to a multiple of it.
+pub(super) const WIDEST: usize = 8;
+/// Positions of stops beyond this are left to the careful search, whose bounds are relative.
+const FAR: f64 = 1e6;
+
+impl<L: Lane> HullScale<L> {
+    #[inline(always)]
+    fn new(h: L, [rest, rate]: [L; 2]) -> Self {
+        let hh = h * h;
+        let power = hh * hh * hh * L::splat(1.0 / 14400.0);
+        let error_rate = rate * power;
+        Self {
+            sixth: h * L::splat(1.0 / 6.0),
+            thirtieth: hh * L::splat(1.0 / 30.0),
+            two_fifths: h * L::splat(0.4),
+            twentieth: hh * L::splat(0.05),
+            // |x| + |v| grows by at most the window's length
+            error: rest * power + error_rate * h,
+            error_rate,
+        }
+    }
+}
+
+impl Pace<f64> {
+    fn new(response: &Response, h: f64, bound: [f64; 2]) -> Self {
+        let (p, beta) = (response.at(h), response.beta());
+        Self {
+            h,
+            c: p.c,
+            s: p.s,
+            kc: p.kc,
+            ks: p.ks,
+            s_rate: p.s_rate,
+            ks_rate: p.s - beta * p.ks,
+            kc_rate: beta * p.kc,
+            cos: p.cos_turn,
+            sin: p.sin_turn,
+            scale: HullScale::new(h, bound),
+        }
+    }
+
+    /// The same numbers in every lane.
+    #[inline(always)]
+    pub(super) fn splat<L: Lane>(&self) -> Pace<L> {
+        let scale = &self.scale;
+        Pace {
+            h: L::splat(self.h),
+            c: L::splat(self.c),
+            s: L::splat(self.s),
+            kc: L::splat(self.kc),
+            ks: L::splat(self.ks),
+            s_rate: L::splat(self.s_rate),
+            ks_rate: L::splat(self.ks_rate),
+            kc_rate: L::splat(self.kc_rate),
+            cos: L::splat(self.cos),
+            sin: L::splat(self.sin),
+            scale: HullScale {
+                sixth: L::splat(scale.sixth),
+                thirtieth: L::splat(scale.thirtieth),
+                two_fifths: L::splat(scale.two_fifths),
+                twentieth: L::splat(scale.twentieth),
+                error: L::splat(scale.error),
+                error_rate: L::splat(scale.error_rate),
+            },
+        }
+    }
+}
+
+/// A state on the way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct State<L> {
+    /// Time since the launch.
+    pub(super) s: L,
+    pub(super) x: L,
+    pub(super) v: L,
+    pub(super) sin: L,
+    pub(super) cos: L,
+}
+
+impl<L: Lane> Pace<L> {
+    /// The state one step on.
+    #[inline(always)]
+    pub(super) fn step(&self, from: State<L>) -> State<L> {
+        let State { s, x, v, sin, cos } = from;
+        State {
+            s: s + self.h,
+            x: (self.c * x + self.s * v) + (self.kc * sin + self.ks * cos),
+            v: (self.s_rate * v - self.s * x) + (self.ks_rate * sin + self.kc_rate * cos),
+            sin: sin * self.cos + cos * self.sin,
+            cos: cos * self.cos - sin * self.sin,
+        }
+    }
+}
+
+/// The sum of one parity, in pairs, so that neighbouring terms do not wait for each other.
+#[inline(always)]
+fn sum<L: Lane>(c: &[f64; TERMS], z: L, zz: L) -> L {
+    let first = L::splat(c[0]) + L::splat(c[1]) * z;
+    let second = L::splat(c[2]) + L::splat(c[3]) * z;
+    let third = L::splat(c[4]) + L::splat(c[5]) * z;
+    let fourth = L::splat(c[6]) + L::splat(c[7]) * z;
+    first + zz * (second + zz * (third + zz * fourth))
+}
+
+/// A bound of the sixth derivative, $`B_6 = p + q R`$ where $`R`$ bounds the energy radius in the window: the recursion of
+/// `flight/bounds.rs` with $`|v| \le R`$.
+fn sixth_derivative(beta: f64, drag: f64) -> [f64; 2] {
+    let derivatives = |r: f64| {
+        let (mut before, mut b, mut force) = (r, 1.0 + r + drag * r, 1.0);
+        for _ in 0..4 {
+            force *= beta;
+            (before, b) = (b, force + before + drag * b);
+        }
+        b
+    };
+    // rounded up
+    let rest = derivatives(0.0);
+    [rest * (1.0 + 1e-12), (derivatives(1.0) - rest) * (1.0 + 1e-12)]
+}
+
+/// 1/k!.
+const OVER_FACTORIAL: [f64; 2 * TERMS + 4] = {
+    let mut over = [1.0; 2 * TERMS + 4];
+    let (mut k, mut factorial) = (1, 1.0);
+    while k < over.len() {
+        factorial *= k as f64;
+        over[k] = 1.0 / factorial;
+        k += 1;
+    }
+    over
+};
+
+/// The four series side by side, from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$; $`f^{(k)}`$ are the derivatives
+/// of $`\cos\beta t`$ and $`\sin\beta t`$ at 0.
+fn series(beta: f64, drag: f64) -> [Coefficients; 4] {
+    let mut c = [[0.0; 4]; 2 * TERMS + 4];
+    let (mut y, mut rate) = ([1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]);
+    let (mut force, mut slope) = ([0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, beta]);
+    let square = beta * beta;
+    for (c, over) in c.iter_mut().zip(OVER_FACTORIAL).skip(2) {
+        for n in 0..4 {
+            (y[n], rate[n]) = (rate[n], force[n] - y[n] - drag * rate[n]);
+            (force[n], slope[n]) = (slope[n], -square * force[n]);
+            c[n] = rate[n] * over;
+        }
+    }
+    c[1] = [0.0, 1.0, 0.0, 0.0];
+    let pick = |n: usize, even: usize, odd: usize, sign: f64| Coefficients {
+        even: core::array::from_fn(|k| sign * c[even + 2 * k][n]),
+        odd: core::array::from_fn(|k| sign * c[odd + 2 * k][n]),
+    };
+    // 1 - C has the coefficients of -C from t^2 on
+    [pick(0, 2, 3, -1.0), pick(1, 2, 1, 1.0), pick(2, 2, 3, 1.0), pick(3, 4, 3, 1.0)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rest_of_a_step_is_the_response() {
+        for (beta, zeta) in [(0.9, 0.0), (1.0, 0.0), (1.0 + 1e-9, 0.0), (0.3, 0.1), (3.0, 0.7), (1.3, 1.5)] {
+            let osc = Oscillator::new(beta, 1.0, 0.5).unwrap().with_damping(zeta).unwrap();
+            let stride = Stride::new(&osc).unwrap();
+            for k in -8_i32..=8 {
+                let t = 0.5 * stride.pace.h * f64::from(k) / 8.0;
+                let [omc, c, s, s_rate, kc, ks, sin, cos] = stride.rest(t);
+                if t < 0.0 {
+                    assert!((omc + c - 1.0).abs() < 1e-16 && (sin * sin + cos * cos - 1.0).abs() < 1e-15);
+                    continue;
+                }
+                let p = osc.response().at(t);
+                for (got, want) in [
+                    (omc, p.one_minus_c),
+                    (c, p.c),
+                    (s, p.s),
+                    (s_rate, p.s_rate),
+                    (kc, p.kc),
+                    (ks, p.ks),
+                    (sin, p.sin_turn),
+                    (cos, p.cos_turn),
+                ] {
+                    // the closed form itself loses digits of the small ones: its terms are of the size of t
+                    let close = 4e-16 * t.max(want.abs());
+                    assert!((got - want).abs() <= close, "beta {beta} zeta {zeta} t {t}: {got} {want}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn steps_compose() {
+        let osc = Oscillator::new(0.8, 1.0, 0.5).unwrap().with_damping(0.05).unwrap();
+        let stride = Stride::new(&osc).unwrap();
+        let mut state = State { s: 0.0, x: 0.3, v: -1.2, sin: 0.6, cos: 0.8 };
+        for level in [0, 1, 1, 2, 3, 0] {
+            state = stride.pace(level).step(state);
+        }
+        let p = osc.response().at(state.s);
+        let x = 0.3 * p.c - 1.2 * p.s + 0.6 * p.kc + 0.8 * p.ks;
+        assert!((state.x - x).abs() < 1e-14, "{} {x}", state.x);
+    }
+}

@@ -1,0 +1,133 @@
+//! A lane type: one number or several side by side, with the few operations the flights of a batch are made of.
+//!
+//! What lanes compute is written once, generic over [`Lane`]. Every operation acts on each number by itself and is one IEEE
+//! operation (or a choice between two numbers), so a number's result does not depend on what lies beside it or on how
+//! many there are: **scalar and lanes agree bit for bit**. There is no fused multiply-add, no approximate reciprocal and
+//! no sum across lanes in the trait, because each would break that.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Several `f64` side by side.
+pub(crate) trait Lane:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// One truth value a number.
+    type Mask: Mask;
+    /// How many numbers.
+    const WIDTH: usize;
+
+    /// The same number everywhere.
+    fn splat(x: f64) -> Self;
+    /// The first [`Self::WIDTH`] numbers of a slice.
+    fn load(from: &[f64]) -> Self;
+    /// Writes them to the beginning of a slice.
+    fn store(self, to: &mut [f64]);
+    /// The numbers at these places.
+    fn gather(from: &[f64], at: &[u32]) -> Self;
+    /// The columns of the rows at these places.
+    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N];
+    /// Magnitude.
+    fn abs(self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// `self` where it is greater than `other`, else `other`.
+    fn max(self, other: Self) -> Self;
+    /// `self` where it is less than `other`, else `other`.
+    fn min(self, other: Self) -> Self;
+    /// `self < other`; false for NaN.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `yes` where the mask is set, else `no`.
+    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Sine and cosine, for arguments of at most 1e6 in magnitude.
+    #[inline(always)]
+    fn sine_and_cosine(self) -> (Self, Self) {
+        super::sin_cos_lanes(self)
+    }
+    /// The largest whole number not above.
+    fn floor(self) -> Self;
+    /// The nearest whole number, ties to even, for magnitudes below 2^51: the classic 1.5 * 2^52 shift.
+    #[inline(always)]
+    fn nearest(self) -> Self {
+        let shift = Self::splat(6_755_399_441_055_744.0);
+        (self + shift) - shift
+    }
+}
+
+/// Truth values side by side.
+pub(crate) trait Mask: Copy {
+    /// Both.
+    fn and(self, other: Self) -> Self;
+    /// As bits, the first lane lowest.
+    fn bits(self) -> u32;
+}
+
+impl Mask for bool {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        self & other
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        u32::from(self)
+    }
+}
+
+/// The scalar instance: what the lanes are compared with, and what a single motion runs on.
+impl Lane for f64 {
+    type Mask = bool;
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        from[0]
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        to[0] = self;
+    }
+    #[inline(always)]
+    fn gather(from: &[f64], at: &[u32]) -> Self {
+        from[at[0] as usize]
+    }
+    #[inline(always)]
+    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
+        table[at[0] as usize]
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::sqrt(self)
+    }
+    /// Of any size; the same bits.
+    #[inline(always)]
+    fn sine_and_cosine(self) -> (Self, Self) {
+        super::sin_cos(self)
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self::floor(self)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn choose(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
