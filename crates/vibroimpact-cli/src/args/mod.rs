@@ -3,10 +3,12 @@
 mod output;
 mod start;
 mod system;
+mod vary;
 
 pub(crate) use output::Globals;
 pub(crate) use start::StartArgs;
 pub(crate) use system::{Asked, SystemArgs, Units};
+pub(crate) use vary::Vary;
 
 use crate::commands::Command;
 use clap::Parser;

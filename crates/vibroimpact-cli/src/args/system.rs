@@ -3,7 +3,7 @@
 use crate::exit::Failure;
 use clap::{Args, ValueEnum};
 use vibroimpact::{Frequency, Machine, Scales};
-use vibroimpact_study::{SecondStop, SystemPlan};
+use vibroimpact_study::{Parameter, SecondStop, SystemPlan};
 
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "System")]
@@ -182,6 +182,31 @@ impl SystemArgs {
         let si = self.units == Convention::Si;
         let units = Units { scales: Some(scales), si };
         Ok(Asked { system, units })
+    }
+}
+
+/// What a parameter that varies needs to know and to set.
+impl SystemArgs {
+    pub(super) const fn slot(&mut self, parameter: Parameter) -> &mut Option<f64> {
+        match parameter {
+            Parameter::Beta => &mut self.beta,
+            Parameter::InverseBeta => &mut self.inverse_beta,
+            Parameter::Gap => &mut self.gap,
+            Parameter::Restitution => &mut self.restitution,
+            Parameter::Damping => &mut self.damping,
+            Parameter::SecondGap => &mut self.second_gap,
+            Parameter::SecondRestitution => &mut self.second_restitution,
+        }
+    }
+
+    /// Whether there is a second stop with the restitution of the first.
+    pub(super) const fn second_stop_follows(&self) -> bool {
+        (self.second_gap.is_some() || self.machine.second_gap_m.is_some()) && self.second_restitution.is_none()
+    }
+
+    /// Whether it is given in physical units.
+    pub(super) const fn is_machine(&self) -> bool {
+        self.machine.mass_kg.is_some()
     }
 }
 

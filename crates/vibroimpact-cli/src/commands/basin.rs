@@ -128,7 +128,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
 }
 
 /// The range in nondimensional units.
-fn scaled(span: &Span, unit: f64) -> Result<Span, Failure> {
+pub(super) fn scaled(span: &Span, unit: f64) -> Result<Span, Failure> {
     let (a, b) = span.ends();
     Ok(Span::new(a / unit, b / unit, span.count())?)
 }

@@ -3,6 +3,7 @@
 mod attractors;
 mod basin;
 mod completions;
+mod diagram;
 mod man;
 mod map;
 mod orbit;
@@ -23,6 +24,7 @@ pub(crate) enum Command {
     Orbit(orbit::Orbit),
     Basin(basin::Basin),
     Map(map::Map),
+    Diagram(diagram::Diagram),
     Reproduce(reproduce::Reproduce),
     Completions(completions::Completions),
     Man(man::Man),
@@ -36,6 +38,7 @@ pub(crate) fn run(command: &Command, session: &Session) -> Result<(), Failure> {
         Command::Orbit(args) => orbit::run(args, session),
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),
+        Command::Diagram(args) => diagram::run(args, session),
         Command::Reproduce(args) => reproduce::run(args, session),
         Command::Completions(args) => completions::run(*args, session),
         Command::Man(args) => man::run(args, session),

@@ -1,6 +1,7 @@
 //! Figures: each file one kind of picture; here their files.
 
 pub(crate) mod basin;
+pub(crate) mod diagram;
 pub(crate) mod map;
 pub(crate) mod waveform;
 
@@ -9,7 +10,7 @@ use crate::files::Target;
 use crate::report::text::short;
 use std::path::Path;
 use vibroimpact_plot::{Colour, DPI_300, Figure, plain};
-use vibroimpact_study::SystemPlan;
+use vibroimpact_study::{Parameter, SystemPlan};
 
 /// A place for a figure, known to be writable and of a known format.
 #[derive(Debug)]
@@ -41,16 +42,42 @@ impl Picture {
 
 /// The parameters as a title, the frequency as it was given.
 pub(crate) fn title(system: &SystemPlan) -> String {
-    let (name, value) = match (system.inverse_beta, system.beta) {
-        (Some(inverse), _) => ("1/*β*", inverse),
-        (None, beta) => ("*β*", beta.unwrap_or(f64::NAN)),
+    title_without(system, None)
+}
+
+/// The same without the parameter that varies in the figure.
+pub(crate) fn title_without(system: &SystemPlan, varied: Option<Parameter>) -> String {
+    let frequency = match (system.inverse_beta, system.beta) {
+        (Some(inverse), _) => (Parameter::InverseBeta, inverse),
+        (None, beta) => (Parameter::Beta, beta.unwrap_or(f64::NAN)),
     };
-    let mut text =
-        format!("{name} = {}, *δ* = {}, *ε* = {}", short(value), short(system.gap), short(system.restitution));
+    let mut given = vec![frequency, (Parameter::Gap, system.gap), (Parameter::Restitution, system.restitution)];
     if system.damping > 0.0 {
-        text.push_str(&format!(", *ζ* = {}", short(system.damping)));
+        given.push((Parameter::Damping, system.damping));
     }
-    text.replace('-', "−")
+    if let Some(stop) = system.second_stop {
+        given.push((Parameter::SecondGap, stop.gap));
+        if stop.restitution != system.restitution || varied == Some(Parameter::Restitution) {
+            given.push((Parameter::SecondRestitution, stop.restitution));
+        }
+    }
+    given.retain(|(parameter, _)| Some(*parameter) != varied);
+    let parts: Vec<String> =
+        given.iter().map(|(parameter, value)| format!("{} = {}", symbol(*parameter), short(*value))).collect();
+    parts.join(", ").replace('-', "−")
+}
+
+/// The symbol of a parameter, as markup.
+pub(crate) const fn symbol(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::Beta => "*β*",
+        Parameter::InverseBeta => "1/*β*",
+        Parameter::Gap => "*δ*",
+        Parameter::Restitution => "*ε*",
+        Parameter::Damping => "*ζ*",
+        Parameter::SecondGap => "*δ*_2",
+        Parameter::SecondRestitution => "*ε*_2",
+    }
 }
 
 /// A label as a figure shows it.

@@ -152,6 +152,7 @@ fn text_help_and_pages() {
         (format!("attractors {S} --starts 50"), "1/1"),
         (format!("basin {S} --x -4:0:5 --v -4:4:5"), "share"),
         (format!("orbit {S} --label 1/1"), "1/1: one impact every"),
+        ("diagram --beta 0.9 --restitution 0.5 --vary gap --over 0:1:5".into(), "5 values of gap from 0 to 1"),
         ("completions bash".into(), "vibro"),
         ("man".into(), "vibro"),
         ("--help".into(), "attractors"),

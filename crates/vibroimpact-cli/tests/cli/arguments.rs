@@ -77,6 +77,29 @@ fn start() -> impl Strategy<Value = Vec<String>> {
         .prop_map(|(a, b, c)| [a, b, c].concat())
 }
 
+fn diagram() -> impl Strategy<Value = Vec<String>> {
+    let flags = vec!["--inverse-beta", "--gap", "--restitution", "--damping", "--second-gap", "--second-restitution"];
+    let vary = prop::sample::select(flags.clone());
+    let direction = prop::sample::select(vec!["up", "down", "both", "scatter"]).prop_map(str::to_owned);
+    let show = prop::sample::select(vec!["velocity", "strobe"]).prop_map(str::to_owned);
+    let system: Vec<_> =
+        flags.into_iter().map(|name| (Just(name), prop::option::weighted(0.8, restitution()))).collect();
+    (
+        (vary, system, range()),
+        option("--direction", 0.7, direction),
+        option("--show", 0.7, show),
+        option("--transient", 0.5, count()),
+        option("--keep", 0.5, count()),
+        option("--starts", 0.1, count()),
+    )
+        .prop_map(|((vary, system, range), a, b, c, d, e)| {
+            let given = system.into_iter().filter(|(name, _)| *name != vary);
+            let given = given.filter_map(|(name, value)| value.map(|value| format!("{name}={value}")));
+            let line = ["diagram".to_owned(), format!("--vary={}", &vary[2..]), format!("--over={range}")];
+            line.into_iter().chain(given).chain([a, b, c, d, e].concat()).collect()
+        })
+}
+
 fn command() -> impl Strategy<Value = Vec<String>> {
     let named = |name: &str| Just(vec![name.to_owned()]);
     let joined = |(a, b, c): (Vec<String>, Vec<String>, Vec<String>)| [a, b, c].concat();
@@ -102,6 +125,7 @@ fn command() -> impl Strategy<Value = Vec<String>> {
                 .prop_map(joined),
             always("--starts", count()),
         ).prop_map(joined),
+        1 => diagram(),
     ];
     (commands, any::<bool>()).prop_map(|(mut line, json)| {
         if json {

@@ -6,6 +6,7 @@ use std::io::Read;
 use std::process::{Command, Stdio};
 
 const GRID: &str = "--x -4:0.75:37 --v -4:4:29";
+const SWEEP: &str = "--inverse-beta 1.3 --restitution 0.5 --vary gap --over -0.5:3:31";
 const PLANE: &str = "--inverse-beta 0.5:1.9:8 --gap -0.5:3:6 --restitution 0.5 --starts 6";
 
 #[test]
@@ -14,6 +15,8 @@ fn tables_do_not_depend_on_threads() {
     for (name, line, header, rows) in [
         ("basin", format!("basin {S} {GRID}"), "x,v,label", 37 * 29),
         ("map", format!("map {PLANE}"), "inverse_beta,gap,label,share", 8 * 6),
+        ("diagram", format!("diagram {SWEEP}"), "gap,sweep,kind,side,phase,velocity", 2 * 31),
+        ("strobe", format!("diagram {SWEEP} --direction scatter --show strobe"), "gap,sweep,kind,x,v", 8 * 31),
     ] {
         let mut tables = Vec::new();
         for threads in [1, 2, 3] {
@@ -30,7 +33,7 @@ fn tables_do_not_depend_on_threads() {
         assert_eq!(stdout, tables[0].as_bytes());
     }
     let names: Vec<_> = folder.path().read_dir().unwrap().collect();
-    assert_eq!(names.len(), 6, "no temporary file is left: {names:?}");
+    assert_eq!(names.len(), 12, "no temporary file is left: {names:?}");
 }
 
 #[test]
@@ -42,6 +45,7 @@ fn existing_files_stay_unless_forced() {
         format!("basin {S} {GRID} --csv keep.csv"),
         format!("map {PLANE} --csv keep.csv"),
         format!("simulate {S} --csv keep.csv"),
+        format!("diagram {SWEEP} --csv keep.csv"),
     ] {
         let output = vibro(&line).current_dir(&folder).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
@@ -101,6 +105,13 @@ fn pictures() {
         ("two", format!("settle {S} --second-gap 1 --plot two.svg")),
         ("basin", format!("basin {S} {GRID} --plot basin.png")),
         ("map", format!("map {PLANE} --plot map.svg")),
+        ("diagram", format!("diagram {SWEEP} --plot diagram.svg")),
+        ("scatter", format!("diagram {SWEEP} --direction scatter --plot scatter.png")),
+        (
+            "cells",
+            "diagram --inverse-beta 1.11 --restitution 0.5 --vary gap --over 3.1:3.2:900 --plot cells.png".into(),
+        ),
+        ("nothing", "diagram --beta 2 --restitution 0.5 --vary gap --over 5:6:3 --plot nothing.svg".into()),
     ] {
         let output = vibro(&line).current_dir(&folder).output().unwrap();
         assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));

@@ -2,6 +2,7 @@
 
 mod answers;
 mod arguments;
+mod diagrams;
 mod files;
 mod refusals;
 

@@ -6,6 +6,7 @@ use crate::{S, vibro};
 fn bad_questions_are_named() {
     let rest = "--gap 1 --restitution 0.5";
     let grid = "--x -1:0.5:3 --v -1:1:3";
+    let sweep = |rest: &str| format!("diagram --restitution 0.5 {rest}");
     for (line, sentence) in [
         (format!("settle --beta nan {rest}"), "beta = NaN lies outside 0 < beta"),
         (format!("settle --beta inf {rest}"), "beta = inf lies outside"),
@@ -53,6 +54,35 @@ fn bad_questions_are_named() {
         (format!("basin {S} {grid} --csv - --json"), "both want stdout"),
         ("map --inverse-beta 0:1:3 --gap 0:1:3 --restitution 0.5 --starts 3".into(), "1/beta = 0"),
         ("map --inverse-beta 1:2:3 --gap 0:1:3 --restitution 2 --starts 3".into(), "eps = 2"),
+        (format!("diagram {S} --vary gap --over 0:1:3"), "--gap cannot go together with --vary gap"),
+        (
+            sweep("--beta 1 --vary inverse-beta --over 1:2:3 --gap 1"),
+            "--beta cannot go together with --vary inverse-beta",
+        ),
+        (sweep("--inverse-beta 1 --vary gap"), "--over"),
+        (sweep("--inverse-beta 1 --vary gap --over 0:1"), "A:B:N"),
+        (sweep("--inverse-beta 1 --vary gap --over 0:nan:3"), "A:B:N"),
+        (sweep("--inverse-beta 1 --vary mass --over 0:1:3"), "invalid value 'mass'"),
+        (sweep("--gap 1 --vary inverse-beta --over 0:1:3"), "1/beta = 0 lies outside"),
+        (sweep("--gap 1 --vary beta --over 1:-1:3"), "beta = -1 lies outside"),
+        (sweep("--vary gap --over 0:1:3"), "exactly one of beta and inverse beta"),
+        (sweep("--beta 1 --vary damping --over 0:1:3"), "the gap is not given"),
+        (sweep("--beta 1 --gap 1 --vary second-gap --over 0:-1:3"), "no room"),
+        (sweep("--beta 1 --gap 1 --vary second-restitution --over 0:1:3"), "no gap"),
+        ("diagram --beta 1 --gap 1 --vary restitution --over 0:1.5:3".into(), "eps = 1.5"),
+        (
+            "diagram --beta 1 --gap 1 --second-gap 1 --vary restitution --over 0:1:3".into(),
+            "that of the second stop is not given",
+        ),
+        (sweep("--beta 1 --vary gap --over 0:1:3 --transient 1000001"), "transient = 1000001 lies outside 0 <="),
+        (sweep("--beta 1 --vary gap --over 0:1:3 --transient -1"), "invalid value '-1'"),
+        (sweep("--beta 1 --vary gap --over 0:1:3 --keep 0"), "keep = 0 lies outside 1 <= keep"),
+        (sweep("--beta 1 --vary gap --over 0:1:3 --starts 5"), "belong to --direction scatter"),
+        (sweep("--beta 1 --vary gap --over 0:1:3 --direction scatter --starts 0"), "starts = 0 lies outside"),
+        (sweep("--beta 1 --vary gap --over 0:1:3 --direction sideways"), "invalid value 'sideways'"),
+        (sweep("--beta 1 --vary gap --over 0:1:900000 --csv a.csv"), "at most 20000000"),
+        (sweep("--beta 1 --vary gap --over 0:1:3 --plot figure.pdf"), "neither .svg nor .png"),
+        (sweep("--beta 1 --vary gap --over 0:1:3 --csv - --json"), "both want stdout"),
         ("frobnicate".into(), "unrecognized subcommand"),
         ("completions tcsh-of-old".into(), "invalid value"),
     ] {

@@ -1,0 +1,188 @@
+//! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
+
+use crate::args::{SystemArgs, Vary};
+use crate::commands::basin::scaled;
+use crate::commands::outputs::Outputs;
+use crate::exit::Failure;
+use crate::plot;
+use crate::report::csv;
+use crate::report::diagram::{Counts, columns, counts, rows};
+use crate::report::json::{Document, Range};
+use crate::report::text::{short, table};
+use crate::session::Session;
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::path::PathBuf;
+use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
+use vibroimpact_study::{DiagramPlan, Plan, Span, Task, diagram};
+
+/// The orbit diagram: impacts or states after the transient, at each value of one parameter
+///
+/// The system is given without the parameter that varies (a machine in physical units whole: its value is replaced).
+///
+/// A sweep starts at rest and carries the state from value to value, so that sweeps up and down differ where motions
+/// coexist. A mass on the stop stays on it when the gap changes, and one that the stop has moved over is put on the stop.
+/// Motions without impacts are carried too.
+///
+/// Kinds of rows: impact; chatter, the end of infinitely many impacts, at velocity 0; and with empty places none (no more
+/// impacts), stuck (at rest for ever), undecided (the search ran out of steps). Of a stroboscopic diagram the kind says
+/// whether the motion strikes in the periods shown. A motion that repeats itself, to 1e-9, is shown once.
+///
+/// Without --csv, --plot or --json a summary is printed.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro diagram --inverse-beta X --restitution E --vary gap --over A:B:N [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:601 \\\n    \
+        --csv gap.csv --plot gap.png\n  \
+        vibro diagram --gap 0 --restitution 0.8 --vary beta --over 2.5:3:401 \\\n    \
+        --direction scatter --starts 20 --plot beta.png\n  \
+        vibro diagram --beta 0.9 --gap 2 --damping 0.05 --vary restitution --over 0:1:201 \\\n    \
+        --show strobe --csv strobe.csv"
+)]
+pub(crate) struct Diagram {
+    #[command(flatten)]
+    system: SystemArgs,
+
+    /// The parameter that varies
+    #[arg(long, value_enum, value_name = "PARAMETER", help_heading = "Sweep")]
+    vary: Vary,
+
+    /// Its values: N from A to B, both included
+    #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Sweep")]
+    over: Span,
+
+    /// From which starts
+    #[arg(long, value_enum, value_name = "DIRECTION", default_value_t = Way::Both, help_heading = "Sweep")]
+    direction: Way,
+
+    /// Scattered starts at each value, 1 to 1e9 [default: 8]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Sweep")]
+    starts: Option<u64>,
+
+    /// Which sequence of scattered starts [default: 1]
+    #[arg(long, value_name = "S", help_heading = "Sweep")]
+    seed: Option<u64>,
+
+    /// What is shown
+    #[arg(long, value_enum, value_name = "WHAT", default_value_t = What::Velocity, help_heading = "Sweep")]
+    show: What,
+
+    /// Impacts (velocity) or forcing periods (strobe) to pass before anything is shown, up to 1000000
+    #[arg(long, value_name = "K", default_value_t = DEFAULT_TRANSIENT, allow_hyphen_values = true, help_heading = "Sweep")]
+    transient: u64,
+
+    /// Impacts or states to show at each value at most, 1 to 100000
+    #[arg(long, value_name = "K", default_value_t = DEFAULT_KEEP, allow_hyphen_values = true, help_heading = "Sweep")]
+    keep: u64,
+
+    /// Write one row a point to this file; - for stdout. Columns: the parameter, sweep, kind, side, phase, velocity; for
+    /// strobe the parameter, sweep, kind, x, v
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw the diagram into this file, .svg or .png
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    /// Print one JSON object with the number of motions of each kind
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Way {
+    /// Rising values, each from the state the one before led to
+    Up,
+    /// Falling values
+    Down,
+    /// One sweep up and one down
+    Both,
+    /// Several scattered starts at each value
+    Scatter,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum What {
+    /// Phase and speed of arrival of each impact
+    Velocity,
+    /// Position and velocity once in every forcing period, at phase 0
+    Strobe,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    vary: &'static str,
+    over: Range,
+    columns: Vec<&'static str>,
+    sweeps: Vec<Counts>,
+}
+
+impl Diagram {
+    fn direction(&self) -> Result<Direction, Failure> {
+        if self.direction != Way::Scatter && (self.starts.is_some() || self.seed.is_some()) {
+            return Err(Failure::bad("--starts and --seed belong to --direction scatter"));
+        }
+        Ok(match self.direction {
+            Way::Up => Direction::Up,
+            Way::Down => Direction::Down,
+            Way::Both => Direction::Both,
+            Way::Scatter => Direction::Scatter { starts: self.starts.unwrap_or(8), seed: self.seed.unwrap_or(1) },
+        })
+    }
+}
+
+pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
+    let asked = args.system.varied(args.vary, args.over.ends().0)?;
+    let (units, vary) = (asked.units, args.vary.parameter());
+    let task = DiagramPlan {
+        vary,
+        over: scaled(&args.over, if vary.is_length() { units.length() } else { 1.0 })?,
+        show: match args.show {
+            What::Velocity => Show::Velocity,
+            What::Strobe => Show::Strobe,
+        },
+        direction: args.direction()?,
+        transient: args.transient,
+        keep: args.keep,
+    };
+    let plan = Plan::new(asked.system, Task::Diagram(task));
+    plan.check()?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+
+    let total = u64::from(task.over.count()) * task.runs();
+    let found = session.tiled(total, "motions", |control, _| diagram(&asked.system, &task, control))?;
+
+    let silent = outputs.any();
+    outputs.write(
+        session,
+        |out| csv::write(out, &columns(&found).join(","), rows(&found, &args.over, units)),
+        || plot::diagram::figure(&found, &args.over, &asked),
+    )?;
+    let sweeps = counts(&found);
+    if args.json {
+        let osc = asked.system.oscillator()?;
+        let answer = Answer { vary: vary.name(), over: Range::new(&args.over), columns: columns(&found), sweeps };
+        return session.print_json(&Document::new(&asked, &osc, &plan, answer));
+    }
+    if silent {
+        return Ok(());
+    }
+    session.print(&summary(args, &sweeps))?;
+    session.note("hint: --csv FILE keeps every point, --plot FILE.png draws them");
+    Ok(())
+}
+
+fn summary(args: &Diagram, sweeps: &[Counts]) -> String {
+    let (from, to) = args.over.ends();
+    let name = args.vary.parameter().name().replace('_', " ");
+    let heads = ["<sweep", "motions", "with impacts", "none", "stuck", "undecided", "points"].map(str::to_owned);
+    let rows: Vec<Vec<String>> = sweeps
+        .iter()
+        .map(|c| {
+            let counts = [c.motions, c.impact, c.none, c.stuck, c.undecided, c.points];
+            core::iter::once(c.sweep.to_owned()).chain(counts.map(|n| n.to_string())).collect()
+        })
+        .collect();
+    format!("{} values of {name} from {} to {}\n\n{}", args.over.count(), short(from), short(to), table(&heads, &rows))
+}

@@ -1,0 +1,162 @@
+//! The orbit diagram: a dot for every impact or state over the parameter, the sweeps in two colours.
+//!
+//! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other and both colours
+//! are seen. What does not repeat itself has small dots in both.
+
+use crate::args::Asked;
+use crate::exit::Failure;
+use crate::plot::{
+    basin::{axis, half_cell},
+    symbol, title_without,
+};
+use std::collections::HashSet;
+use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Points, Raster, SERIES};
+use vibroimpact_study::Span;
+use vibroimpact_study::diagram::{Diagram, Direction, Point, Show, Step, Sweep};
+
+/// Dots beyond which a picture of cells takes their place: a file of a few megabytes.
+const MOST_DOTS: usize = 50_000;
+/// Columns of that picture at most, so that each has a pixel in print.
+const MOST_COLUMNS: usize = 800;
+/// Rows of that picture.
+const CELL_ROWS: usize = 400;
+/// Rows finer than can be told apart: of the dots in one row at one value one is drawn.
+const ROWS: f64 = 2000.0;
+/// A large dot, in small ones.
+const LARGE: f64 = 1.9;
+
+/// The dots of one colour: which value, and the ordinate.
+struct Cloud {
+    name: String,
+    colour: Colour,
+    large: Vec<(u32, f64)>,
+    small: Vec<(u32, f64)>,
+}
+
+pub(crate) fn figure(found: &Diagram, over: &Span, asked: &Asked) -> Result<Figure, Failure> {
+    let mut clouds = clouds(found, asked);
+    let range = spread(clouds.iter().flat_map(|cloud| cloud.large.iter().chain(&cloud.small)));
+    for cloud in &mut clouds {
+        thin(&mut cloud.large, range);
+        thin(&mut cloud.small, range);
+    }
+    let vary = found.plan.vary;
+    let name = if vary.is_length() { asked.units.named(symbol(vary), "m") } else { symbol(vary).into() };
+    let panel = Panel::new(axis(&name, over), ordinate(found, asked).range(range.0, range.1));
+    let dots: usize = clouds.iter().map(|cloud| cloud.large.len() + cloud.small.len()).sum();
+    let (panel, legend) =
+        if dots > MOST_DOTS { as_cells(panel, &clouds, over, range)? } else { as_dots(panel, clouds, over) };
+    Ok(Figure::new(panel).title(title_without(&asked.system, Some(vary))).legend(legend))
+}
+
+fn ordinate(found: &Diagram, asked: &Asked) -> Axis {
+    Axis::new(match found.plan.show {
+        Show::Velocity => asked.units.named("arrival velocity *u*_−", "m/s"),
+        Show::Strobe => asked.units.named("*ξ* at phase 0", "m"),
+    })
+}
+
+fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
+    let symbol = symbol(found.plan.vary);
+    let cloud = |name: String, colour| Cloud { name, colour, large: Vec::new(), small: Vec::new() };
+    let rising = || cloud(format!("{symbol} rising"), SERIES[0]);
+    let falling = || cloud(format!("{symbol} falling"), SERIES[1]);
+    let mut clouds = match found.plan.direction {
+        Direction::Up => vec![rising()],
+        Direction::Down => vec![falling()],
+        Direction::Both => vec![rising(), falling()],
+        Direction::Scatter { starts, .. } => vec![cloud(format!("{starts} starts at each value"), SERIES[0])],
+    };
+    let both = clouds.len() > 1;
+    for step in &found.steps {
+        let above = usize::from(both && step.sweep == Sweep::Down);
+        let cloud = &mut clouds[above];
+        let list = if both && above == 0 && repeats(found, step) { &mut cloud.large } else { &mut cloud.small };
+        list.extend(step.points.iter().map(|point| {
+            let value = match point {
+                Point::Impact { velocity, .. } => velocity * asked.units.velocity(),
+                Point::Chatter { .. } => 0.0,
+                Point::State { x, .. } => x * asked.units.length(),
+            };
+            (step.index, value)
+        }));
+    }
+    clouds
+}
+
+/// Whether a motion came back before as many points were kept as were asked for.
+fn repeats(found: &Diagram, step: &Step) -> bool {
+    let kept = step.points.iter().filter(|point| !matches!(point, Point::Chatter { .. })).count();
+    (kept as u64) < found.plan.keep || kept == 1
+}
+
+/// The range of all values, with air.
+fn spread<'a>(dots: impl Iterator<Item = &'a (u32, f64)>) -> (f64, f64) {
+    let (low, high) = dots.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (_, y)| (low.min(*y), high.max(*y)));
+    if low > high {
+        return (0.0, 1.0);
+    }
+    // one value alone, to rounding, gets a range of its own size
+    let size = low.abs().max(high.abs());
+    let air = if high - low > 1e-9 * size { 0.04 * (high - low) } else { 0.5 * size.max(1e-300) };
+    (low - air, high + air)
+}
+
+/// One dot a row at each value, the first one.
+fn thin(dots: &mut Vec<(u32, f64)>, (low, high): (f64, f64)) {
+    let mut seen = HashSet::new();
+    #[allow(clippy::cast_possible_truncation)] // between 0 and ROWS
+    dots.retain(|(k, y)| seen.insert((*k, (ROWS * ((y - low) / (high - low))) as i32)));
+}
+
+fn as_dots(mut panel: Panel, clouds: Vec<Cloud>, over: &Span) -> (Panel, Legend) {
+    // about the distance of two values on the page, but neither dust nor discs
+    let size = (850.0 / f64::from(over.count())).clamp(2.4, 6.0);
+    let mut legend = Legend::below();
+    for cloud in clouds {
+        let points = |dots: &[(u32, f64)], size: f64| {
+            let (xs, ys): (Vec<f64>, Vec<f64>) = dots.iter().map(|(k, y)| (over.at(*k), *y)).unzip();
+            Points::new(xs, ys, cloud.colour).size(size)
+        };
+        let small = points(&cloud.small, size);
+        legend = legend.points(&small, cloud.name);
+        panel.add(points(&cloud.large, LARGE * size));
+        panel.add(small);
+    }
+    (panel, legend)
+}
+
+/// The same as a picture of cells, as many columns as there are values, or a whole part of them.
+fn as_cells(panel: Panel, clouds: &[Cloud], over: &Span, range: (f64, f64)) -> Result<(Panel, Legend), Failure> {
+    let values = over.count() as usize;
+    let (columns, rows) = (values / values.div_ceil(MOST_COLUMNS), CELL_ROWS);
+    let mut cells = vec![(u16::MAX, false); columns * rows];
+    let (a, b) = over.ends();
+    let across = (a.min(b) - half_cell(over), a.max(b) + half_cell(over));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)] // a few hundred
+    let place = |at: f64, (low, high): (f64, f64), count: usize| {
+        ((((at - low) / (high - low)) * count as f64) as usize).min(count - 1)
+    };
+    let mut legend = Legend::below();
+    for (class, cloud) in (0_u16..).zip(clouds) {
+        for (dots, small) in [(&cloud.large, false), (&cloud.small, true)] {
+            let reach = usize::from(!small);
+            for (k, y) in dots {
+                let (i, j) = (place(over.at(*k), across, columns), place(*y, range, rows));
+                for j in j.saturating_sub(reach)..(j + reach + 1).min(rows) {
+                    for i in i.saturating_sub(reach)..(i + reach + 1).min(columns) {
+                        let cell = &mut cells[j * columns + i];
+                        // where small dots of two clouds meet, both are seen, side by side
+                        if !(small && cell.1 && (i + j) % 2 == 0) {
+                            *cell = (class, small);
+                        }
+                    }
+                }
+            }
+        }
+        legend = legend.patch(ClassStyle::plain(cloud.colour), cloud.name.clone());
+    }
+    let colours: Vec<Colour> = clouds.iter().map(|cloud| cloud.colour).collect();
+    let classes: Vec<u16> = cells.into_iter().map(|(class, _)| class).collect();
+    Ok((panel.with(Raster::new(across, range, (columns, rows), classes, colours)?), legend))
+}

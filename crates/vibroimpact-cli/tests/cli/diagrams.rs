@@ -1,0 +1,94 @@
+//! `vibro diagram`: what its table says, row by row.
+
+use crate::{json, vibro};
+
+/// The rows of a table, without the header.
+fn table(line: &str) -> Vec<Vec<String>> {
+    let output = vibro(&format!("{line} --csv -")).output().expect("vibro runs");
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).expect("a table is text");
+    text.lines().skip(1).map(|row| row.split(',').map(str::to_owned).collect()).collect()
+}
+
+fn number(cell: &str) -> f64 {
+    cell.parse().expect("a number")
+}
+
+/// Gaps around S of the 1971 paper: 2/1 on the way up, 1/1 on the way down, with the velocities that `orbit` gives.
+#[test]
+fn hysteresis_at_s_with_the_velocities_of_the_orbits() {
+    let rows = table("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:2:81");
+    for (sweep, label) in [("up", "2/1"), ("down", "1/1")] {
+        let mut found: Vec<f64> =
+            rows.iter().filter(|row| row[0] == "0.75" && row[1] == sweep).map(|row| number(&row[5])).collect();
+        found.sort_by(f64::total_cmp);
+        let orbits = json(&format!("orbit --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --label {label}"));
+        let stable = orbits["orbits"].as_array().unwrap().iter().find(|orbit| orbit["stable"] == true).unwrap();
+        let mut expected: Vec<f64> = stable["cycle"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|point| point["velocity_before"].as_f64().unwrap())
+            .collect();
+        expected.sort_by(f64::total_cmp);
+        assert_eq!(found.len(), expected.len(), "{sweep}: {found:?}");
+        assert!(found.iter().zip(&expected).all(|(f, e)| (f - e).abs() < 1e-9), "{sweep}: {found:?} {expected:?}");
+    }
+    assert!(rows.iter().all(|row| row.len() == 6 && row[2] == "impact" && row[3] == "upper"));
+}
+
+#[test]
+fn ends_have_a_row() {
+    let rows = table("diagram --beta 2 --restitution 0.5 --vary gap --over 5:6:2 --direction down");
+    assert_eq!(rows, [["6", "down", "none", "", "", ""], ["5", "down", "none", "", "", ""]]);
+    let rows = table("diagram --beta 0.9 --restitution 0.5 --vary gap --over -1.5:-1.5:1 --direction up --transient 0");
+    assert_eq!(rows, [["-1.5", "up", "stuck", "", "", ""]]);
+    let rows = table("diagram --beta 0.9 --restitution 0.5 --vary gap --over -1.5:-1.5:1 --direction up --show strobe");
+    assert_eq!(rows, [["-1.5", "up", "stuck", "-1.5", "0"]]);
+    let rows = table("diagram --beta 0.9 --restitution 0.5 --vary gap --over -0.5:-0.5:1 --direction up");
+    assert_eq!(rows.iter().filter(|row| row[2] == "chatter" && row[5] == "0").count(), 1);
+    let rows = table("diagram --beta 0.5 --damping 0.2 --restitution 0.5 --vary gap --over 2:3:2 --show strobe");
+    assert!(rows.len() == 4 && rows.iter().all(|row| row[2] == "none" && number(&row[3]) < 0.0));
+}
+
+/// A sweep down begins at the other end.
+#[test]
+fn sweeps_and_starts_are_named() {
+    let system = "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap";
+    let sweeps =
+        |line: &str| -> Vec<String> { table(line).into_iter().map(|row| format!("{} {}", row[0], row[1])).collect() };
+    assert_eq!(sweeps(&format!("{system} --over 1:1.5:2 --keep 1")), ["1 up", "1.5 up", "1.5 down", "1 down"]);
+    assert_eq!(
+        sweeps(&format!("{system} --over 1.5:1:2 --keep 1 --direction scatter --starts 2")),
+        ["1.5 start 1", "1.5 start 2", "1 start 1", "1 start 2"]
+    );
+}
+
+#[test]
+fn a_summary_that_can_be_run_again() {
+    let answer = json("diagram --beta 0.9 --gap 0.5 --restitution 0.5 --vary second-gap --over 0:1:5 --direction up");
+    assert_eq!((&answer["vary"], &answer["units"]), (&"second_gap".into(), &"nondimensional".into()));
+    assert_eq!((&answer["over"]["to"], &answer["over"]["count"]), (&1.0.into(), &5.into()));
+    assert_eq!(answer["columns"][0], "second_gap");
+    let sweep = &answer["sweeps"][0];
+    assert_eq!((&sweep["sweep"], &sweep["motions"]), (&"up".into(), &5.into()));
+    let task = &answer["plan"]["task"]["diagram"];
+    assert_eq!((&task["direction"], &task["transient"], &task["keep"]), (&"up".into(), &500.into(), &64.into()));
+    let scatter = json("diagram --beta 0.9 --restitution 0.5 --vary gap --over 0:1:3 --direction scatter");
+    assert_eq!(scatter["plan"]["task"]["diagram"]["direction"]["scatter"]["starts"], 8);
+    assert_eq!(scatter["sweeps"][0]["motions"], 24);
+}
+
+/// In metres, of the machine that is S of the paper in physical units.
+#[test]
+fn a_machine_in_physical_units() {
+    let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 25 --gap-m 0.01 --restitution 0.5";
+    let si =
+        table(&format!("diagram {machine} --units si --vary gap --over 0.005:0.01:2 --direction up --transient 50"));
+    let plain = table("diagram --beta 1.25 --restitution 0.5 --vary gap --over 1:2:2 --direction up --transient 50");
+    assert_eq!(si.len(), plain.len());
+    for (s, p) in si.iter().zip(&plain) {
+        assert!((number(&s[0]) - 0.005 * number(&p[0])).abs() < 1e-15);
+        assert!((number(&s[5]) - 0.1 * number(&p[5])).abs() < 1e-9, "{s:?} {p:?}");
+    }
+}

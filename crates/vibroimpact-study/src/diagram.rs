@@ -1,0 +1,225 @@
+//! The orbit diagram: the motion after its transient, at each value of a parameter.
+//!
+//! A sweep carries the state: the one in which a value left the motion is the start at the next value, as in a machine
+//! that is slowly turned up or down; its first value starts at rest. A state on a stop stays on it when the gap changes,
+//! one that a stop has moved over is put on that stop. A motion without impacts is carried on like any other, from a
+//! point of its flight as many forcing periods later as the transient is long. So a sweep is sequential and one tile;
+//! sweeps in both directions and scattered starts run over threads.
+
+mod follow;
+mod impacts;
+mod plan;
+mod strobes;
+
+pub use follow::{Kind, Point};
+pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Direction, Show};
+
+use crate::{Control, PlanError, RunError, SystemPlan, tiles};
+use follow::Found;
+use vibroimpact::verdict::{StartBox, scattered_starts};
+use vibroimpact::{Oscillator, Start};
+
+/// Which of the motions at one value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Sweep {
+    /// That of the sweep with rising values.
+    Up,
+    /// That of the sweep with falling values.
+    Down,
+    /// That from scattered start number k, counted from 0.
+    Start(u64),
+}
+
+/// A motion at one value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// Which value of the range, counted from 0.
+    pub index: u32,
+    /// Which motion.
+    pub sweep: Sweep,
+    /// What it is.
+    pub kind: Kind,
+    /// What there is to show of it, in order of time.
+    pub points: Vec<Point>,
+}
+
+/// The motions of a sweep in the order of the sweep, one sweep after another; of scattered starts, value by value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagram {
+    /// What was asked.
+    pub plan: DiagramPlan,
+    /// The motions.
+    pub steps: Vec<Step>,
+}
+
+/// Scattered starts of a tile.
+const TILE: u64 = 16;
+
+/// Follows the motions at all values.
+///
+/// # Errors
+/// [`RunError`] for a plan that makes no sense, or when stopped.
+pub fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
+    plan.check(system)?;
+    let values = u64::from(plan.over.count());
+    let tile = if let Direction::Scatter { .. } = plan.direction { TILE } else { values };
+    let parts = tiles(values * plan.runs(), tile, control, |range, tick| {
+        let mut steps = Vec::new();
+        let mut before = None;
+        for k in range {
+            let (index, sweep) = place(plan, k);
+            steps.push(step(system, plan, (index, sweep), before).map(|(step, left)| {
+                before = Some(left);
+                step
+            }));
+            if tick() {
+                break;
+            }
+        }
+        steps
+    })?;
+    let steps = parts.into_iter().flatten().collect::<Result<Vec<_>, _>>()?;
+    Ok(Diagram { plan: *plan, steps })
+}
+
+/// Motion number `k`: at which value, and which of those there.
+#[allow(clippy::cast_possible_truncation)] // indices of a range of at most 1e6 values
+fn place(plan: &DiagramPlan, k: u64) -> (u32, Sweep) {
+    let count = plan.over.count();
+    let (first, last) = plan.over.ends();
+    // number j of the values in rising order
+    let rising = |j: u32| if first <= last { j } else { count - 1 - j };
+    let (row, j) = (k / u64::from(count), (k % u64::from(count)) as u32);
+    match plan.direction {
+        Direction::Scatter { starts, .. } => ((k / starts) as u32, Sweep::Start(k % starts)),
+        Direction::Both if row == 0 => (rising(j), Sweep::Up),
+        Direction::Up => (rising(j), Sweep::Up),
+        Direction::Both | Direction::Down => (rising(count - 1 - j), Sweep::Down),
+    }
+}
+
+/// The motion at one value, and the oscillator and state to carry on.
+fn step(
+    system: &SystemPlan,
+    plan: &DiagramPlan,
+    (index, sweep): (u32, Sweep),
+    before: Option<(Oscillator, Start)>,
+) -> Result<(Step, (Oscillator, Start)), PlanError> {
+    let osc = plan.oscillator(system, plan.over.at(index))?;
+    let start = match (plan.direction, sweep, before) {
+        (Direction::Scatter { seed, .. }, Sweep::Start(k), _) => {
+            scattered_starts(&osc, StartBox::natural(&osc), seed, k)
+        }
+        (_, _, Some((old, left))) => follow::carried(left, &old, &osc),
+        (_, _, None) => Start::at_rest(&osc),
+    };
+    let Found { kind, points, last } = match plan.show {
+        Show::Velocity => impacts::after_transients(&osc, start, plan.transient, plan.keep),
+        Show::Strobe => strobes::after_transients(&osc, start, plan.transient, plan.keep),
+    };
+    Ok((Step { index, sweep, kind, points }, (osc, last)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Parameter;
+
+    const S: SystemPlan =
+        SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, damping: 0.0, second_stop: None };
+
+    fn plan(over: &str) -> DiagramPlan {
+        DiagramPlan {
+            vary: Parameter::Gap,
+            over: over.parse().unwrap(),
+            show: Show::Velocity,
+            direction: Direction::Both,
+            transient: 200,
+            keep: 40,
+        }
+    }
+
+    fn run(system: &SystemPlan, plan: &DiagramPlan) -> Diagram {
+        diagram(system, plan, &Control::default()).unwrap()
+    }
+
+    #[test]
+    fn the_same_for_any_number_of_threads() {
+        let scatter = Direction::Scatter { starts: 5, seed: 3 };
+        for (direction, show) in
+            [(Direction::Both, Show::Velocity), (Direction::Both, Show::Strobe), (scatter, Show::Velocity)]
+        {
+            let plan = DiagramPlan { direction, show, ..plan("-0.5:3:29") };
+            let run = |threads| diagram(&S, &plan, &Control { threads, ..Control::default() }).unwrap();
+            let one = run(1);
+            assert_eq!(one.steps.len() as u64, 29 * plan.runs());
+            for threads in [2, 3, 8] {
+                assert_eq!(run(threads), one);
+            }
+        }
+    }
+
+    #[test]
+    fn sweeps_run_up_and_down_whichever_way_the_range_is_written() {
+        for over in ["0:3:7", "3:0:7"] {
+            let plan = plan(over);
+            let found = run(&S, &plan);
+            let order = |sweep| -> Vec<f64> {
+                found.steps.iter().filter(|s| s.sweep == sweep).map(|s| plan.over.at(s.index)).collect()
+            };
+            assert!(order(Sweep::Up).is_sorted() && order(Sweep::Up).len() == 7);
+            assert!(order(Sweep::Down).is_sorted_by(|a, b| a >= b) && order(Sweep::Down).len() == 7);
+        }
+        let written = |over| run(&S, &plan(over)).steps.into_iter().map(|s| s.points).collect::<Vec<_>>();
+        assert_eq!(written("0:3:7"), written("3:0:7"));
+    }
+
+    /// At S of the 1971 paper 1/1 and 2/1 coexist. Coming from where only one of them exists, a sweep stays on it.
+    #[test]
+    fn a_carried_sweep_shows_hysteresis() {
+        let plan = plan("0:2:81");
+        let found = run(&S, &plan);
+        let here = |sweep| {
+            let step = found.steps.iter().find(|s| s.sweep == sweep && plan.over.at(s.index) == 0.75).unwrap();
+            let mut speeds: Vec<f64> = step
+                .points
+                .iter()
+                .filter_map(|p| if let Point::Impact { velocity, .. } = p { Some(*velocity) } else { None })
+                .collect();
+            speeds.sort_by(f64::total_cmp);
+            speeds
+        };
+        let close = |got: Vec<f64>, want: &[f64]| {
+            assert!(got.len() == want.len() && got.iter().zip(want).all(|(g, w)| (g - w).abs() < 1e-9), "{got:?}");
+        };
+        close(here(Sweep::Up), &[0.777_626_654_634_881_8, 2.644_018_587_785_435]);
+        close(here(Sweep::Down), &[2.797_349_151_953_767_4]);
+    }
+
+    #[test]
+    fn scattered_starts_find_both() {
+        let plan = DiagramPlan { direction: Direction::Scatter { starts: 12, seed: 1 }, ..plan("0.75:0.75:1") };
+        let found = run(&S, &plan);
+        let mut sizes: Vec<usize> = found.steps.iter().map(|step| step.points.len()).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        assert_eq!(sizes, [1, 2]);
+        assert_eq!(found.steps[7].sweep, Sweep::Start(7));
+    }
+
+    /// Damped, below resonance: from a large gap the motion without impacts is carried down to the gap it just clears, and
+    /// up again only further out.
+    #[test]
+    fn a_motion_without_impacts_is_carried_too() {
+        let system = SystemPlan { inverse_beta: Some(0.7), restitution: 0.8, damping: 0.01, ..S };
+        let plan = plan("0:3:61");
+        let found = run(&system, &plan);
+        let free = plan.oscillator(&system, 1.0).unwrap().free_amplitude();
+        for step in found.steps.iter().filter(|step| step.sweep == Sweep::Down) {
+            let gap = plan.over.at(step.index);
+            assert_eq!(step.kind == Kind::NoImpact, gap > free, "gap {gap}: {:?}", step.kind);
+        }
+        let lost = |sweep| found.steps.iter().filter(|s| s.sweep == sweep && s.kind == Kind::NoImpact).count();
+        assert!(lost(Sweep::Up) < lost(Sweep::Down), "{} {}", lost(Sweep::Up), lost(Sweep::Down));
+    }
+}

@@ -1,0 +1,195 @@
+//! The impacts of a motion once its transient is over.
+
+use super::follow::{Found, Kind, Point, SAME, along, budget};
+use vibroimpact::flight::SearchLimits;
+use vibroimpact::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
+use vibroimpact::system::phase;
+use vibroimpact::verdict::graze_limit;
+use vibroimpact::{Oscillator, Start};
+
+/// Follows the motion of `osc` from `start` for `transient` impacts and keeps the `keep` after them, fewer if they repeat
+/// themselves; a motion that ends has none to show.
+pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, keep: u64) -> Found {
+    let budget = budget(transient, keep);
+    let mut motion = Motion::new(osc, start);
+    let mut points: Vec<Point> = Vec::new();
+    let (mut events, mut struck, mut touches) = (0, 0, 0);
+    let mut fading = Fading::default();
+    while motion.steps() + events < budget {
+        let Some(event) = motion.next() else {
+            return ended(osc, &motion, start, transient);
+        };
+        events += 1;
+        match event.kind {
+            EventKind::Impact { velocity_before: velocity, .. } => {
+                (struck, touches) = (struck + 1, 0);
+                let state = ImpactState { phase: event.phase, velocity, side: event.side };
+                if fading.recognised(osc, state, event.time) {
+                    return halfway(osc, motion, start, Kind::NoImpact);
+                }
+                if struck <= transient {
+                    continue;
+                }
+                let point = Point::Impact { phase: state.phase, velocity, side: state.side };
+                let again = points.first().is_some_and(|first| same(first, &point));
+                if !again {
+                    points.push(point);
+                }
+                if again || struck - transient >= keep {
+                    return Found { kind: Kind::Impacts, points, last: state.rebound(osc) };
+                }
+            }
+            EventKind::Stick { chatter: true, .. } if !points.is_empty() => {
+                points.push(Point::Chatter { phase: event.phase, side: event.side });
+            }
+            EventKind::Graze { .. } => {
+                touches += 1;
+                if touches > MAX_TOUCHES {
+                    return halfway(osc, motion, start, Kind::NoImpact);
+                }
+            }
+            EventKind::Stick { .. } | EventKind::Release => {}
+        }
+    }
+    halfway(osc, motion, start, Kind::Undecided)
+}
+
+fn same(a: &Point, b: &Point) -> bool {
+    match (a, b) {
+        (Point::Impact { phase: p, velocity: u, side: here }, Point::Impact { phase: q, velocity: w, side: there }) => {
+            here == there && phase::difference(*q, *p).abs() <= SAME && (w - u).abs() <= SAME * u.abs()
+        }
+        _ => false,
+    }
+}
+
+/// The last impacts, for the law by which impacts fade away without damping.
+#[derive(Default)]
+struct Fading {
+    run: Vec<(ImpactState, f64)>,
+    time: f64,
+}
+
+impl Fading {
+    fn recognised(&mut self, osc: &Oscillator, state: ImpactState, time: f64) -> bool {
+        if self.run.len() >= graze_limit::RUN {
+            self.run.remove(0);
+        }
+        self.run.push((state, time - self.time));
+        self.time = time;
+        graze_limit::recognised(osc, &self.run)
+    }
+}
+
+/// Nothing comes any more: why, and the state some time into the flight or rest without end.
+fn ended(osc: &Oscillator, motion: &Motion<'_>, start: Start, transient: u64) -> Found {
+    #[allow(clippy::cast_precision_loss)] // at most 1e6
+    let later = transient.max(1) as f64 * osc.period();
+    let (kind, later) = match motion.end() {
+        Some(End::Never(_)) => (Kind::NoImpact, later),
+        Some(End::Stuck(_)) => (Kind::Stuck, later),
+        // a search that reached its horizon, or one that ran out of steps before
+        Some(End::NoneFor(time)) if time >= 0.999 * SearchLimits::default().horizon(osc) => {
+            (Kind::NoImpact, later.min(time))
+        }
+        Some(End::NoneFor(time)) => (Kind::Undecided, later.min(time)),
+        None => (Kind::Undecided, 0.0),
+    };
+    let last = motion.leg().map_or(start, |leg| along(osc, leg, later));
+    Found { kind, points: Vec::new(), last }
+}
+
+/// Followed no further; the state is that halfway to the next event.
+fn halfway(osc: &Oscillator, mut motion: Motion<'_>, start: Start, kind: Kind) -> Found {
+    let part = if motion.next().is_some() { 0.5 } else { 0.0 };
+    let last = motion.leg().map_or(start, |leg| along(osc, leg, if part > 0.0 { part * leg.duration } else { 0.0 }));
+    Found { kind, points: Vec::new(), last }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vibroimpact::{Side, scenario};
+
+    fn velocities(found: &Found) -> Vec<f64> {
+        let mut list: Vec<f64> = found
+            .points
+            .iter()
+            .filter_map(|point| match point {
+                Point::Impact { velocity, .. } => Some(*velocity),
+                _ => None,
+            })
+            .collect();
+        list.sort_by(f64::total_cmp);
+        list
+    }
+
+    /// The cycles at S, found by Newton's method (`vibro orbit`) and known from the closed form of 1/1.
+    #[test]
+    fn a_cycle_is_shown_once_with_its_very_velocities() {
+        let osc = scenario::S.oscillator();
+        let two = after_transients(&osc, Start::at_rest(&osc), 500, 64);
+        let one = after_transients(&osc, Start { x: 0.75, v: -1.4, phase: 1.19 }, 500, 64);
+        for (found, expected) in
+            [(&two, vec![0.777_626_654_634_881_8, 2.644_018_587_785_435]), (&one, vec![2.797_349_151_953_767_4])]
+        {
+            let got = velocities(found);
+            assert_eq!(got.len(), expected.len(), "{got:?}");
+            assert!(got.iter().zip(&expected).all(|(g, e)| (g - e).abs() < 1e-12), "{got:?}");
+        }
+        let Point::Impact { phase, .. } = one.points[0] else { panic!() };
+        assert!((phase - 1.190_509_613_787_888_5).abs() < 1e-12);
+        // and from where it was left it goes on as the same motion
+        assert_eq!(velocities(&after_transients(&osc, one.last, 0, 64)).len(), 1);
+    }
+
+    #[test]
+    fn without_return_as_many_as_asked_for() {
+        let osc = scenario::U.oscillator();
+        assert_eq!(after_transients(&osc, Start::at_rest(&osc), 50, 30).points.len(), 30);
+    }
+
+    #[test]
+    fn ends_are_results() {
+        // the amplitudes stay short of the stop
+        let free = Oscillator::new(1.0 / 0.7, 4.0, 0.5).unwrap();
+        let found = after_transients(&free, Start::at_rest(&free), 500, 64);
+        assert_eq!((found.kind, found.points.len()), (Kind::NoImpact, 0));
+        // pressed for ever, from a start that flies first
+        let pressed = Oscillator::new(0.9, -1.5, 0.5).unwrap();
+        let found = after_transients(&pressed, Start { x: -3.0, v: 0.0, phase: 0.0 }, 0, 64);
+        assert_eq!((found.kind, found.points.len(), found.last.x, found.last.v), (Kind::Stuck, 0, -1.5, 0.0));
+        // touches without impacts
+        let grazing = Oscillator::new(2.0, 3.0, 0.5).unwrap();
+        let found = after_transients(&grazing, Start { x: 3.0, v: 0.0, phase: 2.0 }, 0, 64);
+        assert_eq!(found.kind, Kind::NoImpact);
+        assert!(found.last.x < 3.0);
+    }
+
+    /// Ever gentler impacts end as "no impact", not as impacts of 1e-5, however short the transient.
+    #[test]
+    fn impacts_that_fade_away_are_none() {
+        let osc = scenario::Q.oscillator();
+        let mut none = 0;
+        for k in 0..60 {
+            let start = Start { x: 1.5 - 0.05 * f64::from(k), v: 0.3 + 0.02 * f64::from(k), phase: 0.0 };
+            for transient in [10, 15, 20, 500] {
+                let found = after_transients(&osc, start, transient, 5);
+                none += u32::from(found.kind == Kind::NoImpact);
+                let fastest = velocities(&found).pop();
+                assert!(fastest.is_none_or(|u| u > 1e-4), "{start:?}: {found:?}");
+            }
+        }
+        assert!(none > 20, "{none}");
+    }
+
+    /// A complete chatter in each forcing period: falling speeds, and the end of it at speed 0.
+    #[test]
+    fn a_chatter_has_its_end() {
+        let osc = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();
+        let found = after_transients(&osc, Start::at_rest(&osc), 500, 64);
+        assert_eq!(found.kind, Kind::Impacts);
+        let ends = found.points.iter().filter(|p| matches!(p, Point::Chatter { side: Side::Upper, .. })).count();
+        assert_eq!(ends, 1, "one period of it: {:?}", found.points);
+    }
+}

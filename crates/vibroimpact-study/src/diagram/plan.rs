@@ -1,0 +1,181 @@
+//! What an orbit diagram asks: which parameter varies over what, from which starts, and what is shown.
+
+use crate::{Parameter, PlanError, Span, SystemPlan};
+use serde::{Deserialize, Serialize};
+use vibroimpact::Oscillator;
+
+/// Impacts or forcing periods that are followed before anything is shown, where no number is given.
+pub const DEFAULT_TRANSIENT: u64 = 500;
+/// Impacts or states shown at each value, where no number is given.
+pub const DEFAULT_KEEP: u64 = 64;
+
+/// One parameter over a range, and what is shown of the motion at each value.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DiagramPlan {
+    /// The parameter that varies; its value in the system counts for nothing.
+    pub vary: Parameter,
+    /// Its values.
+    pub over: Span,
+    /// What is shown.
+    #[serde(default)]
+    pub show: Show,
+    /// From which starts.
+    #[serde(default)]
+    pub direction: Direction,
+    /// Impacts (for [`Show::Velocity`]) or forcing periods (for [`Show::Strobe`]) before anything is shown.
+    #[serde(default = "transient")]
+    pub transient: u64,
+    /// Impacts or states shown at each value, at most: a motion that repeats itself is shown once.
+    #[serde(default = "keep")]
+    pub keep: u64,
+}
+
+const fn transient() -> u64 {
+    DEFAULT_TRANSIENT
+}
+
+const fn keep() -> u64 {
+    DEFAULT_KEEP
+}
+
+/// What is shown of a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Show {
+    /// Phase and speed of arrival of its impacts.
+    #[default]
+    Velocity,
+    /// Position and velocity once in every forcing period, at phase 0.
+    Strobe,
+}
+
+/// From which starts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Direction {
+    /// Values rise, and the last state at one is the start at the next.
+    Up,
+    /// The same with falling values.
+    Down,
+    /// Both of these, one after the other: where they differ, motions coexist.
+    #[default]
+    Both,
+    /// Several scattered starts at each value, nothing is carried on.
+    Scatter {
+        /// How many.
+        starts: u64,
+        /// Which sequence of them.
+        #[serde(default)]
+        seed: u64,
+    },
+}
+
+/// Most impacts or periods of a transient: a few seconds at each value.
+const MOST_TRANSIENT: u64 = 1_000_000;
+/// Most impacts or states kept at a value.
+const MOST_KEPT: u64 = 100_000;
+/// The most points one run keeps in memory.
+const MOST_POINTS: u64 = 20_000_000;
+
+impl DiagramPlan {
+    /// Checks everything that can be checked without running it.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first value that makes no sense.
+    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        let (a, b) = self.over.ends();
+        for value in [a, b] {
+            self.oscillator(system, value)?;
+        }
+        if self.transient > MOST_TRANSIENT {
+            return Err(PlanError::Transient { given: self.transient, most: MOST_TRANSIENT });
+        }
+        if !(1..=MOST_KEPT).contains(&self.keep) {
+            return Err(PlanError::Keep { given: self.keep, most: MOST_KEPT });
+        }
+        if let Direction::Scatter { starts, .. } = self.direction
+            && !(1..=1_000_000_000).contains(&starts)
+        {
+            return Err(PlanError::Starts(starts));
+        }
+        let (columns, rows) = (u64::from(self.over.count()), self.runs() * self.keep);
+        if columns.saturating_mul(rows) > MOST_POINTS {
+            return Err(PlanError::Size { what: "points", columns, rows, most: MOST_POINTS });
+        }
+        Ok(())
+    }
+
+    /// The oscillator at a value of the parameter; everything else as in `system`.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a value that gives no legal system.
+    pub fn oscillator(&self, system: &SystemPlan, value: f64) -> Result<Oscillator, PlanError> {
+        self.vary.set(system, value)?.oscillator()
+    }
+
+    /// Motions followed at each value.
+    #[must_use]
+    pub const fn runs(&self) -> u64 {
+        match self.direction {
+            Direction::Up | Direction::Down => 1,
+            Direction::Both => 2,
+            Direction::Scatter { starts, .. } => starts,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Plan, Task};
+
+    #[test]
+    fn a_plan_survives_json_and_short_ones_are_filled_in() {
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let direction = Direction::Scatter { starts: 9, seed: 4 };
+        let over = "0:3:601".parse().unwrap();
+        let task = DiagramPlan { vary: Parameter::Gap, over, show: Show::Strobe, direction, transient: 7, keep: 3 };
+        let plan = Plan::new(system, Task::Diagram(task));
+        let text = serde_json::to_string(&plan).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        let short: DiagramPlan = serde_json::from_str(r#"{"vary": "inverse_beta", "over": "1:2:3"}"#).unwrap();
+        assert_eq!((short.direction, short.show), (Direction::Both, Show::Velocity));
+        assert_eq!((short.transient, short.keep), (DEFAULT_TRANSIENT, DEFAULT_KEEP));
+        for wrong in
+            [text.replace("keep", "kept"), text.replace("seed", "sed"), text.replace("gap\",\"over", "gup\",\"over")]
+        {
+            assert!(serde_json::from_str::<Plan>(&wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let good = DiagramPlan {
+            vary: Parameter::Gap,
+            over: "0:3:601".parse().unwrap(),
+            show: Show::Velocity,
+            direction: Direction::Both,
+            transient: 500,
+            keep: 64,
+        };
+        assert_eq!(good.check(&system), Ok(()));
+        let over = |text: &str| text.parse::<Span>().unwrap();
+        for (plan, sentence) in [
+            (DiagramPlan { vary: Parameter::Beta, ..good }, "frequency ratio beta = 0 lies outside"),
+            (DiagramPlan { vary: Parameter::Restitution, ..good }, "restitution eps = 3 lies outside"),
+            (DiagramPlan { vary: Parameter::SecondGap, ..good }, "second_gap is to vary, but there is no second stop"),
+            (
+                DiagramPlan { transient: 2_000_000, ..good },
+                "transient = 2000000 lies outside 0 <= transient <= 1000000",
+            ),
+            (DiagramPlan { keep: 0, ..good }, "keep = 0 lies outside 1 <= keep <= 100000"),
+            (DiagramPlan { direction: Direction::Scatter { starts: 0, seed: 0 }, ..good }, "starts = 0 lies outside"),
+            (DiagramPlan { over: over("0:3:1000000"), ..good }, "128 x 1000000 = 128000000 points; at most 20000000"),
+        ] {
+            let message = plan.check(&system).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}
