@@ -2,7 +2,15 @@
 
 use crate::{Control, Stopped, tiles};
 use vibroimpact::Oscillator;
-use vibroimpact::verdict::{Census, SettleOptions, StartBox, scattered_starts, settle};
+use vibroimpact::lanes::Width;
+use vibroimpact::verdict::{Atlas, Census, SettleOptions, StartBox, scattered_starts, settle_many};
+
+/// Starts of a tile.
+const TILE: u64 = 1024;
+/// Starts settled beforehand, to know the cycles and their traps ...
+const SURVEY: u64 = 24;
+/// ... where there are more starts than this.
+const WORTH_A_SURVEY: u64 = 500;
 
 /// Settles `starts` scattered starts of the box and counts the distinct motions; the same as
 /// [`vibroimpact::verdict::attractors`], but over threads.
@@ -16,18 +24,15 @@ pub fn attractors(
     options: &SettleOptions,
     control: &Control<'_>,
 ) -> Result<Census, Stopped> {
-    let parts = tiles(starts, 16, control, |range, tick| {
-        let mut census = Census::default();
-        for index in range {
-            census.add(&settle(osc, scattered_starts(osc, area, seed, index), options).verdict);
-            if tick() {
-                break;
-            }
-        }
-        census
+    let start = |index: u64| scattered_starts(osc, area, seed, index);
+    // small questions are not worth a survey
+    let surveyed = if starts > WORTH_A_SURVEY { SURVEY } else { 0 };
+    let atlas = Atlas::survey(osc, (0..surveyed).map(start), options);
+    let parts = tiles(starts, TILE, control, |range, tick| {
+        settle_many(osc, range, start, &atlas, options, Width::best(), tick).motions
     })?;
     let mut merged = Census::default();
-    for found in parts.iter().flat_map(|part| part.motions()) {
+    for found in parts.iter().flatten() {
         merged.add_found(found);
     }
     Ok(merged)

@@ -1,7 +1,8 @@
 //! Which motion each start of a plane leads to.
 
 use crate::{BasinPlan, Control, PlanError, Stopped, tiles};
-use vibroimpact::verdict::{Census, Found, SettleOptions, settle};
+use vibroimpact::lanes::Width;
+use vibroimpact::verdict::{Atlas, Census, Found, SettleOptions, settle_many};
 use vibroimpact::{Oscillator, Start};
 
 /// The motions of a basin and, for every start, which of them it leads to.
@@ -56,7 +57,9 @@ impl Basin {
 }
 
 /// Points of a tile: large enough that merging costs nothing, small enough to stop quickly and share evenly.
-const TILE: u64 = 512;
+const TILE: u64 = 4096;
+/// Starts settled beforehand, spread over the plane, to know its cycles and their traps.
+const SURVEY: u64 = 24;
 
 /// Settles every start of the plane.
 ///
@@ -69,22 +72,19 @@ pub fn basin(
     control: &Control<'_>,
 ) -> Result<Basin, RunError> {
     let total = plan.starts(osc)?;
+    let start = |k: u64| Basin::start(plan, osc, k);
+    let atlas = Atlas::survey(osc, (0..SURVEY.min(total)).map(|k| start(total / SURVEY.min(total) * k)), options);
     let parts = tiles(total, TILE, control, |range, tick| {
-        let mut census = Census::default();
-        let mut cells = Vec::new();
-        for k in range {
-            cells.push(census.add(&settle(osc, Basin::start(plan, osc, k), options).verdict));
-            if tick() {
-                break;
-            }
-        }
-        (census, cells)
+        let settlement = settle_many(osc, range, start, &atlas, options, Width::best(), tick);
+        let cells: Vec<u16> = settlement.cells.iter().map(|&cell| u16::try_from(cell).unwrap_or(u16::MAX)).collect();
+        (settlement.motions, cells)
     })?;
     let mut merged = Census::default();
-    let mut all = Vec::new();
-    for (census, cells) in parts {
-        let numbers: Vec<usize> = census.motions().iter().map(|found| merged.add_found(found)).collect();
-        all.extend(cells.into_iter().map(|local| u16::try_from(numbers[local]).unwrap_or(u16::MAX)));
+    let mut all = Vec::with_capacity(usize::try_from(total).unwrap_or(0));
+    for (motions, cells) in parts {
+        let numbers: Vec<u16> =
+            motions.iter().map(|found| u16::try_from(merged.add_found(found)).unwrap_or(u16::MAX)).collect();
+        all.extend(cells.into_iter().map(|local| numbers[usize::from(local)]));
     }
     Ok(Basin { plan: *plan, motions: merged.motions().to_vec(), cells: all })
 }

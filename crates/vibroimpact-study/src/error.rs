@@ -43,6 +43,25 @@ pub enum PlanError {
     /// A number of forcing periods that makes no sense.
     #[error("periods = {0} lies outside 0 < periods <= 1e9")]
     Periods(f64),
+    /// A transient that is too long.
+    #[error("transient = {given} lies outside 0 <= transient <= {most}")]
+    Transient {
+        /// What was asked.
+        given: u64,
+        /// The most allowed.
+        most: u64,
+    },
+    /// A number of impacts or states to keep that makes no sense.
+    #[error("keep = {given} lies outside 1 <= keep <= {most}")]
+    Keep {
+        /// What was asked.
+        given: u64,
+        /// The most allowed.
+        most: u64,
+    },
+    /// A parameter of a second stop where there is only one.
+    #[error("{0} is to vary, but there is no second stop\nhint: a second stop has a gap and a restitution of its own")]
+    NoSecondStop(&'static str),
     /// More results than fit any memory.
     #[error(
         "{rows} x {columns} = {total} {what}; at most {most} are allowed\nhint: fewer values, or several smaller runs",

@@ -12,19 +12,25 @@
 //! | which motion each start of a plane leads to | [`basin`] |
 //! | which motions there are at each point of a parameter plane | [`map`] |
 //! | the motions of one system from many starts | [`attractors`] |
+//! | the motion after its transient at each value of a parameter | [`diagram()`], [`mod@diagram`] |
+//! | the parameters by name | [`Parameter`] |
 
 mod attractors;
 mod basin;
 mod control;
+pub mod diagram;
 mod error;
 mod map;
+mod parameter;
 mod plan;
 mod span;
 
 pub use attractors::attractors;
 pub use basin::{Basin, RunError, basin};
 pub use control::{Control, Stopped, tiles};
+pub use diagram::{Diagram, DiagramPlan, diagram};
 pub use error::PlanError;
 pub use map::{MapPoint, RegionMap, Share, map};
+pub use parameter::Parameter;
 pub use plan::{BasinPlan, MapPlan, PLAN_VERSION, Plan, SecondStop, StartPlan, SystemPlan, Task};
 pub use span::Span;

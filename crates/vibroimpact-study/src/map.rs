@@ -3,7 +3,8 @@
 use crate::basin::RunError;
 use crate::{Control, MapPlan, SystemPlan, tiles};
 use vibroimpact::Oscillator;
-use vibroimpact::verdict::{Census, SettleOptions, StartBox, Verdict, scattered_starts, settle};
+use vibroimpact::lanes::Width;
+use vibroimpact::verdict::{Atlas, Found, SettleOptions, StartBox, Verdict, scattered_starts, settle_many};
 
 /// A motion at a point, and the share of starts that led to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,12 +54,12 @@ pub fn map(
             // indices of a grid with at most 1e6 values a side
             let (x, gap) = (plan.inverse_beta.at((k % columns) as u32), plan.gap.at((k / columns) as u32));
             points.push(MapPlan::point(system, x, gap).map(|osc| {
-                let census = census(&osc, plan, options);
-                let motions = census
-                    .by_share()
-                    .into_iter()
-                    .map(|found| Share { verdict: found.verdict.clone(), share: census.share(found) })
-                    .collect();
+                let mut found = settlement(&osc, plan, options);
+                found.sort_by_key(|found| core::cmp::Reverse(found.count));
+                #[allow(clippy::cast_precision_loss)] // counts below 2^53
+                let share = |count: u64| count as f64 / plan.starts as f64;
+                let motions =
+                    found.into_iter().map(|f| Share { verdict: f.verdict, share: share(f.count) }).collect();
                 MapPoint { inverse_beta: x, gap, motions }
             }));
             if tick() {
@@ -71,13 +72,10 @@ pub fn map(
     Ok(RegionMap { plan: *plan, points })
 }
 
-fn census(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions) -> Census {
+fn settlement(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions) -> Vec<Found> {
     let area = StartBox::natural(osc);
-    let mut census = Census::default();
-    for index in 0..plan.starts {
-        census.add(&settle(osc, scattered_starts(osc, area, plan.seed, index), options).verdict);
-    }
-    census
+    let start = |index: u64| scattered_starts(osc, area, plan.seed, index);
+    settle_many(osc, 0..plan.starts, start, &Atlas::default(), options, Width::best(), &|| false).motions
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! Threads, output files and progress bars are no part of it. Absent fields have one meaning each, stated here; unknown
 //! fields are errors, so that a misspelt parameter cannot be ignored.
 
-use crate::{PlanError, Span};
+use crate::{DiagramPlan, PlanError, Span};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Label, Oscillator, Start};
 
@@ -16,7 +16,7 @@ pub const PLAN_VERSION: u32 = 1;
 pub struct Plan {
     /// [`PLAN_VERSION`].
     pub version: u32,
-    /// The oscillator. For a map, its frequency and gap are those of the first point.
+    /// The oscillator. For a map, its frequency and gap are those of the first point; for a diagram, what varies is.
     pub system: SystemPlan,
     /// What is asked of it.
     pub task: Task,
@@ -59,6 +59,7 @@ impl Plan {
                 starts(map.starts)?;
                 map.oscillators(&self.system).map(|_| ())
             }
+            Task::Diagram(diagram) => diagram.check(&self.system),
         }
     }
 }
@@ -175,6 +176,8 @@ pub enum Task {
     Basin(BasinPlan),
     /// Which motions there are at each point of a parameter plane.
     Map(MapPlan),
+    /// The motion after its transient at each value of a parameter.
+    Diagram(DiagramPlan),
 }
 
 /// The starts of a basin: a grid over position and velocity at one phase.

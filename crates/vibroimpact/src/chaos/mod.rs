@@ -37,7 +37,7 @@ pub struct Spectrum {
 }
 
 /// How far each flight is followed: a motion with longer ones is not one whose exponents can be measured.
-const LIMITS: SearchLimits = SearchLimits { periods: 1000.0, steps: 2_000 };
+pub(crate) const LIMITS: SearchLimits = SearchLimits { periods: 1000.0, steps: 2_000 };
 /// Blocks the run is divided into.
 const BLOCKS: u32 = 25;
 
@@ -54,36 +54,86 @@ const BLOCKS: u32 = 25;
 /// ```
 #[must_use]
 pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spectrum> {
-    let per_block = (impacts / BLOCKS).max(1);
-    let (mut first, mut second, mut rate) = (Vec::new(), Vec::new(), Vec::new());
-    let mut state = from;
-    let (mut u, mut w) = ([1.0, 0.0], [0.0, 1.0]);
-    for _ in 0..BLOCKS {
-        let (mut time, mut one, mut two) = (Sum::default(), Sum::default(), Sum::default());
-        for _ in 0..per_block {
-            let Mapped::Impact { state: next, interval } = impact_map(osc, &state, LIMITS) else {
-                return None;
-            };
-            let d = derivative(osc, &state, &next, interval);
-            (u, w) = (d.apply(u), d.apply(w));
-            let along = hypot(u[0], u[1]);
-            u = [u[0] / along, u[1] / along];
-            // the part of w across u is the area over the length
-            let across = (u[0] * w[1] - u[1] * w[0]).abs();
-            w = [-u[1], u[0]];
-            one.add(ln(along));
-            two.add(ln(across));
-            time.add(interval);
-            state = next;
-        }
-        let t = time.value();
-        first.push((one.value() / t, t));
-        second.push((two.value() / t, t));
-        rate.push((f64::from(per_block) / t * osc.period(), t));
+    let mut measure = Measure::new(from, impacts);
+    while !measure.complete() {
+        let Mapped::Impact { state, interval } = impact_map(osc, &measure.state, LIMITS) else {
+            return None;
+        };
+        measure.impact(osc, state, interval);
     }
-    let exponents = [mean(&first), mean(&second)];
-    // eps = 0 contracts one direction to nothing
-    exponents[0].value.is_finite().then(|| Spectrum { exponents, impacts_per_period: mean(&rate), last: state })
+    measure.spectrum(osc)
+}
+
+/// A measurement under way, fed impact by impact.
+#[derive(Clone, Debug)]
+pub(crate) struct Measure {
+    /// The last impact.
+    pub(crate) state: ImpactState,
+    u: [f64; 2],
+    w: [f64; 2],
+    per_block: u32,
+    /// Impacts of the present block.
+    count: u32,
+    time: Sum,
+    one: Sum,
+    two: Sum,
+    /// Per block: mean of both exponents and of the impacts per unit of time, and the time.
+    blocks: Vec<([f64; 3], f64)>,
+}
+
+impl Measure {
+    /// From an impact on, over so many further ones.
+    pub(crate) fn new(from: ImpactState, impacts: u32) -> Self {
+        Self {
+            state: from,
+            u: [1.0, 0.0],
+            w: [0.0, 1.0],
+            per_block: (impacts / BLOCKS).max(1),
+            count: 0,
+            time: Sum::default(),
+            one: Sum::default(),
+            two: Sum::default(),
+            blocks: Vec::with_capacity(BLOCKS as usize),
+        }
+    }
+
+    /// Whether all impacts are in.
+    pub(crate) fn complete(&self) -> bool {
+        self.blocks.len() >= BLOCKS as usize
+    }
+
+    /// The next impact, `interval` after the last one.
+    pub(crate) fn impact(&mut self, osc: &Oscillator, next: ImpactState, interval: f64) {
+        let d = derivative(osc, &self.state, &next, interval);
+        let (u, w) = (d.apply(self.u), d.apply(self.w));
+        let along = hypot(u[0], u[1]);
+        self.u = [u[0] / along, u[1] / along];
+        // the part of w across u is the area over the length
+        let across = (self.u[0] * w[1] - self.u[1] * w[0]).abs();
+        self.w = [-self.u[1], self.u[0]];
+        self.one.add(ln(along));
+        self.two.add(ln(across));
+        self.time.add(interval);
+        self.state = next;
+        self.count += 1;
+        if self.count == self.per_block {
+            let t = self.time.value();
+            let means = [self.one.value() / t, self.two.value() / t, f64::from(self.per_block) / t];
+            self.blocks.push((means, t));
+            (self.count, self.time, self.one, self.two) = (0, Sum::default(), Sum::default(), Sum::default());
+        }
+    }
+
+    /// The exponents of all complete blocks; `None` where restitution 0 contracts one direction to nothing.
+    pub(crate) fn spectrum(&self, osc: &Oscillator) -> Option<Spectrum> {
+        let of = |k: usize, scale: f64| {
+            let values: Vec<(f64, f64)> = self.blocks.iter().map(|(means, t)| (means[k] * scale, *t)).collect();
+            mean(&values)
+        };
+        let exponents = [of(0, 1.0), of(1, 1.0)];
+        let impacts_per_period = of(2, osc.period());
+        exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, last: self.state })
+    }
 }
 
 /// The time-weighted mean of the blocks and three standard errors of it.

@@ -163,13 +163,12 @@ impl Batch {
         (contact, steps)
     }
 
-    /// Whether the leg that follows the last impact of a slot is not a flight.
+    /// Whether the leg that follows an impact is not a flight.
     #[must_use]
-    pub fn settles(&self, slot: u32) -> bool {
-        let row = &self.slots.launches[slot as usize];
-        let side = if row[SIDE] < 0.0 { Side::Lower } else { Side::Upper };
-        row[V] == 0.0
-            || chatter::completion(&self.osc, side, row[PHASE], row[V].abs(), chatter::DEFAULT_SMALLNESS).is_some()
+    pub fn settles_after(&self, state: &ImpactState) -> bool {
+        let rebound = state.rebound(&self.osc).v.abs();
+        rebound == 0.0
+            || chatter::completion(&self.osc, state.side, state.phase, rebound, chatter::DEFAULT_SMALLNESS).is_some()
     }
 
     fn refine(&mut self, slot: u32) {
@@ -193,7 +192,7 @@ impl Batch {
     }
 
     fn sum_chatter(&mut self, slot: u32) {
-        if self.settles(slot) {
+        if self.settles_after(&self.arrival(slot).0) {
             self.settling.push(slot);
         }
     }

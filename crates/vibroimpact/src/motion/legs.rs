@@ -3,7 +3,7 @@
 //! Time is set back to zero at each event and the phase advanced instead; the total is a compensated sum. So the state
 //! a motion carries is phase and velocity at the stop, and nothing in it grows old.
 
-use super::{End, Event, EventKind};
+use super::{End, Event, EventKind, ImpactState};
 use crate::contact::{chatter, sticking};
 use crate::flight::{Contact, Flight, SearchLimits};
 use crate::lanes::{self, Stride};
@@ -92,6 +92,15 @@ impl<'a> Motion<'a> {
     #[must_use]
     pub fn with_limits(osc: &'a Oscillator, start: Start, limits: SearchLimits) -> Self {
         Self::begin(osc, limits, Mode::Flying(Flight::new(osc, start)))
+    }
+
+    /// The motion that follows an impact.
+    #[must_use]
+    pub fn after(osc: &'a Oscillator, state: &ImpactState, limits: SearchLimits) -> Self {
+        let mut motion = Self::begin(osc, limits, Mode::Ended(End::Stuck(state.side)));
+        let rebound = osc.stop(state.side).map_or(0.0, |stop| stop.restitution) * state.velocity;
+        motion.mode = motion.after_impact(state.side, state.phase, rebound);
+        motion
     }
 
     /// The motion that follows a release from the stop on `side`, at the phase where the force lets go; over at once,

@@ -22,7 +22,7 @@ pub struct Census {
 }
 
 /// Two cycles closer than this in phase and relative velocity are one; both were refined to rounding.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 impl Census {
     /// Counts a motion of another census with all its starts, and returns its number here.

@@ -4,21 +4,27 @@
 //! |---|---|
 //! | the name m/n | [`Label`] |
 //! | what a motion can settle into | [`Verdict`] |
-//! | from a start to a verdict | [`settle`] |
+//! | from a start to a verdict | [`settle`], `follow` |
+//! | many starts side by side | [`settle_many`] |
+//! | neighbourhoods of cycles that no motion leaves | `trap` |
 //! | ever gentler impacts: the limit without impacts | [`graze_limit`] |
 //! | the 1971 paper's own rule | [`paper_rule`] |
 //! | the distinct motions from many starts, and their shares | [`Census`], [`attractors`] |
 
 mod attractors;
+mod follow;
 pub mod graze_limit;
 mod label;
+mod many;
 mod outcome;
 mod paper_rule;
 mod recurrence;
 mod settle;
+mod trap;
 
 pub use attractors::{Census, Found, StartBox, attractors, scattered_starts};
 pub use label::{Count, Label, LabelError};
+pub use many::{Atlas, Settlement, settle_many};
 pub use outcome::{NoImpact, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};
 pub use settle::{SettleOptions, Settled, settle};

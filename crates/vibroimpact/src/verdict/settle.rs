@@ -15,13 +15,12 @@
 //! - **stuck**: the force will never lift the mass again;
 //! - **undecided**: none of these within the budget; what was tried is in the verdict.
 
-use super::outcome::{NoImpact, Undecided, Verdict};
-use super::{graze_limit, recurrence};
-use crate::chaos::{Spectrum, lyapunov};
+use super::follow::{Follow, chaotic, ended};
+use super::outcome::Verdict;
+use crate::chaos::lyapunov;
 use crate::flight::SearchLimits;
-use crate::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
-use crate::orbit::{Cycle, DEFAULT_EVENTS, from_release, shoot};
-use crate::system::{Oscillator, Side, Start};
+use crate::motion::{EventKind, ImpactState, Motion};
+use crate::system::{Oscillator, Start};
 
 /// How far to follow a motion and how close is close.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,153 +80,60 @@ pub struct Settled {
 /// ```
 #[must_use]
 pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settled {
-    let mut follow = Follow {
-        osc,
-        options,
-        impacts: Vec::with_capacity(64),
-        released: [false; 2],
-        last_impact: 0.0,
-        candidate: None,
-        grazes: 0,
-        next_look: LOOK,
-    };
+    let mut follow = Follow::default();
     let mut motion = Motion::with_limits(osc, start, options.limits);
-    let (mut time, mut spectrum) = (0.0, None);
-    let done = |verdict, follow: &Follow<'_>, time| Settled { verdict, impacts: follow.impacts.len() as u64, time };
+    let (verdict, time) = drive(osc, options, &mut follow, &mut motion);
+    Settled { verdict, impacts: follow.count() as u64, time }
+}
+
+/// Follows a motion to its verdict; what was followed before is in `follow`. Also the time the motion took.
+pub(super) fn drive(
+    osc: &Oscillator,
+    options: &SettleOptions,
+    follow: &mut Follow,
+    motion: &mut Motion<'_>,
+) -> (Verdict, f64) {
+    let mut time = 0.0;
+    let before = follow.steps;
     // every event but an impact is followed by one or ends the motion, except runs of grazes, which are cut short
-    while follow.impacts.len() < options.max_impacts as usize && motion.steps() < options.max_steps {
+    while follow.within(options) {
         let Some(event) = motion.next() else {
-            let verdict = ended(osc, motion.end(), options.limits);
-            return done(verdict, &follow, time);
+            return (ended(osc, motion.end(), options.limits), time);
         };
         time = event.time;
+        follow.steps = before + motion.steps();
+        let interval = motion.leg().map_or(0.0, |leg| leg.duration);
         let shown = match event.kind {
             EventKind::Impact { velocity_before, .. } => {
                 let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
-                follow.impact(state, time)
+                follow.impact(osc, options, state, interval)
             }
-            EventKind::Graze { .. } => follow.graze(event.phase),
-            EventKind::Stick { .. } => None,
-            EventKind::Release => follow.release(event.side),
+            EventKind::Graze { .. } => follow.graze(event.phase, interval),
+            EventKind::Stick { .. } => follow.pass(interval),
+            EventKind::Release => follow.release(osc, event.side, interval),
         };
         if let Some(verdict) = shown {
-            return done(verdict, &follow, time);
+            return (verdict, time);
         }
-        let count = follow.impacts.len();
-        if count >= options.chaos_after as usize && spectrum.is_none() && matches!(event.kind, EventKind::Impact { .. })
+        if follow.wants_measure(options)
+            && let EventKind::Impact { .. } = event.kind
         {
-            spectrum = Some(lyapunov(osc, follow.impacts[count - 1].0, options.chaos_over));
-            if let Some(Some(found)) = &spectrum
-                && chaotic(found)
-            {
-                return done(Verdict::Chaotic(*found), &follow, time);
+            let spectrum = lyapunov(osc, follow.last(), options.chaos_over);
+            follow.spectrum = Some(spectrum);
+            if let Some(found) = spectrum.filter(chaotic) {
+                return (Verdict::Chaotic(found), time);
             }
         }
     }
-    // a last look, where the transient is as far gone as it will be
-    let last = follow.impacts.last().and_then(|(state, _)| lyapunov(osc, *state, options.chaos_over));
-    let verdict = match last.or(spectrum.flatten()) {
-        Some(found) if chaotic(&found) => Verdict::Chaotic(found),
-        spectrum => Verdict::Undecided(Undecided::Impacts { impacts: follow.impacts.len() as u64, spectrum }),
-    };
-    done(verdict, &follow, time)
-}
-
-fn chaotic(spectrum: &Spectrum) -> bool {
-    spectrum.exponents[0].value > spectrum.exponents[0].error
-}
-
-fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits) -> Verdict {
-    match end {
-        Some(End::Never(why)) => Verdict::NoImpact(NoImpact::Flight(why)),
-        Some(End::Stuck(side)) => Verdict::Stuck(side),
-        Some(End::NoneFor(time)) => {
-            let periods = time / osc.period();
-            if time >= 0.999 * limits.horizon(osc) {
-                Verdict::NoImpact(NoImpact::ForPeriods(periods.floor()))
-            } else {
-                Verdict::Undecided(Undecided::Search { periods })
-            }
-        }
-        None => Verdict::Undecided(Undecided::Search { periods: 0.0 }),
-    }
-}
-
-struct Follow<'a> {
-    osc: &'a Oscillator,
-    options: &'a SettleOptions,
-    /// Each impact and the time since the one before.
-    impacts: Vec<(ImpactState, f64)>,
-    /// The stops whose release was followed and did not come back.
-    released: [bool; 2],
-    last_impact: f64,
-    candidate: Option<Cycle>,
-    grazes: u32,
-    next_look: usize,
-}
-
-/// Impacts between looks for a recurrence, while there are few; later an eighth of those there are, so that the looks
-/// into a long chaotic motion stay cheap.
-const LOOK: usize = 16;
-/// Candidates for the period tried at each look.
-const TRIES: usize = 3;
-
-impl Follow<'_> {
-    fn impact(&mut self, state: ImpactState, time: f64) -> Option<Verdict> {
-        self.impacts.push((state, time - self.last_impact));
-        self.last_impact = time;
-        self.grazes = 0;
-        if graze_limit::recognised(self.osc, &self.impacts) {
-            return Some(Verdict::NoImpact(NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase }));
-        }
-        let count = self.impacts.len();
-        if count < self.next_look {
-            return None;
-        }
-        self.next_look = count + LOOK.max(count / 8);
-        if let Some(cycle) = &self.candidate
-            && recurrence::captured(self.osc, &state, cycle)
-        {
-            return self.candidate.take().map(Verdict::Periodic);
-        }
-        let found: Vec<(usize, u32)> =
-            recurrence::candidates(self.osc, &self.impacts, self.options.longest as usize, self.options.recurrence)
-                .take(TRIES)
-                .collect();
-        for (m, n) in found {
-            let Ok(cycle) = shoot(self.osc, state, u32::try_from(m).unwrap_or(u32::MAX), n) else {
-                continue;
-            };
-            if recurrence::captured(self.osc, &state, &cycle) {
-                return Some(Verdict::Periodic(cycle));
-            }
-            if cycle.stable() {
-                self.candidate = Some(cycle);
-                break;
-            }
-        }
-        None
-    }
-
-    fn graze(&mut self, phase: f64) -> Option<Verdict> {
-        self.grazes += 1;
-        (self.grazes > MAX_TOUCHES).then_some(Verdict::NoImpact(NoImpact::Grazing { phase }))
-    }
-
-    /// A release decides all that follows: if it leads back to itself, that is the cycle.
-    fn release(&mut self, side: Side) -> Option<Verdict> {
-        if core::mem::replace(&mut self.released[usize::from(side == Side::Lower)], true) {
-            return None;
-        }
-        from_release(self.osc, side, DEFAULT_EVENTS).map(Verdict::Periodic)
-    }
+    (follow.last_look(osc, options), time)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scenario;
-    use crate::verdict::{Count, Label};
+    use crate::system::Side;
+    use crate::verdict::{Count, Label, NoImpact};
 
     #[test]
     fn the_papers_points_from_rest() {

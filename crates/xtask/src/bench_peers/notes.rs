@@ -32,8 +32,8 @@ pub(super) const LABELS: &str = "\
 ## What the starts were called
 
 The labels of all rounds together. The peers visit the cells of one grid in one order, each as far as it comes in the time, so the
-shares should agree up to the number of starts. *stuck*: the mass came to rest on the stop, or no impact followed; *open*: no m up
-to 8.
+shares should agree up to the number of starts. *stuck*: the mass came to rest on the stop, where the paper's algorithm ends, or no
+impact followed; *open*: no m up to 8 after 120 impacts, as in a chatter that the peer does not complete.
 ";
 
 /// Before the table of accuracy.
@@ -46,6 +46,9 @@ repository hold against an independent search in high precision; so vibroimpact 
 code with it. A start is followed for at most PERIODS forcing periods, and up to where the mass comes to rest on the stop. N to U
 are the points of the paper, with random x in [-4, gap], v in [-4, 4] and phase. The starts near grazing are at 1/beta = 1.11, with
 the stop 1e-6 to 1e-4 below the first maximum of their flight.
+
+Two things make an impact wrong: it is missed, as by a scan or a long step over a short excursion, or its time is off. RK45 as
+it comes aims at relative errors of 1e-3, so nearly all of its times are off by more than the tolerance here.
 ";
 
 /// How to get the page again.
@@ -70,23 +73,22 @@ pub(super) fn fairness(rates: &Rates) -> String {
         "\
 ## What to keep in mind
 
-- The contenders take turns, so that what else the machine does falls on all of them alike. Time is wall-clock time, without the
-  start of the program and without compilation.
-- The baseline computes three sines at each step. The table avoids this and lets the compiler use vector instructions: it is the
-  fastest scan we could write, and it misses what the baseline misses. A shorter step would miss less and take longer.
+- The contenders take turns, so that what else the machine does falls on all of them alike; the ratios are steadier than the
+  rates. Time is wall-clock time, without the start of the program and without compilation.
+- The baseline computes two sines and a cosine at each step. The table avoids this and lets the compiler use vector instructions;
+  it misses what the baseline misses. A shorter step would miss less and take longer.
 - The safe search in C is what one gets by hand for this one system. It knows no damping, no second stop, no resonance and no
   chatter.
 - heyoka and SciPy solve far more general problems and do not know that the flight has a closed form. heyoka runs with a
   tolerance of 1e-12 and fast_math. From Python it must call a Python function at every impact; in the chaos runs that function
-  alone took {} of the time of one motion and {} of that of the batch, and the call costs some more. From C++ heyoka would be
-  faster by about that.
+  alone took {} of the time of one motion and {} of that of the batch, and the call costs some more. heyoka used from C++ would
+  be faster by about that.
 - SciPy follows few impacts in the time given, so its rates are less certain, and in the basin its last start counts by the part
   that was done. With RK45 as it comes the motion is not the true one for long; what is timed is then another motion of the same
   kind.
-- vibroimpact runs with one thread. Its lanes follow as many motions at once as there are in a vector register, and so does the
-  batch of heyoka. In the basin it does not count to 120: it stops when the motion is proven to have settled, and looks further
-  where it has not. It does more at each impact than the peers: the touch that is no impact, the chatter that ends and the
-  mass that sticks are results of their own.
+- vibroimpact runs with one thread. Its lanes follow several motions at once, and so does the batch of heyoka. In the basin it does
+  not count to 120: it stops when the motion is proven to have settled, and looks further where it has not. It does more at each
+  impact than the peers: the touch that is no impact, the chatter that ends and the mass that sticks are results of their own.
 ",
         per_cent(share("heyoka, one motion")),
         per_cent(share("heyoka, batch"))

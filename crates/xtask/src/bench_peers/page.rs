@@ -46,11 +46,11 @@ fn rates(found: &Findings<'_>) -> String {
     let _ = write!(
         text,
         "\nRates are medians of {rounds} rounds of {seconds} s each, ratios medians of the ratios to the baseline in the same \
-         round. {}",
+         round.\n{}",
         spread(&found.rates.rows)
     );
     for why in &found.rates.missing {
-        let _ = write!(text, "\nNot measured: {why}.");
+        let _ = write!(text, "\n\nNot measured: {why}.");
     }
     text.push('\n');
     text
@@ -60,7 +60,7 @@ fn rates(found: &Findings<'_>) -> String {
 fn spread(rows: &[Row]) -> String {
     let cells = rows.iter().flat_map(|row| row.cells.iter().flatten().map(|cell| (row.name, cell.spread)));
     cells.max_by(|a, b| a.1.total_cmp(&b.1)).map_or_else(String::new, |(name, spread)| {
-        format!("The rounds of one contender lay apart by up to {:.0} % of its median ({name}).", 100.0 * spread)
+        format!("The rounds of one contender were apart by up to {:.0} % of its median ({name}).", 100.0 * spread)
     })
 }
 

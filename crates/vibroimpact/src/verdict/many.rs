@@ -1,0 +1,415 @@
+//! Many starts of one oscillator settled side by side, to the same verdicts as one after another.
+//!
+//! The flights are those of a [`Batch`]; each motion is [followed](super::follow) as a single one would be, on the same
+//! impacts. What saves time is what is known already: a motion that falls into the [trap](super::trap) of a cycle needs no
+//! more following. Whatever the lanes do not fly is handed to a scalar [`Motion`], in the middle of its flight.
+//!
+//! The result does not depend on how the starts are divided: motions are told apart as [`Census`](super::Census) does, and the verdict that stands
+//! for each is what [`settle`] says of the first start that leads to it.
+
+use super::attractors::SAME;
+use super::follow::{Follow, chaotic, ended};
+use super::outcome::Verdict;
+use super::settle::{SettleOptions, drive, settle};
+use super::trap::Trap;
+use super::Found;
+use crate::chaos::{self, Measure, lyapunov};
+use crate::flight::Contact;
+use crate::lanes::{Batch, Width};
+use crate::motion::{End, ImpactState, Motion};
+use crate::system::{Oscillator, Start};
+use core::ops::Range;
+
+/// Cycles known beforehand, with their traps: worked out once, used by all parts of a large question.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Atlas {
+    known: Vec<(Verdict, Trap)>,
+}
+
+impl Atlas {
+    /// Settles these few starts one by one and keeps the cycles that have a trap.
+    #[must_use]
+    pub fn survey(osc: &Oscillator, starts: impl Iterator<Item = Start>, options: &SettleOptions) -> Self {
+        let mut atlas = Self::default();
+        for start in starts {
+            let verdict = settle(osc, start, options).verdict;
+            if let Verdict::Periodic(cycle) = &verdict
+                && !atlas.known.iter().any(|(other, _)| other.same_as(&verdict, SAME))
+                && let Some(trap) = Trap::around(osc, cycle)
+            {
+                atlas.known.push((verdict, trap));
+            }
+        }
+        atlas
+    }
+}
+
+/// What a range of starts leads to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settlement {
+    /// The distinct motions in the order of the first start that leads to each.
+    pub motions: Vec<Found>,
+    /// The number of its motion for each start; shorter if stopped.
+    pub cells: Vec<u32>,
+}
+
+/// Settles the starts with these numbers. `tick` is called after each and says whether to stop.
+///
+/// ```
+/// use vibroimpact::{Start, lanes::Width, scenario, verdict::{Atlas, SettleOptions, settle_many}};
+/// let osc = scenario::S.oscillator();
+/// let start = |k: u64| Start { x: 0.0, v: -4.0 + 0.01 * k as f64, phase: 0.0 };
+/// let options = SettleOptions::default();
+/// let atlas = Atlas::survey(&osc, (0..8).map(|k| start(100 * k)), &options);
+/// let settlement = settle_many(&osc, 0..800, start, &atlas, &options, Width::best(), &|| false);
+/// assert_eq!(settlement.motions.len(), 2);         // 1/1 and 2/1
+/// assert_eq!(settlement.cells.len(), 800);
+/// ```
+#[must_use]
+pub fn settle_many(
+    osc: &Oscillator,
+    range: Range<u64>,
+    start: impl Fn(u64) -> Start,
+    atlas: &Atlas,
+    options: &SettleOptions,
+    width: Width,
+    tick: &dyn Fn() -> bool,
+) -> Settlement {
+    let full = |k: u64| settle(osc, start(k), options).verdict;
+    let question = Question { osc, options, width, tick };
+    question.decide(range.clone(), &start, &atlas.known).settlement(range.start, full).unwrap_or_else(|| {
+        // the first start of each motion was settled in full, and that contradicts a trap: do without
+        let part = question.decide(range.clone(), &start, &[]);
+        part.settlement(range.start, full).unwrap_or_default()
+    })
+}
+
+/// A motion of this part, and the first starts that led to it.
+#[derive(Clone, Debug)]
+struct Local {
+    verdict: Verdict,
+    first: u64,
+    /// The first that was followed to its end, and what it gave.
+    followed: Option<(u64, Verdict)>,
+}
+
+/// What was decided of a range of starts.
+#[derive(Debug, Default)]
+struct Part {
+    motions: Vec<Local>,
+    /// The number of its motion for each start; [`OPEN`] if not decided.
+    cells: Vec<u32>,
+}
+
+const OPEN: u32 = u32::MAX;
+
+impl Part {
+    fn number(&mut self, verdict: &Verdict, index: u64) -> usize {
+        let known = self.motions.iter().position(|motion| motion.verdict.same_as(verdict, SAME));
+        known.unwrap_or_else(|| {
+            self.motions.push(Local { verdict: verdict.clone(), first: index, followed: None });
+            self.motions.len() - 1
+        })
+    }
+
+    fn caught(&mut self, place: usize, index: u64, verdict: &Verdict) {
+        let number = self.number(verdict, index);
+        self.motions[number].first = self.motions[number].first.min(index);
+        self.cells[place] = u32::try_from(number).unwrap_or(OPEN);
+    }
+
+    fn followed(&mut self, place: usize, index: u64, verdict: Verdict) {
+        self.caught(place, index, &verdict);
+        let motion = &mut self.motions[self.cells[place] as usize];
+        if motion.followed.as_ref().is_none_or(|(other, _)| index < *other) {
+            motion.followed = Some((index, verdict));
+        }
+    }
+
+    /// Motions in order of first appearance, each with the full verdict on its first start; `None` if that is another motion.
+    fn settlement(mut self, first: u64, full: impl Fn(u64) -> Verdict) -> Option<Settlement> {
+        self.cells.truncate(self.cells.iter().position(|&cell| cell == OPEN).unwrap_or(self.cells.len()));
+        let end = first + self.cells.len() as u64;
+        let mut order: Vec<usize> = (0..self.motions.len()).filter(|&k| self.motions[k].first < end).collect();
+        order.sort_by_key(|&k| self.motions[k].first);
+        let mut renamed = vec![OPEN; self.motions.len()];
+        let mut motions = Vec::with_capacity(order.len());
+        for (new, &old) in order.iter().enumerate() {
+            let motion = &self.motions[old];
+            let verdict = match &motion.followed {
+                Some((index, verdict)) if *index == motion.first => verdict.clone(),
+                _ => full(motion.first),
+            };
+            if !verdict.same_as(&motion.verdict, SAME) {
+                return None;
+            }
+            renamed[old] = u32::try_from(new).unwrap_or(OPEN);
+            motions.push(Found { verdict, count: 0 });
+        }
+        for cell in &mut self.cells {
+            *cell = renamed[*cell as usize];
+            motions[*cell as usize].count += 1;
+        }
+        Some(Settlement { motions, cells: self.cells })
+    }
+}
+
+/// A motion in a slot.
+#[derive(Debug)]
+struct Track {
+    place: usize,
+    follow: Follow,
+    /// The measurement for chaos under way, and the impact it began at, from where the motion goes on if it shows nothing.
+    measure: Option<(Measure, ImpactState)>,
+    done: bool,
+}
+
+struct Question<'a> {
+    osc: &'a Oscillator,
+    options: &'a SettleOptions,
+    width: Width,
+    tick: &'a dyn Fn() -> bool,
+}
+
+/// Motions under way at once: enough to fill the lanes, few enough to stay in the nearest cache.
+const SLOTS: usize = 192;
+
+impl Question<'_> {
+    fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, known: &[(Verdict, Trap)]) -> Part {
+        let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
+        let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
+        let batch = Batch::new(self.osc, SLOTS.min(count), self.width)
+            .filter(|batch| batch.longest() < self.options.limits.horizon(self.osc).min(chaos::LIMITS.horizon(self.osc)));
+        let Some(batch) = batch else {
+            for (place, index) in range.enumerate() {
+                part.followed(place, index, settle(self.osc, start(index), self.options).verdict);
+                if (self.tick)() {
+                    break;
+                }
+            }
+            return part;
+        };
+        Pool { question: self, known, first: range.start, batch, tracks: Vec::new(), part }.run(count, start)
+    }
+}
+
+/// A batch at work on a range of starts.
+struct Pool<'a> {
+    question: &'a Question<'a>,
+    known: &'a [(Verdict, Trap)],
+    first: u64,
+    batch: Batch,
+    tracks: Vec<Track>,
+    part: Part,
+}
+
+impl Pool<'_> {
+    fn run(mut self, count: usize, start: &impl Fn(u64) -> Start) -> Part {
+        let mut next = 0;
+        while next < count.min(SLOTS) {
+            self.batch.push(start(self.first + next as u64));
+            self.tracks.push(Track { place: next, follow: Follow::default(), measure: None, done: false });
+            next += 1;
+        }
+        let (mut list, mut free) = (Vec::new(), Vec::new());
+        while !self.batch.is_empty() {
+            self.batch.round();
+            list.clear();
+            list.extend_from_slice(self.batch.struck());
+            for &slot in &list {
+                self.struck(slot);
+            }
+            list.clear();
+            list.extend_from_slice(self.batch.settling());
+            for &slot in &list {
+                self.settling(slot);
+            }
+            list.clear();
+            list.extend_from_slice(self.batch.rare());
+            for &slot in &list {
+                self.rare(slot);
+            }
+            free.extend((0_u32..).zip(&self.tracks).filter(|(_, track)| track.done).map(|(slot, _)| slot));
+            while let Some(slot) = free.pop() {
+                if (self.question.tick)() {
+                    return self.part;
+                }
+                if next < count {
+                    self.batch.launch(slot, start(self.first + next as u64));
+                    let track = &mut self.tracks[slot as usize];
+                    track.follow.reset();
+                    (track.place, track.measure, track.done) = (next, None, false);
+                    next += 1;
+                } else {
+                    self.batch.remove(slot);
+                    self.tracks.swap_remove(slot as usize);
+                }
+            }
+        }
+        self.part
+    }
+
+    fn followed(&mut self, slot: u32, verdict: Verdict) {
+        let track = &mut self.tracks[slot as usize];
+        track.done = true;
+        self.part.followed(track.place, self.first + track.place as u64, verdict);
+    }
+
+    /// The slot struck and flies again.
+    fn struck(&mut self, slot: u32) {
+        let (osc, options) = (self.question.osc, self.question.options);
+        let (state, interval) = self.batch.arrival(slot);
+        let track = &mut self.tracks[slot as usize];
+        track.follow.steps += 1;
+        if let Some((measure, _)) = &mut track.measure {
+            measure.impact(osc, state, interval);
+            if measure.complete() {
+                let spectrum = measure.spectrum(osc);
+                self.measured(slot, spectrum);
+            }
+            return;
+        }
+        if let Some((verdict, _)) = self.known.iter().find(|(_, trap)| trap.catches(&state)) {
+            track.done = true;
+            self.part.caught(track.place, self.first + track.place as u64, verdict);
+            return;
+        }
+        if let Some(verdict) = track.follow.impact(osc, options, state, interval) {
+            self.followed(slot, verdict);
+        } else if track.follow.wants_measure(options) {
+            track.measure = Some((Measure::new(state, options.chaos_over), state));
+        } else if !track.follow.within(options) {
+            let verdict = track.follow.last_look(osc, options);
+            self.followed(slot, verdict);
+        }
+    }
+
+    /// The exponents are measured: chaotic, or the motion goes on from where the measurement began.
+    fn measured(&mut self, slot: u32, spectrum: Option<chaos::Spectrum>) {
+        let track = &mut self.tracks[slot as usize];
+        let Some((_, from)) = track.measure.take() else { return };
+        track.follow.spectrum = Some(spectrum);
+        if let Some(found) = spectrum.filter(chaotic) {
+            self.followed(slot, Verdict::Chaotic(found));
+            return;
+        }
+        self.batch.launch(slot, from.rebound(self.question.osc));
+        if !track.follow.within(self.question.options) {
+            let verdict = track.follow.last_look(self.question.osc, self.question.options);
+            self.followed(slot, verdict);
+        } else if self.batch.settles_after(&from) {
+            self.hand_over(slot, Motion::after(self.question.osc, &from, self.question.options.limits));
+        }
+    }
+
+    /// The slot struck, and what follows is no flight.
+    fn settling(&mut self, slot: u32) {
+        let track = &self.tracks[slot as usize];
+        if track.done {
+            return;
+        }
+        let (state, _) = self.batch.arrival(slot);
+        if track.measure.is_some() {
+            // the impact map flies every rebound there is
+            if state.rebound(self.question.osc).v == 0.0 {
+                self.measure_alone(slot);
+            }
+        } else if self.batch.settles_after(&state) {
+            self.hand_over(slot, Motion::after(self.question.osc, &state, self.question.options.limits));
+        }
+    }
+
+    /// A measurement that meets what lanes do not fly is made again, from its beginning, by itself.
+    fn measure_alone(&mut self, slot: u32) {
+        let track = &self.tracks[slot as usize];
+        if let Some((_, from)) = &track.measure {
+            let spectrum = lyapunov(self.question.osc, *from, self.question.options.chaos_over);
+            self.measured(slot, spectrum);
+        }
+    }
+
+    /// The flight in the slot takes the careful search.
+    fn rare(&mut self, slot: u32) {
+        let options = self.question.options;
+        let measuring = self.tracks[slot as usize].measure.is_some();
+        if measuring {
+            match self.batch.carefully(slot, chaos::LIMITS) {
+                (Contact::Impact { .. }, _) => self.struck(slot),
+                _ => self.measure_alone(slot),
+            }
+            return;
+        }
+        let launched = self.batch.launched(slot);
+        let (contact, steps) = self.batch.carefully(slot, options.limits);
+        match contact {
+            Contact::Impact { .. } => {
+                self.tracks[slot as usize].follow.steps += u64::from(steps) - 1;
+                self.struck(slot);
+                self.settling(slot);
+            }
+            Contact::Never(why) => self.followed(slot, ended(self.question.osc, Some(End::Never(why)), options.limits)),
+            Contact::NoneUntil(s) => self.followed(slot, ended(self.question.osc, Some(End::NoneFor(s)), options.limits)),
+            Contact::Grazing { .. } | Contact::Contact { .. } => {
+                self.hand_over(slot, Motion::with_limits(self.question.osc, launched, options.limits));
+            }
+        }
+    }
+
+    /// Follows a motion to its end alone.
+    fn hand_over(&mut self, slot: u32, mut motion: Motion<'_>) {
+        let track = &mut self.tracks[slot as usize];
+        let (verdict, _) = drive(self.question.osc, self.question.options, &mut track.follow, &mut motion);
+        self.followed(slot, verdict);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+    use crate::verdict::{Census, StartBox, scattered_starts};
+
+    fn systems() -> Vec<Oscillator> {
+        let mut systems: Vec<Oscillator> = scenario::PAPER.iter().map(scenario::Scenario::oscillator).collect();
+        for (inverse, gap, eps, damping, lower) in [
+            (1.11, -0.5, 0.5, 0.0, None),
+            (0.4, -0.95, 0.9, 0.05, None),
+            (1.3, 0.75, 0.0, 0.0, None),
+            (2.0, 0.4, 1.0, 0.0, None),
+            (1.0, 0.0, 0.7, 0.3, None),
+            (0.9, 0.4, 0.6, 0.02, Some(0.5)),
+            (0.002, 0.4, 0.6, 0.0, None),
+            (1.7, -2.0, 0.5, 0.1, None),
+        ] {
+            let mut osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(damping).unwrap();
+            if let Some(gap) = lower {
+                osc = osc.with_second_stop(gap, 0.8).unwrap();
+            }
+            systems.push(osc);
+        }
+        systems
+    }
+
+    /// As one start after another, whatever the lanes, the traps and the parts.
+    #[test]
+    fn the_same_as_one_by_one() {
+        let options = SettleOptions { max_impacts: 3000, chaos_over: 1000, max_steps: 200_000, ..SettleOptions::default() };
+        for osc in systems() {
+            let area = StartBox::natural(&osc);
+            let start = |k: u64| scattered_starts(&osc, area, 3, k);
+            let mut census = Census::default();
+            let cells: Vec<u32> = (0..60)
+                .map(|k| u32::try_from(census.add(&settle(&osc, start(k), &options).verdict)).unwrap())
+                .collect();
+            let expected = Settlement { motions: census.motions().to_vec(), cells };
+            let none = Atlas::default();
+            let atlas = Atlas::survey(&osc, (100..110).map(start), &options);
+            for width in Width::ALL.into_iter().filter(|width| width.available()) {
+                for atlas in [&none, &atlas] {
+                    let got = settle_many(&osc, 0..60, start, atlas, &options, width, &|| false);
+                    assert_eq!(got, expected, "{osc:?} {width:?}");
+                }
+            }
+        }
+    }
+}

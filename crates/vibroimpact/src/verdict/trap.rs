@@ -1,0 +1,174 @@
+//! A trap: a neighbourhood of a stable cycle that no motion leaves, so that whatever enters it is decided.
+//!
+//! About an impact of the cycle the m-fold impact map contracts in the norm $`\|d\|_P^2 = d^TPd`$,
+//! $`P = \sum_k (J^k)^TQJ^k`$, by the factor $`\vartheta < 1`$ as far as its derivative $`J`$ goes. How far that is, is tried out:
+//! discs $`\|d\| \le r`$ of growing radius are accepted while their whole rim makes the m impacts of the cycle on the
+//! stops of the cycle, in its n periods, and returns inside $`\tfrac12(1+\vartheta)\,r`$. Without a graze in the disc - which would
+//! tear the rim - the map is one to one there, so the disc returns inside the image of its rim: every motion in the disc
+//! stays, and shrinks from disc to disc onto the cycle.
+//!
+//! The rims are sampled, in 32 directions, and the radius used is two discs inside the last one that passed. What is
+//! decided by a trap is the same as what [`settle`](super::settle()) decides; tests compare, and
+//! [`settle_many`](super::settle_many) checks the first start of every motion.
+
+use crate::math::{Matrix2, sin_cos};
+use crate::motion::ImpactState;
+use crate::orbit::{Cycle, Lap, flight_limits};
+use crate::system::Oscillator;
+use core::f64::consts::{PI, TAU};
+
+/// The disc about one impact of a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Trap {
+    center: ImpactState,
+    /// $`P/r^2`$: 11, 12, 22.
+    form: [f64; 3],
+}
+
+/// The smallest and the largest radius tried (in radians and relative speed), and the ratio of one to the next.
+const SMALLEST: f64 = 1e-3;
+const LARGEST: f64 = 1.0;
+const RATIO: f64 = 1.4;
+/// Discs to stay inside the last one that passed.
+const INSIDE: usize = 2;
+/// Directions in which a rim is sampled.
+const DIRECTIONS: u32 = 32;
+/// Cycles that contract more slowly than this are left to be followed.
+const SLOWEST: f64 = 0.97;
+
+impl Trap {
+    /// The largest trap about the first impact of a stable `cycle` without rests; `None` if there is none worth having.
+    pub(super) fn around(osc: &Oscillator, cycle: &Cycle) -> Option<Self> {
+        let center = cycle.points.first()?.state;
+        if !cycle.rests.is_empty() || cycle.multipliers[0].modulus() > SLOWEST {
+            return None;
+        }
+        let lap = lap(osc, cycle, center)?;
+        let p = norm(&lap.derivative, center.velocity)?;
+        let [a, b, c] = p;
+        // theta^2 = 1 - 1 / the largest eigenvalue of Q^-1 P
+        let (trace, det) = (a + c * center.velocity * center.velocity, (a * c - b * b) * center.velocity * center.velocity);
+        let largest = 0.5 * trace + (0.25 * trace * trace - det).max(0.0).sqrt();
+        let bound = 0.5 * (1.0 + (1.0 - 1.0 / largest).max(0.0).sqrt());
+        let (mut r, mut passed) = (SMALLEST, 0);
+        while r <= LARGEST && rim_returns(osc, cycle, p, r, bound) {
+            passed += 1;
+            r *= RATIO;
+        }
+        if passed <= INSIDE {
+            return None;
+        }
+        for _ in 0..=INSIDE {
+            r /= RATIO;
+        }
+        Some(Self { center, form: p.map(|x| x / (r * r)) })
+    }
+
+    /// Whether a motion that arrives so is caught.
+    #[inline]
+    pub(super) fn catches(&self, state: &ImpactState) -> bool {
+        let mut turn = state.phase - self.center.phase;
+        if turn > PI {
+            turn -= TAU;
+        } else if turn < -PI {
+            turn += TAU;
+        }
+        let speed = state.velocity - self.center.velocity;
+        let [a, b, c] = self.form;
+        state.side == self.center.side && (a * turn + 2.0 * b * speed) * turn + c * speed * speed < 1.0
+    }
+}
+
+/// $`P`$ for $`Q = \mathrm{diag}(1, 1/U^2)`$.
+fn norm(j: &Matrix2, speed: f64) -> Option<[f64; 3]> {
+    let mut p = [0.0; 3];
+    let mut power = Matrix2::IDENTITY;
+    let q = 1.0 / (speed * speed);
+    for _ in 0..2000 {
+        let Matrix2([[a, b], [c, d]]) = power;
+        let term = [a * a + q * c * c, a * b + q * c * d, b * b + q * d * d];
+        p = [p[0] + term[0], p[1] + term[1], p[2] + term[2]];
+        if term[0] < 1e-15 * p[0] && term[2] < 1e-15 * p[2] {
+            return p.iter().all(|x| x.is_finite()).then_some(p);
+        }
+        power = j.times(power);
+    }
+    None
+}
+
+/// The lap from a state, if it makes the impacts of the cycle on its stops.
+fn lap(osc: &Oscillator, cycle: &Cycle, from: ImpactState) -> Option<Lap> {
+    let m = u32::try_from(cycle.points.len()).ok()?;
+    let lap = Lap::fly(osc, from, m, flight_limits(cycle.label.periods)).ok()?;
+    let same = lap.points.iter().zip(&cycle.points).all(|((state, _), point)| state.side == point.state.side);
+    let whole = (lap.turned - TAU * f64::from(cycle.label.periods)).abs() < PI;
+    (same && whole && lap.last.side == from.side).then_some(lap)
+}
+
+fn rim_returns(osc: &Oscillator, cycle: &Cycle, [a, b, c]: [f64; 3], r: f64, bound: f64) -> bool {
+    let center = cycle.points[0].state;
+    // P = L L^T, so |L^-T e| = 1 for unit vectors e
+    let l11 = a.sqrt();
+    let l21 = b / l11;
+    let l22 = (c - l21 * l21).sqrt();
+    (0..DIRECTIONS).all(|k| {
+        let (sin, cos) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
+        let speed = r * sin / l22;
+        let turn = (r * cos - l21 * speed) / l11;
+        let from = ImpactState {
+            phase: crate::system::phase::wrap(center.phase + turn),
+            velocity: center.velocity + speed,
+            side: center.side,
+        };
+        if from.velocity <= 0.0 {
+            return false;
+        }
+        lap(osc, cycle, from).is_some_and(|lap| {
+            let turn = crate::system::phase::difference(lap.last.phase, center.phase);
+            let speed = lap.last.velocity - center.velocity;
+            let size = (a * turn + 2.0 * b * speed) * turn + c * speed * speed;
+            size <= bound * bound * r * r
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+    use crate::system::Side;
+    use crate::verdict::{SettleOptions, Verdict, attractors, settle};
+
+    /// Motions started inside, near the edge above all, settle on that cycle.
+    #[test]
+    fn what_is_caught_settles_there() {
+        let mut traps = 0;
+        for point in [scenario::N, scenario::P, scenario::Q, scenario::R, scenario::S, scenario::T] {
+            let osc = point.oscillator();
+            for found in attractors(&osc, 40, 1, &SettleOptions::default()).motions() {
+                let Verdict::Periodic(cycle) = &found.verdict else { continue };
+                let Some(trap) = Trap::around(&osc, cycle) else { continue };
+                traps += 1;
+                let [a, b, c] = trap.form;
+                let mut inside = 0;
+                for k in 0..400 {
+                    // points of the box round the ellipse, evenly
+                    let unit = |step: f64| (0.5 + f64::from(k) * step) % 1.0 * 2.0 - 1.0;
+                    let det = a * c - b * b;
+                    let state = ImpactState {
+                        phase: crate::system::phase::wrap(trap.center.phase + unit(0.754_877_666) * (c / det).sqrt()),
+                        velocity: trap.center.velocity + unit(0.569_840_291) * (a / det).sqrt(),
+                        side: Side::Upper,
+                    };
+                    if trap.catches(&state) {
+                        inside += 1;
+                        let settled = settle(&osc, state.rebound(&osc), &SettleOptions::default());
+                        assert!(settled.verdict.same_as(&found.verdict, 1e-6), "{} {state:?} {settled:?}", point.name);
+                    }
+                }
+                assert!(inside > 50, "{inside}");
+            }
+        }
+        assert!(traps >= 6, "{traps}");
+    }
+}
