@@ -12,7 +12,7 @@
 //! their mean.
 
 use crate::flight::SearchLimits;
-use crate::math::{Sum, hypot, ln};
+use crate::math::{Sum, ln};
 use crate::motion::{ImpactState, Mapped, derivative, impact_map};
 use crate::system::Oscillator;
 
@@ -75,8 +75,8 @@ pub(crate) struct Measure {
     /// Impacts of the present block.
     count: u32,
     time: Sum,
-    one: Sum,
-    two: Sum,
+    one: LogSum,
+    two: LogSum,
     /// Per block: mean of both exponents and of the impacts per unit of time, and the time.
     blocks: Vec<([f64; 3], f64)>,
 }
@@ -91,8 +91,8 @@ impl Measure {
             per_block: (impacts / BLOCKS).max(1),
             count: 0,
             time: Sum::default(),
-            one: Sum::default(),
-            two: Sum::default(),
+            one: LogSum::default(),
+            two: LogSum::default(),
             blocks: Vec::with_capacity(BLOCKS as usize),
         }
     }
@@ -106,13 +106,13 @@ impl Measure {
     pub(crate) fn impact(&mut self, osc: &Oscillator, next: ImpactState, interval: f64) {
         let d = derivative(osc, &self.state, &next, interval);
         let (u, w) = (d.apply(self.u), d.apply(self.w));
-        let along = hypot(u[0], u[1]);
+        let along = (u[0] * u[0] + u[1] * u[1]).sqrt();
         self.u = [u[0] / along, u[1] / along];
         // the part of w across u is the area over the length
         let across = (self.u[0] * w[1] - self.u[1] * w[0]).abs();
         self.w = [-self.u[1], self.u[0]];
-        self.one.add(ln(along));
-        self.two.add(ln(across));
+        self.one.multiply(along);
+        self.two.multiply(across);
         self.time.add(interval);
         self.state = next;
         self.count += 1;
@@ -120,7 +120,8 @@ impl Measure {
             let t = self.time.value();
             let means = [self.one.value() / t, self.two.value() / t, f64::from(self.per_block) / t];
             self.blocks.push((means, t));
-            (self.count, self.time, self.one, self.two) = (0, Sum::default(), Sum::default(), Sum::default());
+            (self.count, self.time) = (0, Sum::default());
+            (self.one, self.two) = (LogSum::default(), LogSum::default());
         }
     }
 
@@ -133,6 +134,36 @@ impl Measure {
         let exponents = [of(0, 1.0), of(1, 1.0)];
         let impacts_per_period = of(2, osc.period());
         exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, last: self.state })
+    }
+}
+
+/// The logarithm of a product of many factors: they are multiplied as long as the product stays a number of ordinary size.
+#[derive(Clone, Copy, Debug)]
+struct LogSum {
+    product: f64,
+    sum: Sum,
+}
+
+impl Default for LogSum {
+    fn default() -> Self {
+        Self { product: 1.0, sum: Sum::default() }
+    }
+}
+
+impl LogSum {
+    fn multiply(&mut self, factor: f64) {
+        let product = self.product * factor;
+        if (1e-100..=1e100).contains(&product) {
+            self.product = product;
+        } else {
+            self.sum.add(ln(self.product));
+            self.product = factor;
+        }
+    }
+
+    fn value(mut self) -> f64 {
+        self.sum.add(ln(self.product));
+        self.sum.value()
     }
 }
 

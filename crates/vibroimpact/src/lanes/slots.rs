@@ -141,16 +141,21 @@ impl Slots {
         }
     }
 
-    /// Strikes where a strike can be proven, and launches those slots again from the stop. Each slot listed goes on one of the
-    /// two lists.
+    /// Strikes where a strike can be proven, and launches those slots again from the stop. Each doubtful slot goes on one of
+    /// the two lists. A remainder that fits the narrower lanes is struck in those.
     #[inline(always)]
-    pub(super) fn strike<L: Lane>(
-        &mut self,
-        stride: &Stride,
-        table: &Table,
-        lists: &mut Lists,
-    ) {
-        let Lists { doubtful, struck, open, gentle, .. } = lists;
+    pub(super) fn strike<L: Lane, Narrow: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
+        let rest = lists.doubtful.len() % L::WIDTH;
+        let whole = lists.doubtful.len() - if rest <= Narrow::WIDTH { rest } else { 0 };
+        let doubtful = core::mem::take(&mut lists.doubtful);
+        self.strike_in::<L>(stride, table, &doubtful[..whole], lists);
+        self.strike_in::<Narrow>(stride, table, &doubtful[whole..], lists);
+        lists.doubtful = doubtful;
+    }
+
+    #[inline(always)]
+    fn strike_in<L: Lane>(&mut self, stride: &Stride, table: &Table, doubtful: &[u32], lists: &mut Lists) {
+        let Lists { struck, open, gentle, .. } = lists;
         let pace = stride.pace.splat::<L>();
         let mut padded = [0_u32; WIDEST];
         for few in doubtful.chunks(L::WIDTH) {

@@ -51,7 +51,7 @@ impl Width {
     /// One step of every flight, and the strikes it leads to.
     pub(super) fn round(self, slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
         match self {
-            Self::Scalar => round::<f64>(slots, stride, table, lists),
+            Self::Scalar => round::<f64, f64>(slots, stride, table, lists),
             #[cfg(target_arch = "x86_64")]
             // the processor was asked
             Self::Avx2 if self.available() => {
@@ -67,25 +67,25 @@ impl Width {
                     avx512(slots, stride, table, lists);
                 }
             }
-            _ => round::<Pack<4>>(slots, stride, table, lists),
+            _ => round::<Pack<4>, Pack<4>>(slots, stride, table, lists),
         }
     }
 }
 
 #[inline(always)]
-fn round<L: Lane>(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
+fn round<L: Lane, Narrow: Lane>(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
     slots.march::<L>(stride, lists);
-    slots.strike::<L>(stride, table, lists);
+    slots.strike::<L, Narrow>(stride, table, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    round::<Pair<Four>>(slots, stride, table, lists);
+    round::<Pair<Four>, Four>(slots, stride, table, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn avx512(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    round::<Pack<8>>(slots, stride, table, lists);
+    round::<Pack<8>, Pack<8>>(slots, stride, table, lists);
 }

@@ -15,7 +15,7 @@
 //! Its determinant is $`\varepsilon^2 e^{-2\zeta s}\,U_0/U_1`$ (in time and velocity), which the tests check.
 
 use super::{End, Event, EventKind, Motion};
-use crate::flight::{Flight, SearchLimits};
+use crate::flight::SearchLimits;
 use crate::math::{Matrix2, sin_cos};
 use crate::system::{Oscillator, Side, Start};
 
@@ -104,7 +104,8 @@ pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, int
     let (v_phase, v_v) = (cos * (p.s - beta * p.ks) - sin * beta * p.kc, p.s_rate);
     let sign = next.side.sign();
     let v1 = sign * next.velocity;
-    let a1 = Flight::new(osc, start).at(interval).a;
+    // the equation of motion at the stop
+    let a1 = sin_cos(next.phase).0 - sign * osc.stop(next.side).map_or(0.0, |stop| stop.gap) - 2.0 * osc.damping() * v1;
     // one column for the phase, one for the arrival speed (dv0 = -sigma eps dU)
     let dv0 = -state.side.sign() * eps;
     let column = |dphi: f64, dv: f64| {

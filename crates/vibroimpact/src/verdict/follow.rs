@@ -30,6 +30,17 @@ pub(super) struct Follow {
     pub(super) spectrum: Option<Option<Spectrum>>,
 }
 
+/// The cycles through a release, which is the same for every motion of an oscillator: each is looked for once.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Releases([Option<Option<Cycle>>; 2]);
+
+impl Releases {
+    fn cycle(&mut self, osc: &Oscillator, side: Side) -> Option<Cycle> {
+        let known = &mut self.0[usize::from(side == Side::Lower)];
+        known.get_or_insert_with(|| from_release(osc, side, DEFAULT_EVENTS)).clone()
+    }
+}
+
 /// Impacts between looks for a recurrence, while there are few; later an eighth of those there are, so that the looks
 /// into a long chaotic motion stay cheap.
 const LOOK: usize = 16;
@@ -122,12 +133,18 @@ impl Follow {
     }
 
     /// A release decides all that follows: if it leads back to itself, that is the cycle.
-    pub(super) fn release(&mut self, osc: &Oscillator, side: Side, interval: f64) -> Option<Verdict> {
+    pub(super) fn release(
+        &mut self,
+        osc: &Oscillator,
+        releases: &mut Releases,
+        side: Side,
+        interval: f64,
+    ) -> Option<Verdict> {
         self.since += interval;
         if core::mem::replace(&mut self.released[usize::from(side == Side::Lower)], true) {
             return None;
         }
-        from_release(osc, side, DEFAULT_EVENTS).map(Verdict::Periodic)
+        releases.cycle(osc, side).map(Verdict::Periodic)
     }
 
     /// The verdict when the budget is spent: a last look, where the transient is as far gone as it will be.

@@ -8,9 +8,9 @@
 //! for each is what [`settle`] says of the first start that leads to it.
 
 use super::attractors::SAME;
-use super::follow::{Follow, chaotic, ended};
+use super::follow::{Follow, Releases, chaotic, ended};
 use super::outcome::Verdict;
-use super::settle::{SettleOptions, drive, settle};
+use super::settle::{Drive, SettleOptions, settle, settle_knowing};
 use super::trap::Trap;
 use super::Found;
 use crate::chaos::{self, Measure, lyapunov};
@@ -24,6 +24,7 @@ use core::ops::Range;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Atlas {
     known: Vec<(Verdict, Trap)>,
+    releases: Releases,
 }
 
 impl Atlas {
@@ -32,7 +33,7 @@ impl Atlas {
     pub fn survey(osc: &Oscillator, starts: impl Iterator<Item = Start>, options: &SettleOptions) -> Self {
         let mut atlas = Self::default();
         for start in starts {
-            let verdict = settle(osc, start, options).verdict;
+            let verdict = settle_knowing(osc, start, options, &mut atlas.releases).verdict;
             if let Verdict::Periodic(cycle) = &verdict
                 && !atlas.known.iter().any(|(other, _)| other.same_as(&verdict, SAME))
                 && let Some(trap) = Trap::around(osc, cycle)
@@ -77,9 +78,9 @@ pub fn settle_many(
 ) -> Settlement {
     let full = |k: u64| settle(osc, start(k), options).verdict;
     let question = Question { osc, options, width, tick };
-    question.decide(range.clone(), &start, &atlas.known).settlement(range.start, full).unwrap_or_else(|| {
+    question.decide(range.clone(), &start, atlas).settlement(range.start, full).unwrap_or_else(|| {
         // the first start of each motion was settled in full, and that contradicts a trap: do without
-        let part = question.decide(range.clone(), &start, &[]);
+        let part = question.decide(range.clone(), &start, &Atlas::default());
         part.settlement(range.start, full).unwrap_or_default()
     })
 }
@@ -175,21 +176,24 @@ struct Question<'a> {
 const SLOTS: usize = 192;
 
 impl Question<'_> {
-    fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, known: &[(Verdict, Trap)]) -> Part {
+    fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, atlas: &Atlas) -> Part {
         let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
         let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
         let batch = Batch::new(self.osc, SLOTS.min(count), self.width)
             .filter(|batch| batch.longest() < self.options.limits.horizon(self.osc).min(chaos::LIMITS.horizon(self.osc)));
+        let mut releases = atlas.releases.clone();
         let Some(batch) = batch else {
             for (place, index) in range.enumerate() {
-                part.followed(place, index, settle(self.osc, start(index), self.options).verdict);
+                let settled = settle_knowing(self.osc, start(index), self.options, &mut releases);
+                part.followed(place, index, settled.verdict);
                 if (self.tick)() {
                     break;
                 }
             }
             return part;
         };
-        Pool { question: self, known, first: range.start, batch, tracks: Vec::new(), part }.run(count, start)
+        let known = &atlas.known;
+        Pool { question: self, known, releases, first: range.start, batch, tracks: Vec::new(), part }.run(count, start)
     }
 }
 
@@ -197,6 +201,7 @@ impl Question<'_> {
 struct Pool<'a> {
     question: &'a Question<'a>,
     known: &'a [(Verdict, Trap)],
+    releases: Releases,
     first: u64,
     batch: Batch,
     tracks: Vec<Track>,
@@ -355,11 +360,18 @@ impl Pool<'_> {
         }
     }
 
-    /// Follows a motion to its end alone.
+    /// Follows a motion alone until it flies from impact to impact again, or to its end.
     fn hand_over(&mut self, slot: u32, mut motion: Motion<'_>) {
         let track = &mut self.tracks[slot as usize];
-        let (verdict, _) = drive(self.question.osc, self.question.options, &mut track.follow, &mut motion);
-        self.followed(slot, verdict);
+        let (osc, options, batch) = (self.question.osc, self.question.options, &self.batch);
+        let mut drive = Drive { osc, options, follow: &mut track.follow, releases: &mut self.releases, time: 0.0 };
+        match drive.on(&mut motion, |state| !batch.settles_after(state)) {
+            Some(verdict) => self.followed(slot, verdict),
+            None => {
+                let state = track.follow.last();
+                self.batch.launch(slot, state.rebound(osc));
+            }
+        }
     }
 }
 

@@ -15,7 +15,7 @@
 //! - **stuck**: the force will never lift the mass again;
 //! - **undecided**: none of these within the budget; what was tried is in the verdict.
 
-use super::follow::{Follow, chaotic, ended};
+use super::follow::{Follow, Releases, chaotic, ended};
 use super::outcome::Verdict;
 use crate::chaos::lyapunov;
 use crate::flight::SearchLimits;
@@ -80,52 +80,78 @@ pub struct Settled {
 /// ```
 #[must_use]
 pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settled {
+    settle_knowing(osc, start, options, &mut Releases::default())
+}
+
+/// The same where other motions of the oscillator were settled before.
+pub(super) fn settle_knowing(
+    osc: &Oscillator,
+    start: Start,
+    options: &SettleOptions,
+    releases: &mut Releases,
+) -> Settled {
     let mut follow = Follow::default();
     let mut motion = Motion::with_limits(osc, start, options.limits);
-    let (verdict, time) = drive(osc, options, &mut follow, &mut motion);
+    let mut drive = Drive { osc, options, follow: &mut follow, releases, time: 0.0 };
+    let verdict = drive.on(&mut motion, |_| false);
+    let time = drive.time;
+    // nothing stops the drive but a verdict
+    let verdict = verdict.unwrap_or_else(|| follow.last_look(osc, options));
     Settled { verdict, impacts: follow.count() as u64, time }
 }
 
-/// Follows a motion to its verdict; what was followed before is in `follow`. Also the time the motion took.
-pub(super) fn drive(
-    osc: &Oscillator,
-    options: &SettleOptions,
-    follow: &mut Follow,
-    motion: &mut Motion<'_>,
-) -> (Verdict, f64) {
-    let mut time = 0.0;
-    let before = follow.steps;
-    // every event but an impact is followed by one or ends the motion, except runs of grazes, which are cut short
-    while follow.within(options) {
-        let Some(event) = motion.next() else {
-            return (ended(osc, motion.end(), options.limits), time);
-        };
-        time = event.time;
-        follow.steps = before + motion.steps();
-        let interval = motion.leg().map_or(0.0, |leg| leg.duration);
-        let shown = match event.kind {
-            EventKind::Impact { velocity_before, .. } => {
-                let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
-                follow.impact(osc, options, state, interval)
+/// Follows a motion event by event.
+pub(super) struct Drive<'a> {
+    pub(super) osc: &'a Oscillator,
+    pub(super) options: &'a SettleOptions,
+    pub(super) follow: &'a mut Follow,
+    pub(super) releases: &'a mut Releases,
+    /// Time followed.
+    pub(super) time: f64,
+}
+
+impl Drive<'_> {
+    /// To a verdict, or to the first impact that `leave` chooses.
+    pub(super) fn on(&mut self, motion: &mut Motion<'_>, leave: impl Fn(&ImpactState) -> bool) -> Option<Verdict> {
+        let Self { osc, options, follow, .. } = self;
+        let before = follow.steps;
+        // every event but an impact is followed by one or ends the motion, except runs of grazes, which are cut short
+        while follow.within(options) {
+            let Some(event) = motion.next() else {
+                return Some(ended(osc, motion.end(), options.limits));
+            };
+            self.time = event.time;
+            follow.steps = before + motion.steps();
+            let interval = motion.leg().map_or(0.0, |leg| leg.duration);
+            let shown = match event.kind {
+                EventKind::Impact { velocity_before, .. } => {
+                    let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
+                    follow.impact(osc, options, state, interval)
+                }
+                EventKind::Graze { .. } => follow.graze(event.phase, interval),
+                EventKind::Stick { .. } => follow.pass(interval),
+                EventKind::Release => follow.release(osc, self.releases, event.side, interval),
+            };
+            if shown.is_some() {
+                return shown;
             }
-            EventKind::Graze { .. } => follow.graze(event.phase, interval),
-            EventKind::Stick { .. } => follow.pass(interval),
-            EventKind::Release => follow.release(osc, event.side, interval),
-        };
-        if let Some(verdict) = shown {
-            return (verdict, time);
-        }
-        if follow.wants_measure(options)
-            && let EventKind::Impact { .. } = event.kind
-        {
-            let spectrum = lyapunov(osc, follow.last(), options.chaos_over);
-            follow.spectrum = Some(spectrum);
-            if let Some(found) = spectrum.filter(chaotic) {
-                return (Verdict::Chaotic(found), time);
+            if !matches!(event.kind, EventKind::Impact { .. }) {
+                continue;
+            }
+            let state = follow.last();
+            if follow.wants_measure(options) {
+                let spectrum = lyapunov(osc, state, options.chaos_over);
+                follow.spectrum = Some(spectrum);
+                if let Some(found) = spectrum.filter(chaotic) {
+                    return Some(Verdict::Chaotic(found));
+                }
+            }
+            if follow.within(options) && leave(&state) {
+                return None;
             }
         }
+        Some(follow.last_look(osc, options))
     }
-    (follow.last_look(osc, options), time)
 }
 
 #[cfg(test)]

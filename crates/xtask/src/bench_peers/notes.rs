@@ -73,8 +73,9 @@ pub(super) fn fairness(rates: &Rates) -> String {
         "\
 ## What to keep in mind
 
-- The contenders take turns, so that what else the machine does falls on all of them alike; the ratios are steadier than the
-  rates. Time is wall-clock time, without the start of the program and without compilation.
+- The contenders take turns, so that a slow minute of the machine falls on all of them. A slow second falls on one: differences
+  within the spread given below the table mean nothing. Time is wall-clock time, without the start of the program and without
+  compilation.
 - The baseline computes two sines and a cosine at each step. The table avoids this and lets the compiler use vector instructions;
   it misses what the baseline misses. A shorter step would miss less and take longer.
 - The safe search in C is what one gets by hand for this one system. It knows no damping, no second stop, no resonance and no
