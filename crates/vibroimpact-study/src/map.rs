@@ -58,8 +58,7 @@ pub fn map(
                 found.sort_by_key(|found| core::cmp::Reverse(found.count));
                 #[allow(clippy::cast_precision_loss)] // counts below 2^53
                 let share = |count: u64| count as f64 / plan.starts as f64;
-                let motions =
-                    found.into_iter().map(|f| Share { verdict: f.verdict, share: share(f.count) }).collect();
+                let motions = found.into_iter().map(|f| Share { verdict: f.verdict, share: share(f.count) }).collect();
                 MapPoint { inverse_beta: x, gap, motions }
             }));
             if tick() {

@@ -3,9 +3,9 @@ use vibroimpact::flight::SearchLimits;
 use vibroimpact::lanes::{Batch, Width};
 use vibroimpact::{Start, scenario};
 fn main() {
-    for (name, point) in [("U", scenario::U), ("S", scenario::S), ("Q", scenario::Q), ("N", scenario::N)] {
+    for (name, point) in [("U", scenario::U), ("S", scenario::S)] {
         let osc = point.oscillator();
-        for width in Width::ALL.into_iter().filter(|w| w.available()) {
+        for width in [Width::Avx2, Width::Avx512] {
             let mut batch = Batch::new(&osc, 256, width).unwrap();
             for k in 0..256 {
                 batch.push(Start { x: osc.gap() - 0.01 * k as f64, v: -1.0, phase: 0.1 * k as f64 % 6.28 });

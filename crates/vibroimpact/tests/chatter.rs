@@ -62,7 +62,11 @@ fn time_advances_and_the_mass_stays_on_its_side() {
                             }
                             Path::Rest(_) => 0.0,
                         };
-                        assert!(x <= gap + rounding, "1/beta {inverse} delta {gap} zeta {damping}: beyond the stop by {:e}, rounding {rounding:e} {leg:?}", x - gap);
+                        assert!(
+                            x <= gap + rounding,
+                            "1/beta {inverse} delta {gap} zeta {damping}: beyond the stop by {:e}, rounding {rounding:e} {leg:?}",
+                            x - gap
+                        );
                     }
                     if let EventKind::Stick { error, .. } = event.kind {
                         assert!(error < 1e-12);

@@ -10,8 +10,8 @@ use crate::math::{Lane, Mask};
 use core::arch::x86_64::{
     __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_cmp_pd,
     _mm256_div_pd, _mm256_floor_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
-    _mm256_permute2f128_pd, _mm256_set_pd, _mm256_set1_pd, _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd,
-    _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
+    _mm256_permute2f128_pd, _mm256_set_pd, _mm256_set1_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_unpackhi_pd,
+    _mm256_unpacklo_pd, _mm256_xor_pd,
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -90,25 +90,29 @@ impl Lane for Four {
         while first < N {
             let (a, b) = (Self::load(&row_a[first..]).0, Self::load(&row_b[first..]).0);
             let (c, d) = (Self::load(&row_c[first..]).0, Self::load(&row_d[first..]).0);
-            unsafe {
-                let (ab_low, ab_high) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
-                let (cd_low, cd_high) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
-                columns[first] = Self(_mm256_permute2f128_pd::<0x20>(ab_low, cd_low));
-                columns[first + 1] = Self(_mm256_permute2f128_pd::<0x20>(ab_high, cd_high));
-                columns[first + 2] = Self(_mm256_permute2f128_pd::<0x31>(ab_low, cd_low));
-                columns[first + 3] = Self(_mm256_permute2f128_pd::<0x31>(ab_high, cd_high));
-            }
+            let [a, b, c, d] = transposed(a, b, c, d);
+            columns[first] = Self(a);
+            columns[first + 1] = Self(b);
+            columns[first + 2] = Self(c);
+            columns[first + 3] = Self(d);
             first += 4;
         }
         columns
     }
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
+    fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]) {
+        let left = transposed(columns[0].0, columns[1].0, columns[2].0, columns[3].0);
+        let right = transposed(columns[4].0, columns[5].0, columns[6].0, columns[7].0);
+        let mut k = 0;
+        while k < 4 {
+            Self(left[k]).store(&mut rows[k][..4]);
+            Self(right[k]).store(&mut rows[k][4..]);
+            k += 1;
+        }
     }
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(unsafe { _mm256_sqrt_pd(self.0) })
+    fn abs(self) -> Self {
+        Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
     }
     #[inline(always)]
     fn floor(self) -> Self {
@@ -130,5 +134,20 @@ impl Lane for Four {
     #[inline(always)]
     fn choose(mask: FourMask, yes: Self, no: Self) -> Self {
         Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+    }
+}
+
+/// Rows as columns.
+#[inline(always)]
+fn transposed(a: __m256d, b: __m256d, c: __m256d, d: __m256d) -> [__m256d; 4] {
+    unsafe {
+        let (ab_low, ab_high) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+        let (cd_low, cd_high) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
+        [
+            _mm256_permute2f128_pd::<0x20>(ab_low, cd_low),
+            _mm256_permute2f128_pd::<0x20>(ab_high, cd_high),
+            _mm256_permute2f128_pd::<0x31>(ab_low, cd_low),
+            _mm256_permute2f128_pd::<0x31>(ab_high, cd_high),
+        ]
     }
 }

@@ -97,7 +97,7 @@ impl Stride {
         L::splat(NODES as f64 * self.pace.h).less(s)
     }
 
-    /// The level to begin with: a flight that is pressed back at once returns after some 2v/a.
+    /// The level at which a flight that is pressed back at once, and returns after some 2v/a, may be proven to.
     fn promising(&self, state: &State<f64>) -> usize {
         let a = self.end(state).a;
         let back = if state.v * a < 0.0 { -4.0 * state.v / a } else { f64::INFINITY };
@@ -107,10 +107,11 @@ impl Stride {
             h *= 0.5;
             level += 1;
         }
-        level.max(1)
+        level
     }
 
-    /// Goes on from the beginning of a step in doubt in halved steps, to its end or to a contact.
+    /// Goes on from the beginning of a step in doubt in halved steps, halved again where they are in doubt too, to its end or to
+    /// a contact.
     pub(super) fn refine(
         &self,
         launch: &Launch<f64>,
@@ -118,7 +119,7 @@ impl Stride {
         propagators: &impl Propagators<f64>,
     ) -> Progress {
         let end = state.s + self.pace.h;
-        let mut level = self.promising(&state);
+        let mut level = 1;
         while level < LEVELS {
             let pace = propagators.pace(level);
             let next = pace.step(state);
@@ -134,7 +135,7 @@ impl Stride {
             if strike.proven {
                 return Progress::Hit(strike.into());
             }
-            level += 1;
+            level = (level + 1).max(self.promising(&state));
         }
         Progress::Rare
     }

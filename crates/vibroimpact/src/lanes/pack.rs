@@ -70,12 +70,14 @@ impl<const N: usize> Lane for Pack<N> {
         from_fn(|column| Self(from_fn(|k| table[at[k] as usize][column])))
     }
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(from_fn(|k| self.0[k].abs()))
+    fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]) {
+        for (k, row) in rows.iter_mut().take(N).enumerate() {
+            *row = from_fn(|column| columns[column].0[k]);
+        }
     }
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(from_fn(|k| self.0[k].sqrt()))
+    fn abs(self) -> Self {
+        Self(from_fn(|k| self.0[k].abs()))
     }
     #[inline(always)]
     fn floor(self) -> Self {

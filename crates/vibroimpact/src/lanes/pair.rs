@@ -76,12 +76,14 @@ impl<L: Lane> Lane for Pair<L> {
         columns
     }
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.abs(), self.1.abs())
+    fn store_rows(c: [Self; 8], rows: &mut [[f64; 8]]) {
+        let (first, second) = rows.split_at_mut(L::WIDTH);
+        L::store_rows([c[0].0, c[1].0, c[2].0, c[3].0, c[4].0, c[5].0, c[6].0, c[7].0], first);
+        L::store_rows([c[0].1, c[1].1, c[2].1, c[3].1, c[4].1, c[5].1, c[6].1, c[7].1], second);
     }
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.sqrt(), self.1.sqrt())
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
     }
     #[inline(always)]
     fn floor(self) -> Self {

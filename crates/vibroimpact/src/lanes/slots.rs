@@ -1,7 +1,7 @@
 //! Where the flights of a batch are kept: a slot each, in arrays that lanes run along.
 
 use super::stride::{State, Stride, Table, WIDEST};
-use super::strike::{Launch, Strike};
+use super::strike::{Approach, Guess, Launch, Strike};
 use crate::contact::chatter;
 use crate::math::{Lane, Mask, sin_cos, sin_cos_lanes};
 use crate::system::{Start, phase};
@@ -123,83 +123,104 @@ impl Slots {
     pub(super) fn march<L: Lane>(&mut self, stride: &Stride, lists: &mut Lists) {
         let Lists { doubtful, late, .. } = lists;
         let pace = stride.pace.splat::<L>();
+        doubtful.resize(self.count + WIDEST, 0);
+        let mut listed = 0;
         let mut at = 0;
         while at < self.count {
             let state = self.load::<L>(at);
             let next = pace.step(state);
             let clear = stride.clear(&pace.scale, &stride.end(&state), &stride.end(&next), false);
-            let go = |next: L, stay: L| L::choose(clear, next, stay);
-            go(next.s, state.s).store(&mut self.s[at..]);
-            go(next.x, state.x).store(&mut self.x[at..]);
-            go(next.v, state.v).store(&mut self.v[at..]);
-            go(next.sin, state.sin).store(&mut self.sin[at..]);
-            go(next.cos, state.cos).store(&mut self.cos[at..]);
+            L::choose(clear, next.s, state.s).store(&mut self.s[at..]);
+            L::choose(clear, next.x, state.x).store(&mut self.x[at..]);
+            L::choose(clear, next.v, state.v).store(&mut self.v[at..]);
+            L::choose(clear, next.sin, state.sin).store(&mut self.sin[at..]);
+            L::choose(clear, next.cos, state.cos).store(&mut self.cos[at..]);
             let valid = (1_u32 << L::WIDTH.min(self.count - at)) - 1;
-            list(doubtful, at, !clear.bits() & valid);
-            list(late, at, clear.and(stride.late(next.s)).bits() & valid);
+            let doubt = !clear.bits() & valid;
+            // written whether it counts or not: no branch to guess wrong
+            if let Some(places) = doubtful.get_mut(listed..listed + L::WIDTH) {
+                let mut filled = 0;
+                for lane in 0..L::WIDTH {
+                    #[allow(clippy::cast_possible_truncation)] // slot numbers
+                    let slot = (at + lane) as u32;
+                    places[filled] = slot;
+                    filled += (doubt >> lane & 1) as usize;
+                }
+                listed += filled;
+            }
+            let mut gone = clear.and(stride.late(next.s)).bits() & valid;
+            while gone != 0 {
+                #[allow(clippy::cast_possible_truncation)] // slot numbers
+                late.push(at as u32 + gone.trailing_zeros());
+                gone &= gone - 1;
+            }
             at += L::WIDTH;
         }
+        doubtful.truncate(listed);
     }
 
     /// Strikes where a strike can be proven, and launches those slots again from the stop. Each doubtful slot goes on one of
-    /// the two lists. A remainder that fits the narrower lanes is struck in those.
+    /// the two lists.
     #[inline(always)]
-    pub(super) fn strike<L: Lane, Narrow: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
-        let rest = lists.doubtful.len() % L::WIDTH;
-        let whole = lists.doubtful.len() - if rest <= Narrow::WIDTH { rest } else { 0 };
-        let doubtful = core::mem::take(&mut lists.doubtful);
-        self.strike_in::<L>(stride, table, &doubtful[..whole], lists);
-        self.strike_in::<Narrow>(stride, table, &doubtful[whole..], lists);
-        lists.doubtful = doubtful;
-    }
-
-    #[inline(always)]
-    fn strike_in<L: Lane>(&mut self, stride: &Stride, table: &Table, doubtful: &[u32], lists: &mut Lists) {
-        let Lists { struck, open, gentle, .. } = lists;
+    pub(super) fn strike<L: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
+        let Lists { doubtful, struck, gentle, open, .. } = lists;
         let pace = stride.pace.splat::<L>();
-        let mut padded = [0_u32; WIDEST];
-        for few in doubtful.chunks(L::WIDTH) {
-            padded[..few.len()].copy_from_slice(few);
-            padded[few.len()..].fill(few[0]);
-            let at = &padded[..L::WIDTH];
-            let state = self.gather::<L>(at);
-            let next = pace.step(state);
-            let row = L::rows(&self.launches, at);
-            let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
-            let hit = stride.strike(&launch, pace.h, (&state, &next), table);
-
-            let next = rebound(stride, row[PHASE], &hit);
-            let mut columns = [[0.0; WIDEST]; 8];
-            for (numbers, column) in columns.iter_mut().zip(next) {
-                column.store(numbers);
+        let zero = L::splat(0.0);
+        let nowhere = State { s: zero, x: zero, v: zero, sin: zero, cos: zero };
+        let mut at = [[0; WIDEST]; BLOCK];
+        let (mut from, mut guess) = ([nowhere; BLOCK], [Guess::nowhere(); BLOCK]);
+        let (mut approach, mut hits) = ([Approach::nowhere(); BLOCK], [Strike::nowhere(); BLOCK]);
+        for block in doubtful.chunks(BLOCK * L::WIDTH) {
+            // stage by stage, so that a group's work fills the time another one waits for its own results
+            let groups = block.len().div_ceil(L::WIDTH);
+            for (k, few) in block.chunks(L::WIDTH).enumerate() {
+                at[k] = padded(few);
+                from[k] = self.gather::<L>(&at[k]);
+                guess[k] = stride.guess(pace.h, &from[k], &pace.step(from[k]));
             }
-            let proven = hit.proven.bits();
-            let pressed = (if stride.two_stops { hit.side * (next[SIN] - next[X]) } else { next[SIN] - next[X] }).max(L::splat(0.0));
-            let soft = next[V].abs().less(L::splat(2.0 * chatter::SLOW) * pressed).bits();
-            for (k, &slot) in few.iter().enumerate() {
-                if proven >> k & 1 == 1 {
-                    self.launch(slot as usize, core::array::from_fn(|column| columns[column][k]));
-                    struck.push(slot);
-                    if soft >> k & 1 == 1 {
-                        gentle.push(slot);
+            for k in 0..groups {
+                let row = L::rows(&self.launches, &at[k]);
+                let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
+                approach[k] = stride.approach(&launch, &guess[k], table);
+            }
+            for k in 0..groups {
+                hits[k] = stride.polish(&from[k], &guess[k], &approach[k]);
+            }
+            for (k, few) in block.chunks(L::WIDTH).enumerate() {
+                let phases = L::rows(&self.launches, &at[k])[PHASE];
+                let next = rebound(stride, phases, &hits[k]);
+                let mut rows = [[0.0; 8]; WIDEST];
+                L::store_rows(next, &mut rows);
+                let proven = hits[k].proven.bits();
+                let pressed = next[SIN] - next[X];
+                let pressed = if stride.two_stops { hits[k].side * pressed } else { pressed }.max(zero);
+                let soft = next[V].abs().less(L::splat(2.0 * chatter::SLOW) * pressed).bits();
+                for (lane, &slot) in few.iter().enumerate() {
+                    if proven >> lane & 1 == 1 {
+                        self.launch(slot as usize, rows[lane]);
+                        struck.push(slot);
+                        if soft >> lane & 1 == 1 {
+                            gentle.push(slot);
+                        }
+                    } else {
+                        open.push(slot);
                     }
-                } else {
-                    open.push(slot);
                 }
             }
         }
     }
 }
 
-/// Notes the slots whose bits are set.
+/// A few slots, the first of them repeated to fill all lanes.
 #[inline(always)]
-fn list(slots: &mut Vec<u32>, at: usize, mut bits: u32) {
-    while bits != 0 {
-        #[allow(clippy::cast_possible_truncation)] // a slot number
-        slots.push(at as u32 + bits.trailing_zeros());
-        bits &= bits - 1;
-    }
+fn padded(few: &[u32]) -> [u32; WIDEST] {
+    let mut at = [few[0]; WIDEST];
+    at[..few.len()].copy_from_slice(few);
+    at
 }
+
+/// Groups of lanes that are struck together.
+const BLOCK: usize = 4;
 
 /// The launch that follows a contact, from the phase of the last one.
 #[inline(always)]

@@ -20,7 +20,7 @@ pub(super) const LEVELS: usize = 16;
 /// Whole steps from a launch after which a flight is handed over: those that may last for ever are decided there.
 pub(super) const NODES: usize = 64;
 /// Terms of each parity of the series.
-const TERMS: usize = 8;
+const TERMS: usize = 9;
 /// The longest step, and the most of $`\mu h`$.
 const LONGEST: f64 = 1.5;
 /// Shorter steps than this are not worth it (forcing, or damping, a hundred times faster than the oscillator).
@@ -338,7 +338,7 @@ fn sum<L: Lane>(c: &[f64; TERMS], z: L, zz: L) -> L {
     let first = L::splat(c[0]) + L::splat(c[1]) * z;
     let second = L::splat(c[2]) + L::splat(c[3]) * z;
     let third = L::splat(c[4]) + L::splat(c[5]) * z;
-    let fourth = L::splat(c[6]) + L::splat(c[7]) * z;
+    let fourth = (L::splat(c[6]) + L::splat(c[7]) * z) + L::splat(c[8]) * zz;
     first + zz * (second + zz * (third + zz * fourth))
 }
 

@@ -4,10 +4,11 @@ use super::pack::Pack;
 use super::pair::Pair;
 use super::slots::{Lists, Slots};
 use super::stride::{Stride, Table};
-use crate::math::Lane;
 
 #[cfg(target_arch = "x86_64")]
 use super::avx2::Four;
+#[cfg(target_arch = "x86_64")]
+use super::avx512::Eight;
 
 /// How many flights are flown side by side. The results are the same bits for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,47 +46,61 @@ impl Width {
     /// The fastest this machine has.
     #[must_use]
     pub fn best() -> Self {
-        if Self::Avx2.available() { Self::Avx2 } else { Self::Portable }
+        [Self::Avx512, Self::Avx2].into_iter().find(|width| width.available()).unwrap_or(Self::Portable)
     }
 
     /// One step of every flight, and the strikes it leads to.
     pub(super) fn round(self, slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
         match self {
-            Self::Scalar => round::<f64, f64>(slots, stride, table, lists),
+            Self::Scalar => {
+                slots.march::<f64>(stride, lists);
+                slots.strike::<f64>(stride, table, lists);
+            }
             #[cfg(target_arch = "x86_64")]
             // the processor was asked
             Self::Avx2 if self.available() => {
                 #[allow(unsafe_code)]
                 unsafe {
-                    avx2(slots, stride, table, lists);
+                    march_avx2(slots, stride, lists);
+                    strike_avx2(slots, stride, table, lists);
                 }
             }
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 if self.available() => {
                 #[allow(unsafe_code)]
                 unsafe {
-                    avx512(slots, stride, table, lists);
+                    march_avx512(slots, stride, lists);
+                    strike_avx512(slots, stride, table, lists);
                 }
             }
-            _ => round::<Pack<4>, Pack<4>>(slots, stride, table, lists),
+            _ => {
+                slots.march::<Pack<4>>(stride, lists);
+                slots.strike::<Pack<4>>(stride, table, lists);
+            }
         }
     }
 }
 
-#[inline(always)]
-fn round<L: Lane, Narrow: Lane>(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    slots.march::<L>(stride, lists);
-    slots.strike::<L, Narrow>(stride, table, lists);
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn march_avx2(slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
+    slots.march::<Four>(stride, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    round::<Pair<Four>, Four>(slots, stride, table, lists);
+fn strike_avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
+    slots.strike::<Pair<Four>>(stride, table, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-fn avx512(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    round::<Pack<8>, Pack<8>>(slots, stride, table, lists);
+fn march_avx512(slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
+    slots.march::<Eight>(stride, lists);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+fn strike_avx512(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
+    slots.strike::<Eight>(stride, table, lists);
 }

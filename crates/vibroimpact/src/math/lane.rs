@@ -26,10 +26,10 @@ pub(crate) trait Lane:
     fn gather(from: &[f64], at: &[u32]) -> Self;
     /// The columns of the rows at these places.
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N];
+    /// Writes columns as rows, one for each number.
+    fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]);
     /// Magnitude.
     fn abs(self) -> Self;
-    /// Square root.
-    fn sqrt(self) -> Self;
     /// `self` where it is greater than `other`, else `other`.
     fn max(self, other: Self) -> Self;
     /// `self` where it is less than `other`, else `other`.
@@ -98,12 +98,12 @@ impl Lane for f64 {
         table[at[0] as usize]
     }
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self::abs(self)
+    fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]) {
+        rows[0] = columns;
     }
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self::sqrt(self)
+    fn abs(self) -> Self {
+        Self::abs(self)
     }
     /// Of any size; the same bits.
     #[inline(always)]

@@ -42,10 +42,10 @@ pub fn difference(a: f64, b: f64) -> f64 {
 #[inline(always)]
 fn reduce<L: Lane>(hi: L, lo: L) -> L {
     let (tau, tau_low, zero) = (L::splat(TAU), L::splat(TAU_LOW), L::splat(0.0));
-    let turns = (hi / tau).floor();
+    let turns = (hi * L::splat(1.0 / TAU)).floor();
     let (p, pe) = two_prod(turns, tau);
     let r = (hi - p) + ((lo - pe) - turns * tau_low);
-    // rounding of hi / TAU may choose the neighbouring turn
+    // rounding may choose the neighbouring turn
     let up = (r + tau) + tau_low;
     let up = L::choose(up.less(tau), up, zero);
     let down = ((r - tau) - tau_low).max(zero);

@@ -7,12 +7,12 @@
 //! The result does not depend on how the starts are divided: motions are told apart as [`Census`](super::Census) does, and the verdict that stands
 //! for each is what [`settle`] says of the first start that leads to it.
 
+use super::Found;
 use super::attractors::SAME;
 use super::follow::{Follow, Releases, chaotic, ended};
 use super::outcome::Verdict;
 use super::settle::{Drive, SettleOptions, settle, settle_knowing};
 use super::trap::Trap;
-use super::Found;
 use crate::chaos::{self, Measure, lyapunov};
 use crate::flight::Contact;
 use crate::lanes::{Batch, Width};
@@ -179,8 +179,9 @@ impl Question<'_> {
     fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, atlas: &Atlas) -> Part {
         let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
         let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
-        let batch = Batch::new(self.osc, SLOTS.min(count), self.width)
-            .filter(|batch| batch.longest() < self.options.limits.horizon(self.osc).min(chaos::LIMITS.horizon(self.osc)));
+        let batch = Batch::new(self.osc, SLOTS.min(count), self.width).filter(|batch| {
+            batch.longest() < self.options.limits.horizon(self.osc).min(chaos::LIMITS.horizon(self.osc))
+        });
         let mut releases = atlas.releases.clone();
         let Some(batch) = batch else {
             for (place, index) in range.enumerate() {
@@ -353,7 +354,9 @@ impl Pool<'_> {
                 self.settling(slot);
             }
             Contact::Never(why) => self.followed(slot, ended(self.question.osc, Some(End::Never(why)), options.limits)),
-            Contact::NoneUntil(s) => self.followed(slot, ended(self.question.osc, Some(End::NoneFor(s)), options.limits)),
+            Contact::NoneUntil(s) => {
+                self.followed(slot, ended(self.question.osc, Some(End::NoneFor(s)), options.limits))
+            }
             Contact::Grazing { .. } | Contact::Contact { .. } => {
                 self.hand_over(slot, Motion::with_limits(self.question.osc, launched, options.limits));
             }
@@ -405,7 +408,8 @@ mod tests {
     /// As one start after another, whatever the lanes, the traps and the parts.
     #[test]
     fn the_same_as_one_by_one() {
-        let options = SettleOptions { max_impacts: 3000, chaos_over: 1000, max_steps: 200_000, ..SettleOptions::default() };
+        let options =
+            SettleOptions { max_impacts: 3000, chaos_over: 1000, max_steps: 200_000, ..SettleOptions::default() };
         for osc in systems() {
             let area = StartBox::natural(&osc);
             let start = |k: u64| scattered_starts(&osc, area, 3, k);

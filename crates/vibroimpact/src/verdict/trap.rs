@@ -47,7 +47,8 @@ impl Trap {
         let p = norm(&lap.derivative, center.velocity)?;
         let [a, b, c] = p;
         // theta^2 = 1 - 1 / the largest eigenvalue of Q^-1 P
-        let (trace, det) = (a + c * center.velocity * center.velocity, (a * c - b * b) * center.velocity * center.velocity);
+        let (trace, det) =
+            (a + c * center.velocity * center.velocity, (a * c - b * b) * center.velocity * center.velocity);
         let largest = 0.5 * trace + (0.25 * trace * trace - det).max(0.0).sqrt();
         let bound = 0.5 * (1.0 + (1.0 - 1.0 / largest).max(0.0).sqrt());
         let (mut r, mut passed) = (SMALLEST, 0);

@@ -1,0 +1,176 @@
+//! The lane type of x86-64 with AVX-512: eight numbers in a register, truth values in a mask register.
+//!
+//! # Safety
+//! As in `avx2`: a value of this type exists only below [`Width`](super::Width)'s entry for AVX-512, which is taken after the
+//! processor was asked, so the instructions are there; loads and stores stay within a slice whose length was checked.
+#![allow(unsafe_code)]
+
+use crate::math::{Lane, Mask};
+use core::arch::x86_64::{
+    __m512d, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEG_INF, _mm512_abs_pd, _mm512_add_pd, _mm512_cmp_pd_mask,
+    _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd,
+    _mm512_roundscale_pd, _mm512_set_pd, _mm512_set1_pd, _mm512_shuffle_f64x2, _mm512_storeu_pd, _mm512_sub_pd,
+    _mm512_unpackhi_pd, _mm512_unpacklo_pd, _mm512_xor_pd,
+};
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Eight numbers.
+#[derive(Clone, Copy)]
+pub(super) struct Eight(__m512d);
+
+/// Eight truth values.
+#[derive(Clone, Copy)]
+pub(super) struct EightMask(u8);
+
+macro_rules! by_intrinsic {
+    ($($operation:ident $method:ident $intrinsic:ident),*) => {$(
+        impl $operation for Eight {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(unsafe { $intrinsic(self.0, other.0) })
+            }
+        }
+    )*};
+}
+by_intrinsic!(Add add _mm512_add_pd, Sub sub _mm512_sub_pd, Mul mul _mm512_mul_pd, Div div _mm512_div_pd);
+
+impl Neg for Eight {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(unsafe { _mm512_xor_pd(self.0, _mm512_set1_pd(-0.0)) })
+    }
+}
+
+impl Mask for EightMask {
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        u32::from(self.0)
+    }
+}
+
+impl Lane for Eight {
+    type Mask = EightMask;
+    const WIDTH: usize = 8;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self(unsafe { _mm512_set1_pd(x) })
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        let eight: &[f64; 8] = from.first_chunk().unwrap_or(&[0.0; 8]);
+        Self(unsafe { _mm512_loadu_pd(eight.as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        if let Some(eight) = to.first_chunk_mut::<8>() {
+            unsafe { _mm512_storeu_pd(eight.as_mut_ptr(), self.0) }
+        }
+    }
+    #[inline(always)]
+    fn gather(from: &[f64], at: &[u32]) -> Self {
+        let (a, b) = (from[at[0] as usize], from[at[1] as usize]);
+        let (c, d) = (from[at[2] as usize], from[at[3] as usize]);
+        let (e, f) = (from[at[4] as usize], from[at[5] as usize]);
+        let (g, h) = (from[at[6] as usize], from[at[7] as usize]);
+        Self(unsafe { _mm512_set_pd(h, g, f, e, d, c, b, a) })
+    }
+    #[inline(always)]
+    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
+        let mut columns = [Self::splat(0.0); N];
+        // eight columns at a time: load an eighth-wide piece of each row, then transpose by pairs, quarters and halves
+        let mut first = 0;
+        while first < N {
+            let (a, b) = (Self::load(&table[at[0] as usize][first..]).0, Self::load(&table[at[1] as usize][first..]).0);
+            let (c, d) = (Self::load(&table[at[2] as usize][first..]).0, Self::load(&table[at[3] as usize][first..]).0);
+            let (e, f) = (Self::load(&table[at[4] as usize][first..]).0, Self::load(&table[at[5] as usize][first..]).0);
+            let (g, h) = (Self::load(&table[at[6] as usize][first..]).0, Self::load(&table[at[7] as usize][first..]).0);
+            let rows = transposed([a, b, c, d, e, f, g, h]);
+            let mut k = 0;
+            while k < 8 {
+                columns[first + k] = Self(rows[k]);
+                k += 1;
+            }
+            first += 8;
+        }
+        columns
+    }
+    #[inline(always)]
+    fn store_rows(c: [Self; 8], rows: &mut [[f64; 8]]) {
+        let transposed = transposed([c[0].0, c[1].0, c[2].0, c[3].0, c[4].0, c[5].0, c[6].0, c[7].0]);
+        let mut k = 0;
+        while k < 8 {
+            Self(transposed[k]).store(&mut rows[k]);
+            k += 1;
+        }
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(unsafe { _mm512_abs_pd(self.0) })
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self(unsafe { _mm512_roundscale_pd::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(self.0) })
+    }
+    // `maxpd` and `minpd` give the second operand unless the first is greater (less): what the trait asks
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(unsafe { _mm512_max_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(unsafe { _mm512_min_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> EightMask {
+        EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn choose(mask: EightMask, yes: Self, no: Self) -> Self {
+        Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
+    }
+}
+
+/// Rows as columns.
+#[inline(always)]
+fn transposed([a, b, c, d, e, f, g, h]: [__m512d; 8]) -> [__m512d; 8] {
+    unsafe {
+        let low = quarters(
+            _mm512_unpacklo_pd(a, b),
+            _mm512_unpacklo_pd(c, d),
+            _mm512_unpacklo_pd(e, f),
+            _mm512_unpacklo_pd(g, h),
+        );
+        let high = quarters(
+            _mm512_unpackhi_pd(a, b),
+            _mm512_unpackhi_pd(c, d),
+            _mm512_unpackhi_pd(e, f),
+            _mm512_unpackhi_pd(g, h),
+        );
+        [low.0, high.0, low.1, high.1, low.2, high.2, low.3, high.3]
+    }
+}
+
+/// From four registers of two rows each, interleaved by column, the columns of one parity: quarter k of each, in order.
+#[inline(always)]
+fn quarters(ab: __m512d, cd: __m512d, ef: __m512d, gh: __m512d) -> (__m512d, __m512d, __m512d, __m512d) {
+    unsafe {
+        // quarters 0 and 2, quarters 1 and 3 of two registers
+        let (even, odd) =
+            (_mm512_shuffle_f64x2::<0b10_00_10_00>(ab, cd), _mm512_shuffle_f64x2::<0b11_01_11_01>(ab, cd));
+        let (even2, odd2) =
+            (_mm512_shuffle_f64x2::<0b10_00_10_00>(ef, gh), _mm512_shuffle_f64x2::<0b11_01_11_01>(ef, gh));
+        (
+            _mm512_shuffle_f64x2::<0b10_00_10_00>(even, even2),
+            _mm512_shuffle_f64x2::<0b10_00_10_00>(odd, odd2),
+            _mm512_shuffle_f64x2::<0b11_01_11_01>(even, even2),
+            _mm512_shuffle_f64x2::<0b11_01_11_01>(odd, odd2),
+        )
+    }
+}
