@@ -8,6 +8,7 @@ mod commands;
 mod exit;
 mod files;
 mod plot;
+mod measure;
 mod progress;
 mod report;
 mod session;

@@ -2,6 +2,7 @@
 
 mod attractors;
 mod basin;
+mod bench;
 mod completions;
 mod diagram;
 mod man;
@@ -25,6 +26,7 @@ pub(crate) enum Command {
     Basin(basin::Basin),
     Map(map::Map),
     Diagram(diagram::Diagram),
+    Bench(bench::Bench),
     Reproduce(reproduce::Reproduce),
     Completions(completions::Completions),
     Man(man::Man),
@@ -39,6 +41,7 @@ pub(crate) fn run(command: &Command, session: &Session) -> Result<(), Failure> {
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),
         Command::Diagram(args) => diagram::run(args, session),
+        Command::Bench(args) => bench::run(args, session),
         Command::Reproduce(args) => reproduce::run(args, session),
         Command::Completions(args) => completions::run(*args, session),
         Command::Man(args) => man::run(args, session),

@@ -1,0 +1,150 @@
+//! The workloads of `vibro bench`: what is done over and over, and how fast.
+
+use clap::ValueEnum;
+use serde::Serialize;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+use vibroimpact::flight::SearchLimits;
+use vibroimpact::lanes::{Batch, Width};
+use vibroimpact::motion::{EventKind, Motion};
+use vibroimpact::verdict::{Atlas, SettleOptions, settle_many};
+use vibroimpact::{Oscillator, Start, scenario};
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Workload {
+    /// Impacts of the chaotic motion at U
+    Chaos,
+    /// Impacts of the settled motions at S
+    Regular,
+    /// Starts of a basin at S
+    Basin,
+}
+
+impl Workload {
+    pub(crate) const ALL: [Self; 3] = [Self::Chaos, Self::Regular, Self::Basin];
+}
+
+/// Per second.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Rates {
+    pub(crate) scalar: f64,
+    pub(crate) lanes: f64,
+}
+
+/// Measures a workload for about so long.
+pub(crate) fn measure(workload: Workload, width: Width, duration: Duration) -> Rates {
+    match workload {
+        Workload::Chaos => {
+            let osc = scenario::U.oscillator();
+            let rest = Start::at_rest(&osc);
+            Rates { scalar: alone(&osc, rest, duration / 3), lanes: abreast(&osc, width, spread(&osc), duration / 2) }
+        }
+        Workload::Regular => {
+            let osc = scenario::S.oscillator();
+            // 2/1 and 1/1: as many impacts of each, so the times add up
+            let starts = [Start { x: 0.0, v: 0.0, phase: 0.0 }, Start { x: -2.0, v: 0.0, phase: 0.0 }];
+            let both = |rate: &dyn Fn(Start) -> f64| 2.0 / starts.map(|start| 1.0 / rate(start)).iter().sum::<f64>();
+            Rates {
+                scalar: both(&|start| alone(&osc, start, duration / 6)),
+                lanes: both(&|start| abreast(&osc, width, vec![start; SLOTS], duration / 4)),
+            }
+        }
+        Workload::Basin => {
+            let rate = basin(width, duration);
+            Rates { scalar: rate, lanes: rate }
+        }
+    }
+}
+
+/// Motions side by side.
+const SLOTS: usize = 256;
+/// Impacts dropped before anything is counted.
+const TRANSIENT: usize = 200;
+/// A slice of the measurement.
+const SLICE: Duration = Duration::from_millis(50);
+
+/// The median over slices of the rate at which `work` reports things done.
+fn median_rate(duration: Duration, mut work: impl FnMut() -> usize) -> f64 {
+    let begin = Instant::now();
+    let mut rates = Vec::new();
+    while rates.is_empty() || begin.elapsed() < duration {
+        let (slice, mut done) = (Instant::now(), 0);
+        while slice.elapsed() < SLICE.min(duration) {
+            done += work();
+        }
+        #[allow(clippy::cast_precision_loss)] // counts below 2^53
+        rates.push(done as f64 / slice.elapsed().as_secs_f64());
+    }
+    rates.sort_by(f64::total_cmp);
+    rates[rates.len() / 2]
+}
+
+/// Impacts per second of one motion.
+fn alone(osc: &Oscillator, start: Start, duration: Duration) -> f64 {
+    let mut impacts =
+        Motion::new(osc, start).filter(|event| matches!(event.kind, EventKind::Impact { .. })).skip(TRANSIENT);
+    median_rate(duration, || impacts.by_ref().take(1000).map(black_box).count())
+}
+
+/// Starts at rest all over the room and all phases.
+fn spread(osc: &Oscillator) -> Vec<Start> {
+    let start = |k: u32| {
+        let part = f64::from(k) / 256.0;
+        Start { x: osc.gap() - 4.0 * part, v: 0.0, phase: 6.0 * ((7.0 * part) % 1.0) }
+    };
+    (0..256).map(start).collect()
+}
+
+/// Impacts per second of many motions side by side.
+fn abreast(osc: &Oscillator, width: Width, starts: Vec<Start>, duration: Duration) -> f64 {
+    let Some(mut batch) = Batch::new(osc, SLOTS, width) else { return 0.0 };
+    let count = starts.len();
+    for start in starts {
+        batch.push(start);
+    }
+    let mut round = || {
+        let mut struck = 0;
+        for _ in 0..16 {
+            batch.round();
+            struck += batch.struck().len();
+            for slot in batch.rare().to_vec() {
+                batch.carefully(slot, SearchLimits::default());
+                struck += 1;
+            }
+        }
+        struck
+    };
+    let mut dropped = 0;
+    while dropped < TRANSIENT * count {
+        dropped += round();
+    }
+    median_rate(duration, || black_box(round()))
+}
+
+/// Starts per second to a proven motion, the survey of the basin included.
+fn basin(width: Width, duration: Duration) -> f64 {
+    let (osc, options) = (scenario::S.oscillator(), SettleOptions::default());
+    let start = |k: u64| {
+        #[allow(clippy::cast_precision_loss)] // a grid of 100 x 100
+        let (column, row) = ((k % 100) as f64, (k / 100) as f64);
+        Start { x: -4.0 + 4.75 * (column + 0.5) / 100.0, v: -4.0 + 8.0 * (row + 0.5) / 100.0, phase: 0.0 }
+    };
+    median_rate(duration, || {
+        let atlas = Atlas::survey(&osc, (0..24).map(|k| start(417 * k)), &options);
+        settle_many(&osc, 0..10_000, start, &atlas, &options, width, &|| false).cells.len()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_workload_is_done() {
+        for workload in Workload::ALL {
+            let rates = measure(workload, Width::best(), Duration::from_millis(20));
+            assert!(rates.scalar > 1e3 && rates.lanes > 1e3, "{workload:?} {rates:?}");
+        }
+    }
+}
