@@ -70,7 +70,11 @@ fn name(width: Width) -> &'static str {
 
 fn seconds(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| format!("seconds `{text}` is not a number"))?;
-    if (0.01..=3600.0).contains(&value) { Ok(value) } else { Err(format!("seconds = {value} lies outside 0.01 to 3600")) }
+    if (0.01..=3600.0).contains(&value) {
+        Ok(value)
+    } else {
+        Err(format!("seconds = {value} lies outside 0.01 to 3600"))
+    }
 }
 
 #[derive(Default, Serialize)]
@@ -117,8 +121,7 @@ pub(super) fn run(args: &Bench, session: &Session) -> Result<(), Failure> {
 fn text(answer: &Answer) -> String {
     let million = |rate: f64| format!("{:.2} million", rate / 1e6);
     let mut text = format!("one thread, lanes: {}\n", answer.lanes);
-    for (name, rates) in
-        [("chaos", &answer.impacts_per_second.chaos), ("regular", &answer.impacts_per_second.regular)]
+    for (name, rates) in [("chaos", &answer.impacts_per_second.chaos), ("regular", &answer.impacts_per_second.regular)]
     {
         if let Some(rates) = rates {
             let (scalar, lanes) = (million(rates.scalar), million(rates.lanes));

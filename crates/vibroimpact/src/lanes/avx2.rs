@@ -6,7 +6,7 @@
 //! after the processor was asked, so the instructions are there.
 #![allow(unsafe_code)]
 
-use crate::math::{Lane, Mask};
+use crate::math::{Lane, Mask, picked};
 use core::arch::x86_64::{
     __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_cmp_pd,
     _mm256_div_pd, _mm256_floor_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
@@ -75,9 +75,9 @@ impl Lane for Four {
         }
     }
     #[inline(always)]
-    fn gather(from: &[f64], at: &[u32]) -> Self {
-        let (a, b) = (from[at[0] as usize], from[at[1] as usize]);
-        let (c, d) = (from[at[2] as usize], from[at[3] as usize]);
+    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+        let (a, b) = (picked(from, column, at[0]), picked(from, column, at[1]));
+        let (c, d) = (picked(from, column, at[2]), picked(from, column, at[3]));
         Self(unsafe { _mm256_set_pd(d, c, b, a) })
     }
     #[inline(always)]

@@ -5,7 +5,7 @@
 //! processor was asked, so the instructions are there; loads and stores stay within a slice whose length was checked.
 #![allow(unsafe_code)]
 
-use crate::math::{Lane, Mask};
+use crate::math::{Lane, Mask, picked};
 use core::arch::x86_64::{
     __m512d, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEG_INF, _mm512_abs_pd, _mm512_add_pd, _mm512_cmp_pd_mask,
     _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd,
@@ -74,11 +74,11 @@ impl Lane for Eight {
         }
     }
     #[inline(always)]
-    fn gather(from: &[f64], at: &[u32]) -> Self {
-        let (a, b) = (from[at[0] as usize], from[at[1] as usize]);
-        let (c, d) = (from[at[2] as usize], from[at[3] as usize]);
-        let (e, f) = (from[at[4] as usize], from[at[5] as usize]);
-        let (g, h) = (from[at[6] as usize], from[at[7] as usize]);
+    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+        let (a, b) = (picked(from, column, at[0]), picked(from, column, at[1]));
+        let (c, d) = (picked(from, column, at[2]), picked(from, column, at[3]));
+        let (e, f) = (picked(from, column, at[4]), picked(from, column, at[5]));
+        let (g, h) = (picked(from, column, at[6]), picked(from, column, at[7]));
         Self(unsafe { _mm512_set_pd(h, g, f, e, d, c, b, a) })
     }
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The portable lane type: an array, operated on place by place, which the compiler turns into whatever vector
 //! instructions the target has (NEON on ARM, SSE2 on any x86-64, AVX-512 where a caller enables it).
 
-use crate::math::{Lane, Mask};
+use crate::math::{Lane, Mask, picked};
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -62,8 +62,8 @@ impl<const N: usize> Lane for Pack<N> {
         to[..N].copy_from_slice(&self.0);
     }
     #[inline(always)]
-    fn gather(from: &[f64], at: &[u32]) -> Self {
-        Self(from_fn(|k| from[at[k] as usize]))
+    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+        Self(from_fn(|k| picked(from, column, at[k])))
     }
     #[inline(always)]
     fn rows<const M: usize>(table: &[[f64; M]], at: &[u32]) -> [Self; M] {

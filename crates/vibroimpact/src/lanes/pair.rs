@@ -61,8 +61,10 @@ impl<L: Lane> Lane for Pair<L> {
         self.1.store(&mut to[L::WIDTH..]);
     }
     #[inline(always)]
-    fn gather(from: &[f64], at: &[u32]) -> Self {
-        Self(L::gather(from, at), L::gather(from, &at[L::WIDTH..]))
+    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+        let mut rest = [0; 8];
+        rest[..8 - L::WIDTH].copy_from_slice(&at[L::WIDTH..]);
+        Self(L::pick(from, column, at), L::pick(from, column, &rest))
     }
     #[inline(always)]
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {

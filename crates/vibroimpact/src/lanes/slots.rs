@@ -39,44 +39,35 @@ impl Lists {
     }
 }
 
+/// The states of eight flights on their way: s, x, v, sin, cos, side by side.
+type Block = [[f64; WIDEST]; 5];
+
 /// Flights under way.
 #[derive(Clone, Debug)]
 pub(super) struct Slots {
     pub(super) count: usize,
-    s: Vec<f64>,
-    x: Vec<f64>,
-    v: Vec<f64>,
-    sin: Vec<f64>,
-    cos: Vec<f64>,
+    states: Vec<Block>,
     pub(super) launches: Vec<[f64; 8]>,
 }
 
 impl Slots {
     pub(super) fn new(capacity: usize) -> Self {
-        let padded = capacity.next_multiple_of(WIDEST);
-        let zeros = || vec![0.0; padded];
-        Self {
-            count: 0,
-            s: zeros(),
-            x: zeros(),
-            v: zeros(),
-            sin: zeros(),
-            cos: zeros(),
-            launches: vec![[0.0; 8]; padded],
-        }
+        let blocks = capacity.div_ceil(WIDEST);
+        Self { count: 0, states: vec![[[0.0; WIDEST]; 5]; blocks], launches: vec![[0.0; 8]; blocks * WIDEST] }
     }
 
     #[inline(always)]
-    pub(super) fn put(&mut self, slot: usize, state: State<f64>) {
-        self.s[slot] = state.s;
-        self.x[slot] = state.x;
-        self.v[slot] = state.v;
-        self.sin[slot] = state.sin;
-        self.cos[slot] = state.cos;
+    pub(super) fn put(&mut self, slot: usize, State { s, x, v, sin, cos }: State<f64>) {
+        let (block, lane) = (&mut self.states[slot / WIDEST], slot % WIDEST);
+        for (numbers, value) in block.iter_mut().zip([s, x, v, sin, cos]) {
+            numbers[lane] = value;
+        }
     }
 
     pub(super) fn state(&self, slot: usize) -> State<f64> {
-        State { s: self.s[slot], x: self.x[slot], v: self.v[slot], sin: self.sin[slot], cos: self.cos[slot] }
+        let (block, lane) = (&self.states[slot / WIDEST], slot % WIDEST);
+        let [s, x, v, sin, cos] = [0, 1, 2, 3, 4].map(|k: usize| block[k][lane]);
+        State { s, x, v, sin, cos }
     }
 
     /// Launches `slot`; the row holds everything.
@@ -92,29 +83,17 @@ impl Slots {
         let last = self.count;
         self.put(slot, self.state(last));
         self.launches[slot] = self.launches[last];
-        // what lies beyond the last slot is marched along with it, to no effect
         self.put(last, State { s: 0.0, x: 0.0, v: 0.0, sin: 0.0, cos: 0.0 });
     }
 
     #[inline(always)]
-    fn load<L: Lane>(&self, at: usize) -> State<L> {
+    fn gather<L: Lane>(&self, at: &[u32; WIDEST]) -> State<L> {
         State {
-            s: L::load(&self.s[at..]),
-            x: L::load(&self.x[at..]),
-            v: L::load(&self.v[at..]),
-            sin: L::load(&self.sin[at..]),
-            cos: L::load(&self.cos[at..]),
-        }
-    }
-
-    #[inline(always)]
-    fn gather<L: Lane>(&self, at: &[u32]) -> State<L> {
-        State {
-            s: L::gather(&self.s, at),
-            x: L::gather(&self.x, at),
-            v: L::gather(&self.v, at),
-            sin: L::gather(&self.sin, at),
-            cos: L::gather(&self.cos, at),
+            s: L::pick(&self.states, 0, at),
+            x: L::pick(&self.states, 1, at),
+            v: L::pick(&self.states, 2, at),
+            sin: L::pick(&self.states, 3, at),
+            cos: L::pick(&self.states, 4, at),
         }
     }
 
@@ -124,37 +103,39 @@ impl Slots {
         let Lists { doubtful, late, .. } = lists;
         let pace = stride.pace.splat::<L>();
         doubtful.resize(self.count + WIDEST, 0);
-        let mut listed = 0;
-        let mut at = 0;
-        while at < self.count {
-            let state = self.load::<L>(at);
-            let next = pace.step(state);
-            let clear = stride.clear(&pace.scale, &stride.end(&state), &stride.end(&next), false);
-            L::choose(clear, next.s, state.s).store(&mut self.s[at..]);
-            L::choose(clear, next.x, state.x).store(&mut self.x[at..]);
-            L::choose(clear, next.v, state.v).store(&mut self.v[at..]);
-            L::choose(clear, next.sin, state.sin).store(&mut self.sin[at..]);
-            L::choose(clear, next.cos, state.cos).store(&mut self.cos[at..]);
-            let valid = (1_u32 << L::WIDTH.min(self.count - at)) - 1;
-            let doubt = !clear.bits() & valid;
-            // written whether it counts or not: no branch to guess wrong
-            if let Some(places) = doubtful.get_mut(listed..listed + L::WIDTH) {
-                let mut filled = 0;
-                for lane in 0..L::WIDTH {
-                    #[allow(clippy::cast_possible_truncation)] // slot numbers
-                    let slot = (at + lane) as u32;
-                    places[filled] = slot;
-                    filled += (doubt >> lane & 1) as usize;
-                }
-                listed += filled;
+        let (mut listed, mut first) = (0, 0);
+        for block in self.states.iter_mut().take(self.count.div_ceil(WIDEST)) {
+            let (mut doubt, mut gone) = (0, 0);
+            let mut lane = 0;
+            while lane < WIDEST {
+                let [s, x, v, sin, cos] = block;
+                let state = State {
+                    s: L::load(&s[lane..]),
+                    x: L::load(&x[lane..]),
+                    v: L::load(&v[lane..]),
+                    sin: L::load(&sin[lane..]),
+                    cos: L::load(&cos[lane..]),
+                };
+                let next = pace.step(state);
+                let clear = stride.clear(&pace.scale, &stride.end(&state), &stride.end(&next), false);
+                L::choose(clear, next.s, state.s).store(&mut s[lane..]);
+                L::choose(clear, next.x, state.x).store(&mut x[lane..]);
+                L::choose(clear, next.v, state.v).store(&mut v[lane..]);
+                L::choose(clear, next.sin, state.sin).store(&mut sin[lane..]);
+                L::choose(clear, next.cos, state.cos).store(&mut cos[lane..]);
+                doubt |= (!clear.bits() & ((1 << L::WIDTH) - 1)) << lane;
+                gone |= clear.and(stride.late(next.s)).bits() << lane;
+                lane += L::WIDTH;
             }
-            let mut gone = clear.and(stride.late(next.s)).bits() & valid;
-            while gone != 0 {
-                #[allow(clippy::cast_possible_truncation)] // slot numbers
-                late.push(at as u32 + gone.trailing_zeros());
-                gone &= gone - 1;
+            // what lies beyond the last slot is marched along, to no effect
+            let valid = if self.count - first < WIDEST { (1 << (self.count - first)) - 1 } else { 0xff };
+            listed += list(doubt & valid, first, &mut doubtful[listed..]);
+            if gone & valid != 0 {
+                let mut more = [0; WIDEST];
+                let count = list(gone & valid, first, &mut more);
+                late.extend_from_slice(&more[..count]);
             }
-            at += L::WIDTH;
+            first += WIDEST;
         }
         doubtful.truncate(listed);
     }
@@ -218,6 +199,39 @@ fn padded(few: &[u32]) -> [u32; WIDEST] {
     at[..few.len()].copy_from_slice(few);
     at
 }
+
+/// Writes the slots whose bits are set to the beginning of `places`, which has room for all, and returns how many: without a
+/// branch that could be guessed wrong.
+#[inline(always)]
+fn list(bits: u32, first: usize, places: &mut [u32]) -> usize {
+    let offsets = &OFFSETS[(bits & 0xff) as usize];
+    if let Some(places) = places.first_chunk_mut::<WIDEST>() {
+        for (place, offset) in places.iter_mut().zip(offsets) {
+            #[allow(clippy::cast_possible_truncation)] // slot numbers
+            let first = first as u32;
+            *place = first + u32::from(*offset);
+        }
+    }
+    (bits & 0xff).count_ones() as usize
+}
+
+/// The places of the bits that are set, for every byte.
+const OFFSETS: [[u8; WIDEST]; 256] = {
+    let mut table = [[0; WIDEST]; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut bit, mut count) = (0_u8, 0);
+        while bit < 8 {
+            if byte >> bit & 1 == 1 {
+                table[byte][count] = bit;
+                count += 1;
+            }
+            bit += 1;
+        }
+        byte += 1;
+    }
+    table
+};
 
 /// Groups of lanes that are struck together.
 const BLOCK: usize = 4;

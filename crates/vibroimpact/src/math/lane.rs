@@ -22,8 +22,8 @@ pub(crate) trait Lane:
     fn load(from: &[f64]) -> Self;
     /// Writes them to the beginning of a slice.
     fn store(self, to: &mut [f64]);
-    /// The numbers at these places.
-    fn gather(from: &[f64], at: &[u32]) -> Self;
+    /// The numbers of one column at these places, where eight neighbours of a column lie side by side.
+    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self;
     /// The columns of the rows at these places.
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N];
     /// Writes columns as rows, one for each number.
@@ -72,6 +72,12 @@ impl Mask for bool {
     }
 }
 
+/// One number of a column.
+#[inline(always)]
+pub(crate) fn picked(from: &[[[f64; 8]; 5]], column: usize, at: u32) -> f64 {
+    from[at as usize / 8][column][at as usize % 8]
+}
+
 /// The scalar instance: what the lanes are compared with, and what a single motion runs on.
 impl Lane for f64 {
     type Mask = bool;
@@ -90,8 +96,8 @@ impl Lane for f64 {
         to[0] = self;
     }
     #[inline(always)]
-    fn gather(from: &[f64], at: &[u32]) -> Self {
-        from[at[0] as usize]
+    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+        picked(from, column, at[0])
     }
     #[inline(always)]
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {

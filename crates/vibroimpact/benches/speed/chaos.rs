@@ -1,0 +1,22 @@
+//! A chaotic motion: its exponents measured along an orbit, and a start recognised as chaotic.
+
+use criterion::{Criterion, Throughput};
+use std::hint::black_box;
+use vibroimpact::chaos::lyapunov;
+use vibroimpact::motion::ImpactState;
+use vibroimpact::verdict::{SettleOptions, settle};
+use vibroimpact::{Side, Start, scenario};
+
+const IMPACTS: u32 = 2000;
+
+pub(crate) fn bench(criterion: &mut Criterion) {
+    let osc = scenario::U.oscillator();
+    let mut group = criterion.benchmark_group("chaos at U");
+    group.bench_function("settle", |b| {
+        b.iter(|| settle(&osc, black_box(Start::at_rest(&osc)), &SettleOptions::default()));
+    });
+    let from = ImpactState { phase: 1.4, velocity: 2.4, side: Side::Upper };
+    group.throughput(Throughput::Elements(u64::from(IMPACTS)));
+    group.bench_function("exponents", |b| b.iter(|| lyapunov(&osc, black_box(from), IMPACTS)));
+    group.finish();
+}
