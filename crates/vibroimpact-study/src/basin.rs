@@ -71,10 +71,20 @@ pub fn basin(
     options: &SettleOptions,
     control: &Control<'_>,
 ) -> Result<Basin, RunError> {
+    in_tiles(osc, plan, options, control, TILE)
+}
+
+fn in_tiles(
+    osc: &Oscillator,
+    plan: &BasinPlan,
+    options: &SettleOptions,
+    control: &Control<'_>,
+    tile: u64,
+) -> Result<Basin, RunError> {
     let total = plan.starts(osc)?;
     let start = |k: u64| Basin::start(plan, osc, k);
     let atlas = Atlas::survey(osc, (0..SURVEY.min(total)).map(|k| start(total / SURVEY.min(total) * k)), options);
-    let parts = tiles(total, TILE, control, |range, tick| {
+    let parts = tiles(total, tile, control, |range, tick| {
         let settlement = settle_many(osc, range, start, &atlas, options, Width::best(), tick);
         let cells: Vec<u16> = settlement.cells.iter().map(|&cell| u16::try_from(cell).unwrap_or(u16::MAX)).collect();
         (settlement.motions, cells)
@@ -107,5 +117,25 @@ mod tests {
         for threads in [2, 3, 8] {
             assert_eq!(run(threads), one);
         }
+        for tile in [1, 7, 64, 999, 100_000] {
+            let control = Control { threads: 2, ..Control::default() };
+            assert_eq!(in_tiles(&osc, &plan, &SettleOptions::default(), &control, tile).unwrap(), one, "{tile}");
+        }
+    }
+
+    /// As one start after another, without lanes and traps.
+    #[test]
+    fn the_same_as_one_by_one() {
+        let osc = vibroimpact::scenario::R.oscillator();
+        let plan = BasinPlan { x: "-4:2.25:40".parse().unwrap(), v: "-4:4:30".parse().unwrap(), phase: 0.5 };
+        let got = basin(&osc, &plan, &SettleOptions::default(), &Control::default()).unwrap();
+        let mut census = Census::default();
+        let one_by_one = |k| {
+            let verdict = vibroimpact::verdict::settle(&osc, Basin::start(&plan, &osc, k), &SettleOptions::default());
+            census.add(&verdict.verdict)
+        };
+        let cells: Vec<usize> = (0..1200).map(one_by_one).collect();
+        assert_eq!(got.cells.iter().map(|&cell| usize::from(cell)).collect::<Vec<_>>(), cells);
+        assert_eq!(got.motions, census.motions());
     }
 }

@@ -40,6 +40,7 @@
 //! | what happens at a stop | [`contact`] |
 //! | events one after another, impact map, stroboscopic map, waveforms | [`motion`] |
 //! | what a motion settles into, attractors and their shares | [`verdict`] |
+//! | many motions side by side | [`lanes`], [`verdict::settle_many`] |
 //! | periodic orbits, stable or not | [`orbit`] |
 //! | Lyapunov exponents | [`chaos`] |
 //! | the points of the 1971 paper | [`scenario`] |

@@ -91,6 +91,18 @@ fn the_core_has_its_own_elementary_functions() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
+/// Vector instructions need `unsafe`; nothing else does.
+#[test]
+fn unsafe_is_kept_in_the_lane_types() {
+    let mut files: Vec<String> = mentions(&crates().join("vibroimpact/src"), &["unsafe {"])
+        .iter()
+        .filter_map(|line| Some(line.split(".rs:").next()?.rsplit('/').next()?.to_owned()))
+        .collect();
+    files.sort();
+    files.dedup();
+    assert_eq!(files, ["avx2", "avx512", "width"]);
+}
+
 #[test]
 fn each_outside_thing_has_one_owner() {
     // threads belong to the study, pictures own no files, the terminal belongs to the command

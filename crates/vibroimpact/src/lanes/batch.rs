@@ -80,9 +80,8 @@ impl Batch {
 
     /// The longest flight that lanes find the end of.
     #[must_use]
-    #[allow(clippy::cast_precision_loss)] // a small number
     pub fn longest(&self) -> f64 {
-        (NODES + 3) as f64 * self.stride.pace.h
+        f64::from(NODES + 3) * self.stride.pace.h
     }
 
     /// Adds a motion, in the next slot.

@@ -93,8 +93,7 @@ impl Stride {
     /// Past the last step that lanes fly.
     #[inline(always)]
     pub(super) fn late<L: Lane>(&self, s: L) -> L::Mask {
-        #[allow(clippy::cast_precision_loss)] // a small number
-        L::splat(NODES as f64 * self.pace.h).less(s)
+        L::splat(f64::from(NODES) * self.pace.h).less(s)
     }
 
     /// The level at which a flight that is pressed back at once, and returns after some 2v/a, may be proven to.

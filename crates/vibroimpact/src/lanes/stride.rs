@@ -18,7 +18,7 @@ use crate::system::{Oscillator, Side};
 /// Times a step may be halved before a flight is handed to the careful search.
 pub(super) const LEVELS: usize = 16;
 /// Whole steps from a launch after which a flight is handed over: those that may last for ever are decided there.
-pub(super) const NODES: usize = 64;
+pub(super) const NODES: u32 = 64;
 /// Terms of each parity of the series.
 const TERMS: usize = 9;
 /// The longest step, and the most of $`\mu h`$.
@@ -96,7 +96,7 @@ impl Stride {
         let fastest = beta.max(1.0 + 2.0 * zeta);
         let h = (LONGEST / fastest / GRAIN).floor() * GRAIN;
         let upper = osc.stop(Side::Upper)?;
-        if !(h >= SHORTEST) || upper.restitution == 0.0 || upper.gap.abs() > FAR {
+        if h < SHORTEST || upper.restitution == 0.0 || upper.gap.abs() > FAR {
             return None;
         }
         let lower = osc.stop(Side::Lower);
@@ -214,7 +214,10 @@ impl Table {
             k += 1.0;
             stride.node(k)
         });
-        Self { nodes: nodes.take(NODES + 4).collect(), paces: core::array::from_fn(|level| stride.pace(level)) }
+        Self {
+            nodes: nodes.take(NODES as usize + 4).collect(),
+            paces: core::array::from_fn(|level| stride.pace(level)),
+        }
     }
 }
 
@@ -228,7 +231,7 @@ impl<L: Lane> Propagators<L> for Table {
             // whole numbers of a few dozen; nonsense saturates
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
             let k = k as u32;
-            *which = k.min(NODES as u32 + 3);
+            *which = k.min(NODES + 3);
         }
         L::rows(&self.nodes, &which)
     }

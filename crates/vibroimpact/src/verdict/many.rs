@@ -355,7 +355,7 @@ impl Pool<'_> {
             }
             Contact::Never(why) => self.followed(slot, ended(self.question.osc, Some(End::Never(why)), options.limits)),
             Contact::NoneUntil(s) => {
-                self.followed(slot, ended(self.question.osc, Some(End::NoneFor(s)), options.limits))
+                self.followed(slot, ended(self.question.osc, Some(End::NoneFor(s)), options.limits));
             }
             Contact::Grazing { .. } | Contact::Contact { .. } => {
                 self.hand_over(slot, Motion::with_limits(self.question.osc, launched, options.limits));
