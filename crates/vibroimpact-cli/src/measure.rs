@@ -50,10 +50,7 @@ pub(crate) fn measure(workload: Workload, width: Width, duration: Duration) -> R
                 lanes: both(&|start| abreast(&osc, width, vec![start; SLOTS], duration / 4)),
             }
         }
-        Workload::Basin => {
-            let rate = basin(width, duration);
-            Rates { scalar: rate, lanes: rate }
-        }
+        Workload::Basin => Rates { scalar: basin(Width::Scalar, duration / 3), lanes: basin(width, duration / 2) },
     }
 }
 

@@ -98,6 +98,9 @@ struct Impacts {
 struct Starts {
     #[serde(skip_serializing_if = "Option::is_none")]
     basin: Option<f64>,
+    /// The same one motion after another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    basin_scalar: Option<f64>,
 }
 
 pub(super) fn run(args: &Bench, session: &Session) -> Result<(), Failure> {
@@ -112,7 +115,9 @@ pub(super) fn run(args: &Bench, session: &Session) -> Result<(), Failure> {
         match workload {
             Workload::Chaos => answer.impacts_per_second.chaos = Some(rates),
             Workload::Regular => answer.impacts_per_second.regular = Some(rates),
-            Workload::Basin => answer.starts_per_second.basin = Some(rates.lanes),
+            Workload::Basin => {
+                answer.starts_per_second = Starts { basin: Some(rates.lanes), basin_scalar: Some(rates.scalar) };
+            }
         }
     }
     if args.json { session.print_json(&answer) } else { session.print(&text(&answer)) }
@@ -128,8 +133,11 @@ fn text(answer: &Answer) -> String {
             text.push_str(&format!("{name:<8} impacts per second: {scalar} one motion alone, {lanes} in lanes\n"));
         }
     }
-    if let Some(rate) = answer.starts_per_second.basin {
-        text.push_str(&format!("basin    starts per second to a proven motion: {}\n", million(rate)));
+    if let Starts { basin: Some(lanes), basin_scalar: Some(scalar) } = answer.starts_per_second {
+        let (scalar, lanes) = (million(scalar), million(lanes));
+        text.push_str(&format!(
+            "basin    starts per second to a proven motion: {scalar} one after another, {lanes} in lanes\n"
+        ));
     }
     text
 }

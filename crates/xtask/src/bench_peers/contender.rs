@@ -33,18 +33,22 @@ pub(super) struct Contender {
     pub(super) rows: &'static [&'static str],
     /// Whether it is vibroimpact.
     pub(super) ours: bool,
+    /// Ours: what its rows are called in the answer, and further arguments.
+    keys: &'static [&'static str],
+    further: &'static [&'static str],
     /// Makes the beginning of its command.
     call: Box<dyn Fn() -> Command>,
 }
 
-/// The two rates in the answer of `vibro bench`, a row for each.
-const OURS: [&str; 2] = ["scalar", "lanes"];
+/// The two rates in the answer of `vibro bench`: one motion after another, and side by side.
+const SCALAR: &str = "scalar";
+const LANES: &str = "lanes";
 
 /// All contenders, the baseline first and ours last.
 pub(super) fn all(workshop: &Workshop) -> Vec<Contender> {
     let c = |rows, file: &str| {
         let (program, folder) = (workshop.c_peer(file), workshop.clone());
-        Contender { rows, ours: false, call: Box::new(move || folder.command(&program)) }
+        Contender { rows, ours: false, keys: &[], further: &[], call: Box::new(move || folder.command(&program)) }
     };
     let python = |rows, file: &str, arguments: &'static [&'static str]| {
         let (file, folder) = (workshop.sources.join("python").join(file), workshop.clone());
@@ -53,10 +57,12 @@ pub(super) fn all(workshop: &Workshop) -> Vec<Contender> {
             command.arg(&file).args(arguments);
             command
         };
-        Contender { rows, ours: false, call: Box::new(command) }
+        Contender { rows, ours: false, keys: &[], further: &[], call: Box::new(command) }
     };
-    let folder = workshop.clone();
-    let vibro = Box::new(move || folder.command(&folder.vibro));
+    let vibro = |rows, keys, further| {
+        let folder = workshop.clone();
+        Contender { rows, ours: true, keys, further, call: Box::new(move || folder.command(&folder.vibro)) }
+    };
     vec![
         c(&["C, scan (baseline)"], "scan"),
         c(&["C, scan with a table of sines"], "table"),
@@ -66,7 +72,8 @@ pub(super) fn all(workshop: &Workshop) -> Vec<Contender> {
         python(&["heyoka, batch"], "heyoka_batch.py", &[]),
         python(&["SciPy, RK45 as it comes"], "scipy_events.py", &["RK45"]),
         python(&["SciPy, DOP853, rtol 1e-9"], "scipy_events.py", &["DOP853"]),
-        Contender { rows: &["vibroimpact, one motion", "vibroimpact, lanes"], ours: true, call: vibro },
+        vibro(&["vibroimpact, lanes held to AVX2"], &[LANES], &["--width", "avx2"]),
+        vibro(&["vibroimpact, one motion", "vibroimpact, lanes"], &[SCALAR, LANES], &[]),
     ]
 }
 
@@ -99,9 +106,9 @@ impl Contender {
         let mut command = (self.call)();
         if self.ours {
             command.args(["bench", "--json", "--quiet", "--threads", "1", "--workload", workload.name()]);
-            command.args(["--seconds", &seconds]);
+            command.args(["--seconds", &seconds]).args(self.further);
             let answer = json(&output(command, limit)?)?;
-            return Ok(OURS.iter().map(|row| of_vibro(&answer, workload, row)).collect());
+            return Ok(self.keys.iter().map(|key| of_vibro(&answer, workload, key)).collect());
         }
         command.args([workload.name(), &seconds]);
         let answer = json(&output(command, limit)?)?;
@@ -128,9 +135,12 @@ impl Contender {
 
 /// A rate in the answer of `vibro bench`.
 fn of_vibro(answer: &Value, workload: Workload, row: &str) -> Result<Answer, String> {
-    let rate = &answer[workload.measure()][workload.name()];
-    // one number where the workload does not tell the two apart
-    let rate = rate[row].as_f64().or_else(|| rate.as_f64().filter(|_| row == OURS[0]));
+    let rates = &answer[workload.measure()];
+    let rate = rates[workload.name()][row].as_f64().or_else(|| match row {
+        // the basin's is one number, in lanes, and another one beside it
+        SCALAR => rates[format!("{}_scalar", workload.name())].as_f64(),
+        _ => rates[workload.name()].as_f64(),
+    });
     let rate = rate.ok_or_else(|| format!("`vibro bench` names no rate `{row}` for `{}`", workload.name()))?;
     Ok(Answer { rate, ..Answer::default() })
 }
@@ -176,13 +186,13 @@ mod tests {
     fn the_answer_of_vibro_is_read_by_row() {
         let answer = serde_json::json!({
             "impacts_per_second": {"chaos": {"scalar": 2.0, "lanes": 8.0}},
-            "starts_per_second": {"basin": 5.0},
+            "starts_per_second": {"basin": 5.0, "basin_scalar": 1.0},
         });
         let rate = |workload, row| of_vibro(&answer, workload, row).map(|answer| answer.rate);
         assert_eq!(rate(Workload::Chaos, "lanes"), Ok(8.0));
-        assert_eq!(rate(Workload::Basin, "scalar"), Ok(5.0));
-        assert!(rate(Workload::Basin, "lanes").is_err_and(|why| why.contains("no rate `lanes` for `basin`")));
-        assert!(rate(Workload::Regular, "scalar").is_err());
+        assert_eq!(rate(Workload::Basin, "scalar"), Ok(1.0));
+        assert_eq!(rate(Workload::Basin, "lanes"), Ok(5.0));
+        assert!(rate(Workload::Regular, "lanes").is_err_and(|why| why.contains("no rate `lanes` for `regular`")));
     }
 
     #[test]
