@@ -5,7 +5,7 @@
 //! processor was asked, so the instructions are there; loads and stores stay within a slice whose length was checked.
 #![allow(unsafe_code)]
 
-use crate::math::{Lane, Mask, picked};
+use crate::math::{Lane, Mask, Numbers, picked};
 use core::arch::x86_64::{
     __m512d, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEG_INF, _mm512_abs_pd, _mm512_add_pd, _mm512_cmp_pd_mask,
     _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd,
@@ -54,14 +54,37 @@ impl Mask for EightMask {
     }
 }
 
-impl Lane for Eight {
+impl Numbers for Eight {
     type Mask = EightMask;
     const WIDTH: usize = 8;
-
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self(unsafe { _mm512_set1_pd(x) })
     }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(unsafe { _mm512_abs_pd(self.0) })
+    }
+    // `maxpd` and `minpd` give the second operand unless the first is greater (less): what the trait asks
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(unsafe { _mm512_max_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(unsafe { _mm512_min_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> EightMask {
+        EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn choose(mask: EightMask, yes: Self, no: Self) -> Self {
+        Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
+    }
+}
+
+impl Lane for Eight {
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         let eight: &[f64; 8] = from.first_chunk().unwrap_or(&[0.0; 8]);
@@ -74,7 +97,7 @@ impl Lane for Eight {
         }
     }
     #[inline(always)]
-    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
         let (a, b) = (picked(from, column, at[0]), picked(from, column, at[1]));
         let (c, d) = (picked(from, column, at[2]), picked(from, column, at[3]));
         let (e, f) = (picked(from, column, at[4]), picked(from, column, at[5]));
@@ -111,29 +134,8 @@ impl Lane for Eight {
         }
     }
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(unsafe { _mm512_abs_pd(self.0) })
-    }
-    #[inline(always)]
     fn floor(self) -> Self {
         Self(unsafe { _mm512_roundscale_pd::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(self.0) })
-    }
-    // `maxpd` and `minpd` give the second operand unless the first is greater (less): what the trait asks
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(unsafe { _mm512_max_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(unsafe { _mm512_min_pd(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> EightMask {
-        EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn choose(mask: EightMask, yes: Self, no: Self) -> Self {
-        Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
     }
 }
 

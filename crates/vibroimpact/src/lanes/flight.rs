@@ -4,7 +4,7 @@
 use super::stride::{LEVELS, NODES, Propagators, State, Stride};
 use super::strike::{Launch, Strike};
 use crate::flight::{Contact, Flight, SearchLimits, counted};
-use crate::math::Lane;
+use crate::math::Numbers;
 use crate::system::{Oscillator, Side};
 
 /// The first contact of `flight` with the stops of `osc`, as a [`Motion`](crate::motion::Motion) gets it: by strides where they
@@ -47,7 +47,7 @@ pub(super) enum Progress {
     /// Struck.
     Hit(Hit),
     /// The step that was in doubt is clear; the flight goes on from here.
-    Clear(State<f64>),
+    Clear(State<f32>),
     /// Left to the careful search.
     Rare,
 }
@@ -62,17 +62,18 @@ impl Stride {
         if self.lingers(launch) {
             return None;
         }
-        let mut state = launch.state();
+        let mut state = launch.state().rough();
         loop {
-            let next = self.pace.step(state);
-            if self.clear(&self.pace.scale, &self.end(&state), &self.end(&next), false) {
+            let next = self.rough.step(state);
+            if self.clear(&self.rough.scale, &self.end(&state), &self.end(&next), self.margin(state.s), false) {
                 state = next;
                 if self.late(state.s) {
                     return None;
                 }
                 continue;
             }
-            let strike = self.strike(launch, self.pace.h, (&state, &next), self);
+            let (from, margin) = launch.or_on_the_way(self, state.wide());
+            let strike = self.strike(launch, self.pace.h, (&from, &self.pace.step(from)), margin, self);
             if strike.proven {
                 return Some(strike.into());
             }
@@ -92,7 +93,7 @@ impl Stride {
 
     /// Past the last step that lanes fly.
     #[inline(always)]
-    pub(super) fn late<L: Lane>(&self, s: L) -> L::Mask {
+    pub(super) fn late<L: Numbers>(&self, s: L) -> L::Mask {
         L::splat(f64::from(NODES) * self.pace.h).less(s)
     }
 
@@ -114,23 +115,24 @@ impl Stride {
     pub(super) fn refine(
         &self,
         launch: &Launch<f64>,
-        mut state: State<f64>,
+        way: State<f32>,
         propagators: &impl Propagators<f64>,
     ) -> Progress {
+        let (mut state, margin) = launch.or_on_the_way(self, way.wide());
         let end = state.s + self.pace.h;
         let mut level = 1;
         while level < LEVELS {
             let pace = propagators.pace(level);
             let next = pace.step(state);
-            if self.clear(&pace.scale, &self.end(&state), &self.end(&next), false) {
+            if self.clear(&pace.scale, &self.end(&state), &self.end(&next), margin, false) {
                 state = next;
                 // lengths are dyadic fractions: the sums are exact
                 if state.s >= end {
-                    return Progress::Clear(state);
+                    return Progress::Clear(state.rough());
                 }
                 continue;
             }
-            let strike = self.strike(launch, pace.h, (&state, &next), propagators);
+            let strike = self.strike(launch, pace.h, (&state, &next), margin, propagators);
             if strike.proven {
                 return Progress::Hit(strike.into());
             }

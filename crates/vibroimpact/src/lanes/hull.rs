@@ -18,7 +18,7 @@
 //! $`B_6`$ grows with the energy radius (`flight/bounds.rs`); $`\sqrt{x^2+v^2} \le |x| + |v|`$.
 
 use super::stride::{HullScale, State, Stride};
-use crate::math::{Lane, Mask};
+use crate::math::{Mask, Numbers};
 
 /// Motion at an end of the arc.
 #[derive(Clone, Copy)]
@@ -28,25 +28,40 @@ pub(super) struct End<L> {
     pub(super) a: L,
 }
 
-/// What rounding may do to a coefficient, relative to 1 + |gap| + |x| + |v|: far above the few dozen roundings of a step and
-/// of the states it starts from.
+/// What rounding may do to a coefficient, relative to 1 + |gap| + |x| + |v|, where the step begins with an exact state: far above the
+/// few dozen roundings of double precision.
 pub(super) const MARGIN: f64 = 1e-12;
+/// The same for a state that was passed on in single precision, for each step taken: a step has some ten roundings of
+/// $`2^{-24}`$ (of 1 + |x| + |v| each, the force being 1), and what is there already is passed on at most doubled (position into velocity and back).
+const ROUGH: f64 = 4e-6;
 
 impl Stride {
     /// The end of an arc at a state of the way.
     #[inline(always)]
-    pub(super) fn end<L: Lane>(&self, state: &State<L>) -> End<L> {
+    pub(super) fn end<L: Numbers>(&self, state: &State<L>) -> End<L> {
         let force = state.sin - state.x;
         let a = if self.drag == 0.0 { force } else { force - L::splat(self.drag) * state.v };
         End { x: state.x, v: state.v, a }
     }
 
-    /// Where the arc is proven clear of the stops, its beginning left aside.
+    /// The margin for a state a time `s` after the launch: nothing was passed on at the launch itself.
     #[inline(always)]
-    pub(super) fn clear<L: Lane>(&self, scale: &HullScale<L>, from: &End<L>, to: &End<L>, arrives: bool) -> L::Mask {
+    pub(super) fn margin<L: Numbers>(&self, s: L) -> L {
+        L::splat(ROUGH) + L::splat(ROUGH / self.pace.h) * s
+    }
+
+    /// Where the arc is proven clear of the stops, its beginning left aside; `margin` is relative.
+    #[inline(always)]
+    pub(super) fn clear<L: Numbers>(
+        &self,
+        scale: &HullScale<L>,
+        from: &End<L>,
+        to: &End<L>,
+        margin: L,
+        arrives: bool,
+    ) -> L::Mask {
         let size = from.x.abs() + from.v.abs();
         let error = scale.error + scale.error_rate * size;
-        let margin = L::splat(MARGIN) * size;
         let (leave, arrive) = (scale.sixth * from.v, scale.sixth * to.v);
         let c1 = from.x + leave;
         let c2 = from.x + ((leave + leave) + scale.thirtieth * from.a);
@@ -59,7 +74,7 @@ impl Stride {
         if !arrives {
             highest = highest.max(to.x);
         }
-        let clear = highest.less(L::splat(room(self.gap[0])) - margin);
+        let clear = highest.less(room(self.gap[0], margin, size));
         if !self.two_stops {
             return clear;
         }
@@ -67,12 +82,12 @@ impl Stride {
         if !arrives {
             lowest = lowest.min(to.x);
         }
-        clear.and((-lowest).less(L::splat(room(self.gap[1])) - margin))
+        clear.and((-lowest).less(room(self.gap[1], margin, size)))
     }
 }
 
-/// The gap less its own share of the margin.
+/// The gap less the margin.
 #[inline(always)]
-fn room(gap: f64) -> f64 {
-    gap - MARGIN * (1.0 + gap.abs())
+fn room<L: Numbers>(gap: f64, margin: L, size: L) -> L {
+    L::splat(gap) - margin * (L::splat(1.0 + gap.abs()) + size)
 }

@@ -1,7 +1,7 @@
 //! The portable lane type: an array, operated on place by place, which the compiler turns into whatever vector
 //! instructions the target has (NEON on ARM, SSE2 on any x86-64, AVX-512 where a caller enables it).
 
-use crate::math::{Lane, Mask, picked};
+use crate::math::{Lane, Mask, Numbers, Single, picked};
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -45,14 +45,36 @@ impl<const N: usize> Mask for PackMask<N> {
     }
 }
 
-impl<const N: usize> Lane for Pack<N> {
+impl<const N: usize> Numbers for Pack<N> {
     type Mask = PackMask<N>;
     const WIDTH: usize = N;
-
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self([x; N])
     }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(from_fn(|k| self.0[k].abs()))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(from_fn(|k| Numbers::max(self.0[k], other.0[k])))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(from_fn(|k| Numbers::min(self.0[k], other.0[k])))
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> Self::Mask {
+        PackMask(from_fn(|k| self.0[k] < other.0[k]))
+    }
+    #[inline(always)]
+    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(from_fn(|k| if mask.0[k] { yes.0[k] } else { no.0[k] }))
+    }
+}
+
+impl<const N: usize> Lane for Pack<N> {
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         Self(from_fn(|k| from[k]))
@@ -62,7 +84,7 @@ impl<const N: usize> Lane for Pack<N> {
         to[..N].copy_from_slice(&self.0);
     }
     #[inline(always)]
-    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
         Self(from_fn(|k| picked(from, column, at[k])))
     }
     #[inline(always)]
@@ -76,20 +98,54 @@ impl<const N: usize> Lane for Pack<N> {
         }
     }
     #[inline(always)]
+    fn floor(self) -> Self {
+        Self(from_fn(|k| self.0[k].floor()))
+    }
+}
+
+/// `N` numbers of single precision.
+#[derive(Clone, Copy)]
+pub(super) struct Singles<const N: usize>([f32; N]);
+
+macro_rules! single_by_single {
+    ($($operation:ident $method:ident),*) => {$(
+        impl<const N: usize> $operation for Singles<N> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(from_fn(|k| self.0[k].$method(other.0[k])))
+            }
+        }
+    )*};
+}
+single_by_single!(Add add, Sub sub, Mul mul);
+
+impl<const N: usize> Neg for Singles<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(from_fn(|k| -self.0[k]))
+    }
+}
+
+impl<const N: usize> Numbers for Singles<N> {
+    type Mask = PackMask<N>;
+    const WIDTH: usize = N;
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self([<f32 as Numbers>::splat(x); N])
+    }
+    #[inline(always)]
     fn abs(self) -> Self {
         Self(from_fn(|k| self.0[k].abs()))
     }
     #[inline(always)]
-    fn floor(self) -> Self {
-        Self(from_fn(|k| self.0[k].floor()))
-    }
-    #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self(from_fn(|k| Lane::max(self.0[k], other.0[k])))
+        Self(from_fn(|k| Numbers::max(self.0[k], other.0[k])))
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        Self(from_fn(|k| Lane::min(self.0[k], other.0[k])))
+        Self(from_fn(|k| Numbers::min(self.0[k], other.0[k])))
     }
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
@@ -98,5 +154,16 @@ impl<const N: usize> Lane for Pack<N> {
     #[inline(always)]
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
         Self(from_fn(|k| if mask.0[k] { yes.0[k] } else { no.0[k] }))
+    }
+}
+
+impl<const N: usize> Single for Singles<N> {
+    #[inline(always)]
+    fn load(from: &[f32]) -> Self {
+        Self(from_fn(|k| from[k]))
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        to[..N].copy_from_slice(&self.0);
     }
 }

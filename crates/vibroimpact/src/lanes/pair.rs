@@ -1,6 +1,6 @@
 //! Two lanes side by side: twice the independent work between one result and the next that needs it.
 
-use crate::math::{Lane, Mask};
+use crate::math::{Lane, Mask, Numbers};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Two of the same.
@@ -43,14 +43,36 @@ impl<M: Mask> Mask for PairMask<M> {
     }
 }
 
-impl<L: Lane> Lane for Pair<L> {
+impl<L: Lane> Numbers for Pair<L> {
     type Mask = PairMask<L::Mask>;
     const WIDTH: usize = 2 * L::WIDTH;
-
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self(L::splat(x), L::splat(x))
     }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0), self.1.max(other.1))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0), self.1.min(other.1))
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> Self::Mask {
+        PairMask(self.0.less(other.0), self.1.less(other.1), L::WIDTH)
+    }
+    #[inline(always)]
+    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(L::choose(mask.0, yes.0, no.0), L::choose(mask.1, yes.1, no.1))
+    }
+}
+
+impl<L: Lane> Lane for Pair<L> {
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         Self(L::load(from), L::load(&from[L::WIDTH..]))
@@ -61,7 +83,7 @@ impl<L: Lane> Lane for Pair<L> {
         self.1.store(&mut to[L::WIDTH..]);
     }
     #[inline(always)]
-    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
         let mut rest = [0; 8];
         rest[..8 - L::WIDTH].copy_from_slice(&at[L::WIDTH..]);
         Self(L::pick(from, column, at), L::pick(from, column, &rest))
@@ -84,27 +106,7 @@ impl<L: Lane> Lane for Pair<L> {
         L::store_rows([c[0].1, c[1].1, c[2].1, c[3].1, c[4].1, c[5].1, c[6].1, c[7].1], second);
     }
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.abs(), self.1.abs())
-    }
-    #[inline(always)]
     fn floor(self) -> Self {
         Self(self.0.floor(), self.1.floor())
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(self.0.max(other.0), self.1.max(other.1))
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(self.0.min(other.0), self.1.min(other.1))
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> Self::Mask {
-        PairMask(self.0.less(other.0), self.1.less(other.1), L::WIDTH)
-    }
-    #[inline(always)]
-    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Self(L::choose(mask.0, yes.0, no.0), L::choose(mask.1, yes.1, no.1))
     }
 }

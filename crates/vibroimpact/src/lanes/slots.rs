@@ -3,7 +3,7 @@
 use super::stride::{State, Stride, Table, WIDEST};
 use super::strike::{Approach, Guess, Launch, Strike};
 use crate::contact::chatter;
-use crate::math::{Lane, Mask, sin_cos, sin_cos_lanes};
+use crate::math::{Lane, Mask, Single, sin_cos, sin_cos_lanes};
 use crate::system::{Start, phase};
 
 /// Columns of a launch: the state, and the arrival before it (speed, time since the launch before, side).
@@ -39,8 +39,8 @@ impl Lists {
     }
 }
 
-/// The states of eight flights on their way: s, x, v, sin, cos, side by side.
-type Block = [[f64; WIDEST]; 5];
+/// The states of eight flights on their way, in single precision: s, x, v, sin, cos, side by side.
+type Block = [[f32; WIDEST]; 5];
 
 /// Flights under way.
 #[derive(Clone, Debug)]
@@ -53,18 +53,18 @@ pub(super) struct Slots {
 impl Slots {
     pub(super) fn new(capacity: usize) -> Self {
         let blocks = capacity.div_ceil(WIDEST);
-        Self { count: 0, states: vec![[[0.0; WIDEST]; 5]; blocks], launches: vec![[0.0; 8]; blocks * WIDEST] }
+        Self { count: 0, states: vec![[[0.0_f32; WIDEST]; 5]; blocks], launches: vec![[0.0; 8]; blocks * WIDEST] }
     }
 
     #[inline(always)]
-    pub(super) fn put(&mut self, slot: usize, State { s, x, v, sin, cos }: State<f64>) {
+    pub(super) fn put(&mut self, slot: usize, State { s, x, v, sin, cos }: State<f32>) {
         let (block, lane) = (&mut self.states[slot / WIDEST], slot % WIDEST);
         for (numbers, value) in block.iter_mut().zip([s, x, v, sin, cos]) {
             numbers[lane] = value;
         }
     }
 
-    pub(super) fn state(&self, slot: usize) -> State<f64> {
+    pub(super) fn state(&self, slot: usize) -> State<f32> {
         let (block, lane) = (&self.states[slot / WIDEST], slot % WIDEST);
         let [s, x, v, sin, cos] = [0, 1, 2, 3, 4].map(|k: usize| block[k][lane]);
         State { s, x, v, sin, cos }
@@ -74,7 +74,7 @@ impl Slots {
     #[inline(always)]
     pub(super) fn launch(&mut self, slot: usize, row: [f64; 8]) {
         self.launches[slot] = row;
-        self.put(slot, State { s: 0.0, x: row[X], v: row[V], sin: row[SIN], cos: row[COS] });
+        self.put(slot, State { s: 0.0, x: row[X], v: row[V], sin: row[SIN], cos: row[COS] }.rough());
     }
 
     /// Moves the last slot into this one.
@@ -99,7 +99,7 @@ impl Slots {
 
     /// One step of every flight; those whose step is not proven clear stay where they are and are listed.
     #[inline(always)]
-    pub(super) fn march<L: Lane>(&mut self, stride: &Stride, lists: &mut Lists) {
+    pub(super) fn march<L: Single>(&mut self, stride: &Stride, lists: &mut Lists) {
         let Lists { doubtful, late, .. } = lists;
         let pace = stride.pace.splat::<L>();
         doubtful.resize(self.count + WIDEST, 0);
@@ -117,7 +117,8 @@ impl Slots {
                     cos: L::load(&cos[lane..]),
                 };
                 let next = pace.step(state);
-                let clear = stride.clear(&pace.scale, &stride.end(&state), &stride.end(&next), false);
+                let margin = stride.margin(state.s);
+                let clear = stride.clear(&pace.scale, &stride.end(&state), &stride.end(&next), margin, false);
                 L::choose(clear, next.s, state.s).store(&mut s[lane..]);
                 L::choose(clear, next.x, state.x).store(&mut x[lane..]);
                 L::choose(clear, next.v, state.v).store(&mut v[lane..]);
@@ -149,23 +150,24 @@ impl Slots {
         let zero = L::splat(0.0);
         let nowhere = State { s: zero, x: zero, v: zero, sin: zero, cos: zero };
         let mut at = [[0; WIDEST]; BLOCK];
-        let (mut from, mut guess) = ([nowhere; BLOCK], [Guess::nowhere(); BLOCK]);
+        let (mut from, mut margins, mut guess) = ([nowhere; BLOCK], [zero; BLOCK], [Guess::nowhere(); BLOCK]);
+        let mut launches = [Launch { x: zero, v: zero, sin: zero, cos: zero }; BLOCK];
         let (mut approach, mut hits) = ([Approach::nowhere(); BLOCK], [Strike::nowhere(); BLOCK]);
         for block in doubtful.chunks(BLOCK * L::WIDTH) {
             // stage by stage, so that a group's work fills the time another one waits for its own results
             let groups = block.len().div_ceil(L::WIDTH);
             for (k, few) in block.chunks(L::WIDTH).enumerate() {
                 at[k] = padded(few);
-                from[k] = self.gather::<L>(&at[k]);
+                let row = L::rows(&self.launches, &at[k]);
+                launches[k] = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
+                (from[k], margins[k]) = launches[k].or_on_the_way(stride, self.gather::<L>(&at[k]));
                 guess[k] = stride.guess(pace.h, &from[k], &pace.step(from[k]));
             }
             for k in 0..groups {
-                let row = L::rows(&self.launches, &at[k]);
-                let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
-                approach[k] = stride.approach(&launch, &guess[k], table);
+                approach[k] = stride.approach(&launches[k], &guess[k], table);
             }
             for k in 0..groups {
-                hits[k] = stride.polish(&from[k], &guess[k], &approach[k]);
+                hits[k] = stride.polish(&from[k], margins[k], &guess[k], &approach[k]);
             }
             for (k, few) in block.chunks(L::WIDTH).enumerate() {
                 let phases = L::rows(&self.launches, &at[k])[PHASE];

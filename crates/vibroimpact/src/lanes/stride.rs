@@ -12,7 +12,7 @@
 //! $`\mu h \le 3/2`$, $`\mu = \max(\beta, 1 + 2\zeta)`$, so that eight terms of each parity leave out less than $`2^{-54}`$.
 
 use crate::flight::Response;
-use crate::math::{Lane, Mask};
+use crate::math::{Lane, Mask, Numbers};
 use crate::system::{Oscillator, Side};
 
 /// Times a step may be halved before a flight is handed to the careful search.
@@ -82,6 +82,8 @@ pub(crate) struct Stride {
     pub(super) two_stops: bool,
     /// A whole step.
     pub(super) pace: Pace<f64>,
+    /// The same in single precision, to pass time.
+    pub(super) rough: Pace<f32>,
     /// B6 over a window from a state with |x| + |v| = 0, and its growth with that.
     bound: [f64; 2],
     /// 1 - C, S, Kc, Ks.
@@ -106,13 +108,15 @@ impl Stride {
         let drag = 2.0 * zeta;
         let bound = sixth_derivative(beta, drag);
         let response = *osc.response();
+        let pace = Pace::new(&response, h, bound);
         Some(Self {
             beta,
             drag,
             gap: [upper.gap, lower.map_or(f64::INFINITY, |stop| stop.gap)],
             restitution: [upper.restitution, lower.map_or(0.0, |stop| stop.restitution)],
             two_stops: lower.is_some(),
-            pace: Pace::new(&response, h, bound),
+            pace,
+            rough: pace.splat(),
             bound,
             series: series(beta, drag),
             response,
@@ -246,7 +250,7 @@ pub(super) const WIDEST: usize = 8;
 /// Positions of stops beyond this are left to the careful search, whose bounds are relative.
 const FAR: f64 = 1e6;
 
-impl<L: Lane> HullScale<L> {
+impl<L: Numbers> HullScale<L> {
     #[inline(always)]
     fn new(h: L, [rest, rate]: [L; 2]) -> Self {
         let hh = h * h;
@@ -284,7 +288,7 @@ impl Pace<f64> {
 
     /// The same numbers in every lane.
     #[inline(always)]
-    pub(super) fn splat<L: Lane>(&self) -> Pace<L> {
+    pub(super) fn splat<L: Numbers>(&self) -> Pace<L> {
         let scale = &self.scale;
         Pace {
             h: L::splat(self.h),
@@ -320,7 +324,7 @@ pub(super) struct State<L> {
     pub(super) cos: L,
 }
 
-impl<L: Lane> Pace<L> {
+impl<L: Numbers> Pace<L> {
     /// The state one step on.
     #[inline(always)]
     pub(super) fn step(&self, from: State<L>) -> State<L> {
@@ -343,6 +347,32 @@ fn sum<L: Lane>(c: &[f64; TERMS], z: L, zz: L) -> L {
     let third = L::splat(c[4]) + L::splat(c[5]) * z;
     let fourth = (L::splat(c[6]) + L::splat(c[7]) * z) + L::splat(c[8]) * zz;
     first + zz * (second + zz * (third + zz * fourth))
+}
+
+impl State<f32> {
+    /// In double precision.
+    pub(super) fn wide(&self) -> State<f64> {
+        State {
+            s: f64::from(self.s),
+            x: f64::from(self.x),
+            v: f64::from(self.v),
+            sin: f64::from(self.sin),
+            cos: f64::from(self.cos),
+        }
+    }
+}
+
+impl State<f64> {
+    /// In single precision; whole steps stay exact.
+    pub(super) fn rough(&self) -> State<f32> {
+        State {
+            s: Numbers::splat(self.s),
+            x: Numbers::splat(self.x),
+            v: Numbers::splat(self.v),
+            sin: Numbers::splat(self.sin),
+            cos: Numbers::splat(self.cos),
+        }
+    }
 }
 
 /// A bound of the sixth derivative, $`B_6 = p + q R`$ where $`R`$ bounds the energy radius in the window: the recursion of

@@ -10,7 +10,7 @@
 //!
 //! Where one of these fails the answer is no, and the step is halved.
 
-use super::hull::End;
+use super::hull::{End, MARGIN};
 use super::stride::{Propagators, Row, State, Stride};
 use crate::math::{Lane, Mask};
 
@@ -111,11 +111,12 @@ impl Stride {
         launch: &Launch<L>,
         h: L,
         (from, to): (&State<L>, &State<L>),
+        margin: L,
         propagators: &impl Propagators<L>,
     ) -> Strike<L> {
         let guess = self.guess(h, from, to);
         let approach = self.approach(launch, &guess, propagators);
-        self.polish(from, &guess, &approach)
+        self.polish(from, margin, &guess, &approach)
     }
 
     /// 1. Where the interpolant of the step meets a stop.
@@ -156,7 +157,13 @@ impl Stride {
 
     /// 3. The contact, and 4. whether it is proven to be the first since `from`.
     #[inline(always)]
-    pub(super) fn polish<L: Lane>(&self, from: &State<L>, guess: &Guess<L>, approach: &Approach<L>) -> Strike<L> {
+    pub(super) fn polish<L: Lane>(
+        &self,
+        from: &State<L>,
+        margin: L,
+        guess: &Guess<L>,
+        approach: &Approach<L>,
+    ) -> Strike<L> {
         let Approach { room: g, state: Launch { x, v: p, sin, cos } } = *approach;
         let (drag, beta, mirror) = (L::splat(self.drag), L::splat(self.beta), guess.mirror);
         let damped = self.drag != 0.0;
@@ -211,7 +218,7 @@ impl Stride {
         } else {
             L::choose(L::splat(0.0).less(q), L::splat(SLOWEST), L::splat(GENTLE))
         };
-        let proven = self.clear(&self.scale(h), &self.end(from), &arrival, true).and(near).and(settled);
+        let proven = self.clear(&self.scale(h), &self.end(from), &arrival, margin, true).and(near).and(settled);
         let proven = proven.and(gentlest.less(velocity)).and(L::splat(0.0).less(h));
         Strike { proven, time, velocity, side: mirror.side }
     }
@@ -241,6 +248,20 @@ impl Stride {
 }
 
 impl<L: Lane> Launch<L> {
+    /// The state a step in doubt begins with, and its margin: the launch itself, exact, or what was passed on from it.
+    #[inline(always)]
+    pub(super) fn or_on_the_way(&self, stride: &Stride, way: State<L>) -> (State<L>, L) {
+        let fresh = way.s.less(L::splat(f64::MIN_POSITIVE));
+        let state = State {
+            s: way.s,
+            x: L::choose(fresh, self.x, way.x),
+            v: L::choose(fresh, self.v, way.v),
+            sin: L::choose(fresh, self.sin, way.sin),
+            cos: L::choose(fresh, self.cos, way.cos),
+        };
+        (state, L::choose(fresh, L::splat(MARGIN), stride.margin(way.s)))
+    }
+
     /// Seen from the stop it may strike.
     #[inline(always)]
     fn mirrored(&self, mirror: Mirror<L>) -> Self {

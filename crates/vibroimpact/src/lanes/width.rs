@@ -1,12 +1,12 @@
 //! How many flights are flown side by side, and the one place where the processor is asked.
 
-use super::pack::Pack;
+use super::pack::{Pack, Singles};
 use super::pair::Pair;
 use super::slots::{Lists, Slots};
 use super::stride::{Stride, Table};
 
 #[cfg(target_arch = "x86_64")]
-use super::avx2::Four;
+use super::avx2::{EightSingle, Four};
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Eight;
 
@@ -53,7 +53,7 @@ impl Width {
     pub(super) fn round(self, slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
         match self {
             Self::Scalar => {
-                slots.march::<f64>(stride, lists);
+                slots.march::<f32>(stride, lists);
                 slots.strike::<f64>(stride, table, lists);
             }
             #[cfg(target_arch = "x86_64")]
@@ -74,7 +74,7 @@ impl Width {
                 }
             }
             _ => {
-                slots.march::<Pack<4>>(stride, lists);
+                slots.march::<Singles<4>>(stride, lists);
                 slots.strike::<Pack<4>>(stride, table, lists);
             }
         }
@@ -84,7 +84,7 @@ impl Width {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn march_avx2(slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
-    slots.march::<Four>(stride, lists);
+    slots.march::<EightSingle>(stride, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -96,7 +96,7 @@ fn strike_avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Li
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn march_avx512(slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
-    slots.march::<Eight>(stride, lists);
+    slots.march::<EightSingle>(stride, lists);
 }
 
 #[cfg(target_arch = "x86_64")]

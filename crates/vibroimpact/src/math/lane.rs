@@ -7,27 +7,17 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Several `f64` side by side.
-pub(crate) trait Lane:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+/// Several numbers side by side, of single or double precision.
+pub(crate) trait Numbers:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// One truth value a number.
     type Mask: Mask;
     /// How many numbers.
     const WIDTH: usize;
 
-    /// The same number everywhere.
+    /// The same number everywhere, rounded to the precision.
     fn splat(x: f64) -> Self;
-    /// The first [`Self::WIDTH`] numbers of a slice.
-    fn load(from: &[f64]) -> Self;
-    /// Writes them to the beginning of a slice.
-    fn store(self, to: &mut [f64]);
-    /// The numbers of one column at these places, where eight neighbours of a column lie side by side.
-    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self;
-    /// The columns of the rows at these places.
-    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N];
-    /// Writes columns as rows, one for each number.
-    fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]);
     /// Magnitude.
     fn abs(self) -> Self;
     /// `self` where it is greater than `other`, else `other`.
@@ -38,6 +28,28 @@ pub(crate) trait Lane:
     fn less(self, other: Self) -> Self::Mask;
     /// `yes` where the mask is set, else `no`.
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
+}
+
+/// Numbers of single precision: enough to pass time in, where what they say is only used with a margin.
+pub(crate) trait Single: Numbers {
+    /// The first numbers of a slice.
+    fn load(from: &[f32]) -> Self;
+    /// Writes them to the beginning of a slice.
+    fn store(self, to: &mut [f32]);
+}
+
+/// Several `f64` side by side.
+pub(crate) trait Lane: Numbers + Div<Output = Self> {
+    /// The first [`Self::WIDTH`] numbers of a slice.
+    fn load(from: &[f64]) -> Self;
+    /// Writes them to the beginning of a slice.
+    fn store(self, to: &mut [f64]);
+    /// The numbers of one column at these places, where eight neighbours of a column lie side by side.
+    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self;
+    /// The columns of the rows at these places.
+    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N];
+    /// Writes columns as rows, one for each number.
+    fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]);
     /// Sine and cosine, for arguments of at most 1e6 in magnitude.
     #[inline(always)]
     fn sine_and_cosine(self) -> (Self, Self) {
@@ -74,51 +86,21 @@ impl Mask for bool {
 
 /// One number of a column.
 #[inline(always)]
-pub(crate) fn picked(from: &[[[f64; 8]; 5]], column: usize, at: u32) -> f64 {
-    from[at as usize / 8][column][at as usize % 8]
+pub(crate) fn picked(from: &[[[f32; 8]; 5]], column: usize, at: u32) -> f64 {
+    f64::from(from[at as usize / 8][column][at as usize % 8])
 }
 
 /// The scalar instance: what the lanes are compared with, and what a single motion runs on.
-impl Lane for f64 {
+impl Numbers for f64 {
     type Mask = bool;
     const WIDTH: usize = 1;
-
     #[inline(always)]
     fn splat(x: f64) -> Self {
         x
     }
     #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        from[0]
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [f64]) {
-        to[0] = self;
-    }
-    #[inline(always)]
-    fn pick(from: &[[[f64; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
-        picked(from, column, at[0])
-    }
-    #[inline(always)]
-    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
-        table[at[0] as usize]
-    }
-    #[inline(always)]
-    fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]) {
-        rows[0] = columns;
-    }
-    #[inline(always)]
     fn abs(self) -> Self {
         Self::abs(self)
-    }
-    /// Of any size; the same bits.
-    #[inline(always)]
-    fn sine_and_cosine(self) -> (Self, Self) {
-        super::sin_cos(self)
-    }
-    #[inline(always)]
-    fn floor(self) -> Self {
-        Self::floor(self)
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -135,5 +117,79 @@ impl Lane for f64 {
     #[inline(always)]
     fn choose(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+}
+
+impl Lane for f64 {
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        from[0]
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f64]) {
+        to[0] = self;
+    }
+    #[inline(always)]
+    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
+        picked(from, column, at[0])
+    }
+    #[inline(always)]
+    fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
+        table[at[0] as usize]
+    }
+    #[inline(always)]
+    fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]) {
+        rows[0] = columns;
+    }
+    /// Of any size; the same bits.
+    #[inline(always)]
+    fn sine_and_cosine(self) -> (Self, Self) {
+        super::sin_cos(self)
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self::floor(self)
+    }
+}
+
+impl Numbers for f32 {
+    type Mask = bool;
+    const WIDTH: usize = 1;
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        #[allow(clippy::cast_possible_truncation)] // rounded on purpose
+        let x = x as Self;
+        x
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn choose(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
+
+impl Single for f32 {
+    #[inline(always)]
+    fn load(from: &[f32]) -> Self {
+        from[0]
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        to[0] = self;
     }
 }
