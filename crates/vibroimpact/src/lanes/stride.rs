@@ -2,7 +2,8 @@
 //!
 //! A flight is crossed in steps of one length $`h`$. Over a step the state $`(x, v, \sin\theta, \cos\theta)`$ is multiplied
 //! by a constant matrix, the propagator of [`Response`](crate::flight::Response) at $`h`$ and the rotation by $`\beta h`$: no
-//! sine is evaluated on the way, and no formula divides by $`1 - \beta^2`$. The state at any time is composed of the
+//! sine is evaluated on the way, and no formula divides by $`1 - \beta^2`$. These steps only pass time, in single precision: the
+//! hull of each keeps a margin for it ([`hull`](super::hull)), and nothing of them reaches a result. The state at any time is composed of the
 //! propagator at the nearest whole step, applied to the launch, and of the one over the rest, at most half a step, whose
 //! four functions
 //!
