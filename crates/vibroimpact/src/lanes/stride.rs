@@ -2,15 +2,15 @@
 //!
 //! A flight is crossed in steps of one length $`h`$. Over a step the state $`(x, v, \sin\theta, \cos\theta)`$ is multiplied
 //! by a constant matrix, the propagator of [`Response`](crate::flight::Response) at $`h`$ and the rotation by $`\beta h`$: no
-//! sine is evaluated on the way, and no formula divides by $`1 - \beta^2`$. These steps only pass time, in single precision: the
-//! hull of each keeps a margin for it ([`hull`](super::hull)), and nothing of them reaches a result. The state at any time is composed of the
-//! propagator at the nearest whole step, applied to the launch, and of the one over the rest, at most half a step, whose
-//! four functions
+//! sine is evaluated on the way, and no formula divides by $`1 - \beta^2`$. These steps only pass time, in single
+//! precision: the hull of each keeps a margin for it ([`hull`](super::hull)), and a contact takes no more than its first guess
+//! from them. In double precision, with damping, the state at any time is composed of the propagator at the nearest whole step,
+//! applied to the launch, and of the one over the rest, at most half a step, whose four functions
 //!
 //! $$`1 - C(t),\quad S(t),\quad K_c(t),\quad K_s(t) \qquad (|t| \le h/2)`$$
 //!
 //! are power series with coefficients from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$. The step obeys
-//! $`\mu h \le 3/2`$, $`\mu = \max(\beta, 1 + 2\zeta)`$, so that eight terms of each parity leave out less than $`2^{-54}`$.
+//! $`\mu h \le 3/2`$, $`\mu = \max(\beta, 1 + 2\zeta)`$, so that nine terms of each parity leave out less than $`2^{-60}`$.
 
 use crate::flight::Response;
 use crate::math::{Lane, Mask, Numbers};
