@@ -8,7 +8,7 @@
 //! under damping by its Taylor series while $`s`$ is small.
 
 use super::response::HEAVY;
-use crate::math::{exp, exp_m1, sin_cos, two_prod};
+use crate::math::{Lane, exp, exp_m1, sin_cos, two_prod};
 
 /// From this damping on the two exponents are far enough apart to divide by their difference.
 const TWO_ROOTS: f64 = 1.2;
@@ -134,7 +134,8 @@ pub(super) fn decay(x: f64) -> (f64, f64) {
 }
 
 /// $`1 - \cos`$ without cancellation.
-#[inline]
-pub(super) fn versine(sin: f64, cos: f64) -> f64 {
-    if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos }
+#[inline(always)]
+pub(super) fn versine<L: Lane>(sin: L, cos: L) -> L {
+    let one = L::splat(1.0);
+    L::choose(L::splat(0.0).less(cos), sin * sin / (one + cos), one - cos)
 }

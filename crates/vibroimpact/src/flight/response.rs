@@ -220,7 +220,7 @@ impl<L: Lane> Undamped<L> {
         let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
         let part = sa * L::splat(over_sum);
         Self {
-            one_minus_c: versine_lanes(ss, cs),
+            one_minus_c: versine(ss, cs),
             c: cs,
             s: ss,
             kc: L::splat(2.0) * q * part,
@@ -237,7 +237,7 @@ impl<L: Lane> Undamped<L> {
     fn plain(s: L, beta: f64) -> Self {
         let (ss, cs) = s.sine_and_cosine();
         let (st, ct) = (L::splat(beta) * s).sine_and_cosine();
-        let (free, turn) = (versine_lanes(ss, cs), versine_lanes(st, ct));
+        let (free, turn) = (versine(ss, cs), versine(st, ct));
         let z = L::splat((1.0 - beta) * (1.0 + beta));
         let forced = L::splat(beta) * ss;
         Self {
@@ -251,13 +251,6 @@ impl<L: Lane> Undamped<L> {
             forced_size: L::splat(0.0),
         }
     }
-}
-
-/// $`1 - \cos`$ without cancellation.
-#[inline(always)]
-fn versine_lanes<L: Lane>(sin: L, cos: L) -> L {
-    let one = L::splat(1.0);
-    L::choose(L::splat(0.0).less(cos), sin * sin / (one + cos), one - cos)
 }
 
 /// Complex quotient.

@@ -87,12 +87,16 @@ impl Numbers for Four {
     }
 }
 
-impl Lane for Four {
+impl Four {
+    /// The first numbers of a slice.
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         let four: &[f64; 4] = from.first_chunk().unwrap_or(&[0.0; 4]);
         Self(unsafe { _mm256_loadu_pd(four.as_ptr()) })
     }
+}
+
+impl Lane for Four {
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         if let Some(four) = to.first_chunk_mut::<4>() {

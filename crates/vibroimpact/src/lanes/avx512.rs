@@ -84,12 +84,16 @@ impl Numbers for Eight {
     }
 }
 
-impl Lane for Eight {
+impl Eight {
+    /// The first numbers of a slice.
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         let eight: &[f64; 8] = from.first_chunk().unwrap_or(&[0.0; 8]);
         Self(unsafe { _mm512_loadu_pd(eight.as_ptr()) })
     }
+}
+
+impl Lane for Eight {
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         if let Some(eight) = to.first_chunk_mut::<8>() {

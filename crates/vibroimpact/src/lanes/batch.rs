@@ -141,7 +141,7 @@ impl Batch {
     #[must_use]
     pub fn arrival(&self, slot: u32) -> (ImpactState, f64) {
         let row = &self.slots.launches[slot as usize];
-        let side = if row[SIDE] < 0.0 { Side::Lower } else { Side::Upper };
+        let side = Side::of_sign(row[SIDE]);
         (ImpactState { phase: row[PHASE], velocity: row[ARRIVAL], side }, row[INTERVAL])
     }
 

@@ -151,8 +151,7 @@ impl Launch<f64> {
 
 impl From<Hit> for Contact {
     fn from(hit: Hit) -> Self {
-        let side = if hit.side < 0.0 { Side::Lower } else { Side::Upper };
-        Self::Impact { time: hit.time, side, velocity: hit.velocity }
+        Self::Impact { time: hit.time, side: Side::of_sign(hit.side), velocity: hit.velocity }
     }
 }
 

@@ -1,13 +1,13 @@
 //! The portable lane type: an array, operated on place by place, which the compiler turns into whatever vector
-//! instructions the target has (NEON on ARM, SSE2 on any x86-64, AVX-512 where a caller enables it).
+//! instructions the target has (NEON on ARM, SSE2 on any x86-64).
 
 use crate::math::{Lane, Mask, Numbers, Single, picked};
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `N` numbers.
+/// `N` numbers, of double or single precision.
 #[derive(Clone, Copy)]
-pub(super) struct Pack<const N: usize>([f64; N]);
+pub(super) struct Pack<T, const N: usize>([T; N]);
 
 /// `N` truth values.
 #[derive(Clone, Copy)]
@@ -15,7 +15,7 @@ pub(super) struct PackMask<const N: usize>([bool; N]);
 
 macro_rules! place_by_place {
     ($($operation:ident $method:ident),*) => {$(
-        impl<const N: usize> $operation for Pack<N> {
+        impl<T: Copy + $operation<Output = T>, const N: usize> $operation for Pack<T, N> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
@@ -26,7 +26,7 @@ macro_rules! place_by_place {
 }
 place_by_place!(Add add, Sub sub, Mul mul, Div div);
 
-impl<const N: usize> Neg for Pack<N> {
+impl<T: Copy + Neg<Output = T>, const N: usize> Neg for Pack<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -45,12 +45,12 @@ impl<const N: usize> Mask for PackMask<N> {
     }
 }
 
-impl<const N: usize> Numbers for Pack<N> {
+impl<T: Numbers<Mask = bool>, const N: usize> Numbers for Pack<T, N> {
     type Mask = PackMask<N>;
     const WIDTH: usize = N;
     #[inline(always)]
     fn splat(x: f64) -> Self {
-        Self([x; N])
+        Self([T::splat(x); N])
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -58,27 +58,23 @@ impl<const N: usize> Numbers for Pack<N> {
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        Self(from_fn(|k| Numbers::max(self.0[k], other.0[k])))
+        Self(from_fn(|k| self.0[k].max(other.0[k])))
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        Self(from_fn(|k| Numbers::min(self.0[k], other.0[k])))
+        Self(from_fn(|k| self.0[k].min(other.0[k])))
     }
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
-        PackMask(from_fn(|k| self.0[k] < other.0[k]))
+        PackMask(from_fn(|k| self.0[k].less(other.0[k])))
     }
     #[inline(always)]
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Self(from_fn(|k| if mask.0[k] { yes.0[k] } else { no.0[k] }))
+        Self(from_fn(|k| T::choose(mask.0[k], yes.0[k], no.0[k])))
     }
 }
 
-impl<const N: usize> Lane for Pack<N> {
-    #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        Self(from_fn(|k| from[k]))
-    }
+impl<const N: usize> Lane for Pack<f64, N> {
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         to[..N].copy_from_slice(&self.0);
@@ -103,61 +99,7 @@ impl<const N: usize> Lane for Pack<N> {
     }
 }
 
-/// `N` numbers of single precision.
-#[derive(Clone, Copy)]
-pub(super) struct Singles<const N: usize>([f32; N]);
-
-macro_rules! single_by_single {
-    ($($operation:ident $method:ident),*) => {$(
-        impl<const N: usize> $operation for Singles<N> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(from_fn(|k| self.0[k].$method(other.0[k])))
-            }
-        }
-    )*};
-}
-single_by_single!(Add add, Sub sub, Mul mul);
-
-impl<const N: usize> Neg for Singles<N> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(from_fn(|k| -self.0[k]))
-    }
-}
-
-impl<const N: usize> Numbers for Singles<N> {
-    type Mask = PackMask<N>;
-    const WIDTH: usize = N;
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self([<f32 as Numbers>::splat(x); N])
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(from_fn(|k| self.0[k].abs()))
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(from_fn(|k| Numbers::max(self.0[k], other.0[k])))
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(from_fn(|k| Numbers::min(self.0[k], other.0[k])))
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> Self::Mask {
-        PackMask(from_fn(|k| self.0[k] < other.0[k]))
-    }
-    #[inline(always)]
-    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Self(from_fn(|k| if mask.0[k] { yes.0[k] } else { no.0[k] }))
-    }
-}
-
-impl<const N: usize> Single for Singles<N> {
+impl<const N: usize> Single for Pack<f32, N> {
     #[inline(always)]
     fn load(from: &[f32]) -> Self {
         Self(from_fn(|k| from[k]))

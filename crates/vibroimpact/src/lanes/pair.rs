@@ -74,10 +74,6 @@ impl<L: Lane> Numbers for Pair<L> {
 
 impl<L: Lane> Lane for Pair<L> {
     #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        Self(L::load(from), L::load(&from[L::WIDTH..]))
-    }
-    #[inline(always)]
     fn store(self, to: &mut [f64]) {
         self.0.store(to);
         self.1.store(&mut to[L::WIDTH..]);

@@ -1,6 +1,6 @@
 //! How many flights are flown side by side, and the one place where the processor is asked.
 
-use super::pack::{Pack, Singles};
+use super::pack::Pack;
 use super::pair::Pair;
 use super::slots::{Lists, Slots};
 use super::stride::{Stride, Table};
@@ -74,8 +74,8 @@ impl Width {
                 }
             }
             _ => {
-                slots.march::<Singles<4>>(stride, lists);
-                slots.strike::<Pack<4>>(stride, table, lists);
+                slots.march::<Pack<f32, 4>>(stride, lists);
+                slots.strike::<Pack<f64, 4>>(stride, table, lists);
             }
         }
     }

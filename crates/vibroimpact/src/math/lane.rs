@@ -40,8 +40,6 @@ pub(crate) trait Single: Numbers {
 
 /// Several `f64` side by side.
 pub(crate) trait Lane: Numbers + Div<Output = Self> {
-    /// The first [`Self::WIDTH`] numbers of a slice.
-    fn load(from: &[f64]) -> Self;
     /// Writes them to the beginning of a slice.
     fn store(self, to: &mut [f64]);
     /// The numbers of one column at these places, where eight neighbours of a column lie side by side.
@@ -90,41 +88,44 @@ pub(crate) fn picked(from: &[[[f32; 8]; 5]], column: usize, at: u32) -> f64 {
     f64::from(from[at as usize / 8][column][at as usize % 8])
 }
 
-/// The scalar instance: what the lanes are compared with, and what a single motion runs on.
-impl Numbers for f64 {
-    type Mask = bool;
-    const WIDTH: usize = 1;
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        x
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self::abs(self)
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> bool {
-        self < other
-    }
-    #[inline(always)]
-    fn choose(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
+macro_rules! one_number {
+    ($($precision:ty),*) => {$(
+        impl Numbers for $precision {
+            type Mask = bool;
+            const WIDTH: usize = 1;
+            #[inline(always)]
+            fn splat(x: f64) -> Self {
+                #[allow(clippy::cast_possible_truncation)] // single precision: rounded on purpose
+                let x = x as Self;
+                x
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Self::abs(self)
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+            #[inline(always)]
+            fn less(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn choose(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+        }
+    )*};
 }
+one_number!(f64, f32);
 
+/// The scalar instance: what the lanes are compared with, and what a single motion runs on.
 impl Lane for f64 {
-    #[inline(always)]
-    fn load(from: &[f64]) -> Self {
-        from[0]
-    }
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         to[0] = self;
@@ -149,37 +150,6 @@ impl Lane for f64 {
     #[inline(always)]
     fn floor(self) -> Self {
         Self::floor(self)
-    }
-}
-
-impl Numbers for f32 {
-    type Mask = bool;
-    const WIDTH: usize = 1;
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        #[allow(clippy::cast_possible_truncation)] // rounded on purpose
-        let x = x as Self;
-        x
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self::abs(self)
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> bool {
-        self < other
-    }
-    #[inline(always)]
-    fn choose(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
     }
 }
 

@@ -37,6 +37,12 @@ impl Side {
             Self::Lower => -1.0,
         }
     }
+
+    /// The side that has this [`sign`](Self::sign).
+    #[inline]
+    pub(crate) const fn of_sign(sign: f64) -> Self {
+        if sign < 0.0 { Self::Lower } else { Self::Upper }
+    }
 }
 
 /// A rigid stop: its distance from the rest position of the mass, outwards, and its restitution.
