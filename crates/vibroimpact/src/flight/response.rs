@@ -114,7 +114,7 @@ impl Response {
     pub fn at(&self, s: f64) -> Propagator {
         match self.regime {
             Regime::Undamped { detuning, over_sum } => {
-                let near = Undamped::near(s, detuning, over_sum);
+                let near = Undamped::near(s, Turn::of(s), detuning, over_sum);
                 Propagator {
                     one_minus_c: near.one_minus_c,
                     c: near.c,
@@ -140,7 +140,7 @@ impl Response {
     #[inline(always)]
     pub(crate) fn undamped<L: Lane>(&self, s: L) -> Undamped<L> {
         match self.regime {
-            Regime::Undamped { detuning, over_sum } => Undamped::near(s, detuning, over_sum),
+            Regime::Undamped { detuning, over_sum } => Undamped::near(s, Turn::by_half(s), detuning, over_sum),
             _ => Undamped::plain(s, self.beta),
         }
     }
@@ -210,17 +210,44 @@ pub(crate) struct Undamped<L> {
     forced_size: L,
 }
 
+/// Sine and cosine of an angle, and one less its cosine without cancellation.
+#[derive(Clone, Copy)]
+struct Turn<L> {
+    sin: L,
+    cos: L,
+    versine: L,
+}
+
+impl Turn<f64> {
+    /// To the last bits.
+    fn of(angle: f64) -> Self {
+        let (sin, cos) = sin_cos(angle);
+        Self { sin, cos, versine: versine(sin, cos) }
+    }
+}
+
+impl<L: Lane> Turn<L> {
+    /// To two units in the last place, without a quotient.
+    #[inline(always)]
+    fn by_half(angle: L) -> Self {
+        let (sin, cos) = (L::splat(0.5) * angle).sine_and_cosine();
+        let twice = sin + sin;
+        let versine = twice * sin;
+        Self { sin: twice * cos, cos: L::splat(1.0) - versine, versine }
+    }
+}
+
 impl<L: Lane> Undamped<L> {
     /// Near resonance, and through it.
     #[inline(always)]
-    fn near(s: L, detuning: f64, over_sum: f64) -> Self {
-        let (ss, cs) = s.sine_and_cosine();
+    fn near(s: L, free: Turn<L>, detuning: f64, over_sum: f64) -> Self {
+        let (ss, cs) = (free.sin, free.cos);
         let (sh, ch) = (L::splat(0.5 * detuning) * s).sine_and_cosine();
-        let q = if detuning == 0.0 { L::splat(0.5) * s } else { sh / L::splat(detuning) };
+        let q = if detuning == 0.0 { L::splat(0.5) * s } else { sh * L::splat(1.0 / detuning) };
         let (sa, ca) = (ss * ch + cs * sh, cs * ch - ss * sh);
         let part = sa * L::splat(over_sum);
         Self {
-            one_minus_c: versine(ss, cs),
+            one_minus_c: free.versine,
             c: cs,
             s: ss,
             kc: L::splat(2.0) * q * part,
@@ -235,19 +262,16 @@ impl<L: Lane> Undamped<L> {
     /// Away from resonance: $`K = (e^{i\beta s} - C - i\beta S)/(1-\beta^2)`$.
     #[inline(always)]
     fn plain(s: L, beta: f64) -> Self {
-        let (ss, cs) = s.sine_and_cosine();
-        let (st, ct) = (L::splat(beta) * s).sine_and_cosine();
-        let (free, turn) = (versine(ss, cs), versine(st, ct));
-        let z = L::splat((1.0 - beta) * (1.0 + beta));
-        let forced = L::splat(beta) * ss;
+        let (free, turn) = (Turn::by_half(s), Turn::by_half(L::splat(beta) * s));
+        let over = L::splat(1.0 / ((1.0 - beta) * (1.0 + beta)));
         Self {
-            one_minus_c: free,
-            c: cs,
-            s: ss,
-            kc: (free - turn) / z,
-            ks: (st - forced) / z,
-            sin_turn: st,
-            cos_turn: ct,
+            one_minus_c: free.versine,
+            c: free.cos,
+            s: free.sin,
+            kc: (free.versine - turn.versine) * over,
+            ks: (turn.sin - L::splat(beta) * free.sin) * over,
+            sin_turn: turn.sin,
+            cos_turn: turn.cos,
             forced_size: L::splat(0.0),
         }
     }

@@ -6,14 +6,17 @@
 //! after the processor was asked, so the instructions are there.
 #![allow(unsafe_code)]
 
-use crate::math::{Lane, Mask, Numbers, Single, picked};
+use super::pack::Pack;
+use super::pair::Half;
+use super::single::EightSingle;
+use crate::math::{Lane, Mask, Numbers};
 use core::arch::x86_64::{
-    __m256, __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_add_ps, _mm256_and_pd, _mm256_and_ps, _mm256_andnot_pd,
-    _mm256_andnot_ps, _mm256_blendv_pd, _mm256_blendv_ps, _mm256_cmp_pd, _mm256_cmp_ps, _mm256_div_pd, _mm256_floor_pd,
-    _mm256_loadu_pd, _mm256_loadu_ps, _mm256_max_pd, _mm256_max_ps, _mm256_min_pd, _mm256_min_ps, _mm256_movemask_pd,
-    _mm256_movemask_ps, _mm256_mul_pd, _mm256_mul_ps, _mm256_permute2f128_pd, _mm256_set_pd, _mm256_set1_pd,
-    _mm256_set1_ps, _mm256_storeu_pd, _mm256_storeu_ps, _mm256_sub_pd, _mm256_sub_ps, _mm256_unpackhi_pd,
-    _mm256_unpacklo_pd, _mm256_xor_pd, _mm256_xor_ps,
+    __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_si256,
+    _mm256_castps128_ps256, _mm256_castps256_ps128, _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cvtpd_ps,
+    _mm256_cvtps_pd, _mm256_div_pd, _mm256_extractf128_ps, _mm256_floor_pd, _mm256_insertf128_ps, _mm256_loadu_pd,
+    _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_or_pd, _mm256_permute2f128_pd,
+    _mm256_set_pd, _mm256_set1_pd, _mm256_slli_epi64, _mm256_sqrt_pd, _mm256_storeu_pd, _mm256_sub_pd,
+    _mm256_unpackhi_pd, _mm256_unpacklo_pd, _mm256_xor_pd,
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -52,6 +55,10 @@ impl Mask for FourMask {
         Self(unsafe { _mm256_and_pd(self.0, other.0) })
     }
     #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(unsafe { _mm256_or_pd(self.0, other.0) })
+    }
+    #[inline(always)]
     fn bits(self) -> u32 {
         unsafe { _mm256_movemask_pd(self.0) }.cast_unsigned()
     }
@@ -78,6 +85,10 @@ impl Numbers for Four {
         Self(unsafe { _mm256_min_pd(self.0, other.0) })
     }
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(unsafe { _mm256_sqrt_pd(self.0) })
+    }
+    #[inline(always)]
     fn less(self, other: Self) -> FourMask {
         FourMask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
     }
@@ -87,27 +98,51 @@ impl Numbers for Four {
     }
 }
 
-impl Four {
-    /// The first numbers of a slice.
+impl Half for Four {
+    type Double = EightSingle;
+
+    #[inline(always)]
+    fn both_widened(EightSingle(from): EightSingle) -> (Self, Self) {
+        unsafe {
+            (
+                Self(_mm256_cvtps_pd(_mm256_castps256_ps128(from))),
+                Self(_mm256_cvtps_pd(_mm256_extractf128_ps::<1>(from))),
+            )
+        }
+    }
+    #[inline(always)]
+    fn both_rounded(self, second: Self) -> EightSingle {
+        unsafe {
+            let first = _mm256_castps128_ps256(_mm256_cvtpd_ps(self.0));
+            EightSingle(_mm256_insertf128_ps::<1>(first, _mm256_cvtpd_ps(second.0)))
+        }
+    }
+}
+
+impl Lane for Four {
+    type Rough = Pack<f32, 4>;
+
+    #[inline(always)]
+    fn widened(from: Pack<f32, 4>) -> Self {
+        let [a, b, c, d] = from.0.map(f64::from);
+        Self(unsafe { _mm256_set_pd(d, c, b, a) })
+    }
+    #[inline(always)]
+    fn rounded(self) -> Pack<f32, 4> {
+        let mut four = [0.0; 4];
+        self.store(&mut four);
+        Pack(four.map(Numbers::splat))
+    }
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         let four: &[f64; 4] = from.first_chunk().unwrap_or(&[0.0; 4]);
         Self(unsafe { _mm256_loadu_pd(four.as_ptr()) })
     }
-}
-
-impl Lane for Four {
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         if let Some(four) = to.first_chunk_mut::<4>() {
             unsafe { _mm256_storeu_pd(four.as_mut_ptr(), self.0) }
         }
-    }
-    #[inline(always)]
-    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
-        let (a, b) = (picked(from, column, at[0]), picked(from, column, at[1]));
-        let (c, d) = (picked(from, column, at[2]), picked(from, column, at[3]));
-        Self(unsafe { _mm256_set_pd(d, c, b, a) })
     }
     #[inline(always)]
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
@@ -143,6 +178,19 @@ impl Lane for Four {
     fn floor(self) -> Self {
         Self(unsafe { _mm256_floor_pd(self.0) })
     }
+    #[inline(always)]
+    fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
+        unsafe {
+            let bits = _mm256_castpd_si256(quarters.0);
+            // a blend goes by the first bit
+            let odd = _mm256_castsi256_pd(_mm256_slli_epi64::<63>(bits));
+            let half = _mm256_castsi256_pd(_mm256_slli_epi64::<62>(bits));
+            let (a, b) = (_mm256_blendv_pd(sin.0, cos.0, odd), _mm256_blendv_pd(cos.0, sin.0, odd));
+            let sign = _mm256_set1_pd(-0.0);
+            let both = _mm256_xor_pd(half, odd);
+            (Self(_mm256_xor_pd(a, _mm256_and_pd(half, sign))), Self(_mm256_xor_pd(b, _mm256_and_pd(both, sign))))
+        }
+    }
 }
 
 /// Rows as columns.
@@ -157,88 +205,5 @@ fn transposed(a: __m256d, b: __m256d, c: __m256d, d: __m256d) -> [__m256d; 4] {
             _mm256_permute2f128_pd::<0x31>(ab_low, cd_low),
             _mm256_permute2f128_pd::<0x31>(ab_high, cd_high),
         ]
-    }
-}
-
-/// Eight numbers of single precision.
-#[derive(Clone, Copy)]
-pub(super) struct EightSingle(__m256);
-
-/// Eight truth values.
-#[derive(Clone, Copy)]
-pub(super) struct EightSingleMask(__m256);
-
-macro_rules! single_by_intrinsic {
-    ($($operation:ident $method:ident $intrinsic:ident),*) => {$(
-        impl $operation for EightSingle {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(unsafe { $intrinsic(self.0, other.0) })
-            }
-        }
-    )*};
-}
-single_by_intrinsic!(Add add _mm256_add_ps, Sub sub _mm256_sub_ps, Mul mul _mm256_mul_ps);
-
-impl Neg for EightSingle {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(unsafe { _mm256_xor_ps(self.0, _mm256_set1_ps(-0.0)) })
-    }
-}
-
-impl Mask for EightSingleMask {
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Self(unsafe { _mm256_and_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        unsafe { _mm256_movemask_ps(self.0) }.cast_unsigned()
-    }
-}
-
-impl Numbers for EightSingle {
-    type Mask = EightSingleMask;
-    const WIDTH: usize = 8;
-    #[inline(always)]
-    fn splat(x: f64) -> Self {
-        Self(unsafe { _mm256_set1_ps(<f32 as Numbers>::splat(x)) })
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) })
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        Self(unsafe { _mm256_max_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        Self(unsafe { _mm256_min_ps(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn less(self, other: Self) -> EightSingleMask {
-        EightSingleMask(unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) })
-    }
-    #[inline(always)]
-    fn choose(mask: EightSingleMask, yes: Self, no: Self) -> Self {
-        Self(unsafe { _mm256_blendv_ps(no.0, yes.0, mask.0) })
-    }
-}
-
-impl Single for EightSingle {
-    #[inline(always)]
-    fn load(from: &[f32]) -> Self {
-        let eight: &[f32; 8] = from.first_chunk().unwrap_or(&[0.0; 8]);
-        Self(unsafe { _mm256_loadu_ps(eight.as_ptr()) })
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [f32]) {
-        if let Some(eight) = to.first_chunk_mut::<8>() {
-            unsafe { _mm256_storeu_ps(eight.as_mut_ptr(), self.0) }
-        }
     }
 }

@@ -5,12 +5,14 @@
 //! processor was asked, so the instructions are there; loads and stores stay within a slice whose length was checked.
 #![allow(unsafe_code)]
 
-use crate::math::{Lane, Mask, Numbers, picked};
+use super::single::EightSingle;
+use crate::math::{Lane, Mask, Numbers};
 use core::arch::x86_64::{
-    __m512d, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEG_INF, _mm512_abs_pd, _mm512_add_pd, _mm512_cmp_pd_mask,
-    _mm512_div_pd, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd,
-    _mm512_roundscale_pd, _mm512_set_pd, _mm512_set1_pd, _mm512_shuffle_f64x2, _mm512_storeu_pd, _mm512_sub_pd,
-    _mm512_unpackhi_pd, _mm512_unpacklo_pd, _mm512_xor_pd,
+    __m512d, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEG_INF, _mm512_abs_pd, _mm512_add_pd, _mm512_and_pd,
+    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_cvtpd_ps, _mm512_cvtps_pd, _mm512_div_pd,
+    _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_movepi64_mask, _mm512_mul_pd,
+    _mm512_roundscale_pd, _mm512_set1_pd, _mm512_shuffle_f64x2, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_storeu_pd,
+    _mm512_sub_pd, _mm512_unpackhi_pd, _mm512_unpacklo_pd, _mm512_xor_pd,
 };
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -49,6 +51,10 @@ impl Mask for EightMask {
         Self(self.0 & other.0)
     }
     #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+    #[inline(always)]
     fn bits(self) -> u32 {
         u32::from(self.0)
     }
@@ -75,6 +81,10 @@ impl Numbers for Eight {
         Self(unsafe { _mm512_min_pd(self.0, other.0) })
     }
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+    #[inline(always)]
     fn less(self, other: Self) -> EightMask {
         EightMask(unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) })
     }
@@ -84,29 +94,27 @@ impl Numbers for Eight {
     }
 }
 
-impl Eight {
-    /// The first numbers of a slice.
+impl Lane for Eight {
+    type Rough = EightSingle;
+
+    #[inline(always)]
+    fn widened(from: EightSingle) -> Self {
+        Self(unsafe { _mm512_cvtps_pd(from.0) })
+    }
+    #[inline(always)]
+    fn rounded(self) -> EightSingle {
+        EightSingle(unsafe { _mm512_cvtpd_ps(self.0) })
+    }
     #[inline(always)]
     fn load(from: &[f64]) -> Self {
         let eight: &[f64; 8] = from.first_chunk().unwrap_or(&[0.0; 8]);
         Self(unsafe { _mm512_loadu_pd(eight.as_ptr()) })
     }
-}
-
-impl Lane for Eight {
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         if let Some(eight) = to.first_chunk_mut::<8>() {
             unsafe { _mm512_storeu_pd(eight.as_mut_ptr(), self.0) }
         }
-    }
-    #[inline(always)]
-    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
-        let (a, b) = (picked(from, column, at[0]), picked(from, column, at[1]));
-        let (c, d) = (picked(from, column, at[2]), picked(from, column, at[3]));
-        let (e, f) = (picked(from, column, at[4]), picked(from, column, at[5]));
-        let (g, h) = (picked(from, column, at[6]), picked(from, column, at[7]));
-        Self(unsafe { _mm512_set_pd(h, g, f, e, d, c, b, a) })
     }
     #[inline(always)]
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
@@ -140,6 +148,21 @@ impl Lane for Eight {
     #[inline(always)]
     fn floor(self) -> Self {
         Self(unsafe { _mm512_roundscale_pd::<{ _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC }>(self.0) })
+    }
+    #[inline(always)]
+    fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
+        unsafe {
+            let bits = _mm512_castpd_si512(quarters.0);
+            let (odd, half) = (_mm512_slli_epi64::<63>(bits), _mm512_slli_epi64::<62>(bits));
+            let swapped = _mm512_movepi64_mask(odd);
+            let (a, b) = (_mm512_mask_blend_pd(swapped, sin.0, cos.0), _mm512_mask_blend_pd(swapped, cos.0, sin.0));
+            let sign = _mm512_set1_pd(-0.0);
+            let both = _mm512_xor_pd(_mm512_castsi512_pd(half), _mm512_castsi512_pd(odd));
+            (
+                Self(_mm512_xor_pd(a, _mm512_and_pd(_mm512_castsi512_pd(half), sign))),
+                Self(_mm512_xor_pd(b, _mm512_and_pd(both, sign))),
+            )
+        }
     }
 }
 

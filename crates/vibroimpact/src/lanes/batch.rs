@@ -10,7 +10,7 @@
 use super::flight::{Hit, Progress};
 use super::slots::{ARRIVAL, COS, INTERVAL, Lists, PHASE, SIDE, SIN, Slots, V, X, rebound, row};
 use super::stride::{NODES, Stride, Table};
-use super::strike::{Launch, Strike};
+use super::strike::Launch;
 use super::width::Width;
 use crate::contact::chatter;
 use crate::flight::{Contact, Flight, SearchLimits, counted};
@@ -59,7 +59,7 @@ impl Batch {
             stride,
             table,
             slots: Slots::new(capacity),
-            lists: Lists::default(),
+            lists: Lists::new(),
             rare: Vec::new(),
             settling: Vec::new(),
             width,
@@ -109,8 +109,8 @@ impl Batch {
         self.rare.clear();
         self.settling.clear();
         self.width.round(&mut self.slots, &self.stride, &self.table, &mut self.lists);
-        for k in 0..self.lists.open.len() {
-            self.refine(self.lists.open[k]);
+        for k in 0..self.lists.left.len() {
+            self.refine(self.lists.left[k]);
         }
         self.rare.extend_from_slice(&self.lists.late);
         for k in 0..self.lists.gentle.len() {
@@ -186,7 +186,7 @@ impl Batch {
 
     fn struck_at(&mut self, slot: u32, Hit { time, velocity, side }: Hit) {
         let phase = self.slots.launches[slot as usize][PHASE];
-        let next = rebound(&self.stride, phase, &Strike { proven: true, time, velocity, side });
+        let next = rebound(&self.stride, phase, (time, velocity, side));
         self.slots.launch(slot as usize, next);
     }
 

@@ -1,8 +1,9 @@
 //! A flight from its launch to its first contact: steps that are proven clear, then a strike; where neither can be proven,
 //! halved steps; where halving does not help, nothing is claimed.
 
+use super::hull::MARGIN;
 use super::stride::{LEVELS, NODES, Propagators, State, Stride};
-use super::strike::{Launch, Strike};
+use super::strike::{Guess, Launch, Strike};
 use crate::flight::{Contact, Flight, SearchLimits, counted};
 use crate::math::Numbers;
 use crate::system::{Oscillator, Side};
@@ -65,16 +66,17 @@ impl Stride {
         let mut state = launch.state().rough();
         loop {
             let next = self.rough.step(state);
-            if self.clear(&self.rough.scale, &self.end(&state), &self.end(&next), self.margin(state.s), false) {
+            let (from, to) = (self.end(&state), self.end(&next));
+            if self.clear(&self.rough.scale, &from, &to, self.margin(state.s), false) {
                 state = next;
                 if self.late(state.s) {
                     return None;
                 }
                 continue;
             }
-            let (from, margin) = launch.or_on_the_way(self, state.wide());
-            let strike = self.strike(launch, self.pace.h, (&from, &self.pace.step(from)), margin, self);
-            if strike.proven {
+            let guess = Guess::of(&self.guess(self.rough.h, state.s, &from, &to));
+            let strike = self.polish(&guess, &self.approach(launch, &guess, self));
+            if self.first_roughly(&strike, state.s, &from) == 1 {
                 return Some(strike.into());
             }
             match self.refine(launch, state, self) {
@@ -118,13 +120,15 @@ impl Stride {
         way: State<f32>,
         propagators: &impl Propagators<f64>,
     ) -> Progress {
-        let (mut state, margin) = launch.or_on_the_way(self, way.wide());
+        let mut state = self.after_steps(launch, f64::from(way.s), propagators);
         let end = state.s + self.pace.h;
-        let mut level = 1;
+        let mut level = 0;
         while level < LEVELS {
             let pace = propagators.pace(level);
             let next = pace.step(state);
-            if self.clear(&pace.scale, &self.end(&state), &self.end(&next), margin, false) {
+            let ends = (state.s, self.end(&state), self.end(&next));
+            let swing = self.swing(&pace.scale, &ends.1, &ends.2, MARGIN);
+            if swing.clear {
                 state = next;
                 // lengths are dyadic fractions: the sums are exact
                 if state.s >= end {
@@ -132,9 +136,17 @@ impl Stride {
                 }
                 continue;
             }
-            let strike = self.strike(launch, pace.h, (&state, &next), margin, propagators);
-            if strike.proven {
-                return Progress::Hit(strike.into());
+            // from the whole step a contact was guessed before
+            if swing.above || level > 0 {
+                let guess = if swing.above {
+                    self.guess_near(pace.h, &ends, &swing)
+                } else {
+                    self.guess(pace.h, ends.0, &ends.1, &ends.2)
+                };
+                let strike = self.polish(&guess, &self.approach(launch, &guess, propagators));
+                if self.first(&strike, state.s, &ends.1) {
+                    return Progress::Hit(strike.into());
+                }
             }
             level = (level + 1).max(self.promising(&state));
         }

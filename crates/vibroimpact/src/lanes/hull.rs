@@ -28,8 +28,8 @@ pub(super) struct End<L> {
     pub(super) a: L,
 }
 
-/// What rounding may do to a coefficient, relative to 1 + |gap| + |x| + |v|, where the step begins with an exact state: far above the
-/// few dozen roundings of double precision.
+/// What rounding may do to a coefficient, relative to 1 + |gap| + |x| + |v|, where the step begins with a state of double precision: far
+/// above the few dozen roundings it is made with.
 pub(super) const MARGIN: f64 = 1e-12;
 /// The same for a state that was passed on in single precision, for each step taken. With $`u = 2^{-24}`$ a step adds at most
 /// $`6u`$ to sine and cosine and $`11u\,(|x| + |v| + 3/2)`$ to position and velocity, which the free motion passes on
@@ -37,6 +37,33 @@ pub(super) const MARGIN: f64 = 1e-12;
 /// resonance in step with the motion, and makes $`3u n^2`$ of $`n`$ steps. Over the 64 steps at most that is below
 /// $`230u\,n\,(1 + |x| + |v|)`$.
 const ROUGH: f64 = 1.4e-5;
+
+/// What an arc is made of, its ends left aside.
+pub(super) struct Hull<L> {
+    /// |x| + |v| where it begins.
+    pub(super) size: L,
+    /// By how much the middle coefficient may be off.
+    pub(super) error: L,
+    /// The five between the ends.
+    pub(super) coefficients: [L; 5],
+}
+
+impl<L: Numbers> Hull<L> {
+    #[inline(always)]
+    pub(super) fn of(scale: &HullScale<L>, from: &End<L>, to: &End<L>) -> Self {
+        let size = from.x.abs() + from.v.abs();
+        let error = scale.error + scale.error_rate * size;
+        let (leave, arrive) = (scale.sixth * from.v, scale.sixth * to.v);
+        let c1 = from.x + leave;
+        let c2 = from.x + ((leave + leave) + scale.thirtieth * from.a);
+        let b2 = from.x + (scale.two_fifths * from.v + scale.twentieth * from.a);
+        let b3 = to.x - (scale.two_fifths * to.v - scale.twentieth * to.a);
+        let c3 = L::splat(0.5) * (b2 + b3);
+        let c4 = to.x - ((arrive + arrive) - scale.thirtieth * to.a);
+        let c5 = to.x - arrive;
+        Self { size, error, coefficients: [c1, c2, c3, c4, c5] }
+    }
+}
 
 impl Stride {
     /// The end of an arc at a state of the way.
@@ -63,16 +90,7 @@ impl Stride {
         margin: L,
         arrives: bool,
     ) -> L::Mask {
-        let size = from.x.abs() + from.v.abs();
-        let error = scale.error + scale.error_rate * size;
-        let (leave, arrive) = (scale.sixth * from.v, scale.sixth * to.v);
-        let c1 = from.x + leave;
-        let c2 = from.x + ((leave + leave) + scale.thirtieth * from.a);
-        let b2 = from.x + (scale.two_fifths * from.v + scale.twentieth * from.a);
-        let b3 = to.x - (scale.two_fifths * to.v - scale.twentieth * to.a);
-        let c3 = L::splat(0.5) * (b2 + b3);
-        let c4 = to.x - ((arrive + arrive) - scale.thirtieth * to.a);
-        let c5 = to.x - arrive;
+        let Hull { size, error, coefficients: [c1, c2, c3, c4, c5] } = Hull::of(scale, from, to);
         let mut highest = c1.max(c2).max((c3 + error).max(c4)).max(c5);
         if !arrives {
             highest = highest.max(to.x);
@@ -91,6 +109,6 @@ impl Stride {
 
 /// The gap less the margin.
 #[inline(always)]
-fn room<L: Numbers>(gap: f64, margin: L, size: L) -> L {
+pub(super) fn room<L: Numbers>(gap: f64, margin: L, size: L) -> L {
     L::splat(gap) - margin * (L::splat(1.0 + gap.abs()) + size)
 }

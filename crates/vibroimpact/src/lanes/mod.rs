@@ -4,12 +4,14 @@
 //! |---|---|
 //! | the constants of an oscillator's flights: steps instead of sines | `stride` |
 //! | a step proven clear of the stops | `hull` |
+//! | a step that swings close to a stop and back | `swing` |
 //! | a contact found, refined, proven to be the first | `strike` |
 //! | one flight from launch to contact | [`first_contact`] |
 //! | where the flights of a batch are kept, and their passes | `slots` |
 //! | many motions, none waiting for another | [`Batch`] |
 //! | how many side by side, and on what processor | [`Width`] |
-//! | the lane types | `pack` (portable), `avx2`, `pair` |
+//! | steps in doubt, side by side | `doubts` |
+//! | the lane types | `pack` (portable), `avx2` and `single`, `avx512`, `pair` |
 //!
 //! The algorithm is written once, generic over the lane type of [`math`](crate::math). A single
 //! [`Motion`](crate::motion::Motion) runs on its scalar instance. Lanes and scalar agree bit for bit, because every lane
@@ -20,13 +22,18 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod batch;
+mod doubts;
 mod flight;
+mod front;
 mod hull;
 mod pack;
 mod pair;
+#[cfg(target_arch = "x86_64")]
+mod single;
 mod slots;
 mod stride;
 mod strike;
+mod swing;
 mod width;
 
 pub use batch::Batch;

@@ -1,13 +1,13 @@
 //! The portable lane type: an array, operated on place by place, which the compiler turns into whatever vector
 //! instructions the target has (NEON on ARM, SSE2 on any x86-64).
 
-use crate::math::{Lane, Mask, Numbers, Single, picked};
+use crate::math::{Lane, Mask, Numbers, Single, turned};
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// `N` numbers, of double or single precision.
 #[derive(Clone, Copy)]
-pub(super) struct Pack<T, const N: usize>([T; N]);
+pub(super) struct Pack<T, const N: usize>(pub(super) [T; N]);
 
 /// `N` truth values.
 #[derive(Clone, Copy)]
@@ -40,6 +40,10 @@ impl<const N: usize> Mask for PackMask<N> {
         Self(from_fn(|k| self.0[k] & other.0[k]))
     }
     #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(from_fn(|k| self.0[k] | other.0[k]))
+    }
+    #[inline(always)]
     fn bits(self) -> u32 {
         self.0.iter().rev().fold(0, |bits, &set| bits << 1 | u32::from(set))
     }
@@ -65,6 +69,10 @@ impl<T: Numbers<Mask = bool>, const N: usize> Numbers for Pack<T, N> {
         Self(from_fn(|k| self.0[k].min(other.0[k])))
     }
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(from_fn(|k| self.0[k].sqrt()))
+    }
+    #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
         PackMask(from_fn(|k| self.0[k].less(other.0[k])))
     }
@@ -75,13 +83,23 @@ impl<T: Numbers<Mask = bool>, const N: usize> Numbers for Pack<T, N> {
 }
 
 impl<const N: usize> Lane for Pack<f64, N> {
+    type Rough = Pack<f32, N>;
+
+    #[inline(always)]
+    fn widened(from: Pack<f32, N>) -> Self {
+        Self(from.0.map(f64::from))
+    }
+    #[inline(always)]
+    fn rounded(self) -> Pack<f32, N> {
+        Pack(self.0.map(Numbers::splat))
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        Self(from_fn(|k| from[k]))
+    }
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         to[..N].copy_from_slice(&self.0);
-    }
-    #[inline(always)]
-    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
-        Self(from_fn(|k| picked(from, column, at[k])))
     }
     #[inline(always)]
     fn rows<const M: usize>(table: &[[f64; M]], at: &[u32]) -> [Self; M] {
@@ -97,6 +115,11 @@ impl<const N: usize> Lane for Pack<f64, N> {
     fn floor(self) -> Self {
         Self(from_fn(|k| self.0[k].floor()))
     }
+    #[inline(always)]
+    fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
+        let both = from_fn::<_, N, _>(|k| turned(quarters.0[k], sin.0[k], cos.0[k]));
+        (Self(both.map(|(sin, _)| sin)), Self(both.map(|(_, cos)| cos)))
+    }
 }
 
 impl<const N: usize> Single for Pack<f32, N> {
@@ -107,5 +130,16 @@ impl<const N: usize> Single for Pack<f32, N> {
     #[inline(always)]
     fn store(self, to: &mut [f32]) {
         to[..N].copy_from_slice(&self.0);
+    }
+    #[inline(always)]
+    fn gathered(self, bits: u32) -> Self {
+        let (mut front, mut count) = (self, 0);
+        for k in 0..N {
+            if bits >> k & 1 == 1 {
+                front.0[count] = self.0[k];
+                count += 1;
+            }
+        }
+        front
     }
 }

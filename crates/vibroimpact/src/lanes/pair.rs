@@ -1,7 +1,18 @@
 //! Two lanes side by side: twice the independent work between one result and the next that needs it.
 
-use crate::math::{Lane, Mask, Numbers};
+use crate::math::{Lane, Mask, Numbers, Single};
 use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A lane type of which two make one of a single-precision type.
+pub(super) trait Half: Lane {
+    /// Single precision, twice as many.
+    type Double: Single;
+
+    /// In double precision, the first ones and the others.
+    fn both_widened(from: Self::Double) -> (Self, Self);
+    /// Two rounded to single precision.
+    fn both_rounded(self, second: Self) -> Self::Double;
+}
 
 /// Two of the same.
 #[derive(Clone, Copy)]
@@ -9,7 +20,7 @@ pub(super) struct Pair<T>(T, T);
 
 macro_rules! both {
     ($($operation:ident $method:ident),*) => {$(
-        impl<L: Lane> $operation for Pair<L> {
+        impl<L: Numbers> $operation for Pair<L> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
@@ -20,7 +31,7 @@ macro_rules! both {
 }
 both!(Add add, Sub sub, Mul mul, Div div);
 
-impl<L: Lane> Neg for Pair<L> {
+impl<L: Numbers> Neg for Pair<L> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -38,12 +49,16 @@ impl<M: Mask> Mask for PairMask<M> {
         Self(self.0.and(other.0), self.1.and(other.1), self.2)
     }
     #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(self.0.or(other.0), self.1.or(other.1), self.2)
+    }
+    #[inline(always)]
     fn bits(self) -> u32 {
         self.0.bits() | self.1.bits() << self.2
     }
 }
 
-impl<L: Lane> Numbers for Pair<L> {
+impl<L: Numbers> Numbers for Pair<L> {
     type Mask = PairMask<L::Mask>;
     const WIDTH: usize = 2 * L::WIDTH;
     #[inline(always)]
@@ -63,6 +78,10 @@ impl<L: Lane> Numbers for Pair<L> {
         Self(self.0.min(other.0), self.1.min(other.1))
     }
     #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt(), self.1.sqrt())
+    }
+    #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
         PairMask(self.0.less(other.0), self.1.less(other.1), L::WIDTH)
     }
@@ -72,17 +91,26 @@ impl<L: Lane> Numbers for Pair<L> {
     }
 }
 
-impl<L: Lane> Lane for Pair<L> {
+impl<L: Half> Lane for Pair<L> {
+    type Rough = L::Double;
+
+    #[inline(always)]
+    fn widened(from: L::Double) -> Self {
+        let (first, second) = L::both_widened(from);
+        Self(first, second)
+    }
+    #[inline(always)]
+    fn rounded(self) -> L::Double {
+        self.0.both_rounded(self.1)
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        Self(L::load(from), L::load(&from[L::WIDTH..]))
+    }
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         self.0.store(to);
         self.1.store(&mut to[L::WIDTH..]);
-    }
-    #[inline(always)]
-    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
-        let mut rest = [0; 8];
-        rest[..8 - L::WIDTH].copy_from_slice(&at[L::WIDTH..]);
-        Self(L::pick(from, column, at), L::pick(from, column, &rest))
     }
     #[inline(always)]
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
@@ -104,5 +132,39 @@ impl<L: Lane> Lane for Pair<L> {
     #[inline(always)]
     fn floor(self) -> Self {
         Self(self.0.floor(), self.1.floor())
+    }
+    #[inline(always)]
+    fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
+        let (first, second) = (L::turned(quarters.0, sin.0, cos.0), L::turned(quarters.1, sin.1, cos.1));
+        (Self(first.0, second.0), Self(first.1, second.1))
+    }
+}
+
+impl<N: Single> Single for Pair<N> {
+    #[inline(always)]
+    fn load(from: &[f32]) -> Self {
+        Self(N::load(from), N::load(&from[N::WIDTH..]))
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        self.0.store(to);
+        self.1.store(&mut to[N::WIDTH..]);
+    }
+    fn gathered(self, _: u32) -> Self {
+        self
+    }
+}
+
+impl<H: Half> Half for Pair<H> {
+    type Double = Pair<H::Double>;
+    #[inline(always)]
+    fn both_widened(from: Self::Double) -> (Self, Self) {
+        let (a, b) = H::both_widened(from.0);
+        let (c, d) = H::both_widened(from.1);
+        (Self(a, b), Self(c, d))
+    }
+    #[inline(always)]
+    fn both_rounded(self, second: Self) -> Self::Double {
+        Pair(self.0.both_rounded(self.1), second.0.both_rounded(second.1))
     }
 }

@@ -1,9 +1,12 @@
 //! Where the flights of a batch are kept: a slot each, in arrays that lanes run along.
 
-use super::stride::{State, Stride, Table, WIDEST};
+use super::doubts::{Doubts, SEGMENT};
+use super::front::list;
+use super::hull::MARGIN;
+use super::stride::{BESIDE, State, Stride, Table, WIDEST};
 use super::strike::{Approach, Guess, Launch, Strike};
 use crate::contact::chatter;
-use crate::math::{Lane, Mask, Single, sin_cos, sin_cos_lanes};
+use crate::math::{Lane, Mask, Numbers, Single, sin_cos, sin_cos_lanes};
 use crate::system::{Start, phase};
 
 /// Columns of a launch: the state, and the arrival before it (speed, time since the launch before, side).
@@ -17,30 +20,37 @@ pub(super) const INTERVAL: usize = 6;
 pub(super) const SIDE: usize = 7;
 
 /// What became of the flights in a round.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Lists {
     /// Not proven clear in this step.
-    pub(super) doubtful: Vec<u32>,
+    pub(super) doubts: Box<Doubts>,
     /// Flown for longer than lanes fly.
     pub(super) late: Vec<u32>,
     /// Struck and launched again.
     pub(super) struck: Vec<u32>,
     /// Of those struck, the ones so gentle that the rest of a chatter may have to be summed.
     pub(super) gentle: Vec<u32>,
-    /// Neither clear nor proven to strike.
+    /// In doubt, and not proven to strike.
     pub(super) open: Vec<u32>,
+    /// Not settled by a closer look either.
+    pub(super) left: Vec<u32>,
 }
 
 impl Lists {
+    pub(super) fn new() -> Self {
+        let (late, struck, gentle, open, left) = Default::default();
+        Self { doubts: Doubts::new(), late, struck, gentle, open, left }
+    }
+
     pub(super) fn clear(&mut self) {
-        for list in [&mut self.doubtful, &mut self.late, &mut self.struck, &mut self.gentle, &mut self.open] {
+        for list in [&mut self.late, &mut self.struck, &mut self.gentle, &mut self.open, &mut self.left] {
             list.clear();
         }
     }
 }
 
 /// The states of eight flights on their way, in single precision: s, x, v, sin, cos, side by side.
-type Block = [[f32; WIDEST]; 5];
+type Block = [[f32; BESIDE]; 5];
 
 /// Flights under way.
 #[derive(Clone, Debug)]
@@ -52,20 +62,20 @@ pub(super) struct Slots {
 
 impl Slots {
     pub(super) fn new(capacity: usize) -> Self {
-        let blocks = capacity.div_ceil(WIDEST);
-        Self { count: 0, states: vec![[[0.0_f32; WIDEST]; 5]; blocks], launches: vec![[0.0; 8]; blocks * WIDEST] }
+        let blocks = capacity.div_ceil(BESIDE);
+        Self { count: 0, states: vec![[[0.0_f32; BESIDE]; 5]; blocks], launches: vec![[0.0; 8]; blocks * BESIDE] }
     }
 
     #[inline(always)]
     pub(super) fn put(&mut self, slot: usize, State { s, x, v, sin, cos }: State<f32>) {
-        let (block, lane) = (&mut self.states[slot / WIDEST], slot % WIDEST);
+        let (block, lane) = (&mut self.states[slot / BESIDE], slot % BESIDE);
         for (numbers, value) in block.iter_mut().zip([s, x, v, sin, cos]) {
             numbers[lane] = value;
         }
     }
 
     pub(super) fn state(&self, slot: usize) -> State<f32> {
-        let (block, lane) = (&self.states[slot / WIDEST], slot % WIDEST);
+        let (block, lane) = (&self.states[slot / BESIDE], slot % BESIDE);
         let [s, x, v, sin, cos] = [0, 1, 2, 3, 4].map(|k: usize| block[k][lane]);
         State { s, x, v, sin, cos }
     }
@@ -86,172 +96,188 @@ impl Slots {
         self.put(last, State { s: 0.0, x: 0.0, v: 0.0, sin: 0.0, cos: 0.0 });
     }
 
+    /// One step of every flight of a segment of slots; those whose step is not proven clear stay where they are and are in doubt.
     #[inline(always)]
-    fn gather<L: Lane>(&self, at: &[u32; WIDEST]) -> State<L> {
-        State {
-            s: L::pick(&self.states, 0, at),
-            x: L::pick(&self.states, 1, at),
-            v: L::pick(&self.states, 2, at),
-            sin: L::pick(&self.states, 3, at),
-            cos: L::pick(&self.states, 4, at),
-        }
-    }
-
-    /// One step of every flight; those whose step is not proven clear stay where they are and are listed.
-    #[inline(always)]
-    pub(super) fn march<L: Single>(&mut self, stride: &Stride, lists: &mut Lists) {
-        let Lists { doubtful, late, .. } = lists;
-        let pace = stride.pace.splat::<L>();
-        doubtful.resize(self.count + WIDEST, 0);
-        let (mut listed, mut first) = (0, 0);
-        for block in self.states.iter_mut().take(self.count.div_ceil(WIDEST)) {
-            let (mut doubt, mut gone) = (0, 0);
+    pub(super) fn march<N: Single>(&mut self, segment: usize, stride: &Stride, lists: &mut Lists) {
+        let Lists { doubts, late, .. } = lists;
+        doubts.clear();
+        let pace = stride.pace.splat::<N>();
+        let mut first = segment * SEGMENT;
+        let last = self.count.min(first + SEGMENT);
+        for block in &mut self.states[first / BESIDE..last.div_ceil(BESIDE)] {
             let mut lane = 0;
-            while lane < WIDEST {
+            while lane < BESIDE {
                 let [s, x, v, sin, cos] = block;
                 let state = State {
-                    s: L::load(&s[lane..]),
-                    x: L::load(&x[lane..]),
-                    v: L::load(&v[lane..]),
-                    sin: L::load(&sin[lane..]),
-                    cos: L::load(&cos[lane..]),
+                    s: N::load(&s[lane..]),
+                    x: N::load(&x[lane..]),
+                    v: N::load(&v[lane..]),
+                    sin: N::load(&sin[lane..]),
+                    cos: N::load(&cos[lane..]),
                 };
                 let next = pace.step(state);
-                let margin = stride.margin(state.s);
-                let clear = stride.clear(&pace.scale, &stride.end(&state), &stride.end(&next), margin, false);
-                L::choose(clear, next.s, state.s).store(&mut s[lane..]);
-                L::choose(clear, next.x, state.x).store(&mut x[lane..]);
-                L::choose(clear, next.v, state.v).store(&mut v[lane..]);
-                L::choose(clear, next.sin, state.sin).store(&mut sin[lane..]);
-                L::choose(clear, next.cos, state.cos).store(&mut cos[lane..]);
-                doubt |= (!clear.bits() & ((1 << L::WIDTH) - 1)) << lane;
-                gone |= clear.and(stride.late(next.s)).bits() << lane;
-                lane += L::WIDTH;
+                let (from, to) = (stride.end(&state), stride.end(&next));
+                let clear = stride.clear(&pace.scale, &from, &to, stride.margin(state.s), false);
+                N::choose(clear, next.s, state.s).store(&mut s[lane..]);
+                N::choose(clear, next.x, state.x).store(&mut x[lane..]);
+                N::choose(clear, next.v, state.v).store(&mut v[lane..]);
+                N::choose(clear, next.sin, state.sin).store(&mut sin[lane..]);
+                N::choose(clear, next.cos, state.cos).store(&mut cos[lane..]);
+                // what lies beyond the last slot is marched along, to no effect
+                let rest = last.saturating_sub(first + lane);
+                let valid = if rest < N::WIDTH { (1 << rest) - 1 } else { (1 << N::WIDTH) - 1 };
+                doubts.add(!clear.bits() & valid, first + lane, state.s, &from, &to);
+                let gone = clear.and(stride.late(next.s)).bits() & valid;
+                if gone != 0 {
+                    let mut more = [0; BESIDE];
+                    let count = list(gone, first + lane, &mut more);
+                    late.extend_from_slice(&more[..count]);
+                }
+                lane += N::WIDTH;
             }
-            // what lies beyond the last slot is marched along, to no effect
-            let valid = if self.count - first < WIDEST { (1 << (self.count - first)) - 1 } else { 0xff };
-            listed += list(doubt & valid, first, &mut doubtful[listed..]);
-            if gone & valid != 0 {
-                let mut more = [0; WIDEST];
-                let count = list(gone & valid, first, &mut more);
-                late.extend_from_slice(&more[..count]);
-            }
-            first += WIDEST;
+            first += BESIDE;
         }
-        doubtful.truncate(listed);
     }
 
-    /// Strikes where a strike can be proven, and launches those slots again from the stop. Each doubtful slot goes on one of
-    /// the two lists.
+    /// Strikes where a strike can be proven, and launches those slots again from the stop. Each slot in doubt is struck or
+    /// left open.
     #[inline(always)]
     pub(super) fn strike<L: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
-        let Lists { doubtful, struck, gentle, open, .. } = lists;
-        let pace = stride.pace.splat::<L>();
+        let h = L::Rough::splat(stride.pace.h);
         let zero = L::splat(0.0);
-        let nowhere = State { s: zero, x: zero, v: zero, sin: zero, cos: zero };
-        let mut at = [[0; WIDEST]; BLOCK];
-        let (mut from, mut margins, mut guess) = ([nowhere; BLOCK], [zero; BLOCK], [Guess::nowhere(); BLOCK]);
-        let mut launches = [Launch { x: zero, v: zero, sin: zero, cos: zero }; BLOCK];
+        let mut guess = [Guess::nowhere(); BLOCK];
         let (mut approach, mut hits) = ([Approach::nowhere(); BLOCK], [Strike::nowhere(); BLOCK]);
-        for block in doubtful.chunks(BLOCK * L::WIDTH) {
+        let mut phases = [zero; BLOCK];
+        let mut first = 0;
+        let count = lists.doubts.len();
+        while first < count {
             // stage by stage, so that a group's work fills the time another one waits for its own results
-            let groups = block.len().div_ceil(L::WIDTH);
-            for (k, few) in block.chunks(L::WIDTH).enumerate() {
-                at[k] = padded(few);
-                let row = L::rows(&self.launches, &at[k]);
-                launches[k] = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
-                (from[k], margins[k]) = launches[k].or_on_the_way(stride, self.gather::<L>(&at[k]));
-                guess[k] = stride.guess(pace.h, &from[k], &pace.step(from[k]));
+            let groups = (count - first).div_ceil(L::WIDTH).min(BLOCK);
+            for (k, guess) in guess.iter_mut().enumerate().take(groups) {
+                let (s, from, to) = lists.doubts.steps::<L::Rough>(first + k * L::WIDTH);
+                *guess = Guess::<L>::of(&stride.guess(h, s, &from, &to));
             }
             for k in 0..groups {
-                approach[k] = stride.approach(&launches[k], &guess[k], table);
+                let row = L::rows(&self.launches, lists.doubts.slots(first + k * L::WIDTH));
+                phases[k] = row[PHASE];
+                let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
+                approach[k] = stride.approach(&launch, &guess[k], table);
             }
             for k in 0..groups {
-                hits[k] = stride.polish(&from[k], margins[k], &guess[k], &approach[k]);
+                hits[k] = stride.polish(&guess[k], &approach[k]);
             }
-            for (k, few) in block.chunks(L::WIDTH).enumerate() {
-                let phases = L::rows(&self.launches, &at[k])[PHASE];
-                let next = rebound(stride, phases, &hits[k]);
-                let mut rows = [[0.0; 8]; WIDEST];
-                L::store_rows(next, &mut rows);
-                let proven = hits[k].proven.bits();
-                let pressed = next[SIN] - next[X];
-                let pressed = if stride.two_stops { hits[k].side * pressed } else { pressed }.max(zero);
-                let soft = next[V].abs().less(L::splat(2.0 * chatter::SLOW) * pressed).bits();
-                for (lane, &slot) in few.iter().enumerate() {
-                    if proven >> lane & 1 == 1 {
-                        self.launch(slot as usize, rows[lane]);
-                        struck.push(slot);
-                        if soft >> lane & 1 == 1 {
-                            gentle.push(slot);
-                        }
-                    } else {
-                        open.push(slot);
-                    }
-                }
+            for k in 0..groups {
+                let first = first + k * L::WIDTH;
+                let (s, from, _) = lists.doubts.steps::<L::Rough>(first);
+                let proven = stride.first_roughly(&hits[k], s, &from);
+                let slots = *lists.doubts.slots(first);
+                let there = (1_u32 << (count - first).min(L::WIDTH)) - 1;
+                self.relaunch(stride, &slots, phases[k], &hits[k], proven & there, lists);
+                each(!proven & there, |lane| lists.open.push(slots[lane]));
             }
+            first += BLOCK * L::WIDTH;
         }
+    }
+
+    /// A closer look, in full precision, at the steps left open: those that only swing up to a stop go on, those that strike it
+    /// where it was not guessed are launched again. What this does not settle is left.
+    #[inline(always)]
+    pub(super) fn look_closer<L: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
+        let mut open = core::mem::take(&mut lists.open);
+        let pace = stride.pace.splat::<L>();
+        for few in open.chunks(L::WIDTH) {
+            let at = padded(few);
+            let row = L::rows(&self.launches, &at);
+            let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
+            let s = L::load(&at.map(|slot| f64::from(self.states[slot as usize / BESIDE][0][slot as usize % BESIDE])));
+            let state = stride.after_steps(&launch, s, table);
+            let next = pace.step(state);
+            let ends = (s, stride.end(&state), stride.end(&next));
+            let swing = stride.swing(&pace.scale, &ends.1, &ends.2, L::splat(MARGIN));
+            let guess = stride.guess_near(pace.h, &ends, &swing);
+            let strike = stride.polish(&guess, &stride.approach(&launch, &guess, table));
+            let clear = swing.clear.bits();
+            let proven = swing.above.and(stride.first(&strike, s, &ends.1)).bits() & !clear;
+            let there = (1_u32 << few.len()) - 1;
+            let mut on = [[0.0; WIDEST]; 5];
+            for (on, number) in on.iter_mut().zip([next.s, next.x, next.v, next.sin, next.cos]) {
+                number.rounded().store(on);
+            }
+            each(clear & there, |lane| {
+                let [s, x, v, sin, cos] = on.map(|numbers| numbers[lane]);
+                self.put(at[lane] as usize, State { s, x, v, sin, cos });
+            });
+            self.relaunch(stride, &at, row[PHASE], &strike, proven & there, lists);
+            each(!(clear | proven) & there, |lane| lists.left.push(at[lane]));
+        }
+        open.clear();
+        lists.open = open;
+    }
+
+    /// Launches those of these slots again from the stop whose bits are set in `proven`, and lists them.
+    #[inline(always)]
+    fn relaunch<L: Lane>(
+        &mut self,
+        stride: &Stride,
+        slots: &[u32; WIDEST],
+        phases: L,
+        hits: &Strike<L>,
+        proven: u32,
+        lists: &mut Lists,
+    ) {
+        let next = rebound(stride, phases, (hits.time, hits.velocity, hits.side));
+        let mut rows = [[0.0; 8]; WIDEST];
+        L::store_rows(next, &mut rows);
+        let mut rough = [[0.0; WIDEST]; 4];
+        for (rough, number) in rough.iter_mut().zip([next[X], next[V], next[SIN], next[COS]]) {
+            number.rounded().store(rough);
+        }
+        each(proven, |lane| {
+            let [x, v, sin, cos] = rough.map(|numbers| numbers[lane]);
+            let slot = slots[lane];
+            self.launches[slot as usize] = rows[lane];
+            self.put(slot as usize, State { s: 0.0, x, v, sin, cos });
+            lists.struck.push(slot);
+        });
+        let pressed = next[SIN] - next[X];
+        let pressed = if stride.two_stops { hits.side * pressed } else { pressed }.max(L::splat(0.0));
+        let soft = next[V].abs().less(L::splat(2.0 * chatter::SLOW) * pressed).bits();
+        each(soft & proven, |lane| lists.gentle.push(slots[lane]));
+    }
+}
+
+/// Does something for each bit that is set, by its place.
+#[inline(always)]
+fn each(mut bits: u32, mut f: impl FnMut(usize)) {
+    while bits != 0 {
+        f(bits.trailing_zeros() as usize % WIDEST);
+        bits &= bits - 1;
     }
 }
 
 /// A few slots, the first of them repeated to fill all lanes.
 #[inline(always)]
 fn padded(few: &[u32]) -> [u32; WIDEST] {
-    let mut at = [few[0]; WIDEST];
-    at[..few.len()].copy_from_slice(few);
-    at
+    core::array::from_fn(|k| few[if k < few.len() { k } else { 0 }])
 }
-
-/// Writes the slots whose bits are set to the beginning of `places`, which has room for all, and returns how many: without a
-/// branch that could be guessed wrong.
-#[inline(always)]
-fn list(bits: u32, first: usize, places: &mut [u32]) -> usize {
-    let offsets = &OFFSETS[(bits & 0xff) as usize];
-    if let Some(places) = places.first_chunk_mut::<WIDEST>() {
-        for (place, offset) in places.iter_mut().zip(offsets) {
-            #[allow(clippy::cast_possible_truncation)] // slot numbers
-            let first = first as u32;
-            *place = first + u32::from(*offset);
-        }
-    }
-    (bits & 0xff).count_ones() as usize
-}
-
-/// The places of the bits that are set, for every byte.
-const OFFSETS: [[u8; WIDEST]; 256] = {
-    let mut table = [[0; WIDEST]; 256];
-    let mut byte = 0;
-    while byte < 256 {
-        let (mut bit, mut count) = (0_u8, 0);
-        while bit < 8 {
-            if byte >> bit & 1 == 1 {
-                table[byte][count] = bit;
-                count += 1;
-            }
-            bit += 1;
-        }
-        byte += 1;
-    }
-    table
-};
 
 /// Groups of lanes that are struck together.
 const BLOCK: usize = 4;
 
 /// The launch that follows a contact, from the phase of the last one.
 #[inline(always)]
-pub(super) fn rebound<L: Lane>(stride: &Stride, phase: L, hit: &Strike<L>) -> [L; 8] {
-    let phase = phase::advance_lanes(phase, L::splat(stride.beta), hit.time);
+pub(super) fn rebound<L: Lane>(stride: &Stride, phase: L, (time, velocity, side): (L, L, L)) -> [L; 8] {
+    let phase = phase::advance_lanes(phase, L::splat(stride.beta), time);
     let (sin, cos) = sin_cos_lanes(phase);
     let (upper, lower) = (L::splat(stride.restitution[0]), L::splat(stride.restitution[1]));
     let (x, v) = if stride.two_stops {
-        let low = hit.side.less(L::splat(0.0));
-        let speed = L::choose(low, lower, upper) * hit.velocity;
-        (L::choose(low, L::splat(-stride.gap[1]), L::splat(stride.gap[0])), -(hit.side * speed))
+        let low = side.less(L::splat(0.0));
+        let speed = L::choose(low, lower, upper) * velocity;
+        (L::choose(low, L::splat(-stride.gap[1]), L::splat(stride.gap[0])), -(side * speed))
     } else {
-        (L::splat(stride.gap[0]), -(upper * hit.velocity))
+        (L::splat(stride.gap[0]), -(upper * velocity))
     };
-    [x, v, sin, cos, phase, hit.velocity, hit.time, hit.side]
+    [x, v, sin, cos, phase, velocity, time, side]
 }
 
 /// The row of a launch from a start.

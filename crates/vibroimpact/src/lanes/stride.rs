@@ -22,8 +22,10 @@ pub(super) const LEVELS: usize = 16;
 pub(super) const NODES: u32 = 64;
 /// Terms of each parity of the series.
 const TERMS: usize = 9;
-/// The longest step, and the most of $`\mu h`$.
-const LONGEST: f64 = 1.5;
+/// The longest step, the most of $`\mu h`$; longer ones miss more contacts at the first guess and come closer to the stops. With damping
+/// the series over half a step costs digits as it grows.
+const LONGEST: f64 = 1.75;
+const LONGEST_DAMPED: f64 = 1.5;
 /// Shorter steps than this are not worth it (forcing, or damping, a hundred times faster than the oscillator).
 const SHORTEST: f64 = 1.0 / 64.0;
 /// Steps are multiples of this, so that their multiples are exact.
@@ -87,6 +89,8 @@ pub(crate) struct Stride {
     pub(super) rough: Pace<f32>,
     /// B6 over a window from a state with |x| + |v| = 0, and its growth with that.
     bound: [f64; 2],
+    /// The sixth derivative from acceleration and position (without damping), times h^6/720.
+    pub(super) sixth: [f64; 2],
     /// 1 - C, S, Kc, Ks.
     series: [Coefficients; 4],
     response: Response,
@@ -97,7 +101,8 @@ impl Stride {
     pub(crate) fn new(osc: &Oscillator) -> Option<Self> {
         let (beta, zeta) = (osc.beta(), osc.damping());
         let fastest = beta.max(1.0 + 2.0 * zeta);
-        let h = (LONGEST / fastest / GRAIN).floor() * GRAIN;
+        let longest = if zeta == 0.0 { LONGEST } else { LONGEST_DAMPED };
+        let h = (longest / fastest / GRAIN).floor() * GRAIN;
         let upper = osc.stop(Side::Upper)?;
         if h < SHORTEST || upper.restitution == 0.0 || upper.gap.abs() > FAR {
             return None;
@@ -119,6 +124,11 @@ impl Stride {
             pace,
             rough: pace.splat(),
             bound,
+            sixth: {
+                let power = h * h * h * h * h * h / 720.0;
+                let force = beta * beta * (1.0 + beta * beta);
+                [power * (1.0 + force), power * force]
+            },
             series: series(beta, drag),
             response,
         })
@@ -175,7 +185,7 @@ impl Stride {
 
     /// The multiples of a step of any length that the hull is made with.
     #[inline(always)]
-    pub(super) fn scale<L: Lane>(&self, h: L) -> HullScale<L> {
+    pub(super) fn scale<L: Numbers>(&self, h: L) -> HullScale<L> {
         HullScale::new(h, [L::splat(self.bound[0]), L::splat(self.bound[1])])
     }
 }
@@ -247,7 +257,9 @@ impl<L: Lane> Propagators<L> for Table {
 }
 
 /// The widest lanes there are: arrays are padded to a multiple of it.
-pub(super) const WIDEST: usize = 8;
+pub(super) const WIDEST: usize = 16;
+/// States on their way that lie side by side.
+pub(super) const BESIDE: usize = 8;
 /// Positions of stops beyond this are left to the careful search, whose bounds are relative.
 const FAR: f64 = 1e6;
 
@@ -348,19 +360,6 @@ fn sum<L: Lane>(c: &[f64; TERMS], z: L, zz: L) -> L {
     let third = L::splat(c[4]) + L::splat(c[5]) * z;
     let fourth = (L::splat(c[6]) + L::splat(c[7]) * z) + L::splat(c[8]) * zz;
     first + zz * (second + zz * (third + zz * fourth))
-}
-
-impl State<f32> {
-    /// In double precision.
-    pub(super) fn wide(&self) -> State<f64> {
-        State {
-            s: f64::from(self.s),
-            x: f64::from(self.x),
-            v: f64::from(self.v),
-            sin: f64::from(self.sin),
-            cos: f64::from(self.cos),
-        }
-    }
 }
 
 impl State<f64> {

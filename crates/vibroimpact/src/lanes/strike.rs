@@ -12,7 +12,8 @@
 
 use super::hull::{End, MARGIN};
 use super::stride::{Propagators, Row, State, Stride};
-use crate::math::{Lane, Mask};
+use super::swing::Swing;
+use crate::math::{Lane, Mask, Numbers};
 
 /// A launch: the state a flight begins with.
 #[derive(Clone, Copy, Debug)]
@@ -23,15 +24,17 @@ pub(super) struct Launch<L> {
     pub(super) cos: L,
 }
 
-/// A contact found.
+/// A contact found, not yet proven to be the first.
 #[derive(Clone, Copy)]
 pub(super) struct Strike<L: Lane> {
-    /// Whether the rest holds.
-    pub(super) proven: L::Mask,
+    /// Whether the contact is there, to the last bits.
+    pub(super) settled: L::Mask,
     /// Time since the launch.
     pub(super) time: L,
     /// Speed of arrival.
     pub(super) velocity: L,
+    /// Deceleration on arrival, seen from the stop.
+    pub(super) acceleration: L,
     /// +1 at the upper stop, -1 at the lower one.
     pub(super) side: L,
 }
@@ -44,7 +47,18 @@ struct Mirror<L> {
     gap: L,
 }
 
-impl<L: Lane> Mirror<L> {
+impl<L: Numbers> Mirror<L> {
+    /// The stop on a side.
+    #[inline(always)]
+    fn at(stride: &Stride, side: L) -> Self {
+        let upper = L::splat(stride.gap[0]);
+        if !stride.two_stops {
+            return Self { two_stops: false, side, gap: upper };
+        }
+        let low = side.less(L::splat(0.0));
+        Self { two_stops: true, side, gap: L::choose(low, L::splat(stride.gap[1]), upper) }
+    }
+
     #[inline(always)]
     fn of(self, y: L) -> L {
         if self.two_stops { y * self.side } else { y }
@@ -62,10 +76,10 @@ const SLOWEST: f64 = 1e-6;
 
 /// Where a contact is expected.
 #[derive(Clone, Copy)]
-pub(super) struct Guess<L> {
+pub(super) struct Guess<N> {
     /// Time since the launch.
-    pub(super) time: L,
-    mirror: Mirror<L>,
+    time: N,
+    side: N,
 }
 
 /// The motion at the time of a guess, seen from the stop.
@@ -76,12 +90,19 @@ pub(super) struct Approach<L> {
     state: Launch<L>,
 }
 
-impl<L: Lane> Guess<L> {
+impl<N: Numbers> Guess<N> {
     /// To be filled in.
     #[inline(always)]
     pub(super) fn nowhere() -> Self {
-        let zero = L::splat(0.0);
-        Self { time: zero, mirror: Mirror { two_stops: false, side: zero, gap: zero } }
+        Self { time: N::splat(0.0), side: N::splat(0.0) }
+    }
+}
+
+impl<L: Lane> Guess<L> {
+    /// In double precision.
+    #[inline(always)]
+    pub(super) fn of(rough: &Guess<L::Rough>) -> Self {
+        Self { time: L::widened(rough.time), side: L::widened(rough.side) }
     }
 }
 
@@ -99,42 +120,33 @@ impl<L: Lane> Strike<L> {
     #[inline(always)]
     pub(super) fn nowhere() -> Self {
         let zero = L::splat(0.0);
-        Self { proven: zero.less(zero), time: zero, velocity: zero, side: zero }
+        Self { settled: zero.less(zero), time: zero, velocity: zero, acceleration: zero, side: zero }
     }
 }
 
 impl Stride {
-    /// The first contact in the step of length `h` between two states, if it can be proven.
+    /// Step 1: Where the interpolant of the step meets a stop.
     #[inline(always)]
-    pub(super) fn strike<L: Lane>(
-        &self,
-        launch: &Launch<L>,
-        h: L,
-        (from, to): (&State<L>, &State<L>),
-        margin: L,
-        propagators: &impl Propagators<L>,
-    ) -> Strike<L> {
-        let guess = self.guess(h, from, to);
-        let approach = self.approach(launch, &guess, propagators);
-        self.polish(from, margin, &guess, &approach)
+    pub(super) fn guess<N: Numbers>(&self, h: N, s: N, from: &End<N>, to: &End<N>) -> Guess<N> {
+        let mut side = N::splat(1.0);
+        if self.two_stops {
+            side = N::choose(to.x.less(N::splat(-self.gap[1])), -side, side);
+        }
+        let mirror = Mirror::at(self, side);
+        let quintic = Quintic::of(h, from, to, mirror);
+        let sixth = |end: &End<N>| mirror.of(N::splat(self.sixth[0]) * end.a + N::splat(self.sixth[1]) * end.x);
+        let t = quintic.root(quintic.first_crossing(), [sixth(from), sixth(to)]);
+        Guess { time: s + h * t, side }
     }
 
-    /// 1. Where the interpolant of the step meets a stop.
+    /// Step 1: The same from the estimate of a swing.
     #[inline(always)]
-    pub(super) fn guess<L: Lane>(&self, h: L, from: &State<L>, to: &State<L>) -> Guess<L> {
-        let (begin, end) = (self.end(from), self.end(to));
-        let (one, upper) = (L::splat(1.0), L::splat(self.gap[0]));
-        let mirror = if self.two_stops {
-            let lower = to.x.less(L::splat(-self.gap[1]));
-            let (side, gap) = (L::choose(lower, -one, one), L::choose(lower, L::splat(self.gap[1]), upper));
-            Mirror { two_stops: true, side, gap }
-        } else {
-            Mirror { two_stops: false, side: one, gap: upper }
-        };
-        Guess { time: from.s + h * quintic_root(h, &begin, &end, mirror), mirror }
+    pub(super) fn guess_near<L: Lane>(&self, h: L, (s, from, to): &(L, End<L>, End<L>), swing: &Swing<L>) -> Guess<L> {
+        let quintic = Quintic::of(h, from, to, Mirror::at(self, swing.side));
+        Guess { time: *s + h * quintic.root(swing.estimate, [L::splat(0.0); 2]), side: swing.side }
     }
 
-    /// 2. The motion there.
+    /// Step 2: The motion there.
     #[inline(always)]
     pub(super) fn approach<L: Lane>(
         &self,
@@ -142,7 +154,7 @@ impl Stride {
         guess: &Guess<L>,
         propagators: &impl Propagators<L>,
     ) -> Approach<L> {
-        let mirror = guess.mirror;
+        let mirror = Mirror::at(self, guess.side);
         let launch = launch.mirrored(mirror);
         if self.drag == 0.0 {
             let (room, state) = self.carried(&launch, &self.whole(guess.time), mirror.gap);
@@ -155,17 +167,11 @@ impl Stride {
         Approach { room: room - self.moved(&node, &rest), state }
     }
 
-    /// 3. The contact, and 4. whether it is proven to be the first since `from`.
+    /// Step 3: The contact.
     #[inline(always)]
-    pub(super) fn polish<L: Lane>(
-        &self,
-        from: &State<L>,
-        margin: L,
-        guess: &Guess<L>,
-        approach: &Approach<L>,
-    ) -> Strike<L> {
+    pub(super) fn polish<L: Lane>(&self, guess: &Guess<L>, approach: &Approach<L>) -> Strike<L> {
         let Approach { room: g, state: Launch { x, v: p, sin, cos } } = *approach;
-        let (drag, beta, mirror) = (L::splat(self.drag), L::splat(self.beta), guess.mirror);
+        let (drag, beta) = (L::splat(self.drag), L::splat(self.beta));
         let damped = self.drag != 0.0;
         let q = if damped { (sin - x) - drag * p } else { sin - x };
         let j = if damped { (beta * cos - p) - drag * q } else { beta * cos - p };
@@ -177,50 +183,74 @@ impl Stride {
         let pop = L::splat(self.beta * self.beta) * force - snap;
         let pop = if damped { pop - drag * crackle } else { pop };
 
-        // g = p t + q t^2/2 + j t^3/6 + ... + pop t^6/720: the series of its inverse to the third order, then two
-        // steps of Newton's with the slope found there
+        // g = p t + q t^2/2 + j t^3/6 + ... + pop t^6/720: the series of its inverse to the third order, then a step
+        // of Newton's with the slope found there
         let half = L::splat(0.5);
         let (j6, snap24) = (L::splat(1.0 / 6.0) * j, L::splat(1.0 / 24.0) * snap);
         let (crackle120, pop720) = (L::splat(1.0 / 120.0) * crackle, L::splat(1.0 / 720.0) * pop);
         let over = L::splat(1.0) / p;
         let (first, bend, twist) = (g * over, q * over, j6 * over);
         let bent = half * (bend * first);
-        let series = first - first * (bent - first * (half * (bend * bend) - twist * first));
+        let series = first - first * (bent - (first * first) * (half * (bend * bend) - twist));
         let taylor = [p, half * q, j6, snap24, crackle120, pop720];
         // the slope there is p (1 + turn)
         let tt = series * series;
         let turn = bend * series + tt * (L::splat(3.0) * twist + (L::splat(4.0) * (snap24 * over)) * series);
         let newton = over * ((L::splat(1.0) - turn) + turn * turn);
         let correction = (g - sum(taylor, series)) * newton;
-        let once = series + correction;
-        let last = (g - sum(taylor, once)) * newton;
-        let shift = once + last;
+        let shift = series + correction;
         let time = guess.time + shift;
         let ss = shift * shift;
         let velocity = (p + q * shift)
             + ss * ((L::splat(3.0) * j6 + L::splat(4.0) * (snap24 * shift))
                 + ss * (L::splat(5.0) * crackle120 + L::splat(6.0) * (pop720 * shift)));
 
-        let h = time - from.s;
-        let arrival = End {
-            x: mirror.of(mirror.gap),
-            v: mirror.of(velocity),
-            a: mirror.of(q + shift * (j + half * (shift * snap))),
-        };
         // near enough for the polynomial, and what the correction leaves is no more than rounding
         let reach = time.min(L::splat(1.0 / self.beta.max(1.0 + self.drag)));
         let near = shift.abs().less(L::splat(NEAR) * reach);
         let left = (turn * turn * turn).abs() + (bend * correction).abs();
-        let settled = (last.abs() * left).less(L::splat(0.25 * f64::EPSILON) * time);
+        let settled = (correction.abs() * left).less(L::splat(0.25 * f64::EPSILON) * time);
         // an arrival that is being slowed down may be all but a graze
         let gentlest = if damped {
             L::splat(GENTLE_DAMPED)
         } else {
             L::choose(L::splat(0.0).less(q), L::splat(SLOWEST), L::splat(GENTLE))
         };
-        let proven = self.clear(&self.scale(h), &self.end(from), &arrival, margin, true).and(near).and(settled);
-        let proven = proven.and(gentlest.less(velocity)).and(L::splat(0.0).less(h));
-        Strike { proven, time, velocity, side: mirror.side }
+        let settled = near.and(settled).and(gentlest.less(velocity));
+        let acceleration = q + shift * (j + half * (shift * snap));
+        Strike { settled, time, velocity, acceleration, side: guess.side }
+    }
+
+    /// Step 4: whether it is proven to be the first since the step began at `s`: as bits. Single precision does, unless the arc is very
+    /// short.
+    #[inline(always)]
+    pub(super) fn first_roughly<L: Lane>(&self, strike: &Strike<L>, s: L::Rough, from: &End<L::Rough>) -> u32 {
+        let h = (strike.time - L::widened(s)).rounded();
+        let (v, a) = (strike.velocity.rounded(), strike.acceleration.rounded());
+        strike.settled.bits() & self.reaches(h, from, (strike.side.rounded(), v, a), self.margin(s)).bits()
+    }
+
+    /// Step 4: the same in double precision.
+    #[inline(always)]
+    pub(super) fn first<L: Lane>(&self, strike: &Strike<L>, s: L, from: &End<L>) -> L::Mask {
+        let arrival = (strike.side, strike.velocity, strike.acceleration);
+        strike.settled.and(self.reaches(strike.time - s, from, arrival, L::splat(MARGIN)))
+    }
+
+    /// Where no stop is reached before this arrival.
+    #[inline(always)]
+    fn reaches<N: Numbers>(&self, h: N, from: &End<N>, (side, v, a): (N, N, N), margin: N) -> N::Mask {
+        let mirror = Mirror::at(self, side);
+        let arrival = End { x: mirror.of(mirror.gap), v: mirror.of(v), a: mirror.of(a) };
+        self.clear(&self.scale(h), from, &arrival, margin, true).and(N::splat(0.0).less(h))
+    }
+
+    /// The state a whole number of steps after the launch, in full precision.
+    #[inline(always)]
+    pub(super) fn after_steps<L: Lane>(&self, launch: &Launch<L>, s: L, propagators: &impl Propagators<L>) -> State<L> {
+        let steps = (s * L::splat(1.0 / self.pace.h)).nearest();
+        let (_, there) = self.carried(launch, &propagators.node(steps), L::splat(0.0));
+        State { s, x: there.x, v: there.v, sin: there.sin, cos: there.cos }
     }
 
     /// The state that a propagator carries another one to, and the distance to the stop there.
@@ -248,20 +278,6 @@ impl Stride {
 }
 
 impl<L: Lane> Launch<L> {
-    /// The state a step in doubt begins with, and its margin: the launch itself, exact, or what was passed on from it.
-    #[inline(always)]
-    pub(super) fn or_on_the_way(&self, stride: &Stride, way: State<L>) -> (State<L>, L) {
-        let fresh = way.s.less(L::splat(f64::MIN_POSITIVE));
-        let state = State {
-            s: way.s,
-            x: L::choose(fresh, self.x, way.x),
-            v: L::choose(fresh, self.v, way.v),
-            sin: L::choose(fresh, self.sin, way.sin),
-            cos: L::choose(fresh, self.cos, way.cos),
-        };
-        (state, L::choose(fresh, L::splat(MARGIN), stride.margin(way.s)))
-    }
-
     /// Seen from the stop it may strike.
     #[inline(always)]
     fn mirrored(&self, mirror: Mirror<L>) -> Self {
@@ -276,43 +292,61 @@ fn sum<L: Lane>(c: [L; 6], t: L) -> L {
     (c[0] * t + c[1] * tt) + (t * tt) * ((c[2] + c[3] * t) + tt * (c[4] + c[5] * t))
 }
 
-/// The root in (0, 1] of the quintic that interpolates the gap, as a fraction of the step; nonsense if there is none.
-#[inline(always)]
-fn quintic_root<L: Lane>(h: L, begin: &End<L>, end: &End<L>, mirror: Mirror<L>) -> L {
-    let hh = h * h;
-    let (x0, v0, a0) = (mirror.of(begin.x) - mirror.gap, mirror.of(begin.v) * h, mirror.of(begin.a) * hh);
-    let (x1, v1, a1) = (mirror.of(end.x) - mirror.gap, mirror.of(end.v) * h, mirror.of(end.a) * hh);
-    // the first crossing from below, to a quarter, by the values between
-    let zero = L::splat(0.0);
-    let third = zero.less(between::<L, 2>([x0, v0, a0], [x1, v1, a1]));
-    let second = zero.less(between::<L, 1>([x0, v0, a0], [x1, v1, a1]));
-    let first = zero.less(between::<L, 0>([x0, v0, a0], [x1, v1, a1]));
-    let late = L::choose(third, L::splat(0.625), L::splat(0.875));
-    let mut t = L::choose(first, L::splat(0.125), L::choose(second, L::splat(0.375), late));
+/// What a quintic is made of: position less the gap, velocity and acceleration at its ends, over a unit of time.
+#[derive(Clone, Copy)]
+struct Quintic<N>([N; 3], [N; 3]);
 
-    let c2 = L::splat(0.5) * a0;
-    let d0 = ((x1 - x0) - v0) - c2;
-    let d1 = (v1 - v0) - a0;
-    let d2 = L::splat(0.5) * (a1 - a0);
-    let c3 = L::splat(10.0) * d0 - (L::splat(4.0) * d1 - d2);
-    let c4 = L::splat(7.0) * d1 - (L::splat(15.0) * d0 + (d2 + d2));
-    let c5 = L::splat(6.0) * d0 - (L::splat(3.0) * d1 - d2);
-    for _ in 0..2 {
-        let tt = t * t;
-        let (t3, t4, t5) = (c3 * t, c4 * t, c5 * t);
-        let f = ((x0 + v0 * t) + tt * (c2 + t3)) + (tt * tt) * (c4 + t5);
-        let d = ((v0 + a0 * t) + tt * (L::splat(3.0) * c3 + L::splat(4.0) * t4)) + (tt * tt) * (L::splat(5.0) * c5);
-        let dd = (a0 + L::splat(6.0) * t3) + tt * (L::splat(12.0) * c4 + L::splat(20.0) * t5);
-        // Halley's step, kept in the interval
-        let step = (f * d) / (d * d - L::splat(0.5) * (f * dd));
-        t = (t - step).max(zero).min(L::splat(1.0));
+impl<N: Numbers> Quintic<N> {
+    #[inline(always)]
+    fn of(h: N, begin: &End<N>, end: &End<N>, mirror: Mirror<N>) -> Self {
+        let hh = h * h;
+        let at = |end: &End<N>| [mirror.of(end.x) - mirror.gap, mirror.of(end.v) * h, mirror.of(end.a) * hh];
+        Self(at(begin), at(end))
     }
-    t
+
+    /// The first crossing from below, to an eighth, by the values at the quarters.
+    #[inline(always)]
+    fn first_crossing(self) -> N {
+        let zero = N::splat(0.0);
+        let third = zero.less(between::<N, 2>(self.0, self.1));
+        let second = zero.less(between::<N, 1>(self.0, self.1));
+        let first = zero.less(between::<N, 0>(self.0, self.1));
+        let late = N::choose(third, N::splat(0.625), N::splat(0.875));
+        N::choose(first, N::splat(0.125), N::choose(second, N::splat(0.375), late))
+    }
+
+    /// The root in (0, 1] from an estimate; nonsense if there is none.
+    #[inline(always)]
+    fn root(self, mut t: N, sixth: [N; 2]) -> N {
+        let Self([x0, v0, a0], [x1, v1, a1]) = self;
+        let c2 = N::splat(0.5) * a0;
+        let d0 = ((x1 - x0) - v0) - c2;
+        let d1 = (v1 - v0) - a0;
+        let d2 = N::splat(0.5) * (a1 - a0);
+        let c3 = N::splat(10.0) * d0 - (N::splat(4.0) * d1 - d2);
+        let c4 = N::splat(7.0) * d1 - (N::splat(15.0) * d0 + (d2 + d2));
+        let c5 = N::splat(6.0) * d0 - (N::splat(3.0) * d1 - d2);
+        let mut slope = v0;
+        for _ in 0..2 {
+            let tt = t * t;
+            let (t3, t4, t5) = (c3 * t, c4 * t, c5 * t);
+            let f = ((x0 + v0 * t) + tt * (c2 + t3)) + (tt * tt) * (c4 + t5);
+            let d = ((v0 + a0 * t) + tt * (N::splat(3.0) * c3 + N::splat(4.0) * t4)) + (tt * tt) * (N::splat(5.0) * c5);
+            let dd = (a0 + N::splat(6.0) * t3) + tt * (N::splat(12.0) * c4 + N::splat(20.0) * t5);
+            // Halley's step, kept in the interval
+            let step = (f * d) / (d * d - N::splat(0.5) * (f * dd));
+            t = (t - step).max(N::splat(0.0)).min(N::splat(1.0));
+            slope = d;
+        }
+        let there = t * (t - N::splat(1.0));
+        let sixth = sixth[0] + t * (sixth[1] - sixth[0]);
+        t - sixth * (there * there * there) / slope
+    }
 }
 
 /// The quintic at so many quarters, less one.
 #[inline(always)]
-fn between<L: Lane, const K: usize>([x0, v0, a0]: [L; 3], [x1, v1, a1]: [L; 3]) -> L {
+fn between<L: Numbers, const K: usize>([x0, v0, a0]: [L; 3], [x1, v1, a1]: [L; 3]) -> L {
     let ([bx, bv, ba], [ex, ev, ea]) = (BETWEEN[K], BETWEEN[2 - K]);
     ((L::splat(bx) * x0 + L::splat(ex) * x1) + (L::splat(bv) * v0 - L::splat(ev) * v1))
         + (L::splat(ba) * a0 + L::splat(ea) * a1)

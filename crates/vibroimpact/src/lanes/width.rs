@@ -1,14 +1,17 @@
 //! How many flights are flown side by side, and the one place where the processor is asked.
 
+use super::doubts::SEGMENT;
 use super::pack::Pack;
 use super::pair::Pair;
 use super::slots::{Lists, Slots};
 use super::stride::{Stride, Table};
 
 #[cfg(target_arch = "x86_64")]
-use super::avx2::{EightSingle, Four};
+use super::avx2::Four;
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Eight;
+#[cfg(target_arch = "x86_64")]
+use super::single::EightSingle;
 
 /// How many flights are flown side by side. The results are the same bits for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,56 +54,74 @@ impl Width {
 
     /// One step of every flight, and the strikes it leads to.
     pub(super) fn round(self, slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-        match self {
-            Self::Scalar => {
-                slots.march::<f32>(stride, lists);
-                slots.strike::<f64>(stride, table, lists);
-            }
-            #[cfg(target_arch = "x86_64")]
-            // the processor was asked
-            Self::Avx2 if self.available() => {
-                #[allow(unsafe_code)]
-                unsafe {
-                    march_avx2(slots, stride, lists);
-                    strike_avx2(slots, stride, table, lists);
+        for segment in 0..slots.count.div_ceil(SEGMENT) {
+            match self {
+                Self::Scalar => {
+                    slots.march::<f32>(segment, stride, lists);
+                    slots.strike::<f64>(stride, table, lists);
+                    slots.look_closer::<f64>(stride, table, lists);
                 }
-            }
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512 if self.available() => {
-                #[allow(unsafe_code)]
-                unsafe {
-                    march_avx512(slots, stride, lists);
-                    strike_avx512(slots, stride, table, lists);
+                #[cfg(target_arch = "x86_64")]
+                // the processor was asked
+                Self::Avx2 if self.available() => {
+                    #[allow(unsafe_code)]
+                    unsafe {
+                        march_avx2(segment, slots, stride, lists);
+                        strike_avx2(slots, stride, table, lists);
+                        look_closer_avx2(slots, stride, table, lists);
+                    }
                 }
-            }
-            _ => {
-                slots.march::<Pack<f32, 4>>(stride, lists);
-                slots.strike::<Pack<f64, 4>>(stride, table, lists);
+                #[cfg(target_arch = "x86_64")]
+                Self::Avx512 if self.available() => {
+                    #[allow(unsafe_code)]
+                    unsafe {
+                        march_avx512(segment, slots, stride, lists);
+                        strike_avx512(slots, stride, table, lists);
+                        look_closer_avx512(slots, stride, table, lists);
+                    }
+                }
+                _ => {
+                    slots.march::<Pack<f32, 4>>(segment, stride, lists);
+                    slots.strike::<Pack<f64, 4>>(stride, table, lists);
+                    slots.look_closer::<Pack<f64, 4>>(stride, table, lists);
+                }
             }
         }
     }
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn march_avx2(slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
-    slots.march::<EightSingle>(stride, lists);
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
+fn march_avx2(segment: usize, slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
+    slots.march::<EightSingle>(segment, stride, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
 fn strike_avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
     slots.strike::<Pair<Four>>(stride, table, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-fn march_avx512(slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
-    slots.march::<EightSingle>(stride, lists);
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
+fn march_avx512(segment: usize, slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
+    slots.march::<EightSingle>(segment, stride, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
 fn strike_avx512(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
     slots.strike::<Eight>(stride, table, lists);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
+fn look_closer_avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
+    slots.look_closer::<Pair<Four>>(stride, table, lists);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
+fn look_closer_avx512(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
+    slots.look_closer::<Eight>(stride, table, lists);
 }

@@ -7,9 +7,21 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+/// 1.5 * 2^52: a number of magnitude below 2^51 added to it is rounded to a whole one, which stands in the last bits.
+pub(crate) const SHIFT: f64 = 6_755_399_441_055_744.0;
+
+/// [`Lane::turned`] of one number.
+#[inline(always)]
+pub(crate) fn turned(quarters: f64, sin: f64, cos: f64) -> (f64, f64) {
+    let bits = quarters.to_bits();
+    let (odd, half) = (bits << 63, (bits >> 1) << 63);
+    let (a, b) = if odd == 0 { (sin, cos) } else { (cos, sin) };
+    (f64::from_bits(a.to_bits() ^ half), f64::from_bits(b.to_bits() ^ half ^ odd))
+}
+
 /// Several numbers side by side, of single or double precision.
 pub(crate) trait Numbers:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// One truth value a number.
     type Mask: Mask;
@@ -24,6 +36,8 @@ pub(crate) trait Numbers:
     fn max(self, other: Self) -> Self;
     /// `self` where it is less than `other`, else `other`.
     fn min(self, other: Self) -> Self;
+    /// Square root; NaN of what is negative.
+    fn sqrt(self) -> Self;
     /// `self < other`; false for NaN.
     fn less(self, other: Self) -> Self::Mask;
     /// `yes` where the mask is set, else `no`.
@@ -36,14 +50,23 @@ pub(crate) trait Single: Numbers {
     fn load(from: &[f32]) -> Self;
     /// Writes them to the beginning of a slice.
     fn store(self, to: &mut [f32]);
+    /// Those whose bits are set, moved together to the front in their order; what follows them is of no meaning.
+    fn gathered(self, bits: u32) -> Self;
 }
 
 /// Several `f64` side by side.
-pub(crate) trait Lane: Numbers + Div<Output = Self> {
+pub(crate) trait Lane: Numbers {
+    /// As many numbers of single precision.
+    type Rough: Single;
+
+    /// The same numbers in double precision.
+    fn widened(from: Self::Rough) -> Self;
+    /// Rounded to single precision.
+    fn rounded(self) -> Self::Rough;
+    /// The first numbers of a slice.
+    fn load(from: &[f64]) -> Self;
     /// Writes them to the beginning of a slice.
     fn store(self, to: &mut [f64]);
-    /// The numbers of one column at these places, where eight neighbours of a column lie side by side.
-    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self;
     /// The columns of the rows at these places.
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N];
     /// Writes columns as rows, one for each number.
@@ -55,18 +78,23 @@ pub(crate) trait Lane: Numbers + Div<Output = Self> {
     }
     /// The largest whole number not above.
     fn floor(self) -> Self;
-    /// The nearest whole number, ties to even, for magnitudes below 2^51: the classic 1.5 * 2^52 shift.
+    /// The nearest whole number, ties to even, for magnitudes below 2^51.
     #[inline(always)]
     fn nearest(self) -> Self {
-        let shift = Self::splat(6_755_399_441_055_744.0);
+        let shift = Self::splat(SHIFT);
         (self + shift) - shift
     }
+    /// Sine and cosine of an angle that is so many quarter turns more, their number being shifted by [`SHIFT`]: its last two bits
+    /// say which of the two is which, and their signs.
+    fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self);
 }
 
 /// Truth values side by side.
 pub(crate) trait Mask: Copy {
     /// Both.
     fn and(self, other: Self) -> Self;
+    /// One of them, or both.
+    fn or(self, other: Self) -> Self;
     /// As bits, the first lane lowest.
     fn bits(self) -> u32;
 }
@@ -77,15 +105,13 @@ impl Mask for bool {
         self & other
     }
     #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        self | other
+    }
+    #[inline(always)]
     fn bits(self) -> u32 {
         u32::from(self)
     }
-}
-
-/// One number of a column.
-#[inline(always)]
-pub(crate) fn picked(from: &[[[f32; 8]; 5]], column: usize, at: u32) -> f64 {
-    f64::from(from[at as usize / 8][column][at as usize % 8])
 }
 
 macro_rules! one_number {
@@ -112,6 +138,10 @@ macro_rules! one_number {
                 if self < other { self } else { other }
             }
             #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self::sqrt(self)
+            }
+            #[inline(always)]
             fn less(self, other: Self) -> bool {
                 self < other
             }
@@ -126,13 +156,23 @@ one_number!(f64, f32);
 
 /// The scalar instance: what the lanes are compared with, and what a single motion runs on.
 impl Lane for f64 {
+    type Rough = f32;
+
+    #[inline(always)]
+    fn widened(from: f32) -> Self {
+        Self::from(from)
+    }
+    #[inline(always)]
+    fn rounded(self) -> f32 {
+        Numbers::splat(self)
+    }
+    #[inline(always)]
+    fn load(from: &[f64]) -> Self {
+        from[0]
+    }
     #[inline(always)]
     fn store(self, to: &mut [f64]) {
         to[0] = self;
-    }
-    #[inline(always)]
-    fn pick(from: &[[[f32; 8]; 5]], column: usize, at: &[u32; 8]) -> Self {
-        picked(from, column, at[0])
     }
     #[inline(always)]
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
@@ -151,6 +191,10 @@ impl Lane for f64 {
     fn floor(self) -> Self {
         Self::floor(self)
     }
+    #[inline(always)]
+    fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
+        turned(quarters, sin, cos)
+    }
 }
 
 impl Single for f32 {
@@ -161,5 +205,9 @@ impl Single for f32 {
     #[inline(always)]
     fn store(self, to: &mut [f32]) {
         to[0] = self;
+    }
+    #[inline(always)]
+    fn gathered(self, _: u32) -> Self {
+        self
     }
 }

@@ -11,7 +11,7 @@ mod matrix;
 mod trig;
 
 pub(crate) use exact::{Sum, two_prod, two_sum};
-pub(crate) use lane::{Lane, Mask, Numbers, Single, picked};
+pub(crate) use lane::{Lane, Mask, Numbers, Single, turned};
 pub use matrix::{Matrix2, Multiplier, eigenvalues};
 pub use trig::sin_cos;
 pub(crate) use trig::sin_cos_lanes;

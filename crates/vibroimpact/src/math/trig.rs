@@ -5,6 +5,7 @@
 //! two polynomials are the minimax ones of Sun's fdlibm (`k_sin.c`, `k_cos.c`, freely usable), with the low part of the
 //! reduced argument carried through.
 
+use super::lane::SHIFT;
 use super::{Lane, two_prod, two_sum};
 use core::f64::consts::FRAC_2_PI;
 
@@ -47,25 +48,26 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
 /// The same in lanes, bit for bit, for arguments of at most 1e6 in magnitude.
 #[inline(always)]
 pub(crate) fn sin_cos_lanes<L: Lane>(x: L) -> (L, L) {
-    let (n, r, lo) = reduce_fast(x);
-    let (s, c) = (kernel_sin(r, lo), kernel_cos(r, lo));
-    // the quadrant, 0 to 3: odd ones swap, the sine is negative in the last two, the cosine in the middle two
-    let quadrant = n - L::splat(4.0) * (n * L::splat(0.25)).floor();
-    let (first, second) = (L::splat(0.5).less(quadrant), L::splat(1.5).less(quadrant));
-    let third = L::splat(2.5).less(quadrant);
-    let sine = L::choose(third, c, L::choose(second, s, L::choose(first, c, s)));
-    let cosine = L::choose(third, s, L::choose(second, c, L::choose(first, s, c)));
-    let turned = L::choose(first, -cosine, cosine);
-    (L::choose(second, -sine, sine), L::choose(third, cosine, turned))
+    let (shifted, r, lo) = reduce_shifted(x);
+    L::turned(shifted, kernel_sin(r, lo), kernel_cos(r, lo))
 }
 
 #[inline(always)]
-fn reduce_fast<L: Lane>(x: L) -> (L, L, L) {
-    let n = (x * L::splat(FRAC_2_PI)).nearest();
+fn reduce_fast(x: f64) -> (f64, f64, f64) {
+    let (shifted, r, lo) = reduce_shifted(x);
+    (shifted - SHIFT, r, lo)
+}
+
+/// The number of quarter turns, shifted; and the rest as high and low part.
+#[inline(always)]
+fn reduce_shifted<L: Lane>(x: L) -> (L, L, L) {
+    let shift = L::splat(SHIFT);
+    let shifted = x * L::splat(FRAC_2_PI) + shift;
+    let n = shifted - shift;
     let (r, e) = two_sum(x - n * L::splat(P1), -(n * L::splat(P2)));
     let lo = e - n * L::splat(P3);
     let hi = r + lo;
-    (n, hi, (r - hi) + lo)
+    (shifted, hi, (r - hi) + lo)
 }
 
 #[cold]

@@ -10,6 +10,11 @@ use core::f64::consts::TAU;
 /// $`2\pi - `$ [`TAU`].
 const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
 
+/// 2π in pieces of 33 bits: a whole number below 2^20 times one of the first two is exact.
+const TAU_PIECES: [f64; 3] = [6.283_185_306_936_502_5, 2.430_840_202_521_586_4e-10, 8.089_064_995_183_803e-21];
+/// Angles up to here make fewer turns than that.
+const SHORT: f64 = 6_000_000.0;
+
 /// `angle` modulo $`2\pi`$, in $`[0, 2\pi)`$.
 #[must_use]
 pub fn wrap(angle: f64) -> f64 {
@@ -20,15 +25,22 @@ pub fn wrap(angle: f64) -> f64 {
 #[inline]
 #[must_use]
 pub fn advance(phase: f64, beta: f64, s: f64) -> f64 {
-    advance_lanes(phase, beta, s)
+    let (hi, lo) = advanced(phase, beta, s);
+    reduce(hi, lo)
 }
 
-/// The same in lanes.
+/// The same in lanes, for turns of at most 6e6.
 #[inline(always)]
 pub(crate) fn advance_lanes<L: Lane>(phase: L, beta: L, s: L) -> L {
+    let (hi, lo) = advanced(phase, beta, s);
+    reduce_short(hi, lo)
+}
+
+#[inline(always)]
+fn advanced<L: Lane>(phase: L, beta: L, s: L) -> (L, L) {
     let (turn, turn_low) = two_prod(beta, s);
     let (hi, lo) = two_sum(phase, turn);
-    reduce(hi, lo + turn_low)
+    (hi, lo + turn_low)
 }
 
 /// The angle from `b` to `a` by the shorter way, in $`[-\pi, \pi]`$.
@@ -39,13 +51,26 @@ pub fn difference(a: f64, b: f64) -> f64 {
     d - TAU * (d / TAU).round()
 }
 
+fn reduce(hi: f64, lo: f64) -> f64 {
+    if hi.abs() < SHORT {
+        return reduce_short(hi, lo);
+    }
+    let turns = (hi * (1.0 / TAU)).floor();
+    let (p, pe) = two_prod(turns, TAU);
+    within((hi - p) + ((lo - pe) - turns * TAU_LOW))
+}
+
 #[inline(always)]
-fn reduce<L: Lane>(hi: L, lo: L) -> L {
-    let (tau, tau_low, zero) = (L::splat(TAU), L::splat(TAU_LOW), L::splat(0.0));
+fn reduce_short<L: Lane>(hi: L, lo: L) -> L {
     let turns = (hi * L::splat(1.0 / TAU)).floor();
-    let (p, pe) = two_prod(turns, tau);
-    let r = (hi - p) + ((lo - pe) - turns * tau_low);
-    // rounding may choose the neighbouring turn
+    let [first, second, third] = TAU_PIECES.map(L::splat);
+    within((hi - turns * first) + ((lo - turns * third) - turns * second))
+}
+
+/// Back into the range that rounding may have left for the neighbouring turn.
+#[inline(always)]
+fn within<L: Lane>(r: L) -> L {
+    let (tau, tau_low, zero) = (L::splat(TAU), L::splat(TAU_LOW), L::splat(0.0));
     let up = (r + tau) + tau_low;
     let up = L::choose(up.less(tau), up, zero);
     let down = ((r - tau) - tau_low).max(zero);

@@ -1,0 +1,64 @@
+//! Steps in doubt, side by side as the march met them: the slot of the flight, when the step begins, and the motion at both ends.
+
+use super::front::list;
+use super::hull::End;
+use super::stride::{BESIDE, WIDEST};
+use crate::math::Single;
+
+/// Slots that are marched before those in doubt are struck.
+pub(super) const SEGMENT: usize = 1024;
+/// Room for all of them, and for a whole register past the last.
+const ROOM: usize = SEGMENT + WIDEST;
+
+/// Steps of flights that are not proven clear.
+#[derive(Clone, Debug)]
+pub(super) struct Doubts {
+    count: usize,
+    slots: [u32; ROOM],
+    /// s; x, v, a at the beginning; x, v, a at the end.
+    columns: [[f32; ROOM]; 7],
+}
+
+impl Doubts {
+    pub(super) fn new() -> Box<Self> {
+        Box::new(Self { count: 0, slots: [0; ROOM], columns: [[0.0; ROOM]; 7] })
+    }
+
+    /// Forgets all.
+    #[inline(always)]
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// Adds the steps whose bits are set; the first of the lanes has the slot `first`.
+    #[inline(always)]
+    pub(super) fn add<N: Single>(&mut self, bits: u32, first: usize, s: N, from: &End<N>, to: &End<N>) {
+        // never more; said for the compiler
+        let at = self.count.min(SEGMENT);
+        let values = [s, from.x, from.v, from.a, to.x, to.v, to.a];
+        for (column, value) in self.columns.iter_mut().zip(values) {
+            value.gathered(bits).store(&mut column[at..at + BESIDE]);
+        }
+        self.count = at + list(bits, first, &mut self.slots[at..at + BESIDE]);
+    }
+
+    /// How many there are.
+    #[inline(always)]
+    pub(super) const fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Eight slots from the `first` on; those past the last are of no meaning, but there.
+    #[inline(always)]
+    pub(super) fn slots(&self, first: usize) -> &[u32; WIDEST] {
+        self.slots[first.min(SEGMENT)..].first_chunk().unwrap_or(&[0; WIDEST])
+    }
+
+    /// As many steps from the `first` on: when they begin, and their ends.
+    #[inline(always)]
+    pub(super) fn steps<N: Single>(&self, first: usize) -> (N, End<N>, End<N>) {
+        let first = first.min(SEGMENT);
+        let [s, x, v, a, to_x, to_v, to_a] = core::array::from_fn(|k| N::load(&self.columns[k][first..first + WIDEST]));
+        (s, End { x, v, a }, End { x: to_x, v: to_v, a: to_a })
+    }
+}

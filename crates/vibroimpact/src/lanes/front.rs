@@ -1,0 +1,35 @@
+//! Moving some of eight places to the front, without a branch that could be guessed wrong.
+
+use super::stride::BESIDE;
+
+/// The places of the bits that are set, in order, for every byte.
+pub(super) const FRONT: [[u8; BESIDE]; 256] = {
+    let mut table = [[0; BESIDE]; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let (mut bit, mut count) = (0_u8, 0);
+        while bit < 8 {
+            if byte >> bit & 1 == 1 {
+                table[byte][count] = bit;
+                count += 1;
+            }
+            bit += 1;
+        }
+        byte += 1;
+    }
+    table
+};
+
+/// Writes the slots whose bits are set, counted from `first`, to the beginning of `places`, which has room for eight, and returns
+/// how many.
+#[inline(always)]
+pub(super) fn list(bits: u32, first: usize, places: &mut [u32]) -> usize {
+    if let Some(places) = places.first_chunk_mut::<BESIDE>() {
+        for (place, offset) in places.iter_mut().zip(&FRONT[(bits & 0xff) as usize]) {
+            #[allow(clippy::cast_possible_truncation)] // slot numbers
+            let first = first as u32;
+            *place = first + u32::from(*offset);
+        }
+    }
+    (bits & 0xff).count_ones() as usize
+}
