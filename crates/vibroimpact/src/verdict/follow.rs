@@ -163,7 +163,7 @@ pub(super) fn chaotic(spectrum: &Spectrum) -> bool {
 }
 
 /// The verdict on a motion that came to an end.
-pub(super) fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits) -> Verdict {
+pub(crate) fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits) -> Verdict {
     match end {
         Some(End::Never(why)) => Verdict::NoImpact(NoImpact::Flight(why)),
         Some(End::Stuck(side)) => Verdict::Stuck(side),

@@ -23,6 +23,7 @@ mod settle;
 mod trap;
 
 pub use attractors::{Census, Found, StartBox, attractors, scattered_starts};
+pub(crate) use follow::ended;
 pub use label::{Count, Label, LabelError};
 pub use many::{Atlas, Settlement, settle_many};
 pub use outcome::{NoImpact, Undecided, Verdict};

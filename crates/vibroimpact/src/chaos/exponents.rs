@@ -1,0 +1,234 @@
+//! The exponents of the motion from a start, through whatever happens to it.
+//!
+//! The transient is passed first, the tangent vectors carried along all the while: they start anyhow and turn into their
+//! directions meanwhile. Then so many impacts are measured, in [blocks](super) that give the error bars.
+//!
+//! A stick ends everything that was measured: the release is one state, so nothing before it matters, and transient and
+//! measurement begin again from there. A second stick on the same stop is a proof that the motion is periodic and sticks in
+//! each turn, so that both exponents are $`-\infty`$. So a motion is begun again at most once for each stop.
+
+use super::blocks::{Block, MEASURE, quotient};
+use super::run::Run;
+use super::{Measured, dimension};
+use crate::flight::SearchLimits;
+use crate::motion::{EventKind, ImpactState, MAX_TOUCHES, Motion};
+use crate::system::{Oscillator, Side, Start};
+use crate::verdict::{NoImpact, Verdict, ended};
+
+/// Impacts measured where no number is given.
+pub const DEFAULT_IMPACTS: u64 = 100_000;
+/// Impacts of the transient where no number is given.
+pub const DEFAULT_TRANSIENT: u64 = 1_000;
+
+/// How long to follow a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExponentOptions {
+    /// Impacts to measure over; fewer than a few thousand say little.
+    pub impacts: u64,
+    /// Impacts to pass before; 100 are passed in any case.
+    pub transient: u64,
+    /// How far each flight is searched.
+    pub limits: SearchLimits,
+    /// Search steps over all flights before giving up: what bounds the time where every flight is long.
+    pub max_steps: u64,
+}
+
+impl ExponentOptions {
+    /// So many impacts after so many others, and a thousand search steps for each: ordinary flights take ten.
+    #[must_use]
+    pub const fn new(impacts: u64, transient: u64) -> Self {
+        let max_steps = impacts.saturating_add(transient).saturating_mul(1000).saturating_add(2_000_000);
+        Self { impacts, transient, limits: SearchLimits { periods: 1000.0, steps: 100_000 }, max_steps }
+    }
+}
+
+impl Default for ExponentOptions {
+    /// [`DEFAULT_IMPACTS`] after [`DEFAULT_TRANSIENT`].
+    fn default() -> Self {
+        Self::new(DEFAULT_IMPACTS, DEFAULT_TRANSIENT)
+    }
+}
+
+/// Where the exponents come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Grounds {
+    /// Measured over so many impacts, after so many others.
+    Measured {
+        /// Impacts measured over.
+        impacts: u64,
+        /// Impacts passed before.
+        transient: u64,
+        /// Time measured over.
+        time: f64,
+        /// Blocks it was divided into.
+        blocks: u32,
+    },
+    /// No more impacts: those of the flight, exact.
+    Flight(NoImpact),
+    /// It comes to rest on this stop again and again, once in each turn of a cycle: minus infinity, exact.
+    Sticks(Side),
+    /// At rest on this stop for ever: minus infinity, exact.
+    Stuck(Side),
+    /// It touches a stop again and again with no speed, or ever less: there is no derivative and no exponent.
+    Touches(NoImpact),
+    /// The search ran out before so many impacts were seen.
+    Undecided {
+        /// Impacts seen.
+        impacts: u64,
+    },
+}
+
+/// The exponents of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exponents {
+    /// Lyapunov exponents per unit of (nondimensional) time, the larger first; errors are three standard errors, and no less than
+    /// 1 over the time measured. Minus infinity where everything is forgotten, not a
+    /// number where there are none or none were found; see [`Grounds`].
+    pub exponents: [Measured; 2],
+    /// The sum of both, measured: its error is smaller than theirs, which are correlated.
+    pub sum: Measured,
+    /// What the sum must be: $`2\,\overline{\ln\varepsilon}\,\nu - 2\zeta`$ with the impacts that were measured over. The difference
+    /// is what the measurement lost to rounding.
+    pub identity: f64,
+    /// Impacts per forcing period; infinite with a complete chatter in each turn of a cycle.
+    pub impacts_per_period: Measured,
+    /// Kaplan-Yorke dimension of the stroboscopic section, 0 to 2; `None` where the larger exponent is not known to differ
+    /// from 0. That of the flow, in the space of position, velocity and phase, is larger by 1.
+    pub section_dimension: Option<Measured>,
+    /// The forcing period.
+    pub period: f64,
+    /// Where all this comes from.
+    pub grounds: Grounds,
+}
+
+impl Exponents {
+    /// The exponents per forcing period: the logarithms of the multipliers of the stroboscopic map.
+    #[must_use]
+    pub fn per_period(&self) -> [Measured; 2] {
+        self.exponents.map(|m| Measured { value: m.value * self.period, error: m.error * self.period })
+    }
+
+    /// Kaplan-Yorke dimension of the flow in the space of position, velocity and phase, 1 to 3.
+    #[must_use]
+    pub fn flow_dimension(&self) -> Option<Measured> {
+        self.section_dimension.map(|d| Measured { value: d.value + 1.0, error: d.error })
+    }
+
+    /// Exact ones.
+    fn exact(osc: &Oscillator, values: [f64; 2], rate: f64, grounds: Grounds) -> Self {
+        let exact = |value| Measured { value, error: 0.0 };
+        let exponents = values.map(exact);
+        let sum = values[0] + values[1];
+        Self {
+            exponents,
+            sum: exact(sum),
+            identity: sum,
+            impacts_per_period: exact(rate),
+            section_dimension: dimension::of_section(&exponents, &[]),
+            period: osc.period(),
+            grounds,
+        }
+    }
+
+    fn measured(osc: &Oscillator, blocks: &[Block], transient: u64) -> Self {
+        let total = blocks.iter().fold(Block::default(), |sum, block| sum.plus(block));
+        let rate = |least: f64, of: &dyn Fn(&Block) -> f64| quotient(blocks, least, of, |block| block.time);
+        let mut exponents = [0, 1].map(|k| rate(MEASURE, &|b| b.stretch[k]));
+        if exponents[0].value < exponents[1].value {
+            // equal but for noise
+            exponents.swap(0, 1);
+        }
+        let impacts = rate(0.0, &|b| b.impacts);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a whole number, as it was counted
+        let count = total.impacts as u64;
+        let grounds = Grounds::Measured {
+            impacts: count,
+            transient,
+            time: total.time,
+            blocks: u32::try_from(blocks.len()).unwrap_or(u32::MAX),
+        };
+        Self {
+            exponents,
+            sum: rate(0.0, &|b| b.stretch[0] + b.stretch[1]),
+            identity: total.area / total.time,
+            impacts_per_period: Measured { value: impacts.value * osc.period(), error: impacts.error * osc.period() },
+            section_dimension: dimension::of_section(&exponents, blocks),
+            period: osc.period(),
+            grounds,
+        }
+    }
+}
+
+/// The Lyapunov exponents of the motion of `osc` from `start`.
+///
+/// ```
+/// use vibroimpact::{Start, chaos::{ExponentOptions, exponents}, scenario};
+/// let osc = scenario::U.oscillator();                                  // U of the 1971 paper
+/// let found = exponents(&osc, Start::at_rest(&osc), &ExponentOptions::new(20_000, 1_000));
+/// let [one, two] = found.exponents;
+/// assert!(one.value > one.error && (found.sum.value - found.identity).abs() < 1e-9);
+/// let dimension = found.section_dimension.unwrap();                    // of the stroboscopic section
+/// assert!((dimension.value - (1.0 + one.value / -two.value)).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn exponents(osc: &Oscillator, start: Start, options: &ExponentOptions) -> Exponents {
+    let mut motion = Motion::with_limits(osc, start, options.limits);
+    let mut run = Run::new(options.impacts, options.transient);
+    while motion.steps() < options.max_steps {
+        let Some(event) = motion.next() else {
+            return at_the_end(osc, &ended(osc, motion.end(), options.limits), run.seen);
+        };
+        run.since += motion.leg().map_or(0.0, |leg| leg.duration);
+        match event.kind {
+            EventKind::Impact { velocity_before, .. } => {
+                let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
+                run.impact(osc, state);
+                if run.fades(osc) {
+                    let limit = NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase };
+                    return at_the_end(osc, &Verdict::NoImpact(limit), run.seen);
+                }
+                if run.complete() {
+                    return Exponents::measured(osc, &run.blocks, run.transient);
+                }
+            }
+            EventKind::Graze { .. } => {
+                run.touches += 1;
+                if run.touches > MAX_TOUCHES {
+                    let grazing = NoImpact::Grazing { phase: event.phase };
+                    return at_the_end(osc, &Verdict::NoImpact(grazing), run.seen);
+                }
+            }
+            EventKind::Stick { chatter, .. } => {
+                if let Some(rate) = run.stick(osc, event.side, event.time, chatter) {
+                    let nothing = [f64::NEG_INFINITY; 2];
+                    return Exponents::exact(osc, nothing, rate, Grounds::Sticks(event.side));
+                }
+            }
+            EventKind::Release => run.begin_again(),
+        }
+    }
+    at_the_end(osc, &ended(osc, None, options.limits), run.seen)
+}
+
+/// The exponents of a motion that ends so.
+fn at_the_end(osc: &Oscillator, end: &Verdict, impacts: u64) -> Exponents {
+    let (values, rate, grounds) = match end {
+        Verdict::NoImpact(why @ (NoImpact::GrazeLimit { .. } | NoImpact::Grazing { .. })) => {
+            ([f64::NAN; 2], 0.0, Grounds::Touches(*why))
+        }
+        Verdict::NoImpact(why) => (of_flight(osc.damping()), 0.0, Grounds::Flight(*why)),
+        Verdict::Stuck(side) => ([f64::NEG_INFINITY; 2], 0.0, Grounds::Stuck(*side)),
+        _ => ([f64::NAN; 2], f64::NAN, Grounds::Undecided { impacts }),
+    };
+    Exponents::exact(osc, values, rate, grounds)
+}
+
+/// The real parts of the characteristic exponents.
+fn of_flight(damping: f64) -> [f64; 2] {
+    if damping < 1.0 {
+        // zero has no sign here
+        return [0.0 - damping; 2];
+    }
+    let fast = damping + (damping - 1.0).sqrt() * (damping + 1.0).sqrt();
+    [-1.0 / fast, -fast]
+}

@@ -1,0 +1,215 @@
+//! Exponents along an orbit of impacts, with little ado: what a verdict needs, side by side with many others.
+//!
+//! The tangent vectors are those of phase and arrival speed, whose area is distorted by $`U_0/U_1`$: over a run the sum of the
+//! exponents misses the identity by $`\ln(U_0/U_1)/t`$. The error bar is three standard errors of the mean of 25 blocks. For numbers
+//! to publish there is [`exponents`](super::exponents()); the bits here stay as they are, because verdicts depend on them.
+
+use crate::flight::SearchLimits;
+use crate::math::{Sum, ln};
+use crate::motion::{ImpactState, Mapped, derivative, impact_map};
+use crate::system::Oscillator;
+
+/// A measured number and its error bar.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measured {
+    /// The estimate.
+    pub value: f64,
+    /// Three standard errors.
+    pub error: f64,
+}
+
+/// The exponents of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spectrum {
+    /// Lyapunov exponents per unit of (nondimensional) time, the larger first.
+    pub exponents: [Measured; 2],
+    /// Impacts per forcing period.
+    pub impacts_per_period: Measured,
+    /// Where the run ended.
+    pub last: ImpactState,
+}
+
+/// How far each flight is followed: a motion with longer ones is not one whose exponents can be measured.
+pub(crate) const LIMITS: SearchLimits = SearchLimits { periods: 1000.0, steps: 2_000 };
+/// Blocks the run is divided into.
+const BLOCKS: u32 = 25;
+
+/// The Lyapunov exponents along the motion that arrives at `from`, over `impacts` further impacts; `None` if the motion
+/// sticks (then it forgets everything and the larger exponent is minus infinity) or stops striking.
+///
+/// ```
+/// use vibroimpact::{Oscillator, Side, chaos::lyapunov, motion::ImpactState};
+/// let osc = Oscillator::from_inverse_beta(1.11, 3.0, 0.5)?;           // U of the 1971 paper
+/// let from = ImpactState { phase: 1.4, velocity: 2.4, side: Side::Upper };
+/// let spectrum = lyapunov(&osc, from, 5_000).unwrap();
+/// assert!(spectrum.exponents[0].value > spectrum.exponents[0].error);
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+#[must_use]
+pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spectrum> {
+    let mut measure = Measure::new(from, impacts);
+    while !measure.complete() {
+        let Mapped::Impact { state, interval } = impact_map(osc, &measure.state, LIMITS) else {
+            return None;
+        };
+        measure.impact(osc, state, interval);
+    }
+    measure.spectrum(osc)
+}
+
+/// A measurement under way, fed impact by impact.
+#[derive(Clone, Debug)]
+pub(crate) struct Measure {
+    /// The last impact.
+    pub(crate) state: ImpactState,
+    u: [f64; 2],
+    w: [f64; 2],
+    per_block: u32,
+    /// Impacts of the present block.
+    count: u32,
+    time: Sum,
+    one: LogSum,
+    two: LogSum,
+    /// Per block: mean of both exponents and of the impacts per unit of time, and the time.
+    blocks: Vec<([f64; 3], f64)>,
+}
+
+impl Measure {
+    /// From an impact on, over so many further ones.
+    pub(crate) fn new(from: ImpactState, impacts: u32) -> Self {
+        Self {
+            state: from,
+            u: [1.0, 0.0],
+            w: [0.0, 1.0],
+            per_block: (impacts / BLOCKS).max(1),
+            count: 0,
+            time: Sum::default(),
+            one: LogSum::default(),
+            two: LogSum::default(),
+            blocks: Vec::with_capacity(BLOCKS as usize),
+        }
+    }
+
+    /// Whether all impacts are in.
+    pub(crate) fn complete(&self) -> bool {
+        self.blocks.len() >= BLOCKS as usize
+    }
+
+    /// The next impact, `interval` after the last one.
+    pub(crate) fn impact(&mut self, osc: &Oscillator, next: ImpactState, interval: f64) {
+        let d = derivative(osc, &self.state, &next, interval);
+        let (u, w) = (d.apply(self.u), d.apply(self.w));
+        let along = (u[0] * u[0] + u[1] * u[1]).sqrt();
+        self.u = [u[0] / along, u[1] / along];
+        // the part of w across u is the area over the length
+        let across = (self.u[0] * w[1] - self.u[1] * w[0]).abs();
+        self.w = [-self.u[1], self.u[0]];
+        self.one.multiply(along);
+        self.two.multiply(across);
+        self.time.add(interval);
+        self.state = next;
+        self.count += 1;
+        if self.count == self.per_block {
+            let t = self.time.value();
+            let means = [self.one.value() / t, self.two.value() / t, f64::from(self.per_block) / t];
+            self.blocks.push((means, t));
+            (self.count, self.time) = (0, Sum::default());
+            (self.one, self.two) = (LogSum::default(), LogSum::default());
+        }
+    }
+
+    /// The exponents of all complete blocks; `None` where restitution 0 contracts one direction to nothing.
+    pub(crate) fn spectrum(&self, osc: &Oscillator) -> Option<Spectrum> {
+        let of = |k: usize, scale: f64| {
+            let values: Vec<(f64, f64)> = self.blocks.iter().map(|(means, t)| (means[k] * scale, *t)).collect();
+            mean(&values)
+        };
+        let exponents = [of(0, 1.0), of(1, 1.0)];
+        let impacts_per_period = of(2, osc.period());
+        exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, last: self.state })
+    }
+}
+
+/// The logarithm of a product of many factors: they are multiplied as long as the product stays a number of ordinary size.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LogSum {
+    product: f64,
+    sum: Sum,
+}
+
+impl Default for LogSum {
+    fn default() -> Self {
+        Self { product: 1.0, sum: Sum::default() }
+    }
+}
+
+impl LogSum {
+    pub(super) fn multiply(&mut self, factor: f64) {
+        let product = self.product * factor;
+        if (1e-100..=1e100).contains(&product) {
+            self.product = product;
+        } else {
+            self.sum.add(ln(self.product));
+            self.product = factor;
+        }
+    }
+
+    /// A factor given by its logarithm.
+    pub(super) fn add(&mut self, logarithm: f64) {
+        self.sum.add(logarithm);
+    }
+
+    pub(super) fn value(mut self) -> f64 {
+        self.sum.add(ln(self.product));
+        self.sum.value()
+    }
+}
+
+/// The time-weighted mean of the blocks and three standard errors of it.
+fn mean(blocks: &[(f64, f64)]) -> Measured {
+    let total: f64 = blocks.iter().map(|(_, t)| t).sum();
+    let value = blocks.iter().map(|(x, t)| x * t).sum::<f64>() / total;
+    #[allow(clippy::cast_precision_loss)] // a few dozen
+    let count = blocks.len() as f64;
+    let spread: f64 = blocks
+        .iter()
+        .map(|(x, t)| {
+            let deviation = (x - value) * t * count / total;
+            deviation * deviation
+        })
+        .sum();
+    Measured { value, error: 3.0 * (spread / (count * (count - 1.0))).sqrt() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::Side;
+
+    #[test]
+    fn sum_of_exponents_is_the_identity() {
+        for (inverse, gap, eps, zeta) in [(1.11, 3.0, 0.5, 0.0), (1.11, 2.9, 0.5, 0.001), (1.15, 3.0, 0.6, 0.0)] {
+            let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(zeta).unwrap();
+            let from = ImpactState { phase: 1.4, velocity: 2.4, side: Side::Upper };
+            let spectrum = lyapunov(&osc, from, 20_000).unwrap();
+            let [one, two] = spectrum.exponents;
+            let rate = spectrum.impacts_per_period.value / osc.period();
+            let identity = 2.0 * eps.ln() * rate - 2.0 * zeta;
+            // the area is distorted by U0/U1, which telescopes over the run: 1/t of a bounded number
+            let end = (from.velocity / spectrum.last.velocity).ln().abs() / (20_000.0 / rate);
+            assert!((one.value + two.value - identity).abs() <= 1e-9 + 1.01 * end, "{one:?} {two:?} {identity}");
+        }
+    }
+
+    #[test]
+    fn a_periodic_motion_has_the_exponents_of_its_multipliers() {
+        let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
+        let from = ImpactState { phase: 0.829_989_671_461_920_7, velocity: 2.644_018_587_785_435, side: Side::Upper };
+        let spectrum = lyapunov(&osc, from, 10_000).unwrap();
+        let expected = [0.443_795_500_242_f64, 0.140_830_630_247].map(|m| m.ln() / osc.period());
+        for (measured, want) in spectrum.exponents.iter().zip(expected) {
+            assert!((measured.value - want).abs() < 2e-3, "{measured:?} {want}");
+        }
+        assert!((spectrum.impacts_per_period.value - 2.0).abs() < 1e-9);
+    }
+}

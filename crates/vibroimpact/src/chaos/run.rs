@@ -1,0 +1,100 @@
+//! A measurement under way, fed event by event.
+
+use super::blocks::{BLOCKS, Block};
+use super::tangent::Frame;
+use crate::motion::ImpactState;
+use crate::system::{Oscillator, Side};
+use crate::verdict::graze_limit;
+
+/// Impacts passed in any case, for the tangent vectors to turn.
+const TURNING: u64 = 100;
+
+/// A motion under way.
+pub(super) struct Run {
+    impacts: u64,
+    pub(super) transient: u64,
+    frame: Frame,
+    /// Time since the last impact or release.
+    pub(super) since: f64,
+    /// Impacts since the last release.
+    passed: u64,
+    /// Impacts and sticks after a chatter since the start.
+    pub(super) seen: u64,
+    chatters: u64,
+    pub(super) touches: u32,
+    block: Block,
+    pub(super) blocks: Vec<Block>,
+    /// The last impacts and the times between them, for the law by which they fade away.
+    recent: Vec<(ImpactState, f64)>,
+    /// When each stop was stuck to, and the impacts and chatters until then.
+    stuck: [Option<(f64, u64, u64)>; 2],
+}
+
+impl Run {
+    pub(super) fn new(impacts: u64, transient: u64) -> Self {
+        Self {
+            impacts: impacts.max(1),
+            transient: transient.max(TURNING),
+            frame: Frame::default(),
+            since: 0.0,
+            passed: 0,
+            seen: 0,
+            chatters: 0,
+            touches: 0,
+            block: Block::default(),
+            blocks: Vec::new(),
+            recent: Vec::new(),
+            stuck: [None; 2],
+        }
+    }
+
+    pub(super) fn impact(&mut self, osc: &Oscillator, state: ImpactState) {
+        let interval = core::mem::take(&mut self.since);
+        let area = self.frame.through(osc, interval, &state);
+        (self.seen, self.passed, self.touches) = (self.seen + 1, self.passed + 1, 0);
+        if self.recent.len() >= graze_limit::RUN {
+            self.recent.remove(0);
+        }
+        self.recent.push((state, interval));
+        let Some(measured) = self.passed.checked_sub(self.transient) else { return };
+        if measured == 0 {
+            // the vectors have turned: from here on it counts
+            self.frame.take();
+            return;
+        }
+        self.block = self.block.plus(&Block { stretch: [0.0; 2], area, time: interval, impacts: 1.0 });
+        // blocks of equal length, to within one impact, that fill the run
+        let blocks = BLOCKS.min(self.impacts);
+        let end = u128::from(self.impacts) * (self.blocks.len() as u128 + 1) / u128::from(blocks);
+        if u128::from(measured) >= end {
+            let block = core::mem::take(&mut self.block);
+            self.blocks.push(Block { stretch: self.frame.take(), ..block });
+        }
+    }
+
+    pub(super) fn complete(&self) -> bool {
+        self.blocks.len() as u64 >= BLOCKS.min(self.impacts)
+    }
+
+    pub(super) fn fades(&self, osc: &Oscillator) -> bool {
+        graze_limit::recognised(osc, &self.recent)
+    }
+
+    /// At rest on a stop; the second time, how many impacts there are in a forcing period.
+    pub(super) fn stick(&mut self, osc: &Oscillator, side: Side, time: f64, chatter: bool) -> Option<f64> {
+        self.chatters += u64::from(chatter);
+        let now = (time, self.seen, self.chatters);
+        let (then, seen, chatters) = self.stuck[usize::from(side == Side::Lower)].replace(now)?;
+        let periods = ((time - then) / osc.period()).round();
+        #[allow(clippy::cast_precision_loss)] // a few
+        let impacts = (self.seen - seen) as f64;
+        Some(if self.chatters > chatters { f64::INFINITY } else { impacts / periods })
+    }
+
+    /// Nothing before a release matters.
+    pub(super) fn begin_again(&mut self) {
+        (self.frame, self.since, self.passed, self.block) = (Frame::default(), 0.0, 0, Block::default());
+        self.blocks.clear();
+        self.recent.clear();
+    }
+}

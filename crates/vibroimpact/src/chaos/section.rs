@@ -1,0 +1,93 @@
+//! Points of the attractor: its impacts, and its states once in every forcing period.
+
+use crate::motion::{EventKind, ImpactState, MAX_TOUCHES, Motion, Strobes};
+use crate::system::{Oscillator, Start};
+
+/// What a motion leaves in the two sections, in the order of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// Its impacts: the section of the impact map.
+    pub impacts: Vec<ImpactState>,
+    /// Its states at phase 0 of the force: the stroboscopic section.
+    pub strobes: Vec<Start>,
+}
+
+/// Events in a row that add no point before nothing more is expected: a stick, a release and the touches between two impacts.
+const IDLE: u32 = MAX_TOUCHES + 4;
+
+/// The motion of `osc` from `start` in both sections: `points` impacts after `transient` impacts, and `points` states after
+/// `transient` forcing periods. Fewer where the motion strikes no more, or where nothing is known of it so far ahead.
+///
+/// ```
+/// use vibroimpact::{Start, chaos::section, scenario};
+/// let osc = scenario::U.oscillator();
+/// let found = section(&osc, Start::at_rest(&osc), 500, 1000);
+/// assert_eq!((found.impacts.len(), found.strobes.len()), (1000, 1000));
+/// assert!(found.strobes.iter().all(|state| state.phase == 0.0 && state.x <= osc.gap()));
+/// ```
+#[must_use]
+pub fn section(osc: &Oscillator, start: Start, transient: u64, points: u64) -> Section {
+    let (skip, take) =
+        (usize::try_from(transient).unwrap_or(usize::MAX), usize::try_from(points).unwrap_or(usize::MAX));
+    Section {
+        impacts: impacts(osc, start).skip(skip).take(take).collect(),
+        strobes: Strobes::new(osc, start, 0.0).skip(skip).take(take).collect(),
+    }
+}
+
+/// The impacts of a motion, until nothing but touches is left of it.
+fn impacts(osc: &Oscillator, start: Start) -> impl Iterator<Item = ImpactState> {
+    let mut idle = 0;
+    Motion::new(osc, start)
+        .map_while(move |event| {
+            let EventKind::Impact { velocity_before: velocity, .. } = event.kind else {
+                idle += 1;
+                return (idle <= IDLE).then_some(None);
+            };
+            idle = 0;
+            Some(Some(ImpactState { phase: event.phase, velocity, side: event.side }))
+        })
+        .flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario;
+    use crate::system::Side;
+
+    #[test]
+    fn a_cycle_is_a_few_points() {
+        let osc = scenario::S.oscillator();
+        let found = section(&osc, Start::at_rest(&osc), 400, 6);
+        let expected =
+            [(0.829_989_671_461_920_7, 2.644_018_587_785_435), (3.194_590_893_857_773, 0.777_626_654_634_881_7)];
+        for impact in &found.impacts {
+            let near = |(phase, velocity): &(f64, f64)| {
+                (impact.phase - phase).abs() < 1e-12 && (impact.velocity - velocity).abs() < 1e-12
+            };
+            assert!(expected.iter().any(near), "{impact:?}");
+        }
+        for strobe in &found.strobes {
+            let first = found.strobes[0];
+            assert!((strobe.x - first.x).abs() < 1e-12 && (strobe.v - first.v).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn motions_that_end_leave_what_they_have() {
+        // pressed against the stop: a few impacts, then rest at every strobe
+        let stuck = Oscillator::new(0.9, -1.5, 0.5).unwrap();
+        let found = section(&stuck, Start { x: -3.0, v: 0.0, phase: 1.0 }, 0, 100);
+        assert!((3..60).contains(&found.impacts.len()) && found.impacts[0].side == Side::Upper);
+        assert_eq!(found.strobes.len(), 100);
+        assert_eq!((found.strobes[99].x, found.strobes[99].v), (-1.5, 0.0));
+        // back for a touch after every natural period, for ever
+        let touching = Oscillator::new(2.0, 3.0, 0.5).unwrap();
+        let found = section(&touching, Start { x: 3.0, v: 0.0, phase: 2.0 }, 0, 10);
+        assert_eq!((found.impacts.len(), found.strobes.len()), (0, 10));
+        // a complete chatter in every period
+        let chatter = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();
+        assert_eq!(section(&chatter, Start::at_rest(&chatter), 100, 200).impacts.len(), 200);
+    }
+}

@@ -1,0 +1,216 @@
+//! How neighbours of a motion move: the flight's derivative, the jump of it at an impact, two vectors carried along.
+//!
+//! A neighbour is told by its distance $`(\mathrm dx, \mathrm dv)`$ at the same moment. In flight the force cancels, and
+//!
+//! $$`\Phi(s) = \begin{pmatrix} C & S \\ -S & C - 2\zeta S \end{pmatrix}, \qquad \det\Phi = e^{-2\zeta s}.`$$
+//!
+//! At an impact on the stop at $`x = \sigma\delta`$ the neighbour is late by $`\mathrm dt = -\mathrm dx_-/v_-`$. It arrives with
+//! $`v_- + \mathrm dv_- + a_-\,\mathrm dt`$, leaves with $`-\varepsilon`$ times that, and is compared at the moment of the impact
+//! again, $`\mathrm dt`$ back along the rebound, whose acceleration is $`a_+`$. As $`a_+ + \varepsilon a_- = (1+\varepsilon)(\sin\theta -
+//! \sigma\delta)`$, the damper's part cancels and the *saltation matrix* is
+//!
+//! $$`\mathsf S = \begin{pmatrix} -\varepsilon & 0 \\ (1+\varepsilon)\,\dfrac{\sin\theta - \sigma\delta}{v_-} & -\varepsilon
+//!   \end{pmatrix}, \qquad \det\mathsf S = \varepsilon^2`$$
+//!
+//! (P. Müller, Chaos Solitons Fractals 5 (1995) 1671-1681, doi:10.1016/0960-0779(94)00170-U). Both determinants are exact from impact
+//! to impact: nothing has to telescope, and a gentle impact stretches without making the coordinates themselves singular, as
+//! phase and speed of arrival become at grazing. A graze has no derivative at all ($`v_- \to 0`$) and no effect on the motion; it is
+//! passed as flight. A stick forgets everything: the derivative beyond it is zero.
+
+use super::measure::LogSum;
+use crate::math::{Matrix2, ln, sin_cos};
+use crate::motion::ImpactState;
+use crate::system::Oscillator;
+
+/// $`\Phi(s)`$: the derivative of a state `(x, v)` after a flight of length `s` by that at its beginning.
+#[must_use]
+pub fn flight(osc: &Oscillator, s: f64) -> Matrix2 {
+    let p = osc.response().at(s);
+    Matrix2([[p.c, p.s], [-p.s, p.s_rate]])
+}
+
+/// The saltation matrix: the derivative of `(x, v)` just after the impact `at` by that just before.
+///
+/// Infinite or not a number at speed 0, where there is none.
+#[must_use]
+pub fn saltation(osc: &Oscillator, at: &ImpactState) -> Matrix2 {
+    let (sign, stop) = (at.side.sign(), osc.stop(at.side));
+    let (gap, eps) = stop.map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
+    let force = sin_cos(at.phase).0 - sign * gap;
+    Matrix2([[-eps, 0.0], [(1.0 + eps) * force / (sign * at.velocity), -eps]])
+}
+
+/// The longest piece of flight taken in one step: over it the slower of two decays, at most $`e^{-s}`$, stays far above
+/// the smallest number.
+const LONGEST: f64 = 300.0;
+/// Most pieces of a flight: a search ends after a thousand periods, so more are needed only where the force is slower than the
+/// oscillator by a factor of a thousand.
+const MOST_PIECES: f64 = 1000.0;
+/// Below this quotient of the two stretches the smaller one, got from the area between nearly parallel vectors, has lost ten
+/// of its digits, and the area that is known takes over.
+const NARROW: f64 = 1e-10;
+
+/// Two vectors at right angles that are carried along, and the logarithms of how they were stretched.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    /// The first vector; the second stands upright on it, to the left.
+    first: [f64; 2],
+    stretch: [LogSum; 2],
+    /// Whether a stretch was by 0.
+    lost: [bool; 2],
+}
+
+impl Default for Frame {
+    fn default() -> Self {
+        Self { first: [1.0, 0.0], stretch: [LogSum::default(); 2], lost: [false; 2] }
+    }
+}
+
+impl Frame {
+    /// Through a flight of length `s` and the impact `at` its end; returns the logarithm of the area's exact change.
+    pub(super) fn through(&mut self, osc: &Oscillator, s: f64, at: &ImpactState) -> f64 {
+        let pieces = (s / LONGEST).ceil().clamp(1.0, MOST_PIECES);
+        let length = s / pieces;
+        let (piece, decay) = (flight(osc, length), -2.0 * osc.damping() * length);
+        let mut left = pieces;
+        while left > 1.0 {
+            self.carry(piece, decay);
+            left -= 1.0;
+        }
+        let eps = osc.stop(at.side).map_or(0.0, |stop| stop.restitution);
+        let (jump, area) = if at.velocity == 0.0 {
+            (Matrix2::IDENTITY, 0.0)
+        } else {
+            (saltation(osc, at), if eps > 0.0 { 2.0 * ln(eps) } else { f64::NEG_INFINITY })
+        };
+        self.carry(jump.times(piece), area + decay);
+        area + decay * pieces
+    }
+
+    /// Through a linear map of known area (its logarithm).
+    fn carry(&mut self, map: Matrix2, area: f64) {
+        let [a, b] = self.first;
+        let (u, w) = (map.apply([a, b]), map.apply([-b, a]));
+        let along = (u[0] * u[0] + u[1] * u[1]).sqrt();
+        if along == 0.0 || !along.is_finite() {
+            // nothing is left, or more than there are numbers for
+            (self.lost, self.first) = ([true; 2], [1.0, 0.0]);
+            return;
+        }
+        self.first = [u[0] / along, u[1] / along];
+        self.stretch[0].multiply(along);
+        let across = (self.first[0] * w[1] - self.first[1] * w[0]).abs();
+        if area == f64::NEG_INFINITY {
+            self.lost[1] = true;
+        } else if across > NARROW * along {
+            self.stretch[1].multiply(across);
+        } else {
+            self.stretch[1].add(area - ln(along));
+        }
+    }
+
+    /// The logarithms of both stretches since the last call, minus infinity for a stretch by 0.
+    pub(super) fn take(&mut self) -> [f64; 2] {
+        let (stretch, lost) = (core::mem::take(&mut self.stretch), core::mem::take(&mut self.lost));
+        [0, 1].map(|k| if lost[k] { f64::NEG_INFINITY } else { stretch[k].value() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flight::SearchLimits;
+    use crate::motion::{EventKind, Mapped, Motion, derivative, impact_map};
+    use crate::system::{Side, Start};
+
+    fn systems() -> [Oscillator; 3] {
+        let osc = |beta, gap, eps, zeta| Oscillator::new(beta, gap, eps).unwrap().with_damping(zeta).unwrap();
+        let two = osc(0.7, 0.6, 0.7, 0.1).with_second_stop(0.8, 0.6).unwrap();
+        [osc(0.9, 2.0, 0.5, 0.0), two, osc(1.3, 0.2, 0.9, 1.2)]
+    }
+
+    /// State a time `span` after `start`, one impact in between.
+    fn later(osc: &Oscillator, start: Start, span: f64) -> [f64; 2] {
+        let mut motion = Motion::new(osc, start);
+        let mut impacts = 0;
+        loop {
+            let event = motion.next().unwrap();
+            let leg = motion.leg().unwrap();
+            if leg.begin + leg.duration > span {
+                assert_eq!(impacts, 1);
+                let (x, v) = leg.state(osc, span - leg.begin);
+                return [x, v];
+            }
+            impacts += u32::from(matches!(event.kind, EventKind::Impact { .. }));
+        }
+    }
+
+    /// Flight, saltation, flight against differences of whole motions, which know nothing of either matrix.
+    #[test]
+    fn neighbours_move_as_the_matrices_say() {
+        for osc in systems() {
+            let start = Start { x: 0.1, v: 0.7, phase: 0.4 };
+            let mut motion = Motion::new(&osc, start);
+            let first = motion.next().unwrap();
+            let EventKind::Impact { velocity_before: velocity, .. } = first.kind else { panic!() };
+            let second = motion.next().unwrap();
+            let span = 0.5 * (first.time + second.time);
+            let at = ImpactState { phase: first.phase, velocity, side: first.side };
+            let before = flight(&osc, first.time);
+            let product = flight(&osc, span - first.time).times(saltation(&osc, &at).times(before));
+            let h = 1e-6;
+            for (column, (dx, dv)) in [(h, 0.0), (0.0, h)].into_iter().enumerate() {
+                let up = later(&osc, Start { x: start.x + dx, v: start.v + dv, ..start }, span);
+                let down = later(&osc, Start { x: start.x - dx, v: start.v - dv, ..start }, span);
+                for row in 0..2 {
+                    let (difference, exact) = ((up[row] - down[row]) / (2.0 * h), product.0[row][column]);
+                    assert!((difference - exact).abs() < 1e-7 * (1.0 + exact.abs()), "{difference} {exact}");
+                }
+            }
+            let eps = osc.stop(at.side).unwrap().restitution;
+            let det = eps * eps * (-2.0 * osc.damping() * span).exp();
+            assert!((product.determinant() / det - 1.0).abs() < 1e-9);
+        }
+    }
+
+    /// The same neighbours told by phase and speed of arrival: another route to the derivative.
+    #[test]
+    fn the_impact_map_has_the_same_derivative() {
+        for osc in systems() {
+            let state = ImpactState { phase: 1.2, velocity: 1.9, side: Side::Upper };
+            let limits = SearchLimits::default();
+            let Mapped::Impact { state: next, interval } = impact_map(&osc, &state, limits) else { panic!() };
+            // dx = -v dt, dv = sigma dU - a dt for an arrival dt later
+            let basis = |at: &ImpactState| {
+                let (sign, gap) = (at.side.sign(), osc.stop(at.side).unwrap().gap);
+                let v = sign * at.velocity;
+                let a = at.phase.sin() - sign * gap - 2.0 * osc.damping() * v;
+                Matrix2([[-v / osc.beta(), 0.0], [-a / osc.beta(), sign]])
+            };
+            let direct = flight(&osc, interval).times(saltation(&osc, &state)).times(basis(&state));
+            let round = basis(&next).times(derivative(&osc, &state, &next, interval));
+            for (a, b) in direct.0.iter().flatten().zip(round.0.iter().flatten()) {
+                assert!((a - b).abs() < 1e-11 * (1.0 + b.abs()), "{direct:?} {round:?}");
+            }
+        }
+    }
+
+    /// Under heavy damping the two vectors are parallel to all digits, and after long flights nothing is left of either; the
+    /// stretches are still those of the two real exponents.
+    #[test]
+    fn stretches_far_below_rounding_are_kept() {
+        let osc = Oscillator::new(0.001, 0.5, 0.5).unwrap().with_damping(1.25).unwrap();
+        let mut frame = Frame::default();
+        let at = ImpactState { phase: 0.3, velocity: 0.2, side: Side::Upper };
+        let (mut total, s) = ([0.0, 0.0], 5000.0);
+        for _ in 0..10 {
+            frame.through(&osc, s, &at);
+            let [a, b] = frame.take();
+            total = [total[0] + a, total[1] + b];
+        }
+        // exponents -1/2 and -2; each impact adds the same bounded amount to the first
+        let saltation = 2.0 * 0.5_f64.ln();
+        assert!((total[0] + total[1] - 10.0 * (saltation - 2.5 * s)).abs() < 1e-6);
+        assert!((total[0] / (10.0 * s) + 0.5).abs() < 1e-2 && (total[1] / (10.0 * s) + 2.0).abs() < 1e-2, "{total:?}");
+    }
+}
