@@ -40,6 +40,26 @@ pub enum PlanError {
     /// A number of impacts that makes no sense.
     #[error("impacts = {0} lies outside 1 <= impacts <= 10000000")]
     Impacts(u64),
+    /// A number of impacts to measure over that is too small for an error bar, or too large.
+    #[error(
+        "impacts = {given} lies outside {least} <= impacts <= {most}\nhint: the error bar shrinks with the square root of the number; 100000 give two or three digits"
+    )]
+    Measured {
+        /// What was asked.
+        given: u64,
+        /// The least allowed.
+        least: u64,
+        /// The most allowed.
+        most: u64,
+    },
+    /// A number of points of a section that makes no sense.
+    #[error("points = {given} lies outside 1 <= points <= {most}")]
+    Points {
+        /// What was asked.
+        given: u64,
+        /// The most allowed.
+        most: u64,
+    },
     /// A number of forcing periods that makes no sense.
     #[error("periods = {0} lies outside 0 < periods <= 1e9")]
     Periods(f64),

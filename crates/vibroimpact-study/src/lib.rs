@@ -13,6 +13,7 @@
 //! | which motions there are at each point of a parameter plane | [`map`] |
 //! | the motions of one system from many starts | [`attractors`] |
 //! | the motion after its transient at each value of a parameter | [`diagram()`], [`mod@diagram`] |
+//! | the Lyapunov exponents of a motion: the question | [`LyapunovPlan`] |
 //! | the parameters by name | [`Parameter`] |
 
 mod attractors;
@@ -20,6 +21,7 @@ mod basin;
 mod control;
 pub mod diagram;
 mod error;
+mod lyapunov;
 mod map;
 mod parameter;
 mod plan;
@@ -30,6 +32,7 @@ pub use basin::{Basin, RunError, basin};
 pub use control::{Control, Stopped, tiles};
 pub use diagram::{Diagram, DiagramPlan, diagram};
 pub use error::PlanError;
+pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use map::{MapPoint, RegionMap, Share, map};
 pub use parameter::Parameter;
 pub use plan::{BasinPlan, MapPlan, PLAN_VERSION, Plan, SecondStop, StartPlan, SystemPlan, Task};

@@ -3,7 +3,7 @@
 //! Threads, output files and progress bars are no part of it. Absent fields have one meaning each, stated here; unknown
 //! fields are errors, so that a misspelt parameter cannot be ignored.
 
-use crate::{DiagramPlan, PlanError, Span};
+use crate::{DiagramPlan, LyapunovPlan, PlanError, Span};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Label, Oscillator, Start};
 
@@ -60,6 +60,7 @@ impl Plan {
                 map.oscillators(&self.system).map(|_| ())
             }
             Task::Diagram(diagram) => diagram.check(&self.system),
+            Task::Lyapunov(lyapunov) => lyapunov.check(&osc),
         }
     }
 }
@@ -178,6 +179,8 @@ pub enum Task {
     Map(MapPlan),
     /// The motion after its transient at each value of a parameter.
     Diagram(DiagramPlan),
+    /// The Lyapunov exponents of a motion.
+    Lyapunov(LyapunovPlan),
 }
 
 /// The starts of a basin: a grid over position and velocity at one phase.

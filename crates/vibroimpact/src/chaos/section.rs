@@ -1,5 +1,6 @@
 //! Points of the attractor: its impacts, and its states once in every forcing period.
 
+use super::ExponentOptions;
 use crate::motion::{EventKind, ImpactState, MAX_TOUCHES, Motion, Strobes};
 use crate::system::{Oscillator, Start};
 
@@ -27,27 +28,38 @@ const IDLE: u32 = MAX_TOUCHES + 4;
 /// ```
 #[must_use]
 pub fn section(osc: &Oscillator, start: Start, transient: u64, points: u64) -> Section {
-    let (skip, take) =
-        (usize::try_from(transient).unwrap_or(usize::MAX), usize::try_from(points).unwrap_or(usize::MAX));
+    // as far as exponents over as many impacts would be followed
+    let most_steps = ExponentOptions::new(points, transient).max_steps;
     Section {
-        impacts: impacts(osc, start).skip(skip).take(take).collect(),
-        strobes: Strobes::new(osc, start, 0.0).skip(skip).take(take).collect(),
+        impacts: impacts(osc, start, most_steps).skip(whole(transient)).take(whole(points)).collect(),
+        strobes: strobes(osc, start, most_steps).skip(whole(transient)).take(whole(points)).collect(),
     }
 }
 
+fn whole(count: u64) -> usize {
+    usize::try_from(count).unwrap_or(usize::MAX)
+}
+
 /// The impacts of a motion, until nothing but touches is left of it.
-fn impacts(osc: &Oscillator, start: Start) -> impl Iterator<Item = ImpactState> {
-    let mut idle = 0;
-    Motion::new(osc, start)
-        .map_while(move |event| {
-            let EventKind::Impact { velocity_before: velocity, .. } = event.kind else {
-                idle += 1;
-                return (idle <= IDLE).then_some(None);
-            };
-            idle = 0;
-            Some(Some(ImpactState { phase: event.phase, velocity, side: event.side }))
-        })
-        .flatten()
+fn impacts(osc: &Oscillator, start: Start, most_steps: u64) -> impl Iterator<Item = ImpactState> {
+    let mut motion = Motion::new(osc, start);
+    core::iter::from_fn(move || {
+        for _ in 0..IDLE {
+            if motion.steps() > most_steps {
+                return None;
+            }
+            let event = motion.next()?;
+            if let EventKind::Impact { velocity_before: velocity, .. } = event.kind {
+                return Some(ImpactState { phase: event.phase, velocity, side: event.side });
+            }
+        }
+        None
+    })
+}
+
+fn strobes(osc: &Oscillator, start: Start, most_steps: u64) -> impl Iterator<Item = Start> {
+    let mut strobes = Strobes::new(osc, start, 0.0);
+    core::iter::from_fn(move || if strobes.steps() > most_steps { None } else { strobes.next() })
 }
 
 #[cfg(test)]

@@ -40,6 +40,12 @@ impl<'a> Strobes<'a> {
         let motion = Motion::with_limits(osc, start, SearchLimits::default());
         Self { osc, motion, phase, first, count: 0, leg: None, known: 0.0 }
     }
+
+    /// Search steps taken so far, a measure of the work done.
+    #[must_use]
+    pub const fn steps(&self) -> u64 {
+        self.motion.steps()
+    }
 }
 
 impl Iterator for Strobes<'_> {

@@ -1,0 +1,110 @@
+//! What is asked of the Lyapunov exponents of a motion: from where, over how long, and whether its sections are shown.
+
+use crate::{PlanError, StartPlan};
+use serde::{Deserialize, Serialize};
+use vibroimpact::Oscillator;
+use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions};
+
+/// Points shown of each section, where no number is given.
+pub const DEFAULT_POINTS: u64 = 5_000;
+
+/// The exponents of the motion from a start.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LyapunovPlan {
+    /// Where to start.
+    #[serde(default)]
+    pub start: StartPlan,
+    /// Impacts to measure over.
+    #[serde(default = "impacts")]
+    pub impacts: u64,
+    /// Impacts to pass before; for the stroboscopic section forcing periods.
+    #[serde(default = "transient")]
+    pub transient: u64,
+    /// Points to show of each section; none when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<u64>,
+}
+
+const fn impacts() -> u64 {
+    DEFAULT_IMPACTS
+}
+
+const fn transient() -> u64 {
+    DEFAULT_TRANSIENT
+}
+
+/// Fewer impacts make no error bar.
+const FEWEST_IMPACTS: u64 = 1_000;
+/// Most impacts to measure over: several seconds.
+const MOST_IMPACTS: u64 = 10_000_000;
+/// Most impacts of a transient.
+const MOST_TRANSIENT: u64 = 1_000_000;
+/// Most points of a section: more than a page can hold.
+const MOST_POINTS: u64 = 100_000;
+
+impl LyapunovPlan {
+    /// Checks everything that can be checked without running it.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first value that makes no sense.
+    pub fn check(&self, osc: &Oscillator) -> Result<(), PlanError> {
+        if !(FEWEST_IMPACTS..=MOST_IMPACTS).contains(&self.impacts) {
+            return Err(PlanError::Measured { given: self.impacts, least: FEWEST_IMPACTS, most: MOST_IMPACTS });
+        }
+        if self.transient > MOST_TRANSIENT {
+            return Err(PlanError::Transient { given: self.transient, most: MOST_TRANSIENT });
+        }
+        if let Some(given) = self.points.filter(|points| !(1..=MOST_POINTS).contains(points)) {
+            return Err(PlanError::Points { given, most: MOST_POINTS });
+        }
+        self.start.start(osc).map(|_| ())
+    }
+
+    /// How long to follow the motion.
+    #[must_use]
+    pub const fn options(&self) -> ExponentOptions {
+        ExponentOptions::new(self.impacts, self.transient)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Plan, SystemPlan, Task};
+
+    const GOOD: LyapunovPlan = LyapunovPlan {
+        start: StartPlan { x: Some(0.5), v: -1.0, phase: 2.0 },
+        impacts: 2000,
+        transient: 0,
+        points: Some(7),
+    };
+
+    #[test]
+    fn a_plan_survives_json_and_short_ones_are_filled_in() {
+        let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
+        let plan = Plan::new(system, Task::Lyapunov(GOOD));
+        assert_eq!(plan.check(), Ok(()));
+        let text = serde_json::to_string(&plan).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        assert!(serde_json::from_str::<Plan>(&text.replace("transient", "transeint")).is_err());
+        let short: LyapunovPlan = serde_json::from_str("{}").unwrap();
+        assert_eq!((short.impacts, short.transient, short.points), (DEFAULT_IMPACTS, DEFAULT_TRANSIENT, None));
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let osc = Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap();
+        let beyond = StartPlan { x: Some(3.5), ..StartPlan::default() };
+        for (plan, sentence) in [
+            (LyapunovPlan { impacts: 999, ..GOOD }, "impacts = 999 lies outside 1000 <= impacts <= 10000000"),
+            (LyapunovPlan { impacts: 10_000_001, ..GOOD }, "impacts = 10000001 lies outside"),
+            (LyapunovPlan { transient: 1_000_001, ..GOOD }, "transient = 1000001 lies outside 0 <= transient"),
+            (LyapunovPlan { points: Some(0), ..GOOD }, "points = 0 lies outside 1 <= points <= 100000"),
+            (LyapunovPlan { start: beyond, ..GOOD }, "start x = 3.5 lies beyond the stop"),
+        ] {
+            let message = plan.check(&osc).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}
