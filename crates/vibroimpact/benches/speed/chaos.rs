@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput};
 use std::hint::black_box;
-use vibroimpact::chaos::lyapunov;
+use vibroimpact::chaos::{ExponentOptions, exponents, lyapunov};
 use vibroimpact::motion::ImpactState;
 use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Side, Start, scenario};
@@ -18,5 +18,9 @@ pub(crate) fn bench(criterion: &mut Criterion) {
     let from = ImpactState { phase: 1.4, velocity: 2.4, side: Side::Upper };
     group.throughput(Throughput::Elements(u64::from(IMPACTS)));
     group.bench_function("exponents", |b| b.iter(|| lyapunov(&osc, black_box(from), IMPACTS)));
+    let options = ExponentOptions::new(u64::from(IMPACTS) - 500, 500);
+    group.bench_function("exponents from a start", |b| {
+        b.iter(|| exponents(&osc, black_box(Start::at_rest(&osc)), &options));
+    });
     group.finish();
 }

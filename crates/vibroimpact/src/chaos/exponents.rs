@@ -34,10 +34,10 @@ pub struct ExponentOptions {
 }
 
 impl ExponentOptions {
-    /// So many impacts after so many others, and a thousand search steps for each: ordinary flights take ten.
+    /// So many impacts after so many others, and two hundred search steps for each: ordinary flights take ten.
     #[must_use]
     pub const fn new(impacts: u64, transient: u64) -> Self {
-        let max_steps = impacts.saturating_add(transient).saturating_mul(1000).saturating_add(2_000_000);
+        let max_steps = impacts.saturating_add(transient).saturating_mul(200).saturating_add(2_000_000);
         Self { impacts, transient, limits: SearchLimits { periods: 1000.0, steps: 100_000 }, max_steps }
     }
 }
@@ -90,7 +90,7 @@ pub struct Exponents {
     /// What the sum must be: $`2\,\overline{\ln\varepsilon}\,\nu - 2\zeta`$ with the impacts that were measured over. The difference
     /// is what the measurement lost to rounding.
     pub identity: f64,
-    /// Impacts per forcing period; infinite with a complete chatter in each turn of a cycle.
+    /// Impacts per forcing period; infinite with a complete chatter in each turn of a cycle, not a number where impacts fade away.
     pub impacts_per_period: Measured,
     /// Kaplan-Yorke dimension of the stroboscopic section, 0 to 2; `None` where the larger exponent is not known to differ
     /// from 0. That of the flow, in the space of position, velocity and phase, is larger by 1.
@@ -213,9 +213,9 @@ pub fn exponents(osc: &Oscillator, start: Start, options: &ExponentOptions) -> E
 /// The exponents of a motion that ends so.
 fn at_the_end(osc: &Oscillator, end: &Verdict, impacts: u64) -> Exponents {
     let (values, rate, grounds) = match end {
-        Verdict::NoImpact(why @ (NoImpact::GrazeLimit { .. } | NoImpact::Grazing { .. })) => {
-            ([f64::NAN; 2], 0.0, Grounds::Touches(*why))
-        }
+        Verdict::NoImpact(why @ NoImpact::Grazing { .. }) => ([f64::NAN; 2], 0.0, Grounds::Touches(*why)),
+        // ever gentler impacts, but impacts all the same
+        Verdict::NoImpact(why @ NoImpact::GrazeLimit { .. }) => ([f64::NAN; 2], f64::NAN, Grounds::Touches(*why)),
         Verdict::NoImpact(why) => (of_flight(osc.damping()), 0.0, Grounds::Flight(*why)),
         Verdict::Stuck(side) => ([f64::NEG_INFINITY; 2], 0.0, Grounds::Stuck(*side)),
         _ => ([f64::NAN; 2], f64::NAN, Grounds::Undecided { impacts }),
