@@ -53,7 +53,7 @@ fn every_command_line_runs() {
         }
     }
     assert!(ran >= 4);
-    for file in ["basin.csv", "basin.png", "map.csv", "map.svg", "diagram.csv", "diagram.png"] {
+    for file in ["basin.csv", "basin.png", "map.csv", "map.svg", "diagram.csv", "diagram.png", "attractor.png"] {
         assert!(folder.path().join(file).exists(), "{file}");
     }
 }

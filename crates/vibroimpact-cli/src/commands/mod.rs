@@ -5,6 +5,7 @@ mod basin;
 mod bench;
 mod completions;
 mod diagram;
+mod lyapunov;
 mod man;
 mod map;
 mod orbit;
@@ -26,6 +27,7 @@ pub(crate) enum Command {
     Basin(basin::Basin),
     Map(map::Map),
     Diagram(diagram::Diagram),
+    Lyapunov(lyapunov::Lyapunov),
     Bench(bench::Bench),
     Reproduce(reproduce::Reproduce),
     Completions(completions::Completions),
@@ -41,6 +43,7 @@ pub(crate) fn run(command: &Command, session: &Session) -> Result<(), Failure> {
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),
         Command::Diagram(args) => diagram::run(args, session),
+        Command::Lyapunov(args) => lyapunov::run(args, session),
         Command::Bench(args) => bench::run(args, session),
         Command::Reproduce(args) => reproduce::run(args, session),
         Command::Completions(args) => completions::run(*args, session),

@@ -32,7 +32,7 @@ impl Outputs {
         let csv = match csv {
             None => None,
             Some(path) if path == Path::new("-") && json => {
-                return Err(Failure::bad("--csv - and --json both want stdout"));
+                return Err(Failure::bad("a table and --json both want stdout"));
             }
             Some(path) if path == Path::new("-") => Some(Sheet::Stdout),
             Some(path) => {

@@ -3,6 +3,7 @@
 pub(crate) mod basin;
 pub(crate) mod diagram;
 pub(crate) mod map;
+pub(crate) mod section;
 pub(crate) mod waveform;
 
 use crate::exit::Failure;

@@ -260,7 +260,7 @@ struct Tried {
 
 /// How far "no more impacts" reaches and why.
 #[derive(Serialize)]
-struct HorizonObject {
+pub(crate) struct HorizonObject {
     kind: &'static str,
     periods: Option<f64>,
     why: &'static str,
@@ -275,7 +275,7 @@ struct CommonPeriod {
 }
 
 impl HorizonObject {
-    fn new(no_impact: &NoImpact) -> Self {
+    pub(crate) fn new(no_impact: &NoImpact) -> Self {
         let forever = |why| Self { kind: "forever", periods: None, why, common_period: None };
         match no_impact {
             NoImpact::Flight(Horizon::Amplitude) => forever("amplitude"),
@@ -344,6 +344,11 @@ impl Motion {
                 Self { tried: Some(Tried { impacts: None, periods: Some(*periods), lyapunov: None }), ..bare }
             }
         }
+    }
+
+    /// Without the exponent of the verdict, beside a better one.
+    pub(crate) fn without_lyapunov(self) -> Self {
+        Self { lyapunov: None, tried: self.tried.map(|tried| Tried { lyapunov: None, ..tried }), ..self }
     }
 
     fn periodic(cycle: &Cycle, bare: Self, units: &Units) -> Self {

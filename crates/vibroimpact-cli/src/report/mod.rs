@@ -3,4 +3,5 @@
 pub(crate) mod csv;
 pub(crate) mod diagram;
 pub(crate) mod json;
+pub(crate) mod lyapunov;
 pub(crate) mod text;

@@ -126,6 +126,11 @@ fn command() -> impl Strategy<Value = Vec<String>> {
             always("--starts", count()),
         ).prop_map(joined),
         1 => diagram(),
+        1 => (
+            named("lyapunov"),
+            system(),
+            (start(), option("--impacts", 0.2, count()), option("--transient", 0.3, count())).prop_map(joined),
+        ).prop_map(joined),
     ];
     (commands, any::<bool>()).prop_map(|(mut line, json)| {
         if json {

@@ -46,6 +46,7 @@ fn existing_files_stay_unless_forced() {
         format!("map {PLANE} --csv keep.csv"),
         format!("simulate {S} --csv keep.csv"),
         format!("diagram {SWEEP} --csv keep.csv"),
+        format!("lyapunov {S} --section keep.csv"),
     ] {
         let output = vibro(&line).current_dir(&folder).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
@@ -111,6 +112,13 @@ fn pictures() {
             "cells",
             "diagram --inverse-beta 1.11 --restitution 0.5 --vary gap --over 3.1:3.2:900 --plot cells.png".into(),
         ),
+        ("section", format!("lyapunov {S} --impacts 1000 --plot section.svg")),
+        ("cloud", "lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --impacts 1000 --plot cloud.png".into()),
+        (
+            "sides",
+            "lyapunov --beta 0.7 --gap 0.6 --restitution 0.7 --second-gap 0.8 --impacts 1000 --plot sides.svg".into(),
+        ),
+        ("still", "lyapunov --beta 0.9 --gap -1.5 --restitution 0.5 --plot still.svg".into()),
         ("nothing", "diagram --beta 2 --restitution 0.5 --vary gap --over 5:6:3 --plot nothing.svg".into()),
     ] {
         let output = vibro(&line).current_dir(&folder).output().unwrap();

@@ -4,6 +4,7 @@ mod answers;
 mod arguments;
 mod diagrams;
 mod files;
+mod lyapunov;
 mod refusals;
 
 use assert_cmd::Command;

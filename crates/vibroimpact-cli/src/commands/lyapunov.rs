@@ -1,0 +1,111 @@
+//! `vibro lyapunov`: the Lyapunov exponents of a motion, and what its attractor looks like.
+
+use crate::args::{StartArgs, SystemArgs};
+use crate::commands::outputs::Outputs;
+use crate::exit::Failure;
+use crate::plot;
+use crate::report::csv;
+use crate::report::json::Document;
+use crate::report::lyapunov::{Answer, COLUMNS, rows, text};
+use crate::report::text as words;
+use crate::session::Session;
+use crate::signal;
+use clap::Args;
+use std::path::PathBuf;
+use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, Section, exponents, section};
+use vibroimpact::verdict::{SettleOptions, settle};
+use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, Plan, Task};
+
+/// The Lyapunov exponents of the motion from a start, with error bars, and its attractor's dimension
+///
+/// Both exponents, per unit of time and per forcing period, measured through impacts over a long motion; their error bars are
+/// three standard errors and allow for correlation. A positive one is chaos. Their sum is 2 ln(eps) times the rate of impacts less
+/// 2 zeta. A motion without impacts has the exponents of its flight. One that sticks forgets everything: both are
+/// minus infinity, as one of them is with restitution 0. One that only touches the stop has none. In JSON such a value is null, and
+/// "why" says minus_infinity or undefined; "grounds" says how they were found.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro lyapunov --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5\n  \
+        vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --section section.csv --plot section.png"
+)]
+pub(crate) struct Lyapunov {
+    #[command(flatten)]
+    system: SystemArgs,
+    #[command(flatten)]
+    start: StartArgs,
+
+    /// Impacts to measure over, 1000 to 10000000
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_IMPACTS, allow_hyphen_values = true, help_heading = "Length")]
+    impacts: u64,
+
+    /// Impacts to pass before, up to 1000000 and at least 100; for the stroboscopic section forcing periods
+    #[arg(long, value_name = "K", default_value_t = DEFAULT_TRANSIENT, allow_hyphen_values = true, help_heading = "Length")]
+    transient: u64,
+
+    /// Points of each section, 1 to 100000 [default: 5000]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Output")]
+    points: Option<u64>,
+
+    /// Write the points of both sections of the attractor to this file; - for stdout. Columns: section (impact, or strobe
+    /// for the states at phase 0), side, phase, x, v; at an impact v is the velocity of arrival
+    #[arg(long, visible_alias = "csv", value_name = "FILE", help_heading = "Output")]
+    section: Option<PathBuf>,
+
+    /// Draw both sections into this file, .svg or .png
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    /// Print one JSON object instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
+    let asked = args.system.asked()?;
+    let shown = args.section.is_some() || args.plot.is_some();
+    if args.points.is_some() && !shown {
+        return Err(Failure::bad(
+            "--points says how much of the sections is shown\nhint: --section FILE or --plot FILE",
+        ));
+    }
+    let task = LyapunovPlan {
+        start: args.start.plan(&asked.units),
+        impacts: args.impacts,
+        transient: args.transient,
+        points: shown.then(|| args.points.unwrap_or(DEFAULT_POINTS)),
+    };
+    let plan = Plan::new(asked.system, Task::Lyapunov(task));
+    plan.check()?;
+    let osc = asked.system.oscillator()?;
+    let start = task.start.start(&osc)?;
+    let to_stdout = args.section.as_deref().is_some_and(|path| path.as_os_str() == "-");
+    let outputs = Outputs::reserve(args.section.as_deref(), args.plot.as_deref(), args.json, session)?;
+
+    let (settled, found, points) = signal::interruptible("measuring", move || {
+        let points = task.points.map_or_else(Section::default, |n| section(&osc, start, task.transient, n));
+        (settle(&osc, start, &SettleOptions::default()), exponents(&osc, start, &task.options()), points)
+    })?;
+
+    outputs.write(
+        session,
+        |out| csv::write(out, COLUMNS, rows(&points, &osc, asked.units)),
+        || Ok(plot::section::figure(&points, &osc, &asked)),
+    )?;
+    if args.json {
+        let answer = Answer::new(&settled.verdict, &found, &osc, &asked.units);
+        let document = Document::new(&asked, &osc, &plan, answer);
+        return session.print_json(&document.start(&start, &asked.units));
+    }
+    if to_stdout {
+        // the table is the answer
+        return Ok(());
+    }
+    let head = words::system(&asked, &osc) + &words::start(&start, &asked.units) + "\n";
+    session.print(&(head + &text(&settled.verdict, &found, &asked.units)))?;
+    if !shown {
+        session.note("hint: --plot FILE.png draws the attractor; a longer --impacts narrows the error bars");
+    }
+    Ok(())
+}

@@ -1,0 +1,85 @@
+//! Both sections of an attractor, one above the other: phase and speed of its impacts, and its states at phase 0.
+
+use crate::args::Asked;
+use crate::plot::title;
+use crate::report::text::short;
+use core::f64::consts::PI;
+use vibroimpact::chaos::Section;
+use vibroimpact::{Oscillator, Side, Stop};
+use vibroimpact_plot::{Axis, COLUMN, Colour, Figure, Legend, Panel, Points, SERIES, Tick};
+use vibroimpact_study::SystemPlan;
+
+/// Points up to which each is a dot of its own.
+const FEW: usize = 200;
+/// Places closer than this fraction of the range are one.
+const SAME: f64 = 1e-6;
+/// Diameter of a dot of its own, and of one in a cloud.
+const LARGE: f64 = 9.0;
+const SMALL: f64 = 2.6;
+
+pub(crate) fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
+    let units = &asked.units;
+    let mut above =
+        Panel::new(phases(found), Axis::new(units.named("arrival velocity *u*_−", "m/s"))).caption("impacts");
+    let second = osc.stop(Side::Lower);
+    let of_second = |stop: Stop| {
+        format!("second stop, *δ*_2 = {}, *ε*_2 = {}", short(stop.gap), short(stop.restitution)).replace('-', "−")
+    };
+    let mut legend = Legend::below();
+    for (side, colour) in [(Side::Upper, SERIES[0]), (Side::Lower, SERIES[1])] {
+        let name = match (side, second) {
+            (Side::Upper, _) => "stop".into(),
+            (Side::Lower, Some(stop)) => of_second(stop),
+            (Side::Lower, None) => continue,
+        };
+        let at = found.impacts.iter().filter(|impact| impact.side == side);
+        let (xs, ys): (Vec<f64>, Vec<f64>) = at.map(|at| (at.phase, at.velocity * units.velocity())).unzip();
+        let points = dots(xs, ys, colour);
+        // a dot of the cloud is too small for a key
+        legend = legend.points(&points.clone().size(LARGE), name);
+        above.add(points);
+    }
+    let states = found.strobes.iter();
+    let (xs, ys): (Vec<f64>, Vec<f64>) = states.map(|at| (at.x * units.length(), at.v * units.velocity())).unzip();
+    let below = Panel::new(Axis::new(units.named("*ξ*", "m")), Axis::new(units.named("velocity *u*", "m/s")))
+        .caption("states at phase 0")
+        .with(dots(xs, ys, Colour::BLACK));
+    // the second stop stands in the legend: all on one line is too long for a column
+    let title = title(&SystemPlan { second_stop: None, ..asked.system });
+    let figure = Figure::grid(1, vec![above, below]).size(COLUMN, 860.0).title(title);
+    if second.is_some() { figure.legend(legend) } else { figure }
+}
+
+/// The whole turn in parts of pi, or the part of it where all impacts are, if that is less than half of it but more than a point.
+fn phases(found: &Section) -> Axis {
+    let (low, high) = extremes(found.impacts.iter().map(|impact| impact.phase));
+    let axis = Axis::new("phase *θ*");
+    if (0.01..PI).contains(&(high - low)) {
+        return axis;
+    }
+    let ticks = ["0", "π/2", "π", "3π/2", "2π"];
+    axis.range(0.0, 2.0 * PI).ticks((0_u8..).zip(ticks).map(|(k, text)| Tick::new(0.5 * PI * f64::from(k), text)))
+}
+
+fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}
+
+/// A cloud of small dots, or a few large ones.
+fn dots(xs: Vec<f64>, ys: Vec<f64>, colour: Colour) -> Points {
+    let size = if distinct(&xs, &ys) <= FEW { LARGE } else { SMALL };
+    Points::new(xs, ys, colour).size(size)
+}
+
+/// How many different places there are.
+fn distinct(xs: &[f64], ys: &[f64]) -> usize {
+    let cell = |list: &[f64]| {
+        let (low, high) = extremes(list.iter().copied());
+        let width = SAME * (high - low).max(low.abs()).max(high.abs()).max(f64::MIN_POSITIVE);
+        #[allow(clippy::cast_possible_truncation)] // a million cells or so
+        let cells: Vec<i64> = list.iter().map(|x| (x / width).round() as i64).collect();
+        cells
+    };
+    let places: std::collections::HashSet<(i64, i64)> = cell(xs).into_iter().zip(cell(ys)).collect();
+    places.len()
+}

@@ -1,0 +1,125 @@
+//! `vibro lyapunov`: exponents with their errors, or why there are none, and the points of both sections.
+
+use crate::{S, json, vibro};
+use serde_json::Value;
+
+/// U of the 1971 paper, where impacts never settle.
+const U: &str = "--inverse-beta 1.11 --gap 3 --restitution 0.5";
+
+/// Value and error.
+fn measured(object: &Value) -> (f64, f64) {
+    (object["value"].as_f64().expect("a value"), object["error"].as_f64().expect("an error"))
+}
+
+#[test]
+fn chaos_at_u_with_the_identity_and_the_dimension() {
+    let answer = json(&format!("lyapunov {U} --impacts 20000"));
+    assert_eq!((&answer["system"]["gap"], &answer["start"]["phase"]), (&3.0.into(), &0.0.into()));
+    assert_eq!((&answer["motion"]["kind"], &answer["motion"]["lyapunov"]), (&"chaotic".into(), &Value::Null));
+    let [(one, error), (two, _)] = [0, 1].map(|k| measured(&answer["exponents"][k]));
+    assert!(error > 0.0 && one > 10.0 * error && error < 0.05 * one);
+    let period = core::f64::consts::TAU * 1.11;
+    assert!((measured(&answer["exponents_per_period"][0]).0 - one * period).abs() < 1e-14);
+    let rate = measured(&answer["impacts_per_period"]).0 / period;
+    let identity = 2.0 * 0.5_f64.ln() * rate;
+    assert!((one + two - identity).abs() < 1e-12 && (measured(&answer["sum"]).0 - identity).abs() < 1e-12);
+    assert!((answer["identity"].as_f64().unwrap() - identity).abs() < 1e-12);
+    let dimension = measured(&answer["dimension"]["section"]).0;
+    assert!((dimension - (1.0 - one / two)).abs() < 1e-12);
+    assert!((measured(&answer["dimension"]["flow"]).0 - dimension - 1.0).abs() < 1e-12);
+    let grounds = &answer["grounds"];
+    assert_eq!((&grounds["kind"], &grounds["impacts"]), (&"measured".into(), &20_000.into()));
+    assert_eq!((&grounds["transient"], &grounds["blocks"]), (&1000.into(), &128.into()));
+    let task = &answer["plan"]["task"]["lyapunov"];
+    assert_eq!((&task["impacts"], &task["transient"], &task["points"]), (&20_000.into(), &1000.into(), &Value::Null));
+}
+
+#[test]
+fn where_there_is_nothing_to_measure() {
+    let why = |answer: &Value| [0, 1].map(|k| answer["exponents"][k]["why"].clone());
+    let sticks = json("lyapunov --beta 0.9 --gap -0.5 --restitution 0.5");
+    assert_eq!((&sticks["grounds"]["kind"], &sticks["motion"]["label"]), (&"sticks".into(), &"inf/1".into()));
+    assert_eq!(why(&sticks), ["minus_infinity", "minus_infinity"]);
+    assert_eq!((&sticks["exponents"][0]["value"], &sticks["exponents"][0]["error"]), (&Value::Null, &Value::Null));
+    assert_eq!((&sticks["impacts_per_period"]["why"], &sticks["identity"]), (&"infinity".into(), &Value::Null));
+
+    let stuck = json("lyapunov --beta 0.9 --gap -1.5 --restitution 0.5 --x -3");
+    assert_eq!((&stuck["grounds"]["kind"], &stuck["grounds"]["side"]), (&"stuck".into(), &"upper".into()));
+
+    let plastic = json("lyapunov --inverse-beta 1.11 --gap 3 --restitution 0 --impacts 2000");
+    assert_eq!(why(&plastic), [Value::Null, "minus_infinity".into()]);
+    assert_eq!(measured(&plastic["dimension"]["section"]), (0.0, 0.0));
+
+    let free = json("lyapunov --inverse-beta 0.7 --gap 4 --restitution 0.5 --damping 0.2");
+    assert_eq!(
+        (&free["grounds"]["kind"], &free["grounds"]["horizon"]["kind"]),
+        (&"no_impact".into(), &"forever".into())
+    );
+    assert_eq!([0, 1].map(|k| measured(&free["exponents"][k])), [(-0.2, 0.0); 2]);
+
+    let touches = json("lyapunov --inverse-beta 0.7 --gap 2.5 --restitution 0.5 --x 0.25 --v 0.8");
+    assert_eq!((&touches["grounds"]["kind"], &touches["dimension"]["section"]), (&"touches".into(), &Value::Null));
+    assert_eq!(why(&touches), ["undefined", "undefined"]);
+}
+
+/// Of S in physical units: exponents per second, those per period as they were.
+#[test]
+fn a_machine_in_physical_units() {
+    let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 25 --gap-m 0.01 --restitution 0.5";
+    let si = json(&format!("lyapunov {machine} --units si --impacts 1000"));
+    let plain = json(&format!("lyapunov {machine} --impacts 1000"));
+    let exponent = |answer: &Value, key: &str| measured(&answer[key][0]).0;
+    assert!((exponent(&si, "exponents") - 20.0 * exponent(&plain, "exponents")).abs() < 1e-12);
+    assert_eq!(exponent(&si, "exponents_per_period"), exponent(&plain, "exponents_per_period"));
+}
+
+#[test]
+fn both_sections_as_a_table() {
+    let output = vibro(&format!("lyapunov {S} --impacts 1000 --section - --points 4")).output().unwrap();
+    let table = String::from_utf8(output.stdout).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0], ["section", "side", "phase", "x", "v"]);
+    assert_eq!(rows.len(), 9, "{table}");
+    let cycle = json(&format!("settle {S}"));
+    for row in &rows[1..5] {
+        assert_eq!((row[0], row[1], row[3]), ("impact", "upper", "0.75"));
+        let at = |point: &Value| {
+            let near =
+                |cell: &str, key: &str| (cell.parse::<f64>().unwrap() - point[key].as_f64().unwrap()).abs() < 1e-9;
+            near(row[2], "phase") && near(row[4], "velocity_before")
+        };
+        assert!(cycle["motion"]["cycle"].as_array().unwrap().iter().any(at), "{row:?}");
+    }
+    // one state in each period, the same to rounding
+    let state = |row: &[&str]| [3, 4].map(|k| row[k].parse::<f64>().unwrap());
+    for row in &rows[5..9] {
+        assert_eq!((row[0], row[1], row[2]), ("strobe", "", "0"));
+        let (now, first) = (state(row), state(&rows[5]));
+        assert!((now[0] - first[0]).abs() < 1e-9 && (now[1] - first[1]).abs() < 1e-9, "{row:?}");
+    }
+    // a lower stop is arrived at with a negative velocity
+    let line = "lyapunov --beta 0.7 --gap 0.6 --restitution 0.7 --second-gap 0.8 --impacts 1000 --csv - --points 50";
+    let table = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let lower: Vec<&str> = table.lines().filter(|row| row.starts_with("impact,lower,")).collect();
+    assert!(!lower.is_empty() && lower.iter().all(|row| row.contains(",-0.8,-")), "{table}");
+}
+
+#[test]
+fn text_for_people() {
+    let said = |line: &str| {
+        let output = vibro(line).output().unwrap();
+        assert!(output.status.success(), "{line}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let chaos = said(&format!("lyapunov {U} --impacts 5000"));
+    for sentence in
+        ["chaotic: impacts that never repeat", "larger exponent   0.01", "Kaplan-Yorke dimension 1.1", "5000 impacts"]
+    {
+        assert!(chaos.contains(sentence), "{sentence}: {chaos}");
+    }
+    let sticks = said("lyapunov --beta 0.9 --gap -0.5 --restitution 0.5");
+    assert!(
+        sticks.contains("larger exponent   minus infinity") && sticks.contains("forgets all before it"),
+        "{sticks}"
+    );
+}
