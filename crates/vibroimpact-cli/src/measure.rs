@@ -5,8 +5,9 @@ use serde::Serialize;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 use vibroimpact::flight::SearchLimits;
-use vibroimpact::lanes::{Batch, Width};
+use vibroimpact::lanes::{ABREAST, Batch, Width};
 use vibroimpact::motion::{EventKind, Motion};
+use vibroimpact::system::phase;
 use vibroimpact::verdict::{Atlas, SettleOptions, settle_many};
 use vibroimpact::{Oscillator, Start, scenario};
 
@@ -47,15 +48,13 @@ pub(crate) fn measure(workload: Workload, width: Width, duration: Duration) -> R
             let both = |rate: &dyn Fn(Start) -> f64| 2.0 / starts.map(|start| 1.0 / rate(start)).iter().sum::<f64>();
             Rates {
                 scalar: both(&|start| alone(&osc, start, duration / 6)),
-                lanes: both(&|start| abreast(&osc, width, vec![start; SLOTS], duration / 4)),
+                lanes: both(&|start| abreast(&osc, width, along(&osc, start), duration / 4)),
             }
         }
         Workload::Basin => Rates { scalar: basin(Width::Scalar, duration / 3), lanes: basin(width, duration / 2) },
     }
 }
 
-/// Motions side by side.
-const SLOTS: usize = 256;
 /// Impacts dropped before anything is counted.
 const TRANSIENT: usize = 200;
 /// A slice of the measurement.
@@ -84,18 +83,32 @@ fn alone(osc: &Oscillator, start: Start, duration: Duration) -> f64 {
     median_rate(duration, || impacts.by_ref().take(1000).map(black_box).count())
 }
 
+/// The place of each of the motions side by side among all of them.
+fn parts() -> impl Iterator<Item = f64> {
+    #[allow(clippy::cast_precision_loss)] // a thousand
+    (0..ABREAST).map(|k| k as f64 / ABREAST as f64)
+}
+
 /// Starts at rest all over the room and all phases.
 fn spread(osc: &Oscillator) -> Vec<Start> {
-    let start = |k: u32| {
-        let part = f64::from(k) / 256.0;
-        Start { x: osc.gap() - 4.0 * part, v: 0.0, phase: 6.0 * ((7.0 * part) % 1.0) }
+    parts().map(|part| Start { x: osc.gap() - 4.0 * part, v: 0.0, phase: 6.0 * ((7.0 * part) % 1.0) }).collect()
+}
+
+/// Starts along a flight of the motion it settles into: the same motion, out of step.
+fn along(osc: &Oscillator, start: Start) -> Vec<Start> {
+    let mut motion = Motion::new(osc, start);
+    let settled = motion.by_ref().nth(TRANSIENT).is_some();
+    let Some(leg) = motion.leg().filter(|_| settled) else { return Vec::new() };
+    let at = |s: f64| {
+        let (x, v) = leg.state(osc, s);
+        Start { x, v, phase: phase::advance(leg.phase, osc.beta(), s) }
     };
-    (0..256).map(start).collect()
+    parts().map(|part| at(part * leg.duration)).collect()
 }
 
 /// Impacts per second of many motions side by side.
 fn abreast(osc: &Oscillator, width: Width, starts: Vec<Start>, duration: Duration) -> f64 {
-    let Some(mut batch) = Batch::new(osc, SLOTS, width) else { return 0.0 };
+    let Some(mut batch) = Batch::new(osc, ABREAST, width) else { return 0.0 };
     let count = starts.len();
     for start in starts {
         batch.push(start);

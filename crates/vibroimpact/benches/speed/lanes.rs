@@ -4,12 +4,10 @@
 use crate::widths;
 use criterion::{BenchmarkId, Criterion, Throughput};
 use vibroimpact::flight::{Contact, SearchLimits};
-use vibroimpact::lanes::{Batch, Width};
+use vibroimpact::lanes::{ABREAST, Batch, Width};
 use vibroimpact::verdict::{StartBox, scattered_starts};
 use vibroimpact::{Oscillator, scenario};
 
-/// Motions at once, as when many starts are settled.
-const SLOTS: usize = 192;
 /// Impacts of all of them together that one iteration stands for.
 const IMPACTS: u64 = 20_000;
 
@@ -22,14 +20,14 @@ struct Flow<'a> {
 
 impl<'a> Flow<'a> {
     fn new(osc: &'a Oscillator, width: Width) -> Self {
-        let batch = Batch::new(osc, SLOTS, width).expect("lanes fly the paper's points");
-        let mut flow = Self { osc, batch, next: SLOTS as u64 };
-        for index in 0..SLOTS as u64 {
+        let batch = Batch::new(osc, ABREAST, width).expect("lanes fly the paper's points");
+        let mut flow = Self { osc, batch, next: ABREAST as u64 };
+        for index in 0..ABREAST as u64 {
             flow.batch.push(scattered_starts(osc, StartBox::natural(osc), 1, index));
         }
         // past the transients
         let mut impacts = 0;
-        while impacts < 100 * SLOTS as u64 {
+        while impacts < 100 * ABREAST as u64 {
             impacts += flow.round();
         }
         flow

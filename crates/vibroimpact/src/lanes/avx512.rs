@@ -5,6 +5,7 @@
 //! processor was asked, so the instructions are there; loads and stores stay within a slice whose length was checked.
 #![allow(unsafe_code)]
 
+use super::pair::{Half, Pair};
 use super::single::EightSingle;
 use crate::math::{Lane, Mask, Numbers};
 use core::arch::x86_64::{
@@ -91,6 +92,19 @@ impl Numbers for Eight {
     #[inline(always)]
     fn choose(mask: EightMask, yes: Self, no: Self) -> Self {
         Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
+    }
+}
+
+impl Half for Eight {
+    type Double = Pair<EightSingle>;
+
+    #[inline(always)]
+    fn both_widened(from: Pair<EightSingle>) -> (Self, Self) {
+        (Self::widened(from.0), Self::widened(from.1))
+    }
+    #[inline(always)]
+    fn both_rounded(self, second: Self) -> Pair<EightSingle> {
+        Pair(self.rounded(), second.rounded())
     }
 }
 

@@ -17,6 +17,10 @@ use crate::flight::{Contact, Flight, SearchLimits, counted};
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, Side, Start};
 
+/// Motions under way at once that keep the lanes full and stay in the nearer caches: what [`Batch::new`] is best given where there
+/// are so many.
+pub const ABREAST: usize = 1024;
+
 /// Motions of one oscillator under way.
 ///
 /// ```

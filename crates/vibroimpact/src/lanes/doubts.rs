@@ -2,7 +2,7 @@
 
 use super::front::list;
 use super::hull::End;
-use super::stride::{BESIDE, WIDEST};
+use super::stride::WIDEST;
 use crate::math::Single;
 
 /// Slots that are marched before those in doubt are struck.
@@ -37,9 +37,9 @@ impl Doubts {
         let at = self.count.min(SEGMENT);
         let values = [s, from.x, from.v, from.a, to.x, to.v, to.a];
         for (column, value) in self.columns.iter_mut().zip(values) {
-            value.gathered(bits).store(&mut column[at..at + BESIDE]);
+            value.store_some(bits, &mut column[at..at + WIDEST]);
         }
-        self.count = at + list(bits, first, &mut self.slots[at..at + BESIDE]);
+        self.count = at + list(bits, first, &mut self.slots[at..at + WIDEST]);
     }
 
     /// How many there are.

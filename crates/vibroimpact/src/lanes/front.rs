@@ -1,10 +1,8 @@
 //! Moving some of eight places to the front, without a branch that could be guessed wrong.
 
-use super::stride::BESIDE;
-
 /// The places of the bits that are set, in order, for every byte.
-pub(super) const FRONT: [[u8; BESIDE]; 256] = {
-    let mut table = [[0; BESIDE]; 256];
+pub(super) const FRONT: [[u8; 8]; 256] = {
+    let mut table = [[0; 8]; 256];
     let mut byte = 0;
     while byte < 256 {
         let (mut bit, mut count) = (0_u8, 0);
@@ -20,11 +18,17 @@ pub(super) const FRONT: [[u8; BESIDE]; 256] = {
     table
 };
 
-/// Writes the slots whose bits are set, counted from `first`, to the beginning of `places`, which has room for eight, and returns
-/// how many.
+/// Writes the slots whose bits are set, of sixteen counted from `first`, to the beginning of `places`, which has room for all, and
+/// returns how many.
 #[inline(always)]
 pub(super) fn list(bits: u32, first: usize, places: &mut [u32]) -> usize {
-    if let Some(places) = places.first_chunk_mut::<BESIDE>() {
+    let low = eight(bits, first, places);
+    low + eight(bits >> 8, first + 8, &mut places[low..])
+}
+
+#[inline(always)]
+fn eight(bits: u32, first: usize, places: &mut [u32]) -> usize {
+    if let Some(places) = places.first_chunk_mut::<8>() {
         for (place, offset) in places.iter_mut().zip(&FRONT[(bits & 0xff) as usize]) {
             #[allow(clippy::cast_possible_truncation)] // slot numbers
             let first = first as u32;

@@ -36,7 +36,7 @@ mod strike;
 mod swing;
 mod width;
 
-pub use batch::Batch;
+pub use batch::{ABREAST, Batch};
 pub use flight::first_contact;
 pub(crate) use flight::found;
 pub(crate) use stride::Stride;

@@ -132,14 +132,13 @@ impl<const N: usize> Single for Pack<f32, N> {
         to[..N].copy_from_slice(&self.0);
     }
     #[inline(always)]
-    fn gathered(self, bits: u32) -> Self {
-        let (mut front, mut count) = (self, 0);
+    fn store_some(self, bits: u32, to: &mut [f32]) {
+        let mut count = 0;
         for k in 0..N {
             if bits >> k & 1 == 1 {
-                front.0[count] = self.0[k];
+                to[count] = self.0[k];
                 count += 1;
             }
         }
-        front
     }
 }

@@ -16,7 +16,7 @@ pub(super) trait Half: Lane {
 
 /// Two of the same.
 #[derive(Clone, Copy)]
-pub(super) struct Pair<T>(T, T);
+pub(super) struct Pair<T>(pub(super) T, pub(super) T);
 
 macro_rules! both {
     ($($operation:ident $method:ident),*) => {$(
@@ -150,8 +150,11 @@ impl<N: Single> Single for Pair<N> {
         self.0.store(to);
         self.1.store(&mut to[N::WIDTH..]);
     }
-    fn gathered(self, _: u32) -> Self {
-        self
+    #[inline(always)]
+    fn store_some(self, bits: u32, to: &mut [f32]) {
+        let first = bits & ((1 << N::WIDTH) - 1);
+        self.0.store_some(first, to);
+        self.1.store_some(bits >> N::WIDTH, &mut to[first.count_ones() as usize..]);
     }
 }
 

@@ -104,10 +104,11 @@ impl Single for EightSingle {
         }
     }
     #[inline(always)]
-    fn gathered(self, bits: u32) -> Self {
+    fn store_some(self, bits: u32, to: &mut [f32]) {
         let places = FRONT[(bits & 0xff) as usize];
-        Self(unsafe {
+        let front = unsafe {
             _mm256_permutevar8x32_ps(self.0, _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(i64::from_le_bytes(places))))
-        })
+        };
+        Self(front).store(to);
     }
 }

@@ -3,7 +3,7 @@
 use super::doubts::{Doubts, SEGMENT};
 use super::front::list;
 use super::hull::MARGIN;
-use super::stride::{BESIDE, State, Stride, Table, WIDEST};
+use super::stride::{State, Stride, Table, WIDEST};
 use super::strike::{Approach, Guess, Launch, Strike};
 use crate::contact::chatter;
 use crate::math::{Lane, Mask, Numbers, Single, sin_cos, sin_cos_lanes};
@@ -49,8 +49,8 @@ impl Lists {
     }
 }
 
-/// The states of eight flights on their way, in single precision: s, x, v, sin, cos, side by side.
-type Block = [[f32; BESIDE]; 5];
+/// The states of sixteen flights on their way, in single precision: s, x, v, sin, cos, side by side.
+type Block = [[f32; WIDEST]; 5];
 
 /// Flights under way.
 #[derive(Clone, Debug)]
@@ -62,20 +62,20 @@ pub(super) struct Slots {
 
 impl Slots {
     pub(super) fn new(capacity: usize) -> Self {
-        let blocks = capacity.div_ceil(BESIDE);
-        Self { count: 0, states: vec![[[0.0_f32; BESIDE]; 5]; blocks], launches: vec![[0.0; 8]; blocks * BESIDE] }
+        let blocks = capacity.div_ceil(WIDEST);
+        Self { count: 0, states: vec![[[0.0_f32; WIDEST]; 5]; blocks], launches: vec![[0.0; 8]; (blocks + 1) * WIDEST] }
     }
 
     #[inline(always)]
     pub(super) fn put(&mut self, slot: usize, State { s, x, v, sin, cos }: State<f32>) {
-        let (block, lane) = (&mut self.states[slot / BESIDE], slot % BESIDE);
+        let (block, lane) = (&mut self.states[slot / WIDEST], slot % WIDEST);
         for (numbers, value) in block.iter_mut().zip([s, x, v, sin, cos]) {
             numbers[lane] = value;
         }
     }
 
     pub(super) fn state(&self, slot: usize) -> State<f32> {
-        let (block, lane) = (&self.states[slot / BESIDE], slot % BESIDE);
+        let (block, lane) = (&self.states[slot / WIDEST], slot % WIDEST);
         let [s, x, v, sin, cos] = [0, 1, 2, 3, 4].map(|k: usize| block[k][lane]);
         State { s, x, v, sin, cos }
     }
@@ -104,9 +104,9 @@ impl Slots {
         let pace = stride.pace.splat::<N>();
         let mut first = segment * SEGMENT;
         let last = self.count.min(first + SEGMENT);
-        for block in &mut self.states[first / BESIDE..last.div_ceil(BESIDE)] {
+        for block in &mut self.states[first / WIDEST..last.div_ceil(WIDEST)] {
             let mut lane = 0;
-            while lane < BESIDE {
+            while lane < WIDEST {
                 let [s, x, v, sin, cos] = block;
                 let state = State {
                     s: N::load(&s[lane..]),
@@ -126,16 +126,19 @@ impl Slots {
                 // what lies beyond the last slot is marched along, to no effect
                 let rest = last.saturating_sub(first + lane);
                 let valid = if rest < N::WIDTH { (1 << rest) - 1 } else { (1 << N::WIDTH) - 1 };
-                doubts.add(!clear.bits() & valid, first + lane, state.s, &from, &to);
+                let doubtful = !clear.bits() & valid;
+                if doubtful != 0 {
+                    doubts.add(doubtful, first + lane, state.s, &from, &to);
+                }
                 let gone = clear.and(stride.late(next.s)).bits() & valid;
                 if gone != 0 {
-                    let mut more = [0; BESIDE];
+                    let mut more = [0; WIDEST];
                     let count = list(gone, first + lane, &mut more);
                     late.extend_from_slice(&more[..count]);
                 }
                 lane += N::WIDTH;
             }
-            first += BESIDE;
+            first += WIDEST;
         }
     }
 
@@ -189,7 +192,7 @@ impl Slots {
             let at = padded(few);
             let row = L::rows(&self.launches, &at);
             let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
-            let s = L::load(&at.map(|slot| f64::from(self.states[slot as usize / BESIDE][0][slot as usize % BESIDE])));
+            let s = L::load(&at.map(|slot| f64::from(self.states[slot as usize / WIDEST][0][slot as usize % WIDEST])));
             let state = stride.after_steps(&launch, s, table);
             let next = pace.step(state);
             let ends = (s, stride.end(&state), stride.end(&next));
@@ -204,8 +207,9 @@ impl Slots {
                 number.rounded().store(on);
             }
             each(clear & there, |lane| {
-                let [s, x, v, sin, cos] = on.map(|numbers| numbers[lane]);
-                self.put(at[lane] as usize, State { s, x, v, sin, cos });
+                let state =
+                    State { s: on[0][lane], x: on[1][lane], v: on[2][lane], sin: on[3][lane], cos: on[4][lane] };
+                self.put(at[lane] as usize, state);
             });
             self.relaunch(stride, &at, row[PHASE], &strike, proven & there, lists);
             each(!(clear | proven) & there, |lane| lists.left.push(at[lane]));
@@ -233,7 +237,7 @@ impl Slots {
             number.rounded().store(rough);
         }
         each(proven, |lane| {
-            let [x, v, sin, cos] = rough.map(|numbers| numbers[lane]);
+            let (x, v, sin, cos) = (rough[0][lane], rough[1][lane], rough[2][lane], rough[3][lane]);
             let slot = slots[lane];
             self.launches[slot as usize] = rows[lane];
             self.put(slot as usize, State { s: 0.0, x, v, sin, cos });

@@ -22,10 +22,9 @@ pub(super) const LEVELS: usize = 16;
 pub(super) const NODES: u32 = 64;
 /// Terms of each parity of the series.
 const TERMS: usize = 9;
-/// The longest step, the most of $`\mu h`$; longer ones miss more contacts at the first guess and come closer to the stops. With damping
-/// the series over half a step costs digits as it grows.
-const LONGEST: f64 = 1.75;
-const LONGEST_DAMPED: f64 = 1.5;
+/// The longest step, the most of $`\mu h`$. Longer ones swing above a stop and back unseen by the first guess too often, and with damping the
+/// series over half a step costs digits as it grows.
+const LONGEST: f64 = 1.5;
 /// Shorter steps than this are not worth it (forcing, or damping, a hundred times faster than the oscillator).
 const SHORTEST: f64 = 1.0 / 64.0;
 /// Steps are multiples of this, so that their multiples are exact.
@@ -101,8 +100,7 @@ impl Stride {
     pub(crate) fn new(osc: &Oscillator) -> Option<Self> {
         let (beta, zeta) = (osc.beta(), osc.damping());
         let fastest = beta.max(1.0 + 2.0 * zeta);
-        let longest = if zeta == 0.0 { LONGEST } else { LONGEST_DAMPED };
-        let h = (longest / fastest / GRAIN).floor() * GRAIN;
+        let h = (LONGEST / fastest / GRAIN).floor() * GRAIN;
         let upper = osc.stop(Side::Upper)?;
         if h < SHORTEST || upper.restitution == 0.0 || upper.gap.abs() > FAR {
             return None;
@@ -258,8 +256,6 @@ impl<L: Lane> Propagators<L> for Table {
 
 /// The widest lanes there are: arrays are padded to a multiple of it.
 pub(super) const WIDEST: usize = 16;
-/// States on their way that lie side by side.
-pub(super) const BESIDE: usize = 8;
 /// Positions of stops beyond this are left to the careful search, whose bounds are relative.
 const FAR: f64 = 1e6;
 

@@ -292,6 +292,14 @@ fn sum<L: Lane>(c: [L; 6], t: L) -> L {
     (c[0] * t + c[1] * tt) + (t * tt) * ((c[2] + c[3] * t) + tt * (c[4] + c[5] * t))
 }
 
+impl<N: Numbers> End<N> {
+    /// Position less the gap, velocity and acceleration, over a unit of time.
+    #[inline(always)]
+    fn scaled(&self, h: N, mirror: Mirror<N>) -> [N; 3] {
+        [mirror.of(self.x) - mirror.gap, mirror.of(self.v) * h, mirror.of(self.a) * (h * h)]
+    }
+}
+
 /// What a quintic is made of: position less the gap, velocity and acceleration at its ends, over a unit of time.
 #[derive(Clone, Copy)]
 struct Quintic<N>([N; 3], [N; 3]);
@@ -299,9 +307,7 @@ struct Quintic<N>([N; 3], [N; 3]);
 impl<N: Numbers> Quintic<N> {
     #[inline(always)]
     fn of(h: N, begin: &End<N>, end: &End<N>, mirror: Mirror<N>) -> Self {
-        let hh = h * h;
-        let at = |end: &End<N>| [mirror.of(end.x) - mirror.gap, mirror.of(end.v) * h, mirror.of(end.a) * hh];
-        Self(at(begin), at(end))
+        Self(begin.scaled(h, mirror), end.scaled(h, mirror))
     }
 
     /// The first crossing from below, to an eighth, by the values at the quarters.

@@ -93,25 +93,25 @@ impl Width {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
 fn march_avx2(segment: usize, slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
-    slots.march::<EightSingle>(segment, stride, lists);
+    slots.march::<Pair<EightSingle>>(segment, stride, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
 fn strike_avx2(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    slots.strike::<Pair<Four>>(stride, table, lists);
+    slots.strike::<Pair<Pair<Four>>>(stride, table, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
 fn march_avx512(segment: usize, slots: &mut Slots, stride: &Stride, lists: &mut Lists) {
-    slots.march::<EightSingle>(segment, stride, lists);
+    slots.march::<Pair<EightSingle>>(segment, stride, lists);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,bmi1,bmi2,popcnt")]
 fn strike_avx512(slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
-    slots.strike::<Eight>(stride, table, lists);
+    slots.strike::<Pair<Eight>>(stride, table, lists);
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -50,8 +50,9 @@ pub(crate) trait Single: Numbers {
     fn load(from: &[f32]) -> Self;
     /// Writes them to the beginning of a slice.
     fn store(self, to: &mut [f32]);
-    /// Those whose bits are set, moved together to the front in their order; what follows them is of no meaning.
-    fn gathered(self, bits: u32) -> Self;
+    /// Writes those whose bits are set to the beginning of a slice that has room for all, in their order; what follows them there
+    /// is of no meaning.
+    fn store_some(self, bits: u32, to: &mut [f32]);
 }
 
 /// Several `f64` side by side.
@@ -207,7 +208,7 @@ impl Single for f32 {
         to[0] = self;
     }
     #[inline(always)]
-    fn gathered(self, _: u32) -> Self {
-        self
+    fn store_some(self, _: u32, to: &mut [f32]) {
+        to[0] = self;
     }
 }

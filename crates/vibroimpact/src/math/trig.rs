@@ -64,10 +64,10 @@ fn reduce_shifted<L: Lane>(x: L) -> (L, L, L) {
     let shift = L::splat(SHIFT);
     let shifted = x * L::splat(FRAC_2_PI) + shift;
     let n = shifted - shift;
-    let (r, e) = two_sum(x - n * L::splat(P1), -(n * L::splat(P2)));
-    let lo = e - n * L::splat(P3);
-    let hi = r + lo;
-    (shifted, hi, (r - hi) + lo)
+    // exact; the second piece is the smaller, unless x is all but a multiple and what is left over is exact again
+    let (first, second) = (x - n * L::splat(P1), n * L::splat(P2));
+    let hi = first - second;
+    (shifted, hi, ((first - hi) - second) - n * L::splat(P3))
 }
 
 #[cold]

@@ -63,7 +63,7 @@ fn reduce(hi: f64, lo: f64) -> f64 {
 #[inline(always)]
 fn reduce_short<L: Lane>(hi: L, lo: L) -> L {
     let turns = (hi * L::splat(1.0 / TAU)).floor();
-    let [first, second, third] = TAU_PIECES.map(L::splat);
+    let (first, second, third) = (L::splat(TAU_PIECES[0]), L::splat(TAU_PIECES[1]), L::splat(TAU_PIECES[2]));
     within((hi - turns * first) + ((lo - turns * third) - turns * second))
 }
 

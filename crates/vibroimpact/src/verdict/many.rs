@@ -15,7 +15,7 @@ use super::settle::{Drive, SettleOptions, settle, settle_knowing};
 use super::trap::Trap;
 use crate::chaos::{self, Measure, lyapunov};
 use crate::flight::Contact;
-use crate::lanes::{Batch, Width};
+use crate::lanes::{ABREAST, Batch, Width};
 use crate::motion::{End, ImpactState, Motion};
 use crate::system::{Oscillator, Start};
 use core::ops::Range;
@@ -172,14 +172,11 @@ struct Question<'a> {
     tick: &'a dyn Fn() -> bool,
 }
 
-/// Motions under way at once: enough to fill the lanes, few enough to stay in the nearest cache.
-const SLOTS: usize = 192;
-
 impl Question<'_> {
     fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, atlas: &Atlas) -> Part {
         let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
         let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
-        let batch = Batch::new(self.osc, SLOTS.min(count), self.width).filter(|batch| {
+        let batch = Batch::new(self.osc, ABREAST.min(count), self.width).filter(|batch| {
             batch.longest() < self.options.limits.horizon(self.osc).min(chaos::LIMITS.horizon(self.osc))
         });
         let mut releases = atlas.releases.clone();
@@ -212,7 +209,7 @@ struct Pool<'a> {
 impl Pool<'_> {
     fn run(mut self, count: usize, start: &impl Fn(u64) -> Start) -> Part {
         let mut next = 0;
-        while next < count.min(SLOTS) {
+        while next < count.min(ABREAST) {
             self.batch.push(start(self.first + next as u64));
             self.tracks.push(Track { place: next, follow: Follow::default(), measure: None, done: false });
             next += 1;
