@@ -7,11 +7,13 @@
 
 mod exact;
 mod lane;
+mod lu;
 mod matrix;
 mod trig;
 
 pub(crate) use exact::{Sum, two_prod, two_sum};
 pub(crate) use lane::{Lane, Mask, Numbers, Single, turned};
+pub(crate) use lu::Lu;
 pub use matrix::{Matrix2, Multiplier, eigenvalues};
 pub use trig::sin_cos;
 pub(crate) use trig::sin_cos_lanes;

@@ -1,6 +1,7 @@
-//! All periodic orbits of a label: the closed form where there is one, Newton's method from many seeds everywhere.
+//! All periodic orbits of a label: Newton's method on the equations of the whole cycle, from many seeds.
 
-use super::{Cycle, DEFAULT_EVENTS, flight_limits, from_release, one_impact, shoot};
+use super::ring::Ring;
+use super::{Cycle, DEFAULT_EVENTS, EarlierContact, earlier_contact, flight_limits, from_release, newton, one_impact};
 use crate::motion::{ImpactState, Mapped, impact_map};
 use crate::system::{Oscillator, Side};
 use crate::verdict::{Count, Label};
@@ -11,8 +12,19 @@ use core::f64::consts::TAU;
 pub struct Orbit {
     /// The cycle.
     pub cycle: Cycle,
-    /// False for an algebraic solution that passes through a stop on its way.
+    /// False for a solution of the equations that passes through a stop on its way.
     pub physical: bool,
+    /// Where it does so first, `None` for a possible motion.
+    pub earlier: Option<EarlierContact>,
+}
+
+impl Orbit {
+    /// A cycle, and the judgement whether it is a possible motion.
+    #[must_use]
+    pub fn judged(osc: &Oscillator, cycle: Cycle) -> Self {
+        let earlier = earlier_contact(osc, &cycle);
+        Self { cycle, physical: earlier.is_none(), earlier }
+    }
 }
 
 /// How hard to look.
@@ -31,49 +43,62 @@ impl Default for FindOptions {
     }
 }
 
-/// The orbits of `osc` that are called `label`, stable or not, the fastest last.
+/// The orbits of `osc` that are called `label`, stable or not, the fastest last; solutions of the equations that are no
+/// possible motions are among them, marked.
 ///
-/// Orbits with a rest in them - all `inf/n`, and m/n with restitution 0 - come from their release, and none can be
-/// missed. The search for the others is deterministic but not exhaustive: an orbit that no seed leads to is not found.
+/// Each seed is flown through m impacts, and where that takes something like n periods, Newton's method closes the
+/// whole chain of impacts at once ([equations](super)). Orbits with a rest in them - all `inf/n`, and m/n with
+/// restitution 0 - come from their release, and none can be missed; those with one impact a period come from their
+/// closed form, and none can be missed. The search for the others is deterministic but not exhaustive: an orbit that no
+/// seed leads to is not found. Of the solutions that are no motions only some come up.
 #[must_use]
 pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> {
     let mut orbits: Vec<Orbit> = osc
         .stops()
         .filter_map(|(side, _)| from_release(osc, side, DEFAULT_EVENTS))
         .filter(|cycle| cycle.label == label)
-        .map(|cycle| Orbit { cycle, physical: true })
+        .map(|cycle| Orbit::judged(osc, cycle))
         .collect();
     // with two stops one cycle may have a release from each
     orbits.dedup_by(|a, b| a.cycle.same_as(&b.cycle, options.tolerance));
     let Count::Finite(m) = label.impacts else { return orbits };
     if m == 1 {
-        orbits
-            .extend(one_impact(osc, label.periods).into_iter().map(|o| Orbit { cycle: o.cycle, physical: o.physical }));
+        let closed = one_impact(osc, label.periods).into_iter();
+        orbits.extend(closed.map(|o| Orbit::judged(osc, o.cycle)));
     }
     for guess in seeds(osc, options.seeds) {
-        if !promising(osc, guess, m, label.periods) {
-            continue;
-        }
-        let Ok(cycle) = shoot(osc, guess, m, label.periods) else {
+        let Some(ring) = chain(osc, guess, m, label.periods) else {
             continue;
         };
+        let Some((ring, flights)) = newton::solve(osc, ring) else {
+            continue;
+        };
+        if !ring.sensible() {
+            continue;
+        }
+        let cycle = newton::cycle(osc, &ring, &flights);
         let known = orbits.iter().any(|o| o.cycle.same_as(&cycle, options.tolerance));
-        if cycle.label == label && !known {
-            orbits.push(Orbit { cycle, physical: true });
+        if !known && cycle.residual <= CLOSED && ring.smallest(options.tolerance).len() == m as usize {
+            orbits.push(Orbit::judged(osc, cycle));
         }
     }
     orbits.sort_by(|a, b| a.cycle.fastest().total_cmp(&b.cycle.fastest()));
     orbits
 }
 
+/// Flights that miss by no more than this close a cycle; what rounding leaves is usually 1e-15.
+const CLOSED: f64 = 1e-11;
+
 /// Arrivals spread over phase and velocity. Speeds go up to what n periods of forcing, the gap and the free response
 /// could feed, geometrically towards small ones.
 fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item = ImpactState> {
     let top = 4.0 * osc.size() / (1.0 - osc.restitution()).max(0.1);
+    // down to a two-hundredth
+    let ratio = libm::pow(5e-3, 1.0 / f64::from(speeds.max(2) - 1));
     let sides: Vec<Side> = osc.stops().map(|(side, _)| side).collect();
     sides.into_iter().flat_map(move |side| {
         (0..speeds).flat_map(move |k| {
-            let velocity = top * libm::pow(0.8, f64::from(k));
+            let velocity = top * libm::pow(ratio, f64::from(k));
             (0..phases).map(move |j| ImpactState {
                 phase: TAU * (f64::from(j) + 0.5) / f64::from(phases),
                 velocity,
@@ -83,19 +108,35 @@ fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item =
     })
 }
 
-/// Whether m impacts from here take something like n periods: a seed that is far off rarely converges to this label.
-fn promising(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> bool {
-    let (mut state, mut time) = (guess, 0.0);
+/// Periods by which the time of m impacts may differ from n for a chain worth closing.
+const OFF: f64 = 0.75;
+
+/// The chain of m impacts that begins with `guess`, closed after n periods; `None` where it takes far more or less.
+fn chain(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Option<Ring> {
+    let (mut sides, mut unknowns) = (Vec::new(), Vec::new());
+    let (mut state, mut theta) = (guess, guess.phase);
+    let full = TAU * f64::from(n);
     for _ in 0..m {
-        match impact_map(osc, &state, flight_limits(n)) {
-            Mapped::Impact { state: next, interval } => {
-                state = next;
-                time += interval;
-            }
-            _ => return false,
+        sides.push(state.side);
+        unknowns.extend([theta, state.velocity]);
+        let Mapped::Impact { state: next, interval } = impact_map(osc, &state, flight_limits(n)) else {
+            return None;
+        };
+        theta += osc.beta() * interval;
+        if theta - guess.phase > full + OFF * TAU {
+            return None;
         }
+        state = next;
     }
-    (time / osc.period() - f64::from(n)).abs() < 0.75
+    let off = theta - guess.phase - full;
+    if off < -OFF * TAU || state.side != guess.side {
+        return None;
+    }
+    // the surplus is shared out, so that every flight keeps a positive time
+    for theta in unknowns.iter_mut().step_by(2) {
+        *theta = guess.phase + (*theta - guess.phase) * full / (full + off);
+    }
+    Some(Ring { sides, unknowns, periods: n })
 }
 
 #[cfg(test)]

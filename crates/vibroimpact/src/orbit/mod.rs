@@ -6,17 +6,28 @@
 //! | one impact in n forcing periods, in closed form | [`one_impact`] |
 //! | Newton's method on the m-fold impact map | [`shoot`] |
 //! | cycles that stick, from their release | [`from_release`] |
+//! | the impacts of a cycle as unknowns, and their equations, smooth through grazing | `ring`, `cyclic` |
+//! | Newton's method on these equations | `newton` |
+//! | multipliers and test functions from them | `floquet` |
+//! | whether a solution is a motion, and how close it comes to a stop | [`earlier_contact`], `clearance` |
 //! | all orbits of a label from many seeds | [`find`] |
 
+mod clearance;
 mod cycle;
+mod cyclic;
 mod find;
+mod floquet;
+mod newton;
 mod one_impact;
+mod physical;
 mod release;
+mod ring;
 mod shooting;
 
 pub use cycle::{Cycle, CyclePoint, RestSpan};
 pub use find::{FindOptions, Orbit, find};
 pub use one_impact::{OneImpact, one_impact};
+pub use physical::{EarlierContact, earlier_contact};
 pub use release::{DEFAULT_EVENTS, from_release};
 pub use shooting::{ShootingError, shoot};
 

@@ -35,6 +35,9 @@ pub enum SystemError {
         /// Their distance.
         width: f64,
     },
+    /// A parameter of a second stop, where there is none.
+    #[error("{0} is a parameter of the second stop, and there is only one stop\nhint: give the second stop first")]
+    NoSecondStop(&'static str),
     /// A start beyond a stop.
     #[error("start x = {x} lies beyond the stop: x must be in [{lowest}, {highest}]")]
     BeyondStop {

@@ -3,17 +3,20 @@
 //! | idea | file |
 //! |---|---|
 //! | checked parameters of one oscillator | [`Oscillator`] |
+//! | its parameters by name, read and changed | [`Parameter`] |
 //! | a starting point allowed by the stops | [`Start`] |
 //! | kilograms, newtons and millimetres to nondimensional numbers and back | [`Machine`] |
 //! | angles of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 
 mod error;
 mod oscillator;
+mod parameter;
 pub mod phase;
 mod start;
 mod units;
 
 pub use error::SystemError;
 pub use oscillator::{Oscillator, Side, Stop};
+pub use parameter::Parameter;
 pub use start::Start;
 pub use units::{Frequency, Machine, Scales};

@@ -1,0 +1,98 @@
+//! Small dense linear systems: LU factors with partial pivoting.
+
+/// The factors of a square matrix, from which any number of right sides are solved.
+#[derive(Clone, Debug)]
+pub(crate) struct Lu {
+    n: usize,
+    /// Row by row: below the diagonal the multipliers, on and above it the upper factor.
+    rows: Vec<f64>,
+    /// Which row came up at each step.
+    pivots: Vec<usize>,
+}
+
+impl Lu {
+    /// Factors the `n` x `n` matrix `rows`, given row by row; `None` when a pivot vanishes or is no number.
+    pub(crate) fn new(mut rows: Vec<f64>, n: usize) -> Option<Self> {
+        debug_assert_eq!(rows.len(), n * n);
+        let mut pivots = Vec::with_capacity(n);
+        for k in 0..n {
+            let (mut pivot, mut best) = (k, 0.0);
+            for i in k..n {
+                let size = rows[i * n + k].abs();
+                if size > best {
+                    (pivot, best) = (i, size);
+                }
+            }
+            if !(best > 0.0 && best.is_finite()) {
+                return None;
+            }
+            pivots.push(pivot);
+            if pivot != k {
+                for j in 0..n {
+                    rows.swap(k * n + j, pivot * n + j);
+                }
+            }
+            let (upper, lower) = rows.split_at_mut((k + 1) * n);
+            let top = &upper[k * n..];
+            for row in lower.chunks_exact_mut(n) {
+                if row[k] == 0.0 {
+                    continue;
+                }
+                let factor = row[k] / top[k];
+                row[k] = factor;
+                for (x, t) in row[k + 1..].iter_mut().zip(&top[k + 1..]) {
+                    *x -= factor * t;
+                }
+            }
+        }
+        Some(Self { n, rows, pivots })
+    }
+
+    /// Replaces the right side `x` by the solution.
+    pub(crate) fn solve(&self, x: &mut [f64]) {
+        let n = self.n;
+        for (k, &pivot) in self.pivots.iter().enumerate() {
+            x.swap(k, pivot);
+        }
+        for i in 1..n {
+            let row = &self.rows[i * n..i * n + i];
+            let sum: f64 = row.iter().zip(x.iter()).map(|(a, b)| a * b).sum();
+            x[i] -= sum;
+        }
+        for i in (0..n).rev() {
+            let row = &self.rows[i * n + i + 1..(i + 1) * n];
+            let sum: f64 = row.iter().zip(x[i + 1..].iter()).map(|(a, b)| a * b).sum();
+            x[i] = (x[i] - sum) / self.rows[i * n + i];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solves_what_needs_pivoting() {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31) - 0.5
+        };
+        for n in [1, 2, 3, 7, 20] {
+            let mut a: Vec<f64> = (0..n * n).map(|_| random()).collect();
+            if n > 1 {
+                a[0] = 0.0;
+            }
+            let want: Vec<f64> = (0..n).map(|_| random()).collect();
+            let mut x: Vec<f64> = (0..n).map(|i| (0..n).map(|j| a[i * n + j] * want[j]).sum()).collect();
+            Lu::new(a, n).unwrap().solve(&mut x);
+            assert!(x.iter().zip(&want).all(|(a, b)| (a - b).abs() < 1e-12), "{x:?} {want:?}");
+        }
+    }
+
+    #[test]
+    fn refuses_what_has_no_solution() {
+        assert!(Lu::new(vec![1.0, 2.0, 2.0, 4.0], 2).is_none());
+        assert!(Lu::new(vec![f64::NAN, 0.0, 0.0, 1.0], 2).is_none());
+    }
+}

@@ -1,0 +1,71 @@
+//! The Floquet multipliers of a cycle from its equations, and test functions for where one is +1 or -1.
+//!
+//! The derivative of a whole turn is $`J = \prod(-B_i^{-1}A_i)`$, which is infinite where an impact grazes, for then
+//! $`\det B_i = 0`$. But $`\tilde M = \prod(-\operatorname{adj}B_i\,A_i) = J\,P`$ with $`P = \prod\det B_i`$ is
+//! smooth, and $`\det J = \prod\varepsilon_i^2\;e^{-4\pi\zeta n/\beta}`$ is known exactly. So
+//!
+//! $$`\psi_{+1} = (1+\det J)\,P - \operatorname{tr}\tilde M, \qquad \psi_{-1} = (1+\det J)\,P + \operatorname{tr}\tilde M`$$
+//!
+//! vanish where a multiplier is +1 (fold, branch point) or -1 (flip), and are smooth through grazing.
+
+use super::cyclic::Block;
+use super::ring::Ring;
+use crate::math::{Matrix2, Multiplier, eigenvalues, exp};
+use crate::system::Oscillator;
+use core::f64::consts::TAU;
+
+/// The linearised turn of a cycle, up to a common positive factor that keeps its numbers in range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Floquet {
+    /// $`\tilde M`$, for a turn that begins at the first impact.
+    pub(crate) turn: Matrix2,
+    /// $`P`$.
+    pub(crate) product: f64,
+    /// $`\det J`$, exactly.
+    pub(crate) determinant: f64,
+}
+
+impl Floquet {
+    pub(crate) fn new(osc: &Oscillator, ring: &Ring, blocks: &[Block]) -> Self {
+        let (mut turn, mut product) = (Matrix2::IDENTITY, 1.0);
+        let mut determinant = exp(-2.0 * osc.damping() * TAU * f64::from(ring.periods) / osc.beta());
+        for (k, block) in blocks.iter().enumerate() {
+            let [[a, b], [c, d]] = block.right.0;
+            turn = Matrix2([[-d, b], [c, -a]]).times(block.left).times(turn);
+            product *= a * d - b * c;
+            let square: f64 = turn.0.iter().flatten().map(|x| x * x).sum::<f64>() + product * product;
+            let scale = 1.0 / square.sqrt().max(f64::MIN_POSITIVE);
+            turn = Matrix2(turn.0.map(|row| row.map(|x| x * scale)));
+            product *= scale;
+            let eps = osc.stop(ring.side(k)).map_or(0.0, |stop| stop.restitution);
+            determinant *= eps * eps;
+        }
+        Self { turn, product, determinant }
+    }
+
+    /// Zero where a multiplier is +1.
+    pub(crate) fn plus_one(&self) -> f64 {
+        (1.0 + self.determinant) * self.product - self.turn.trace()
+    }
+
+    /// Zero where a multiplier is -1.
+    pub(crate) fn minus_one(&self) -> f64 {
+        (1.0 + self.determinant) * self.product + self.turn.trace()
+    }
+
+    /// The multipliers, the larger first; infinite at a grazing impact.
+    pub(crate) fn multipliers(&self) -> [Multiplier; 2] {
+        let trace = self.turn.trace();
+        eigenvalues(if trace == 0.0 { 0.0 } else { trace / self.product }, self.determinant)
+    }
+
+    /// The direction at the first impact that a turn takes to `multiplier` (+1 or -1) times itself, to first order.
+    pub(crate) fn direction(&self, multiplier: f64) -> [f64; 2] {
+        let [[a, b], [c, d]] = self.turn.0;
+        let (a, d) = (a - multiplier * self.product, d - multiplier * self.product);
+        // orthogonal to the larger row
+        let (p, q) = if a * a + b * b >= c * c + d * d { (-b, a) } else { (-d, c) };
+        let size = crate::math::hypot(p, q).max(f64::MIN_POSITIVE);
+        [p / size, q / size]
+    }
+}
