@@ -43,6 +43,8 @@
 //! | many motions side by side | [`lanes`], [`verdict::settle_many`] |
 //! | periodic orbits, stable or not | [`orbit`] |
 //! | Lyapunov exponents, dimension, sections of an attractor | [`chaos`] |
+//! | how they change with a parameter, and what ends or changes them | [`continuation`] |
+//! | Lyapunov exponents | [`chaos`] |
 //! | the points of the 1971 paper | [`scenario`] |
 //!
 //! # Units
@@ -59,6 +61,7 @@
 
 pub mod chaos;
 pub mod contact;
+pub mod continuation;
 pub mod flight;
 pub mod lanes;
 pub mod math;

@@ -31,5 +31,10 @@ pub use physical::{EarlierContact, earlier_contact};
 pub use release::{DEFAULT_EVENTS, from_release};
 pub use shooting::{ShootingError, shoot};
 
+pub(crate) use clearance::closest;
 pub(crate) use cycle::distance as cycle_distance;
+pub(crate) use cyclic::{Block, blocks, by_parameter, fill};
+pub(crate) use floquet::Floquet;
+pub(crate) use newton::{cycle as ring_cycle, solve};
+pub(crate) use ring::Ring;
 pub(crate) use shooting::{Lap, flight_limits};

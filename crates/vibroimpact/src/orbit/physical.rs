@@ -32,7 +32,7 @@ pub fn earlier_contact(osc: &Oscillator, cycle: &Cycle) -> Option<EarlierContact
     let m = cycle.points.len();
     (0..m).find_map(|k| {
         let (point, next) = (&cycle.points[k], &cycle.points[(k + 1) % m]);
-        if !(point.state.velocity > 0.0) {
+        if point.state.velocity <= 0.0 {
             return Some(EarlierContact { flight: k, side: point.state.side, time: 0.0 });
         }
         let (side, time) = blocked(osc, point.state.rebound(osc), point.interval, next.state.side)?;

@@ -121,6 +121,12 @@ impl Ring {
         }
     }
 
+    /// The first half of a ring that goes round twice.
+    pub(crate) fn half(&self) -> Self {
+        let m = self.len() / 2;
+        Self { sides: self.sides[..m].to_vec(), unknowns: self.unknowns[..2 * m].to_vec(), periods: self.periods / 2 }
+    }
+
     /// Puts an impact of speed zero into the flight that leaves impact `k`.
     pub(crate) fn insert(&mut self, k: usize, theta: f64, side: Side) {
         self.sides.insert(k + 1, side);

@@ -1,0 +1,25 @@
+//! Continuation: how a cycle changes with a parameter, and what ends or changes it on the way.
+//!
+//! | idea | file |
+//! |---|---|
+//! | a curve through the solutions of equations, by its arclength | `arc` |
+//! | the equations of a cycle with one parameter free | `varied` |
+//! | a zero in a bracket; a cubic through four points | `root`, `interpolate` |
+//! | what is watched for a change of sign along a branch | `watch` |
+//! | a point of a branch, and what happens there | [`Point`], [`BranchEvent`] |
+//! | the branch, point by point, through its events | [`Branch`] |
+//! | the cycle on the other side of a grazing impact | `graze` |
+//! | branches that begin at a flip or a branch point | `switch` |
+
+mod arc;
+mod branch;
+mod graze;
+mod interpolate;
+mod point;
+mod root;
+mod switch;
+mod varied;
+mod watch;
+
+pub use branch::{Branch, BranchError, BranchOptions, Direction};
+pub use point::{BranchEvent, Change, Point};

@@ -1,0 +1,118 @@
+//! A point of a branch, and what may happen there.
+
+use crate::orbit::Cycle;
+use crate::system::Side;
+use crate::verdict::Label;
+
+/// A point of a branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Value of the parameter.
+    pub value: f64,
+    /// The cycle there, also where it is no possible motion. At a grazing event that of the branch so far.
+    pub cycle: Cycle,
+    /// Whether it is a possible motion, as the certified first contact of each flight says. An event where that
+    /// changes counts as one that is.
+    pub physical: bool,
+    /// What happens here; `None` for an ordinary point.
+    pub event: Option<BranchEvent>,
+}
+
+impl Point {
+    /// Whether the cycle attracts its neighbourhood.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.physical && self.cycle.stable()
+    }
+}
+
+/// What an impact does at a grazing event, in the direction the branch is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// A flight comes to touch a stop; beyond the touch it strikes it.
+    Appears,
+    /// An impact loses its speed; beyond the touch the mass clears the stop.
+    Disappears,
+}
+
+/// What happens at a point of a branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BranchEvent {
+    /// The parameter turns back; a multiplier is +1.
+    Fold,
+    /// A multiplier is +1 and another branch crosses or ends here: with two stops alike, symmetry is lost or gained.
+    BranchPoint,
+    /// A multiplier is -1; a branch of twice the period begins or ends here.
+    Flip,
+    /// The branch ends on the one of half the period, at a flip of that.
+    Halving,
+    /// An impact has speed zero. Where the cycle goes on as a motion, with one impact more or less, so does the branch.
+    Grazing {
+        /// Whether the impact appears or disappears.
+        change: Change,
+        /// The impact of the point's cycle that disappears, or the one after which a new one appears.
+        impact: usize,
+        /// Stop of the touch.
+        side: Side,
+        /// Phase of the touch.
+        phase: f64,
+        /// Label before.
+        before: Label,
+        /// Label after.
+        after: Label,
+        /// Whether the parameter turns back here (a nonsmooth fold); if not, it goes on (persistence).
+        turns: bool,
+    },
+    /// The only impact has speed zero: beyond, the mass never touches the stop.
+    LossOfContact {
+        /// Stop of the touch.
+        side: Side,
+        /// Phase of the touch.
+        phase: f64,
+    },
+    /// Restitution 0: beyond, the mass stays on the stop after this impact.
+    Stick {
+        /// The impact of the point's cycle.
+        impact: usize,
+    },
+    /// A branch that was followed through solutions that are no motions becomes one.
+    BecomesPhysical,
+    /// The branch closed: the next point would be the first.
+    Closed,
+    /// The parameter reached this end of its range.
+    EndOfRange,
+    /// The most points were reached.
+    StepLimit,
+    /// The cycle would have more impacts than allowed: a complete chatter is near.
+    ImpactLimit,
+    /// The branch was lost: no smaller step converged.
+    NoConvergence,
+}
+
+impl BranchEvent {
+    /// Its name in tables.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::BranchPoint => "branch point",
+            Self::Flip => "flip",
+            Self::Halving => "halving",
+            Self::Grazing { .. } => "grazing",
+            Self::LossOfContact { .. } => "loss of contact",
+            Self::Stick { .. } => "stick",
+            Self::BecomesPhysical => "becomes physical",
+            Self::Closed => "closed",
+            Self::EndOfRange => "end of range",
+            Self::StepLimit => "step limit",
+            Self::ImpactLimit => "impact limit",
+            Self::NoConvergence => "no convergence",
+        }
+    }
+
+    /// Whether the branch ends with it.
+    #[must_use]
+    pub const fn ends(&self) -> bool {
+        !matches!(self, Self::Fold | Self::BranchPoint | Self::Flip | Self::Grazing { .. } | Self::BecomesPhysical)
+    }
+}

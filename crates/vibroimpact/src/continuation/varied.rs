@@ -1,0 +1,89 @@
+//! The equations of a cycle with one parameter among the unknowns.
+
+use super::arc::Equations;
+use crate::orbit::{Block, Ring, blocks, by_parameter, fill};
+use crate::system::{Oscillator, Parameter, Side};
+
+/// The equations of the cycles with a given signature - which stop each impact is on, and how many forcing periods - in
+/// the phases and speeds of the impacts and one parameter, the last unknown.
+#[derive(Clone, Debug)]
+pub(super) struct Varied {
+    osc: Oscillator,
+    parameter: Parameter,
+    sides: Vec<Side>,
+    periods: u32,
+    weights: Vec<f64>,
+    scale: f64,
+}
+
+impl Varied {
+    /// For rings like `ring`; a change of the parameter by `scale` counts as much as one of all phases by a radian.
+    pub(super) fn new(osc: &Oscillator, parameter: Parameter, ring: &Ring, scale: f64) -> Self {
+        let m = ring.len();
+        let mut weights = vec![1.0 / m as f64; 2 * m];
+        weights.push(1.0 / (scale * scale));
+        Self { osc: *osc, parameter, sides: ring.sides.clone(), periods: ring.periods, weights, scale }
+    }
+
+    /// The same for another signature.
+    pub(super) fn with(&self, ring: &Ring) -> Self {
+        Self::new(&self.osc, self.parameter, ring, self.scale)
+    }
+
+    /// Impacts.
+    pub(super) fn impacts(&self) -> usize {
+        self.sides.len()
+    }
+
+    /// The part of a tangent that changes the parameter, 1 when nothing else changes.
+    pub(super) fn pace(&self, tangent: &[f64]) -> f64 {
+        tangent.last().map_or(0.0, |p| p / self.scale)
+    }
+
+    /// The row that picks the parameter.
+    pub(super) fn parameter_row(&self) -> Vec<f64> {
+        let mut row = vec![0.0; self.weights.len()];
+        if let Some(last) = row.last_mut() {
+            *last = 1.0;
+        }
+        row
+    }
+
+    /// A ring and a parameter value as unknowns.
+    pub(super) fn join(ring: &Ring, value: f64) -> Vec<f64> {
+        let mut w = ring.unknowns.clone();
+        w.push(value);
+        w
+    }
+
+    /// The oscillator and the ring that unknowns stand for; `None` for an impossible parameter value.
+    pub(super) fn split(&self, w: &[f64]) -> Option<(Oscillator, Ring)> {
+        let (value, unknowns) = w.split_last()?;
+        let osc = self.parameter.set(&self.osc, *value).ok()?;
+        Some((osc, Ring { sides: self.sides.clone(), unknowns: unknowns.to_vec(), periods: self.periods }))
+    }
+
+    /// The flights that unknowns stand for.
+    pub(super) fn flights(&self, w: &[f64]) -> Option<(Oscillator, Ring, Vec<Block>)> {
+        let (osc, ring) = self.split(w)?;
+        let flights = blocks(&osc, &ring)?;
+        Some((osc, ring, flights))
+    }
+}
+
+impl Equations for Varied {
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let (osc, ring, flights) = self.flights(w)?;
+        let width = w.len();
+        let mut rows = vec![0.0; width * width];
+        fill(&mut rows, width, &flights);
+        for (k, slope) in by_parameter(&osc, &ring, self.parameter)?.into_iter().enumerate() {
+            rows[k * width + width - 1] = slope;
+        }
+        Some((flights.iter().flat_map(|b| b.miss).collect(), rows))
+    }
+}

@@ -1,0 +1,67 @@
+//! What is watched along a branch: functions that are smooth on it and change sign at an event.
+
+use super::varied::Varied;
+use crate::math::sin_cos;
+use crate::orbit::{Block, Floquet, Ring, closest};
+use crate::system::{Oscillator, Side};
+
+/// A watched function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Watch {
+    /// The pace of the parameter: zero where it turns.
+    Pace,
+    /// Zero where a multiplier is +1.
+    PlusOne,
+    /// Zero where a multiplier is -1.
+    MinusOne,
+    /// Speed of an impact.
+    Speed(usize),
+    /// Smallest distance to a stop between an impact and the next.
+    Clear(usize, Side),
+    /// Restitution 0: the pull away from the stop after an impact.
+    Pull(usize),
+}
+
+impl Watch {
+    /// All that is watched for the cycles of these equations.
+    pub(super) fn all(osc: &Oscillator, ring: &Ring) -> Vec<Self> {
+        let mut list = vec![Self::Pace, Self::PlusOne, Self::MinusOne];
+        for k in 0..ring.len() {
+            list.push(Self::Speed(k));
+            list.extend(osc.stops().map(|(side, _)| Self::Clear(k, side)));
+            if osc.stop(ring.side(k)).is_some_and(|stop| stop.restitution == 0.0) {
+                list.push(Self::Pull(k));
+            }
+        }
+        list
+    }
+
+    /// Whether the cycle is a motion only while this is positive.
+    pub(super) const fn needed(&self) -> bool {
+        matches!(self, Self::Speed(_) | Self::Clear(..) | Self::Pull(_))
+    }
+
+    /// Its value at a point: the tangent and the flights there.
+    pub(super) fn value(self, equations: &Varied, tangent: &[f64], at: &Place<'_>) -> f64 {
+        let Place { osc, ring, flights } = *at;
+        match self {
+            Self::Pace => equations.pace(tangent),
+            Self::PlusOne => Floquet::new(osc, ring, flights).plus_one(),
+            Self::MinusOne => Floquet::new(osc, ring, flights).minus_one(),
+            Self::Speed(k) => ring.speed(k),
+            Self::Clear(k, side) => closest(osc, ring, k, side).map_or(f64::INFINITY, |closest| closest.distance),
+            Self::Pull(k) => {
+                let gap = osc.stop(ring.side(k)).map_or(0.0, |stop| stop.gap);
+                gap - ring.side(k).sign() * sin_cos(ring.theta(k)).0
+            }
+        }
+    }
+}
+
+/// Where watched functions are evaluated.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    pub(super) osc: &'a Oscillator,
+    pub(super) ring: &'a Ring,
+    pub(super) flights: &'a [Block],
+}
