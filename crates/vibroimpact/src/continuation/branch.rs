@@ -16,6 +16,7 @@ use super::watch::{Place, Watch};
 use crate::orbit::{Cycle, Orbit, Ring, ring_cycle, solve};
 use crate::system::{Oscillator, Parameter, phase};
 use crate::verdict::Label;
+use core::f64::consts::TAU;
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 use thiserror::Error;
@@ -43,12 +44,15 @@ pub struct BranchOptions {
     pub points: u32,
     /// The most impacts a cycle may come to have; towards a complete chatter there is no end of them.
     pub impacts: u32,
+    /// Whether the signature is kept at grazing events, so that the branch goes on through solutions that are no motions.
+    pub keep_signature: bool,
 }
 
 impl Default for BranchOptions {
-    /// Steps up to 0.05, beginning with 0.002, never below 1e-9; 20 000 points, 32 impacts.
+    /// Steps up to 0.05, beginning with 0.002, never below 1e-9; 20 000 points, 32 impacts; the signature
+    /// changes where the motion asks for it.
     fn default() -> Self {
-        Self { longest: 0.05, first: 2e-3, shortest: 1e-9, points: 20_000, impacts: 32 }
+        Self { longest: 0.05, first: 2e-3, shortest: 1e-9, points: 20_000, impacts: 32, keep_signature: false }
     }
 }
 
@@ -379,7 +383,7 @@ impl Branch {
                     self.over = true;
                     return;
                 }
-            } else if watch.needed() && self.here.orbit.physical {
+            } else if watch.needed() && self.here.orbit.physical && !self.options.keep_signature {
                 if let Watch::Pull(k) = watch {
                     let impact = self.listed(&at, k);
                     self.emit(&at, BranchEvent::Stick { impact });
@@ -387,10 +391,15 @@ impl Branch {
                     return;
                 }
                 return self.graze(&happenings[n..], &at);
-            } else if watch.needed() && there.orbit.physical {
+            } else if watch.needed() && there.orbit.physical != self.here.orbit.physical {
                 let more = happenings[n + 1..].iter().any(|(_, j)| j.is_some_and(|j| self.watches[j].needed()));
-                if !more {
-                    self.emit(&at, BranchEvent::BecomesPhysical);
+                // of several the last makes it a motion, the first makes it none
+                match (there.orbit.physical, more) {
+                    (true, false) => self.emit(&at, BranchEvent::BecomesPhysical),
+                    (false, _) if !happenings[..n].iter().any(|(_, j)| j.is_some_and(|j| self.watches[j].needed())) => {
+                        self.emit(&at, BranchEvent::BecomesVirtual);
+                    }
+                    _ => {}
                 }
             }
         }
@@ -486,7 +495,11 @@ impl Branch {
         }
         let closed = self.begin.as_ref().is_some_and(|(w, along)| {
             let ahead = |h: &Here| {
-                let off: Vec<f64> = h.w.iter().zip(w).map(|(a, b)| a - b).collect();
+                let mut off: Vec<f64> = h.w.iter().zip(w).map(|(a, b)| a - b).collect();
+                // phases may have gone round
+                let turns = TAU * (off[0] / TAU).round();
+                let phases = off.len() - 1;
+                off[..phases].iter_mut().step_by(2).for_each(|theta| *theta -= turns);
                 (self.equations.dot(&off, along), self.equations.length(&off))
             };
             let ((before, _), (after, away)) = (ahead(&self.here), ahead(&there));
@@ -515,12 +528,16 @@ impl Branch {
     fn graze(&mut self, happenings: &[(f64, Option<usize>)], at: &Here) {
         let together = happenings.iter().take_while(|(s, _)| s - happenings[0].0 < TOGETHER);
         let watches: Vec<Watch> = together.filter_map(|(_, j)| j.map(|j| self.watches[j])).collect();
-        let touches: Vec<_> = watches
+        let gone: Vec<usize> =
+            watches.iter().filter_map(|w| if let Watch::Speed(k) = w { Some(*k) } else { None }).collect();
+        let mut touches: Vec<_> = watches
             .iter()
             .filter_map(|w| if let Watch::Clear(k, side) = w { Some((*k, *side)) } else { None })
             .collect();
-        let gone: Vec<usize> =
-            watches.iter().filter_map(|w| if let Watch::Speed(k) = w { Some(*k) } else { None }).collect();
+        if !gone.is_empty() {
+            // a touch at the same time is that of another turn of the cycle that is left
+            touches.clear();
+        }
         let Some((osc, ring)) = self.equations.split(&at.w) else {
             return self.finish(BranchEvent::NoConvergence);
         };

@@ -77,6 +77,8 @@ pub enum BranchEvent {
     },
     /// A branch that was followed through solutions that are no motions becomes one.
     BecomesPhysical,
+    /// A branch that keeps its signature ceases to be one of motions.
+    BecomesVirtual,
     /// The branch closed: the next point would be the first.
     Closed,
     /// The parameter reached this end of its range.
@@ -102,6 +104,7 @@ impl BranchEvent {
             Self::LossOfContact { .. } => "loss of contact",
             Self::Stick { .. } => "stick",
             Self::BecomesPhysical => "becomes physical",
+            Self::BecomesVirtual => "becomes virtual",
             Self::Closed => "closed",
             Self::EndOfRange => "end of range",
             Self::StepLimit => "step limit",
@@ -113,6 +116,14 @@ impl BranchEvent {
     /// Whether the branch ends with it.
     #[must_use]
     pub const fn ends(&self) -> bool {
-        !matches!(self, Self::Fold | Self::BranchPoint | Self::Flip | Self::Grazing { .. } | Self::BecomesPhysical)
+        !matches!(
+            self,
+            Self::Fold
+                | Self::BranchPoint
+                | Self::Flip
+                | Self::Grazing { .. }
+                | Self::BecomesPhysical
+                | Self::BecomesVirtual
+        )
     }
 }

@@ -39,7 +39,8 @@ pub struct Cycle {
     /// Floquet multipliers, the larger first. Their product is known exactly,
     /// $`\varepsilon^{2m} e^{-4\pi\zeta n/\beta}`$, and used; both are 0 with a rest.
     pub multipliers: [Multiplier; 2],
-    /// What the return after one period misses by: phase and relative velocity, the larger.
+    /// What it misses by: the return after one period in phase and relative velocity, the larger; for a cycle that was
+    /// solved for as a whole each flight at its end, in distance and velocity over the largest velocity or 1.
     pub residual: f64,
 }
 

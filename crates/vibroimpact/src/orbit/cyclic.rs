@@ -81,10 +81,10 @@ pub(crate) fn blocks(osc: &Oscillator, ring: &Ring) -> Option<Vec<Block>> {
     (0..ring.len()).map(|k| block(osc, ring, k)).collect()
 }
 
-/// By how much the flights miss, relative: distances as they are, speeds over the largest of the cycle.
+/// By how much the flights miss: distances and speeds, over the largest speed of the cycle where that exceeds 1.
 pub(crate) fn residual(ring: &Ring, blocks: &[Block]) -> f64 {
-    let fastest = (0..ring.len()).map(|k| ring.speed(k).abs()).fold(f64::MIN_POSITIVE, f64::max);
-    blocks.iter().map(|b| (b.miss[0] * b.divisor).abs().max(b.miss[1].abs() / fastest.min(1.0))).fold(0.0, f64::max)
+    let fastest = (0..ring.len()).map(|k| ring.speed(k).abs()).fold(1.0, f64::max);
+    blocks.iter().map(|b| (b.miss[0] * b.divisor).abs().max(b.miss[1].abs())).fold(0.0, f64::max) / fastest
 }
 
 /// Writes the Jacobian of all misses by all unknowns into `rows`, which is zero and has `width` numbers a row.

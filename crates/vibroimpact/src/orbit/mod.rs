@@ -7,7 +7,7 @@
 //! | Newton's method on the m-fold impact map | [`shoot`] |
 //! | cycles that stick, from their release | [`from_release`] |
 //! | the impacts of a cycle as unknowns, and their equations, smooth through grazing | `ring`, `cyclic` |
-//! | Newton's method on these equations | `newton` |
+//! | Newton's method on these equations | [`refine`], `newton` |
 //! | multipliers and test functions from them | `floquet` |
 //! | whether a solution is a motion, and how close it comes to a stop | [`earlier_contact`], `clearance` |
 //! | all orbits of a label from many seeds | [`find`] |
@@ -26,6 +26,7 @@ mod shooting;
 
 pub use cycle::{Cycle, CyclePoint, RestSpan};
 pub use find::{FindOptions, Orbit, find};
+pub use newton::refine;
 pub use one_impact::{OneImpact, one_impact};
 pub use physical::{EarlierContact, earlier_contact};
 pub use release::{DEFAULT_EVENTS, from_release};

@@ -1,0 +1,42 @@
+//! Continuation against closed forms worked out here, and against simulation.
+//!
+//! | what | file |
+//! |---|---|
+//! | one impact in n periods: orbit, multipliers, fold and doubling curves | `closed_forms` |
+//! | every event between 1/beta = 1.11, delta = 0 and loss of contact, confirmed by simulation | `line` |
+//! | a damped oscillator at resonance, down to its grazing | `grazing` |
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+mod closed_forms;
+mod grazing;
+mod line;
+
+use vibroimpact::orbit::{Cycle, CyclePoint};
+use vibroimpact::{Label, Side, motion::ImpactState};
+
+/// Random numbers, the same in every run.
+struct Random(u64);
+
+impl Random {
+    /// Between `low` and `high`.
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        low + (high - low) * (z >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A guess at a cycle with one impact on the first stop in `n` periods of length `period`.
+fn guess(phase: f64, velocity: f64, n: u32, period: f64) -> Cycle {
+    let state = ImpactState { phase: phase.rem_euclid(std::f64::consts::TAU), velocity, side: Side::Upper };
+    Cycle {
+        label: Label::new(1, n),
+        points: vec![CyclePoint { state, interval: f64::from(n) * period }],
+        rests: Vec::new(),
+        multipliers: Default::default(),
+        residual: f64::NAN,
+    }
+}
