@@ -9,10 +9,12 @@
 //! | which motions there are in the paper's plane | `map` |
 //! | a chaotic motion measured and recognised | `chaos` |
 //! | a motion with complete chatter | `chatter` |
+//! | orbits found and followed | `branch` |
 //!
 //! Where a throughput is given, an element is an impact (a flight, a start, a point of the map where the name says so).
 
 mod basin;
+mod branch;
 mod chaos;
 mod chatter;
 mod first_contact;
@@ -42,5 +44,6 @@ fn main() {
     map::bench(&mut criterion);
     chaos::bench(&mut criterion);
     chatter::bench(&mut criterion);
+    branch::bench(&mut criterion);
     criterion.final_summary();
 }
