@@ -7,19 +7,24 @@
 //! | a zero in a bracket; a cubic through four points | `root`, `interpolate` |
 //! | what is watched for a change of sign along a branch | `watch` |
 //! | a point of a branch, and what happens there | [`Point`], [`BranchEvent`] |
-//! | the branch, point by point, through its events | [`Branch`] |
-//! | the cycle on the other side of a grazing impact | `graze` |
+//! | the branch, step by step | [`Branch`], [`BranchOptions`] |
+//! | the events on a step: where and what | `events` |
+//! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
 //! | branches that begin at a flip or a branch point | `switch` |
 
 mod arc;
 mod branch;
+mod events;
 mod graze;
 mod interpolate;
+mod options;
 mod point;
 mod root;
 mod switch;
+mod touch;
 mod varied;
 mod watch;
 
-pub use branch::{Branch, BranchError, BranchOptions, Direction};
+pub use branch::Branch;
+pub use options::{BranchError, BranchOptions, Direction};
 pub use point::{BranchEvent, Change, Point};

@@ -1,7 +1,8 @@
 //! Branches that begin where a multiplier is -1 or +1.
 
 use super::arc::{Equations, correct};
-use super::branch::{Branch, BranchError, BranchOptions};
+use super::branch::Branch;
+use super::options::{BranchError, BranchOptions};
 use super::point::{BranchEvent, Point};
 use super::varied::Varied;
 use crate::orbit::{Block, Floquet, Ring, blocks, solve};

@@ -1,0 +1,65 @@
+//! How a branch is followed, and why one cannot begin.
+
+use thiserror::Error;
+
+/// Which way the parameter goes at first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// It grows.
+    Up,
+    /// It falls.
+    Down,
+}
+
+/// How a branch is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BranchOptions {
+    /// The longest step: the change of all phases together in radians, of speeds, and of the parameter in quarters of
+    /// its range.
+    pub longest: f64,
+    /// The first step, also after a grazing event.
+    pub first: f64,
+    /// A step that would have to be shorter than this ends the branch.
+    pub shortest: f64,
+    /// The most points.
+    pub points: u32,
+    /// The most impacts a cycle may come to have; towards a complete chatter there is no end of them.
+    pub impacts: u32,
+    /// Whether the signature is kept at grazing events, so that the branch goes on through solutions that are no motions.
+    pub keep_signature: bool,
+}
+
+impl Default for BranchOptions {
+    /// Steps up to 0.05, beginning with 0.002, never below 1e-9; 20 000 points, 32 impacts; the signature
+    /// changes where the motion asks for it.
+    fn default() -> Self {
+        Self { longest: 0.05, first: 2e-3, shortest: 1e-9, points: 20_000, impacts: 32, keep_signature: false }
+    }
+}
+
+/// Why a branch cannot begin.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum BranchError {
+    /// The parameter belongs to a stop that is not there.
+    #[error("{0} is a parameter of the second stop, and there is only one stop")]
+    NoSuchParameter(&'static str),
+    /// The range is not two finite numbers in order, or the value at which the branch begins lies outside.
+    #[error("the branch begins at {value}, which does not lie in the range from {low} to {high}")]
+    OutOfRange {
+        /// Where it begins.
+        value: f64,
+        /// Lower end of the range.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+    /// A cycle with a rest: it is fixed by its release and has no equations to follow.
+    #[error("a cycle that rests on a stop cannot be followed: it is determined by its release at each value anew")]
+    Rests,
+    /// Newton's method does not converge from the cycle at these parameters.
+    #[error("the cycle given does not solve its equations at these parameters")]
+    NoCycle,
+    /// Not the event that a branch was asked from.
+    #[error("no branch of that kind begins at this point")]
+    NotThere,
+}

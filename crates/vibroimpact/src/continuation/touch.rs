@@ -1,0 +1,117 @@
+//! A branch at a grazing impact: what happens, and which cycle it goes on with.
+
+use super::branch::{Branch, Here, sign};
+use super::graze::{Beyond, beyond};
+use super::point::{BranchEvent, Change};
+use super::watch::Watch;
+use crate::orbit::closest;
+use crate::system::phase;
+use crate::verdict::Label;
+
+impl Branch {
+    /// Where in the list of the point's cycle impact `k` is.
+    pub(super) fn listed(&self, at: &Here, k: usize) -> usize {
+        let points = &at.orbit.cycle.points;
+        let Some((_, ring)) = self.equations.split(&at.w) else { return k };
+        let theta = phase::wrap(ring.theta(k));
+        points.iter().position(|p| p.state.phase == theta && p.state.velocity == ring.speed(k)).unwrap_or(k)
+    }
+
+    /// A grazing event and what is beyond it: the impacts and touches of this step that happen together.
+    pub(super) fn graze(&mut self, happenings: &[(f64, Option<usize>)], at: &Here) {
+        let together = happenings.iter().take_while(|(s, _)| s - happenings[0].0 < TOGETHER);
+        let watches: Vec<Watch> = together.filter_map(|(_, j)| j.map(|j| self.watches[j])).collect();
+        let gone: Vec<usize> =
+            watches.iter().filter_map(|w| if let Watch::Speed(k) = w { Some(*k) } else { None }).collect();
+        let mut touches: Vec<_> = watches
+            .iter()
+            .filter_map(|w| if let Watch::Clear(k, side) = w { Some((*k, *side)) } else { None })
+            .collect();
+        if !gone.is_empty() {
+            // a touch at the same time is that of another turn of the cycle that is left
+            touches.clear();
+        }
+        let Some((osc, ring)) = self.equations.split(&at.w) else {
+            return self.finish(BranchEvent::NoConvergence);
+        };
+        let before = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
+        let (change, k, side) = match (touches.first(), gone.first()) {
+            (Some(&(k, side)), _) => (Change::Appears, k, side),
+            (None, Some(&k)) => (Change::Disappears, k, ring.side(k)),
+            (None, None) => return self.finish(BranchEvent::NoConvergence),
+        };
+        let phase = match change {
+            Change::Appears => {
+                let time = closest(&osc, &ring, k, side).map_or(0.0, |closest| closest.time);
+                phase::advance(phase::wrap(ring.theta(k)), osc.beta(), time)
+            }
+            Change::Disappears => phase::wrap(ring.theta(k)),
+        };
+        // where the motion without impacts just touches, all impacts of a longer cycle go at once
+        if (0..ring.len()).all(|k| ring.speed(k).abs() < AT_REST) {
+            self.emit(at, BranchEvent::LossOfContact { side, phase });
+            self.over = true;
+            return;
+        }
+        let value = self.value(at);
+        let next = beyond(&self.equations, (&osc, &ring, value), &touches, &gone, &at.tangent);
+        let Some((Beyond { equations, w, tangent, positive }, after)) = next.and_then(|next| {
+            let (_, ring) = next.equations.split(&next.w)?;
+            let label = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
+            Some((next, label))
+        }) else {
+            return self.finish(BranchEvent::NoConvergence);
+        };
+        let turns = self.equations.pace(&at.tangent) * equations.pace(&tangent) < 0.0;
+        let impact = self.listed(at, k);
+        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns };
+        let again = |(v, e): &(f64, BranchEvent)| (v - value).abs() < AGAIN * (1.0 + value.abs()) && alike(e, &event);
+        if self.grazed.iter().any(again) {
+            self.emit(at, BranchEvent::Closed);
+            self.over = true;
+            return;
+        }
+        self.grazed.push((value, event));
+        self.emit(at, event);
+        if equations.impacts() > self.options.impacts as usize {
+            self.here.w = at.w.clone();
+            self.here.orbit = at.orbit.clone();
+            return self.finish(BranchEvent::ImpactLimit);
+        }
+        let Some((osc, ring)) = equations.split(&w) else {
+            return self.finish(BranchEvent::NoConvergence);
+        };
+        let watches = Watch::all(&osc, &ring);
+        let Some(mut here) = Self::look(&equations, &watches, w, tangent) else {
+            return self.finish(BranchEvent::NoConvergence);
+        };
+        // on the verge a motion may count as none by rounding
+        here.orbit.physical = true;
+        self.signs = watches
+            .iter()
+            .zip(&here.values)
+            .map(|(watch, &value)| if positive.contains(watch) { Some(true) } else { sign(value) })
+            .collect();
+        (self.equations, self.watches, self.here) = (equations, watches, here);
+        (self.step, self.begin) = (self.options.first, None);
+    }
+}
+
+/// Whether two grazing events at the same value are the same.
+fn alike(a: &BranchEvent, b: &BranchEvent) -> bool {
+    use BranchEvent::Grazing;
+    match (a, b) {
+        (
+            Grazing { change, side, phase, before, after, .. },
+            Grazing { change: c, side: s, phase: p, before: b, after: a, .. },
+        ) => (change, side, before, after) == (c, s, b, a) && phase::difference(*phase, *p).abs() < 1e-6,
+        _ => false,
+    }
+}
+
+/// Grazes no further apart than this along the step are one event.
+const TOGETHER: f64 = 1e-9;
+/// Speeds below this at a grazing event are zero: there they are located to rounding.
+const AT_REST: f64 = 1e-6;
+/// Grazing events at values closer than this, relative, may be the same.
+const AGAIN: f64 = 1e-9;
