@@ -10,21 +10,27 @@
 //! | the branch, step by step | [`Branch`], [`BranchOptions`] |
 //! | the events on a step: where and what | `events` |
 //! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
+//! | the equations with two parameters free and a condition, and walks along their curves | `plane`, `walk` |
+//! | curves of folds, flips and grazing impacts | [`Curve`] |
 //! | branches that begin at a flip or a branch point | `switch` |
 
 mod arc;
 mod branch;
+mod curve;
 mod events;
 mod graze;
 mod interpolate;
 mod options;
+mod plane;
 mod point;
 mod root;
 mod switch;
 mod touch;
 mod varied;
+mod walk;
 mod watch;
 
 pub use branch::Branch;
+pub use curve::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
 pub use options::{BranchError, BranchOptions, Direction};
 pub use point::{BranchEvent, Change, Point};

@@ -36,19 +36,23 @@ pub(crate) fn closest(osc: &Oscillator, ring: &Ring, k: usize, side: Side) -> Op
     let time = ring.turn(k) / osc.beta();
     let sign = side.sign();
     let room = stop.gap - sign * flight.x;
-    let own = |at: usize| ring.side(at) == side && ring.speed(at) < 0.0;
-    let mut extrema = maxima(osc, &flight, time, sign);
-    if own(k) && !extrema.is_empty() {
+    let extrema = maxima(osc, &flight, time, sign);
+    let mut extrema: Vec<Closest> =
+        extrema.into_iter().map(|(time, point)| Closest { time, distance: room - sign * point.displacement }).collect();
+    let own = |at: usize, extremum: Option<&Closest>| {
+        ring.side(at) == side && ring.speed(at) < 0.0 && extremum.is_some_and(|e| e.distance < BEYOND)
+    };
+    if own(k, extrema.first()) {
         extrema.remove(0);
     }
-    if own(k + 1) {
+    if own(k + 1, extrema.last()) {
         extrema.pop();
     }
-    extrema
-        .into_iter()
-        .map(|(time, point)| Closest { time, distance: room - sign * point.displacement })
-        .min_by(|a, b| a.distance.total_cmp(&b.distance))
+    extrema.into_iter().min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
+
+/// The extremum that belongs to a virtual impact lies beyond the stop, up to rounding.
+const BEYOND: f64 = 1e-12;
 
 /// The maxima of `sign * x` strictly within a flight of length `time`.
 fn maxima(osc: &Oscillator, flight: &Flight, time: f64, sign: f64) -> Vec<(f64, Point)> {

@@ -25,16 +25,25 @@ pub(crate) struct Floquet {
     pub(crate) determinant: f64,
 }
 
+/// Sum of squares.
+fn square(matrix: &Matrix2) -> f64 {
+    matrix.0.iter().flatten().map(|x| x * x).sum()
+}
+
+/// Numbers smaller than this are not brought up to size at once.
+const LEAST: f64 = 0.1;
+
 impl Floquet {
     pub(crate) fn new(osc: &Oscillator, ring: &Ring, blocks: &[Block]) -> Self {
         let (mut turn, mut product) = (Matrix2::IDENTITY, 1.0);
         let mut determinant = exp(-2.0 * osc.damping() * TAU * f64::from(ring.periods) / osc.beta());
         for (k, block) in blocks.iter().enumerate() {
             let [[a, b], [c, d]] = block.right.0;
-            turn = Matrix2([[-d, b], [c, -a]]).times(block.left).times(turn);
-            product *= a * d - b * c;
-            let square: f64 = turn.0.iter().flatten().map(|x| x * x).sum::<f64>() + product * product;
-            let scale = 1.0 / square.sqrt().max(f64::MIN_POSITIVE);
+            // both may vanish together (resonant grazing), so what they are divided by must not be their size alone
+            let scale = 1.0 / (square(&block.left) * square(&block.right)).sqrt().max(f64::MIN_POSITIVE);
+            turn = Matrix2([[-d, b], [c, -a]].map(|row| row.map(|x| x * scale))).times(block.left).times(turn);
+            product *= (a * d - b * c) * scale;
+            let scale = 1.0 / (square(&turn) + product * product + LEAST * LEAST).sqrt();
             turn = Matrix2(turn.0.map(|row| row.map(|x| x * scale)));
             product *= scale;
             let eps = osc.stop(ring.side(k)).map_or(0.0, |stop| stop.restitution);

@@ -9,7 +9,7 @@ use vibroimpact::orbit::refine;
 use vibroimpact::{Oscillator, Parameter};
 
 /// The numbers of the closed form: steady amplitude parts, and what the flight over n periods does.
-struct Form {
+pub(crate) struct Form {
     beta: f64,
     eps: f64,
     zeta: f64,
@@ -28,7 +28,7 @@ struct Form {
 }
 
 impl Form {
-    fn new(beta: f64, eps: f64, zeta: f64, n: u32) -> Self {
+    pub(crate) fn new(beta: f64, eps: f64, zeta: f64, n: u32) -> Self {
         let period = TAU * f64::from(n) / beta;
         let wd = (1.0 - zeta * zeta).sqrt();
         let (e, c, s) = ((-zeta * period).exp(), (wd * period).cos(), (wd * period).sin());
@@ -68,14 +68,14 @@ impl Form {
     }
 
     /// Gap and speed of the fold with a positive gap-speed product `a`.
-    fn fold(&self) -> (f64, f64) {
+    pub(crate) fn fold(&self) -> (f64, f64) {
         let q = self.b / self.beta;
         let gap = self.f * (1.0 + (self.a / q).powi(2)).sqrt();
         (gap, self.a * gap / (self.a * self.a + q * q))
     }
 
     /// Gap and speed of the doubling with a positive speed.
-    fn doubling(&self) -> (f64, f64) {
+    pub(crate) fn doubling(&self) -> (f64, f64) {
         let (zeta, beta) = (self.zeta, self.beta);
         let q = (-(1.0 + self.determinant()) + 2.0 * self.eps * self.e_cos) / ((1.0 + self.eps) * self.m12);
         let rho = -(q + (1.0 - beta * beta) * self.a - 2.0 * zeta * self.b) / (beta * beta);

@@ -3,11 +3,13 @@
 //! | what | file |
 //! |---|---|
 //! | one impact in n periods: orbit, multipliers, fold and doubling curves | `closed_forms` |
+//! | curves of folds, flips and grazing impacts in the plane | `curves` |
 //! | every event between 1/beta = 1.11, delta = 0 and loss of contact, confirmed by simulation | `line` |
 //! | a damped oscillator at resonance, down to its grazing | `grazing` |
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 mod closed_forms;
+mod curves;
 mod grazing;
 mod line;
 

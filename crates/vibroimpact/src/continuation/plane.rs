@@ -1,0 +1,176 @@
+//! The equations of a cycle with two parameters among the unknowns and one condition more: curves in a plane of
+//! parameters.
+
+use super::arc::Equations;
+use crate::math::sin_cos;
+use crate::orbit::{Block, Floquet, Ring, blocks, by_parameter, closest, fill};
+use crate::system::{Oscillator, Parameter, Side};
+
+/// What holds along a curve, as the zero of a function of the cycle and the parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Condition {
+    /// A multiplier is +1.
+    PlusOne,
+    /// A multiplier is -1.
+    MinusOne,
+    /// An impact has speed zero.
+    Speed(usize),
+    /// The flight after an impact touches a stop.
+    Clear(usize, Side),
+    /// The force neither presses nor pulls the mass at an impact.
+    Pull(usize),
+    /// The trace of the linearised turn is zero, up to the factor that is zero at a grazing impact.
+    Trace,
+    /// A straight line in the plane: `a p + b q = c`.
+    Line(f64, f64, f64),
+}
+
+/// The cycles of one signature over a plane of two parameters, under a condition.
+#[derive(Clone, Debug)]
+pub(super) struct Plane {
+    osc: Oscillator,
+    parameters: (Parameter, Parameter),
+    sides: Vec<Side>,
+    periods: u32,
+    scales: (f64, f64),
+    weights: Vec<f64>,
+    pub(super) condition: Condition,
+}
+
+impl Plane {
+    /// For rings like `ring`; changes of the parameters by `scales` count as much as one of all phases by a radian.
+    pub(super) fn new(
+        osc: &Oscillator,
+        parameters: (Parameter, Parameter),
+        scales: (f64, f64),
+        ring: &Ring,
+        condition: Condition,
+    ) -> Self {
+        let m = ring.len();
+        let mut weights = vec![1.0 / m as f64; 2 * m];
+        weights.extend([1.0 / (scales.0 * scales.0), 1.0 / (scales.1 * scales.1)]);
+        Self { osc: *osc, parameters, sides: ring.sides.clone(), periods: ring.periods, scales, weights, condition }
+    }
+
+    /// A ring and values of the parameters as unknowns.
+    pub(super) fn join(ring: &Ring, (p, q): (f64, f64)) -> Vec<f64> {
+        let mut w = ring.unknowns.clone();
+        w.extend([p, q]);
+        w
+    }
+
+    /// The values of the parameters.
+    pub(super) fn values(w: &[f64]) -> (f64, f64) {
+        (w[w.len() - 2], w[w.len() - 1])
+    }
+
+    /// The same in units of the scales.
+    pub(super) fn scaled(&self, w: &[f64]) -> (f64, f64) {
+        let (p, q) = Self::values(w);
+        (p / self.scales.0, q / self.scales.1)
+    }
+
+    /// The oscillator and the ring that unknowns stand for; `None` for impossible values.
+    pub(super) fn split(&self, w: &[f64]) -> Option<(Oscillator, Ring)> {
+        let (p, q) = Self::values(w);
+        let osc = self.parameters.1.set(&self.parameters.0.set(&self.osc, p).ok()?, q).ok()?;
+        let unknowns = w[..w.len() - 2].to_vec();
+        Some((osc, Ring { sides: self.sides.clone(), unknowns, periods: self.periods }))
+    }
+
+    /// The flights that unknowns stand for.
+    pub(super) fn flights(&self, w: &[f64]) -> Option<(Oscillator, Ring, Vec<Block>)> {
+        let (osc, ring) = self.split(w)?;
+        let flights = blocks(&osc, &ring)?;
+        Some((osc, ring, flights))
+    }
+
+    /// The value of a condition.
+    pub(super) fn value(&self, condition: Condition, w: &[f64]) -> Option<f64> {
+        let (p, q) = Self::values(w);
+        Some(match condition {
+            Condition::Line(a, b, c) => a * p + b * q - c,
+            Condition::Speed(k) => w[2 * k + 1],
+            Condition::Clear(k, side) => {
+                let (osc, ring) = self.split(w)?;
+                if ring.turn(k) <= 0.0 {
+                    return None;
+                }
+                closest(&osc, &ring, k, side).map_or(f64::INFINITY, |closest| closest.distance)
+            }
+            Condition::Pull(k) => {
+                let (osc, ring) = self.split(w)?;
+                osc.stop(ring.side(k))?.gap - ring.side(k).sign() * sin_cos(ring.theta(k)).0
+            }
+            Condition::PlusOne | Condition::MinusOne | Condition::Trace => {
+                let (osc, ring, flights) = self.flights(w)?;
+                let floquet = Floquet::new(&osc, &ring, &flights);
+                match condition {
+                    Condition::PlusOne => floquet.plus_one(),
+                    Condition::MinusOne => floquet.minus_one(),
+                    _ => floquet.turn.trace(),
+                }
+            }
+        })
+    }
+
+    /// Its gradient; by differences where it is not plain, which Newton's method converges with all the same.
+    pub(super) fn gradient(&self, condition: Condition, w: &[f64]) -> Option<Vec<f64>> {
+        let mut row = vec![0.0; w.len()];
+        match condition {
+            Condition::Line(a, b, _) => {
+                row[w.len() - 2] = a;
+                row[w.len() - 1] = b;
+            }
+            Condition::Speed(k) => row[2 * k + 1] = 1.0,
+            _ => {
+                let here = self.value(condition, w)?;
+                let mut moved = w.to_vec();
+                for (i, slope) in row.iter_mut().enumerate() {
+                    let h = DIFFERENCE * (1.0 + w[i].abs());
+                    let mut at = |x: f64| {
+                        moved[i] = x;
+                        let value = self.value(condition, &moved);
+                        moved[i] = w[i];
+                        value.filter(|v| v.is_finite())
+                    };
+                    // one-sided where a parameter ends
+                    let (up, down) = (at(w[i] + h), at(w[i] - h));
+                    *slope = match (up, down) {
+                        (Some(up), Some(down)) => (up - down) / (2.0 * h),
+                        (Some(up), None) => (up - here) / h,
+                        (None, Some(down)) => (here - down) / h,
+                        (None, None) => return None,
+                    };
+                }
+            }
+        }
+        Some(row)
+    }
+}
+
+/// Relative half width of differences.
+const DIFFERENCE: f64 = 1e-6;
+
+impl Equations for Plane {
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let (osc, ring, flights) = self.flights(w)?;
+        let width = w.len();
+        let mut rows = vec![0.0; width * width];
+        fill(&mut rows, width, &flights);
+        for (column, parameter) in [(width - 2, self.parameters.0), (width - 1, self.parameters.1)] {
+            for (k, slope) in by_parameter(&osc, &ring, parameter)?.into_iter().enumerate() {
+                rows[k * width + column] = slope;
+            }
+        }
+        let mut miss: Vec<f64> = flights.iter().flat_map(|b| b.miss).collect();
+        let last = (width - 2) * width;
+        rows[last..last + width].copy_from_slice(&self.gradient(self.condition, w)?);
+        miss.push(self.value(self.condition, w)?);
+        Some((miss, rows))
+    }
+}
