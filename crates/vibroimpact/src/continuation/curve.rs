@@ -43,6 +43,15 @@ impl Frame {
         ]
     }
 
+    /// The same with each range shrunk by a share of it at either end.
+    pub(super) fn shrunk(&self, share: f64) -> Self {
+        let shrink = |r: &RangeInclusive<f64>| {
+            let by = share * (r.end() - r.start());
+            r.start() + by..=r.end() - by
+        };
+        Self { parameters: self.parameters, ranges: (shrink(&self.ranges.0), shrink(&self.ranges.1)) }
+    }
+
     /// Whether it holds a point.
     pub(super) fn holds(&self, (p, q): (f64, f64)) -> bool {
         self.ranges.0.contains(&p) && self.ranges.1.contains(&q)

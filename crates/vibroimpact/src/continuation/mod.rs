@@ -12,6 +12,7 @@
 //! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
 //! | the equations with two parameters free and a condition, and walks along their curves | `plane`, `walk` |
 //! | curves of folds, flips and grazing impacts | [`Curve`] |
+//! | where a motion exists or is stable, as polygons along these curves | [`region`] |
 //! | branches that begin at a flip or a branch point | `switch` |
 
 mod arc;
@@ -23,6 +24,7 @@ mod interpolate;
 mod options;
 mod plane;
 mod point;
+mod region;
 mod root;
 mod switch;
 mod touch;
@@ -34,3 +36,4 @@ pub use branch::Branch;
 pub use curve::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
 pub use options::{BranchError, BranchOptions, Direction};
 pub use point::{BranchEvent, Change, Point};
+pub use region::{Bound, Polygon, Region, RegionKind, RegionOptions, Vertex, region};

@@ -71,9 +71,12 @@ impl Walk {
 
     /// The next step; `None` where the curve is lost.
     pub(super) fn stride(&mut self) -> Option<Stride> {
-        let (there, length, easy) = loop {
-            if let Some((there, easy)) = self.reach(self.step) {
-                break (there, self.step, easy);
+        let (there, length, easy, crossed) = loop {
+            // a zero that is not found lies beyond something that a shorter step stays short of
+            if let Some((there, easy)) = self.reach(self.step)
+                && let Some(crossed) = self.crossings(&there, self.step)
+            {
+                break (there, self.step, easy, crossed);
             }
             self.step *= 0.5;
             if self.step < SHORTEST {
@@ -83,15 +86,20 @@ impl Walk {
         if easy {
             self.step = (1.6 * self.step).min(self.longest);
         }
+        Some(Stride { there, length, crossed })
+    }
+
+    /// Where on the step to `there` which watched functions are zero, in order.
+    fn crossings(&self, there: &Spot, length: f64) -> Option<Vec<(f64, usize)>> {
         let mut crossed = Vec::new();
         for j in 0..self.watched.len() {
             let (Some(before), Some(after)) = (self.signs[j], sign(there.values[j])) else { continue };
             if before != after {
-                crossed.push((self.zero(j, &there, length)?, j));
+                crossed.push((self.zero(j, there, length)?, j));
             }
         }
         crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Some(Stride { there, length, crossed })
+        Some(crossed)
     }
 
     /// The solution a distance `s` along the step of length `h` to `there`.

@@ -78,7 +78,12 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
         }
         let cycle = newton::cycle(osc, &ring, &flights);
         let known = orbits.iter().any(|o| o.cycle.same_as(&cycle, options.tolerance));
-        if !known && cycle.residual <= CLOSED && ring.smallest(options.tolerance).len() == m as usize {
+        // where the equations are singular (whole natural periods without damping) rest itself solves them
+        if !known
+            && cycle.fastest() > REST
+            && cycle.residual <= CLOSED
+            && ring.smallest(options.tolerance).len() == m as usize
+        {
             orbits.push(Orbit::judged(osc, cycle));
         }
     }
@@ -88,6 +93,9 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
 
 /// Flights that miss by no more than this close a cycle; what rounding leaves is usually 1e-15.
 const CLOSED: f64 = 1e-11;
+
+/// A cycle none of whose impacts is faster is no cycle.
+const REST: f64 = 1e-9;
 
 /// Arrivals spread over phase and velocity. Speeds go up to what n periods of forcing, the gap and the free response
 /// could feed, geometrically towards small ones.

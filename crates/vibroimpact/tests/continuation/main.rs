@@ -5,6 +5,7 @@
 //! | one impact in n periods: orbit, multipliers, fold and doubling curves | `closed_forms` |
 //! | curves of folds, flips and grazing impacts in the plane | `curves` |
 //! | every event between 1/beta = 1.11, delta = 0 and loss of contact, confirmed by simulation | `line` |
+//! | where 1/1 exists and where it is stable, against motions inside, outside and beside the edge | `regions` |
 //! | a damped oscillator at resonance, down to its grazing | `grazing` |
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
@@ -12,6 +13,7 @@ mod closed_forms;
 mod curves;
 mod grazing;
 mod line;
+mod regions;
 
 use vibroimpact::orbit::{Cycle, CyclePoint};
 use vibroimpact::{Label, Side, motion::ImpactState};

@@ -1,0 +1,115 @@
+//! Regions against simulation: from a start on the orbit, at points inside and outside and close to the edges.
+
+use crate::Random;
+use vibroimpact::continuation::{Bound, Frame, Region, RegionKind, RegionOptions, region};
+use vibroimpact::math::Matrix2;
+use vibroimpact::motion::{ImpactState, Mapped, derivative, impact_map};
+use vibroimpact::orbit::{FindOptions, find};
+use vibroimpact::{Label, Oscillator, Parameter};
+
+/// What simulation says about the orbits of that label here: whether one exists, and whether one is stable. Each solution
+/// is flown for a period from its first impact; it has to come back, and the derivative of the flights flown says
+/// whether a neighbour comes nearer.
+fn simulated(osc: &Oscillator, label: Label) -> (bool, bool) {
+    let (mut exists, mut stable) = (false, false);
+    for orbit in find(osc, label, FindOptions { seeds: (32, 16), ..Default::default() }) {
+        let first = orbit.cycle.points[0].state;
+        let (mut state, mut turn, mut time): (ImpactState, _, _) = (first, Matrix2::IDENTITY, 0.0);
+        for _ in 0..orbit.cycle.points.len() {
+            let Mapped::Impact { state: next, interval } = impact_map(osc, &state, Default::default()) else { break };
+            turn = derivative(osc, &state, &next, interval).times(turn);
+            (state, time) = (next, time + interval);
+        }
+        // a gentle impact is unstable and misses by what it amplifies
+        let off = (time / osc.period() - f64::from(label.periods)).abs().max((state.velocity - first.velocity).abs());
+        let flown = off < 1e-6 && state.side == first.side;
+        assert_eq!(flown, orbit.physical, "{osc:?} {orbit:?} {off:e}");
+        exists |= flown;
+        stable |= flown && turn.trace().abs() < 1.0 + turn.determinant();
+    }
+    (exists, stable)
+}
+
+struct Case {
+    osc: Oscillator,
+    label: Label,
+    frame: Frame,
+}
+
+impl Case {
+    fn at(&self, (p, q): (f64, f64)) -> Oscillator {
+        let (first, second) = self.frame.parameters;
+        second.set(&first.set(&self.osc, p).unwrap(), q).unwrap()
+    }
+
+    fn assert(&self, region: &Region, kind: RegionKind, at: (f64, f64)) -> bool {
+        let (exists, stable) = simulated(&self.at(at), self.label);
+        let expected = if kind == RegionKind::Existence { exists } else { stable };
+        assert_eq!(region.contains(at), expected, "{} {kind:?} at {at:?}", self.label);
+        expected
+    }
+
+    /// Random points of the frame, and points beside the middle of random edges.
+    fn check(&self, kind: RegionKind, count: u32) {
+        let region = region(&self.osc, self.label, kind, &self.frame, RegionOptions::default());
+        assert!(region.unresolved.is_empty(), "{:?}", region.unresolved);
+        let mut numbers = Random(7);
+        let (p, q) = (self.frame.ranges.0.clone(), self.frame.ranges.1.clone());
+        let (width, height) = (p.end() - p.start(), q.end() - q.start());
+        let mut inside = 0;
+        for _ in 0..count {
+            let at = (numbers.between(*p.start(), *p.end()), numbers.between(*q.start(), *q.end()));
+            inside += u32::from(self.assert(&region, kind, at));
+        }
+        assert!(inside > count / 20 && inside < count, "{inside}");
+        let mut beside = 0;
+        for polygon in &region.polygons {
+            for _ in 0..count {
+                let k = numbers.between(0.0, polygon.vertices.len() as f64) as usize;
+                let (a, b) = (&polygon.vertices[k], &polygon.vertices[(k + 1) % polygon.vertices.len()]);
+                let ((x, y), (u, v)) = (a.values, b.values);
+                // a thousandth of the frame to either side
+                let (dx, dy) = ((u - x) / width, (v - y) / height);
+                let length = dx.hypot(dy);
+                let off = 1e-3 * numbers.between(-1.0, 1.0).signum();
+                let at = (0.5 * (x + u) - off * width * dy / length, 0.5 * (y + v) + off * height * dx / length);
+                if p.contains(&at.0) && q.contains(&at.1) && length > 0.0 && a.bound != Bound::Frame {
+                    self.assert(&region, kind, at);
+                    beside += 1;
+                }
+            }
+        }
+        assert!(beside > count / 2, "{beside}");
+    }
+}
+
+/// The plane of the 1971 paper's figure 4.
+fn paper(label: Label) -> Case {
+    let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap();
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.4..=2.0, -1.0..=5.0) };
+    Case { osc, label, frame }
+}
+
+#[test]
+fn one_impact_a_period_in_the_papers_plane() {
+    paper(Label::new(1, 1)).check(RegionKind::Existence, 200);
+    paper(Label::new(1, 1)).check(RegionKind::Stability, 200);
+}
+
+#[test]
+fn two_impacts_a_period_in_the_papers_plane() {
+    paper(Label::new(2, 1)).check(RegionKind::Existence, 60);
+    paper(Label::new(2, 1)).check(RegionKind::Stability, 60);
+}
+
+#[test]
+fn with_damping_and_in_other_planes() {
+    let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap().with_damping(0.03).unwrap();
+    let label = Label::new(1, 1);
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.4..=2.0, -1.0..=5.0) };
+    Case { osc, label, frame }.check(RegionKind::Stability, 60);
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Damping), ranges: (0.4..=2.0, 0.0..=0.3) };
+    Case { osc, label, frame }.check(RegionKind::Existence, 60);
+    let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (-0.8..=3.0, 0.05..=0.95) };
+    Case { osc, label: Label::new(2, 1), frame }.check(RegionKind::Stability, 60);
+}
