@@ -12,7 +12,7 @@
 //! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
 //! | the equations with two parameters free and a condition, and walks along their curves | `plane`, `walk` |
 //! | curves of folds, flips and grazing impacts | [`Curve`] |
-//! | where a motion exists or is stable, as polygons along these curves | [`region`] |
+//! | where a motion exists or is stable, as polygons along these curves | [`region`], [`Region`], `round` |
 //! | branches that begin at a flip or a branch point | `switch` |
 
 mod arc;
@@ -24,8 +24,10 @@ mod interpolate;
 mod options;
 mod plane;
 mod point;
+mod polygon;
 mod region;
 mod root;
+mod round;
 mod switch;
 mod touch;
 mod varied;
@@ -36,4 +38,5 @@ pub use branch::Branch;
 pub use curve::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
 pub use options::{BranchError, BranchOptions, Direction};
 pub use point::{BranchEvent, Change, Point};
-pub use region::{Bound, Polygon, Region, RegionKind, RegionOptions, Vertex, region};
+pub use polygon::{Bound, Polygon, Region, Vertex};
+pub use region::{RegionKind, RegionOptions, region};

@@ -6,6 +6,7 @@
 //! | curves of folds, flips and grazing impacts in the plane | `curves` |
 //! | every event between 1/beta = 1.11, delta = 0 and loss of contact, confirmed by simulation | `line` |
 //! | where 1/1 exists and where it is stable, against motions inside, outside and beside the edge | `regions` |
+//! | two stops alike: symmetry lost and found | `symmetric` |
 //! | a damped oscillator at resonance, down to its grazing | `grazing` |
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
@@ -14,6 +15,7 @@ mod curves;
 mod grazing;
 mod line;
 mod regions;
+mod symmetric;
 
 use vibroimpact::orbit::{Cycle, CyclePoint};
 use vibroimpact::{Label, Side, motion::ImpactState};
@@ -22,14 +24,22 @@ use vibroimpact::{Label, Side, motion::ImpactState};
 struct Random(u64);
 
 impl Random {
-    /// Between `low` and `high`.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        low + (high - low) * (z >> 11) as f64 / (1_u64 << 53) as f64
+        z ^ (z >> 31)
+    }
+
+    /// Between `low` and `high`.
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A whole number below `count`.
+    fn below(&mut self, count: usize) -> usize {
+        usize::try_from(self.next() % count as u64).expect("it is below a usize")
     }
 }
 

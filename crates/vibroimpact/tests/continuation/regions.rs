@@ -65,7 +65,7 @@ impl Case {
         let mut beside = 0;
         for polygon in &region.polygons {
             for _ in 0..count {
-                let k = numbers.between(0.0, polygon.vertices.len() as f64) as usize;
+                let k = numbers.below(polygon.vertices.len());
                 let (a, b) = (&polygon.vertices[k], &polygon.vertices[(k + 1) % polygon.vertices.len()]);
                 let ((x, y), (u, v)) = (a.values, b.values);
                 // a thousandth of the frame to either side
