@@ -116,3 +116,34 @@ fn a_grazing_curve_bounds_a_motion() {
     }
     assert!(checked > 5, "{checked}");
 }
+
+/// The branch that leaves 1/4 by a touch turns twice; the two folds meet in a cusp. Between the fold curves there are two
+/// orbits more than beside them.
+#[test]
+fn two_folds_meet_in_a_cusp() {
+    let osc = at(1.11, 4.8, 0.5, 0.0);
+    let orbits = find(&osc, Label::new(1, 4), FindOptions::default());
+    let begin = &orbits.iter().find(|o| o.physical).unwrap().cycle;
+    let options = BranchOptions::default();
+    let branch = Branch::new(&osc, begin, Parameter::Gap, 4.0..=6.0, Direction::Down, options).unwrap();
+    let folds: Vec<Point> = branch.filter(|p| p.event == Some(BranchEvent::Fold)).collect();
+    assert_eq!(folds.len(), 2);
+    let frame = frame(1.0..=1.2, 3.0..=7.0);
+    let cusps: Vec<(f64, f64)> = folds
+        .iter()
+        .flat_map(|fold| curve(&osc, fold, &frame))
+        .filter(|p| p.event == Some(CurveEvent::Cusp))
+        .map(|p| p.values)
+        .collect();
+    let [(p, q), (r, s)] = cusps[..] else { panic!("{cusps:?}") };
+    assert!((p - r).abs() < 1e-9 && (q - s).abs() < 1e-9, "{cusps:?}");
+    let count = |inverse: f64, gap: f64| {
+        let found = find(&at(inverse, gap, 0.5, 0.0), Label::new(2, 4), FindOptions::default());
+        found.iter().filter(|o| o.physical).count()
+    };
+    let (low, high) = (folds[1].value, folds[0].value);
+    assert_eq!(count(1.11, high - 3e-3), 2 + count(1.11, high + 3e-3));
+    assert_eq!(count(1.11, low + 3e-3), 2 + count(1.11, low - 3e-3));
+    // on the other side of the cusp nothing folds
+    assert_eq!(count(p - 0.003, q - 0.02), count(p - 0.003, q + 0.02));
+}
