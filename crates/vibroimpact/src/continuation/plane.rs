@@ -11,8 +11,12 @@ use crate::system::{Oscillator, Parameter, Side};
 pub(super) enum Condition {
     /// A multiplier is +1.
     PlusOne,
+    /// The test function of a multiplier +1 has this value.
+    NearPlusOne(f64),
     /// A multiplier is -1.
     MinusOne,
+    /// Two impacts differ in speed by this, the first having more.
+    Unlike(usize, usize, f64),
     /// An impact has speed zero.
     Speed(usize),
     /// The flight after an impact touches a stop.
@@ -91,6 +95,7 @@ impl Plane {
         Some(match condition {
             Condition::Line(a, b, c) => a * p + b * q - c,
             Condition::Speed(k) => w[2 * k + 1],
+            Condition::Unlike(k, l, by) => w[2 * k + 1] - w[2 * l + 1] - by,
             Condition::Clear(k, side) => {
                 let (osc, ring) = self.split(w)?;
                 if ring.turn(k) <= 0.0 {
@@ -102,11 +107,12 @@ impl Plane {
                 let (osc, ring) = self.split(w)?;
                 osc.stop(ring.side(k))?.gap - ring.side(k).sign() * sin_cos(ring.theta(k)).0
             }
-            Condition::PlusOne | Condition::MinusOne | Condition::Trace => {
+            Condition::PlusOne | Condition::NearPlusOne(_) | Condition::MinusOne | Condition::Trace => {
                 let (osc, ring, flights) = self.flights(w)?;
                 let floquet = Floquet::new(&osc, &ring, &flights);
                 match condition {
                     Condition::PlusOne => floquet.plus_one(),
+                    Condition::NearPlusOne(value) => floquet.plus_one() - value,
                     Condition::MinusOne => floquet.minus_one(),
                     _ => floquet.turn.trace(),
                 }
@@ -123,6 +129,10 @@ impl Plane {
                 row[w.len() - 1] = b;
             }
             Condition::Speed(k) => row[2 * k + 1] = 1.0,
+            Condition::Unlike(k, l, _) => {
+                row[2 * k + 1] = 1.0;
+                row[2 * l + 1] = -1.0;
+            }
             _ => {
                 let here = self.value(condition, w)?;
                 let mut moved = w.to_vec();

@@ -7,6 +7,8 @@ pub enum Bound {
     Fold,
     /// A multiplier is -1.
     Flip,
+    /// The orbit merges with one of half its period, at a flip of that, or of more symmetry, at its branch point.
+    Merging,
     /// An impact has speed zero.
     NoSpeed,
     /// A flight touches a stop on its way.
@@ -22,6 +24,7 @@ impl Bound {
         match self {
             Self::Fold => "fold",
             Self::Flip => "flip",
+            Self::Merging => "merging",
             Self::NoSpeed => "no speed",
             Self::Touch => "touch",
             Self::Frame => "frame",
@@ -60,12 +63,20 @@ impl Polygon {
         (0..m).map(move |k| (self.vertices[k].values, self.vertices[(k + 1) % m].values))
     }
 
-    /// Whether a ray from the point to the right meets the polygon an odd number of times.
-    fn encloses(&self, (x, y): (f64, f64)) -> bool {
-        let meets = |((x0, y0), (x1, y1)): &((f64, f64), (f64, f64))| {
-            (*y0 > y) != (*y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0)
+    /// How many times it goes round a point counterclockwise.
+    fn winding(&self, (x, y): (f64, f64)) -> i32 {
+        // edges that a ray from the point to the right meets, upwards or downwards
+        let meets = |((x0, y0), (x1, y1)): ((f64, f64), (f64, f64))| {
+            let across = (y0 > y) != (y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0);
+            if !across {
+                0
+            } else if y1 > y0 {
+                1
+            } else {
+                -1
+            }
         };
-        self.edges().filter(meets).count() % 2 == 1
+        self.edges().map(meets).sum()
     }
 
     /// Distance of a point from it, lengths over `scales`.
@@ -98,8 +109,9 @@ impl Region {
         [true, false].into_iter().any(|below| self.on_sheet(point, below))
     }
 
+    /// Whether it lies on some sheet of that kind: polygons of several may overlap.
     pub(super) fn on_sheet(&self, point: (f64, f64), below: bool) -> bool {
-        self.polygons.iter().filter(|p| p.below == below && p.encloses(point)).count() % 2 == 1
+        self.polygons.iter().filter(|p| p.below == below).map(|p| p.winding(point)).sum::<i32>() > 0
     }
 }
 
@@ -114,6 +126,12 @@ mod tests {
         }
         let vertices = corners.into_iter().map(|values| Vertex { values, bound: Bound::Fold }).collect();
         Polygon { vertices, hole, below: true }
+    }
+
+    #[test]
+    fn sheets_may_overlap() {
+        let region = Region { polygons: vec![square(2.0, false), square(1.0, false)], unresolved: Vec::new() };
+        assert!(region.contains((1.5, 0.3)) && region.contains((0.2, 0.3)) && !region.contains((2.5, 0.3)));
     }
 
     #[test]

@@ -40,9 +40,9 @@ pub struct RegionOptions {
 
 impl Default for RegionOptions {
     /// A grid of 24 times 24, 24 times 12 seeds at each point; edges up to 0.02, right to
-    /// 2e-5; polygons of at most 20 000 vertices.
+    /// 2e-5; polygons of at most 6000 vertices.
     fn default() -> Self {
-        Self { grid: (24, 24), seeds: (24, 12), longest: 0.02, accuracy: 2e-5, vertices: 20_000 }
+        Self { grid: (24, 24), seeds: (24, 12), longest: 0.02, accuracy: 2e-5, vertices: 6_000 }
     }
 }
 

@@ -7,6 +7,7 @@ use super::polygon::{Bound, Vertex};
 use super::region::{INWARDS, RegionKind, RegionOptions, Seed};
 use super::walk::{Spot, Stride, Walk};
 use crate::orbit::{Floquet, blocks};
+use crate::system::Side;
 
 /// A walk round the edge of a sheet.
 pub(super) struct Round {
@@ -32,7 +33,18 @@ impl Round {
         let floquet = Floquet::new(&seed.osc, &seed.ring, &flights);
         let mut bounds: Vec<(Condition, f64, Bound)> =
             frame.edges().into_iter().map(|edge| (edge, 1.0, Bound::Frame)).collect();
-        bounds.push((Condition::PlusOne, floquet.plus_one().signum(), Bound::Fold));
+        let sheet = floquet.plus_one().signum();
+        match partner(frame, seed) {
+            // a branch point where symmetry is lost is singular; a little before it the equations are not
+            Some(Partner::Itself) => {
+                bounds.push((Condition::NearPlusOne(sheet * ASIDE * ASIDE), sheet, Bound::Fold));
+            }
+            Some(Partner::Other(faster, slower)) => {
+                bounds.push((Condition::PlusOne, sheet, Bound::Fold));
+                bounds.push((Condition::Unlike(faster, slower, ASIDE), 1.0, Bound::Merging));
+            }
+            None => bounds.push((Condition::PlusOne, sheet, Bound::Fold)),
+        }
         if kind == RegionKind::Stability {
             bounds.push((Condition::MinusOne, floquet.minus_one().signum(), Bound::Flip));
         }
@@ -192,6 +204,43 @@ fn sagitta(plane: &Plane, here: &Spot, there: &Spot) -> f64 {
     let turn = crate::math::atan2(p * s - q * r, p * r + q * s).abs();
     crate::math::hypot(u - x, v - y) * turn / 8.0
 }
+
+/// What a cycle becomes when half of it is shifted onto the other half, on the same stops or mirrored.
+enum Partner {
+    /// The same: it is symmetric.
+    Itself,
+    /// Another, which it may merge with; the impacts that differ most in speed, the faster one first.
+    Other(usize, usize),
+}
+
+/// The partner of a seed, if it can have one.
+fn partner(frame: &Frame, seed: &Seed) -> Option<Partner> {
+    use crate::system::Parameter::{Gap, Restitution, SecondGap, SecondRestitution};
+    let (ring, m) = (&seed.ring, seed.ring.len());
+    if !m.is_multiple_of(2) {
+        return None;
+    }
+    let half = m / 2;
+    let shifted = ring.periods.is_multiple_of(2) && (0..m).all(|k| ring.side(k) == ring.side(k + half));
+    let unequal = |p| matches!(p, Gap | Restitution | SecondGap | SecondRestitution);
+    let alike = seed.osc.stop(Side::Lower).is_some_and(|lower| Some(lower) == seed.osc.stop(Side::Upper))
+        && !unequal(frame.parameters.0)
+        && !unequal(frame.parameters.1);
+    let mirrored = alike && !ring.periods.is_multiple_of(2) && (0..m).all(|k| ring.side(k) != ring.side(k + half));
+    if !(shifted || mirrored) {
+        return None;
+    }
+    let more = |k: usize| ring.speed(k) - ring.speed(k + half);
+    let k = (0..m).max_by(|&a, &b| more(a).total_cmp(&more(b)))?;
+    if more(k) < 1e-6 {
+        return Some(Partner::Itself);
+    }
+    // one that is nearer to merging than the bound lies on no side of it
+    (more(k) > ASIDE).then_some(Partner::Other(k, (k + half) % m))
+}
+
+/// How far from merging, in speed, a walk stays; the parameters are off by about its square.
+const ASIDE: f64 = 1e-3;
 
 /// Frequencies beyond which a cycle does not go, each positive on the side of a seed at `at`.
 ///

@@ -113,3 +113,16 @@ fn with_damping_and_in_other_planes() {
     let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (-0.8..=3.0, 0.05..=0.95) };
     Case { osc, label: Label::new(2, 1), frame }.check(RegionKind::Stability, 60);
 }
+
+/// Where an orbit merges with one of half its period, or loses its symmetry between two stops alike, its equations are
+/// singular.
+#[test]
+fn orbits_that_merge_with_others() {
+    let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap();
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.9..=1.3, 1.0..=4.0) };
+    Case { osc, label: Label::new(2, 2), frame: frame.clone() }.check(RegionKind::Existence, 60);
+    Case { osc, label: Label::new(2, 2), frame }.check(RegionKind::Stability, 60);
+    let two = Oscillator::new(1.3, 0.4, 0.8).unwrap().with_damping(0.05).unwrap().with_second_stop(0.4, 0.8).unwrap();
+    let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (0.5..=2.0, 0.1..=2.0) };
+    Case { osc: two, label: Label::new(2, 1), frame }.check(RegionKind::Existence, 60);
+}
