@@ -7,12 +7,13 @@
 //! | Newton's method on the m-fold impact map | [`shoot`] |
 //! | cycles that stick, from their release | [`from_release`] |
 //! | the impacts of a cycle as unknowns, and their equations, smooth through grazing | `ring`, `cyclic` |
-//! | Newton's method on these equations | [`refine`], `newton` |
+//! | Newton's method on these equations, and their linear systems | [`refine`], `newton`, `condense` |
 //! | multipliers and test functions from them | `floquet` |
 //! | whether a solution is a motion, and how close it comes to a stop | [`earlier_contact`], `clearance` |
 //! | all orbits of a label from many seeds | [`find`] |
 
 mod clearance;
+mod condense;
 mod cycle;
 mod cyclic;
 mod find;

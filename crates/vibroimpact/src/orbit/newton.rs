@@ -1,11 +1,11 @@
 //! Newton's method on the equations of a cycle at fixed parameters.
 
 use super::Orbit;
+use super::condense::correction;
 use super::cycle::{Cycle, CyclePoint};
-use super::cyclic::{Block, blocks, fill, residual};
+use super::cyclic::{Block, blocks, residual};
 use super::floquet::Floquet;
 use super::ring::Ring;
-use crate::math::Lu;
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, phase};
 use crate::verdict::Label;
@@ -20,13 +20,9 @@ const PATIENCE: u32 = 10;
 
 /// The solution of the equations of a cycle near `ring`, with its last flights; `None` if none is reached.
 pub(crate) fn solve(osc: &Oscillator, mut ring: Ring) -> Option<(Ring, Vec<Block>)> {
-    let width = 2 * ring.len();
     for step in 0..MAX_STEPS {
         let flights = blocks(osc, &ring)?;
-        let mut rows = vec![0.0; width * width];
-        fill(&mut rows, width, &flights);
-        let mut change: Vec<f64> = flights.iter().flat_map(|b| b.miss).map(|miss| -miss).collect();
-        Lu::new(rows, width)?.solve(&mut change);
+        let change = correction(&flights)?;
         let size = change.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
         if !size.is_finite() || (step >= PATIENCE && size > HOPELESS) {
             return None;
