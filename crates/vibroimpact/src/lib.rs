@@ -42,9 +42,8 @@
 //! | what a motion settles into, attractors and their shares | [`verdict`] |
 //! | many motions side by side | [`lanes`], [`verdict::settle_many`] |
 //! | periodic orbits, stable or not | [`orbit`] |
-//! | Lyapunov exponents, dimension, sections of an attractor | [`chaos`] |
 //! | how they change with a parameter, and what ends or changes them | [`continuation`] |
-//! | Lyapunov exponents | [`chaos`] |
+//! | Lyapunov exponents, dimension, sections of an attractor | [`chaos`] |
 //! | the points of the 1971 paper | [`scenario`] |
 //!
 //! # Units
