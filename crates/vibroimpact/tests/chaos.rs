@@ -274,6 +274,6 @@ fn a_budget_that_runs_out_says_so() {
     let osc = scenario::U.oscillator();
     let options = ExponentOptions { max_steps: 5_000, ..ExponentOptions::default() };
     let found = exponents(&osc, Start::at_rest(&osc), &options);
-    assert!(matches!(found.grounds, Grounds::Undecided { impacts: 100..5000 }), "{found:?}");
+    assert!(matches!(found.grounds, Grounds::Undecided { impacts: 100..=5000 }), "{found:?}");
     assert!(found.exponents[0].value.is_nan() && found.impacts_per_period.value.is_nan());
 }

@@ -25,8 +25,29 @@ pub struct Spectrum {
     pub exponents: [Measured; 2],
     /// Impacts per forcing period.
     pub impacts_per_period: Measured,
-    /// Where the run ended.
+    /// How long the run was.
+    pub time: f64,
+    /// Where it ended.
     pub last: ImpactState,
+}
+
+/// The most that a transient can have stretched: from a distance of one rounding, $`2^{-53}`$ (a factor $`e^{36.7}`$), to the size of
+/// the motion, and a little. A motion that leaves an unstable cycle slowly diverges for as long as that takes, steadily enough
+/// for a narrow error bar.
+const TRANSIENT: f64 = 40.0;
+
+impl Spectrum {
+    /// Whether neighbours part: the larger exponent exceeds its error bar.
+    #[must_use]
+    pub fn diverges(&self) -> bool {
+        self.exponents[0].value > self.exponents[0].error
+    }
+
+    /// Whether they part for good: by more, over the whole run, than a motion can on its way from an unstable cycle to a stable one.
+    #[must_use]
+    pub fn chaotic(&self) -> bool {
+        self.diverges() && self.exponents[0].value * self.time > TRANSIENT
+    }
 }
 
 /// How far each flight is followed: a motion with longer ones is not one whose exponents can be measured.
@@ -126,7 +147,8 @@ impl Measure {
         };
         let exponents = [of(0, 1.0), of(1, 1.0)];
         let impacts_per_period = of(2, osc.period());
-        exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, last: self.state })
+        let time = self.blocks.iter().map(|(_, t)| t).sum();
+        exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, time, last: self.state })
     }
 }
 

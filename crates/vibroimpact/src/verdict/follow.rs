@@ -41,6 +41,8 @@ impl Releases {
     }
 }
 
+/// How many times longer the exponents are measured before a divergence too small to tell is left undecided.
+const LONGER: u32 = 8;
 /// Impacts between looks for a recurrence, while there are few; later an eighth of those there are, so that the looks
 /// into a long chaotic motion stay cheap.
 const LOOK: usize = 16;
@@ -149,17 +151,17 @@ impl Follow {
 
     /// The verdict when the budget is spent: a last look, where the transient is as far gone as it will be.
     pub(super) fn last_look(&self, osc: &Oscillator, options: &SettleOptions) -> Verdict {
-        let last = self.impacts.last().and_then(|(state, _)| lyapunov(osc, *state, options.chaos_over));
+        let measured = |impacts| self.impacts.last().and_then(|(state, _)| lyapunov(osc, *state, impacts));
+        let mut last = measured(options.chaos_over);
+        // weak chaos shows in a longer run, and so does a slow transient
+        if last.is_some_and(|found| found.diverges() && !found.chaotic()) {
+            last = measured(options.chaos_over.saturating_mul(LONGER));
+        }
         match last.or(self.spectrum.flatten()) {
-            Some(found) if chaotic(&found) => Verdict::Chaotic(found),
+            Some(found) if found.chaotic() => Verdict::Chaotic(found),
             spectrum => Verdict::Undecided(Undecided::Impacts { impacts: self.impacts.len() as u64, spectrum }),
         }
     }
-}
-
-/// Whether the larger exponent exceeds its error bar.
-pub(super) fn chaotic(spectrum: &Spectrum) -> bool {
-    spectrum.exponents[0].value > spectrum.exponents[0].error
 }
 
 /// The verdict on a motion that came to an end.

@@ -9,11 +9,11 @@
 
 use super::Found;
 use super::attractors::SAME;
-use super::follow::{Follow, Releases, chaotic, ended};
+use super::follow::{Follow, Releases, ended};
 use super::outcome::Verdict;
 use super::settle::{Drive, SettleOptions, settle, settle_knowing};
 use super::trap::Trap;
-use crate::chaos::{self, Measure, lyapunov};
+use crate::chaos::{self, Measure, Spectrum, lyapunov};
 use crate::flight::Contact;
 use crate::lanes::{ABREAST, Batch, Width};
 use crate::motion::{End, ImpactState, Motion};
@@ -288,11 +288,11 @@ impl Pool<'_> {
     }
 
     /// The exponents are measured: chaotic, or the motion goes on from where the measurement began.
-    fn measured(&mut self, slot: u32, spectrum: Option<chaos::Spectrum>) {
+    fn measured(&mut self, slot: u32, spectrum: Option<Spectrum>) {
         let track = &mut self.tracks[slot as usize];
         let Some((_, from)) = track.measure.take() else { return };
         track.follow.spectrum = Some(spectrum);
-        if let Some(found) = spectrum.filter(chaotic) {
+        if let Some(found) = spectrum.filter(Spectrum::chaotic) {
             self.followed(slot, Verdict::Chaotic(found));
             return;
         }

@@ -11,13 +11,14 @@
 //!   cycle is physical by construction;
 //! - **periodic with a stick**: what follows a release is one motion, so a release that leads back to itself is a proof
 //!   by itself ([`from_release`]); the multipliers are 0;
-//! - **chaotic**: the largest Lyapunov exponent exceeds its error bar of three standard errors;
+//! - **chaotic**: the largest Lyapunov exponent exceeds its error bar of three standard errors, and neighbours have parted by more than
+//!   they can on the way from an unstable cycle to a stable one ([`Spectrum::chaotic`](crate::chaos::Spectrum::chaotic));
 //! - **stuck**: the force will never lift the mass again;
 //! - **undecided**: none of these within the budget; what was tried is in the verdict.
 
-use super::follow::{Follow, Releases, chaotic, ended};
+use super::follow::{Follow, Releases, ended};
 use super::outcome::Verdict;
-use crate::chaos::lyapunov;
+use crate::chaos::{Spectrum, lyapunov};
 use crate::flight::SearchLimits;
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Start};
@@ -142,7 +143,7 @@ impl Drive<'_> {
             if follow.wants_measure(options) {
                 let spectrum = lyapunov(osc, state, options.chaos_over);
                 follow.spectrum = Some(spectrum);
-                if let Some(found) = spectrum.filter(chaotic) {
+                if let Some(found) = spectrum.filter(Spectrum::chaotic) {
                     return Some(Verdict::Chaotic(found));
                 }
             }
@@ -160,6 +161,20 @@ mod tests {
     use crate::scenario;
     use crate::system::Side;
     use crate::verdict::{Count, Label, NoImpact};
+
+    #[test]
+    fn a_slow_departure_is_not_chaos() {
+        // just past its doubling 1/1 is left at a rate of 1e-4, steadily; 2/2 is stable
+        let osc = Oscillator::from_inverse_beta(1.11, 1.83, 0.5).unwrap();
+        let cycle = &crate::orbit::one_impact(&osc, 1).into_iter().find(|orbit| orbit.physical).unwrap().cycle;
+        let beside = cycle.points[0].state;
+        let start = Start { v: -0.5 * (beside.velocity + 1e-3), ..beside.rebound(&osc) };
+        let options = SettleOptions::default();
+        let measured = lyapunov(&osc, beside, options.chaos_over).unwrap();
+        let passing = lyapunov(&osc, ImpactState { velocity: beside.velocity + 1e-3, ..beside }, options.chaos_over);
+        assert!(measured.diverges() && passing.is_some_and(|found| found.diverges() && !found.chaotic()));
+        assert_eq!(settle(&osc, start, &options).verdict.label(), "2/2");
+    }
 
     #[test]
     fn the_papers_points_from_rest() {
