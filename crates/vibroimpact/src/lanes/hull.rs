@@ -35,7 +35,8 @@ pub(super) const MARGIN: f64 = 1e-12;
 /// $`6u`$ to sine and cosine and $`11u\,(|x| + |v| + 3/2)`$ to position and velocity, which the free motion passes on
 /// without growth but for a factor $`\sqrt2`$ between the two; an error of the force adds up to itself at each step, near
 /// resonance in step with the motion, and makes $`3u n^2`$ of $`n`$ steps. Over the 64 steps at most that is below
-/// $`230u\,n\,(1 + |x| + |v|)`$.
+/// $`230u\,n\,(1 + |x| + |v|)`$. One step more is counted than was taken: for the step itself, and for the hull of the launch, some
+/// $`50u`$ in single precision.
 const ROUGH: f64 = 1.4e-5;
 
 /// What an arc is made of, its ends left aside.

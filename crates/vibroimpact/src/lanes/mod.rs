@@ -17,6 +17,8 @@
 //! [`Motion`](crate::motion::Motion) runs on its scalar instance. Lanes and scalar agree bit for bit, because every lane
 //! operation is one IEEE operation on each number by itself.
 
+#[cfg(test)]
+mod agreement;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]

@@ -20,9 +20,9 @@ pub enum Width {
     Scalar,
     /// Four, in whatever vectors the target has at compile time.
     Portable,
-    /// Eight as two registers of four; needs AVX2.
+    /// Sixteen as four registers of four; needs AVX2, and the bit instructions that came with it.
     Avx2,
-    /// Eight in a register; needs AVX-512.
+    /// Sixteen as two registers of eight; needs AVX-512 (F, DQ, VL).
     Avx512,
 }
 
@@ -36,10 +36,18 @@ impl Width {
         match self {
             Self::Scalar | Self::Portable => true,
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 => std::arch::is_x86_feature_detected!("avx2"),
+            Self::Avx2 => {
+                std::arch::is_x86_feature_detected!("avx2")
+                    && std::arch::is_x86_feature_detected!("bmi1")
+                    && std::arch::is_x86_feature_detected!("bmi2")
+                    && std::arch::is_x86_feature_detected!("popcnt")
+            }
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 => {
-                std::arch::is_x86_feature_detected!("avx512f") && std::arch::is_x86_feature_detected!("avx512dq")
+                Self::Avx2.available()
+                    && std::arch::is_x86_feature_detected!("avx512f")
+                    && std::arch::is_x86_feature_detected!("avx512dq")
+                    && std::arch::is_x86_feature_detected!("avx512vl")
             }
             #[cfg(not(target_arch = "x86_64"))]
             Self::Avx2 | Self::Avx512 => false,
