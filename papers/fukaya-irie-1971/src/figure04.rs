@@ -6,19 +6,17 @@ mod draw;
 pub(crate) use draw::cells;
 
 use crate::claims::Section;
-use crate::contour::Nodes;
 use crate::folder::Csv;
 use crate::grid::Grid;
-use crate::regions::{Region, Seed, regions};
+use crate::regions::{Region, Window, outlines, regions};
 use crate::search::{self, Part};
 use crate::{Error, Run};
-use vibroimpact::verdict::Verdict;
 use vibroimpact::{Label, scenario};
 
 /// What figure 4 found besides its grid.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
-    /// 1/1 to 6/1, then 1/2.
+    /// 1/1 to 3/1, 1/2, 4/1 to 6/1; of the first four where they exist too.
     pub(crate) regions: Vec<Region>,
     pub(crate) lower_left: Part,
     pub(crate) right: Part,
@@ -33,17 +31,20 @@ impl Plane {
 
 /// Orders followed by theory.
 const ORDERS: u32 = 6;
-/// The window of the regions: the cells of the grid from end to end. Its nodes avoid 1/beta = 1/2, 1, 3/2, 2, where one
-/// or another closed form is singular on a line without width.
+/// Labels whose existence is followed too.
+const DRAWN: usize = 4;
+/// The window of the figure: the cells of the grid from end to end.
 const X: (f64, f64) = (0.375, 2.025);
-/// The regions end where the paper's grid does; 1/beta = 2 itself is singular, see above.
+/// The regions end where the paper's grid does. 1/beta = 2 itself is left out: there the free motion has twice the
+/// frequency of the force, and without damping the equations of an orbit are singular.
 const X_REGIONS: (f64, f64) = (0.375, 1.999);
 const GAP: (f64, f64) = (-0.0625, 5.0625);
 
 pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<Plane, Error> {
-    let nodes = Nodes { x: X_REGIONS, y: GAP, nx: run.size(652, 112), ny: run.size(821, 138) };
-    let labels: Vec<Label> = (1..=ORDERS).map(|m| Label::new(m, 1)).chain([Label::new(1, 2)]).collect();
-    let regions = regions(run, &nodes, &labels, &seeds(grid))?;
+    let orders = (1..=ORDERS).map(|m| Label::new(m, 1));
+    // the drawn ones first
+    let labels: Vec<Label> = orders.clone().take(3).chain([Label::new(1, 2)]).chain(orders.skip(3)).collect();
+    let regions = regions(run, Window { x: X_REGIONS, gap: GAP }, &labels, DRAWN)?;
     let lower_left = search::lower_left(run)?;
     let right = search::right(run)?;
     let plane = Plane { regions, lower_left, right };
@@ -65,7 +66,9 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<Plane, Error> {
         format!(
             "The plane of 1/beta and delta in the paper's steps{}, {} starts at each point, the first at rest, the second \
              on the free motion where it clears the wall, the others spread over positions, velocities and phases. Each cell has the colours of the motions found there. Lines: \
-             where theory has a stable, possible motion 1/1, 2/1, 3/1 and 1/2. Dashed: |f|, the amplitude without a wall.",
+             where theory has a stable, possible motion 1/1, 2/1, 3/1 and 1/2; dotted where it exists but is unstable. These are \
+             curves of folds, of period doublings, and of impacts that lose their speed or come to be by a touch. Dashed: |f|, the \
+             amplitude without a wall.",
             if run.quick { " doubled (quick run)" } else { " 0.05 and 0.125" },
             grid.starts
         ),
@@ -80,21 +83,6 @@ pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<Plane, Error> {
     Ok(plane)
 }
 
-/// The cycles of the grid, to follow over the plane.
-fn seeds(grid: &Grid) -> Vec<Seed> {
-    let mut seeds = Vec::new();
-    for point in &grid.points {
-        for found in &point.motions {
-            if let Verdict::Periodic(cycle) = &found.verdict
-                && let Some(first) = cycle.points.first()
-            {
-                seeds.push(Seed { label: cycle.label, at: (point.inverse_beta, point.gap), state: first.state });
-            }
-        }
-    }
-    seeds
-}
-
 /// |f| at 1/beta.
 fn free_amplitude(inverse_beta: f64) -> f64 {
     let beta = 1.0 / inverse_beta;
@@ -103,19 +91,23 @@ fn free_amplitude(inverse_beta: f64) -> f64 {
 
 fn curves(plane: &Plane) -> Csv {
     let mut csv = Csv::new(
-        "Figure 4: outlines of the regions with a stable orbit, and the amplitude |f| without a wall; one line per part",
-        "curve,part,inverse_beta,delta",
+        "Figure 4: what bounds the regions in which an orbit is stable and in which it exists, one line per part, the bound \
+         being that of the piece before a point; and the amplitude |f| without a wall",
+        "curve,region,part,bound,inverse_beta,delta",
     );
     for region in &plane.regions {
-        for (part, line) in region.outlines.iter().enumerate() {
-            for (x, gap) in line {
-                csv.row(&[&region.label, &part, x, gap]);
+        for (kind, found) in [("stable", Some(&region.stable)), ("exists", region.exists.as_ref())] {
+            let lines = found.iter().flat_map(|found| found.polygons.iter().flat_map(outlines));
+            for (part, line) in lines.enumerate() {
+                for ((x, gap), bound) in line {
+                    csv.row(&[&region.label, &kind, &part, &bound.name(), &x, &gap]);
+                }
             }
         }
     }
     for (part, line) in draw::amplitude().iter().enumerate() {
         for (x, gap) in line {
-            csv.row(&[&"amplitude", &part, x, gap]);
+            csv.row(&[&"amplitude", &"", &part, &"", x, gap]);
         }
     }
     csv

@@ -28,7 +28,6 @@ mod basins;
 mod below_zero;
 mod claims;
 mod conclusions;
-mod contour;
 mod error;
 mod figure02;
 mod figure03;

@@ -1,157 +1,164 @@
-//! Where the simple orbits are stable, from theory: which points of the plane have a stable, possible orbit of a label.
-//!
-//! One impact in n forcing periods has a closed form ([`one_impact`]). For m impacts in one period Newton's method is
-//! followed from node to node of a grid, from the orbits that settling found: a node is inside when the orbit of a
-//! neighbour leads to a stable orbit of the same label there. Between an inner and an outer node the border is found by
-//! bisection, the orbit being carried along.
+//! Where the simple orbits are stable and where they exist at all, from theory: the regions of [`region`], polygons along
+//! the curves where an orbit folds, doubles its period, loses an impact or gains one.
 
-use crate::contour::{Nodes, bisect, outlines};
 use crate::{EPS, Error, Run};
-use vibroimpact::motion::ImpactState;
-use vibroimpact::orbit::{one_impact, shoot};
+use vibroimpact::continuation::{self, Bound, Frame, Polygon, RegionKind, RegionOptions, region};
+use vibroimpact::orbit::{FindOptions, find};
 use vibroimpact::verdict::Count;
-use vibroimpact::{Label, Oscillator};
+use vibroimpact::{Label, Oscillator, Parameter};
 use vibroimpact_study::tiles;
+
+/// The window that is searched: 1/beta and the gap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Window {
+    pub(crate) x: (f64, f64),
+    pub(crate) gap: (f64, f64),
+}
 
 /// The region of a label.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
     pub(crate) label: Label,
-    pub(crate) outlines: Vec<Vec<(f64, f64)>>,
-    /// Its part of the window.
+    /// Where it is stable.
+    pub(crate) stable: continuation::Region,
+    /// Where it exists, stable or not, for the labels that were asked for.
+    pub(crate) exists: Option<continuation::Region>,
+    /// The part of the window, above gap 0, in which it is stable.
     pub(crate) area: f64,
     /// The mean gap over it, and the lowest and highest.
     pub(crate) mean_gap: f64,
     pub(crate) gaps: (f64, f64),
-    /// The grid it was found on and, where Newton's method followed it, the orbit at each node.
-    nodes: Nodes,
-    states: Vec<Option<ImpactState>>,
+    window: Window,
 }
 
 impl Region {
-    /// Whether a stable, possible orbit of this label is known at the point itself.
+    /// Whether a stable orbit of this label is possible at a point; beside the window the point itself is asked.
     pub(crate) fn holds(&self, inverse_beta: f64, gap: f64) -> bool {
-        if self.label.impacts == Label::new(1, 1).impacts {
-            return closed_at((inverse_beta, gap), self.label);
+        if inverse_beta <= self.window.x.1 {
+            return self.stable.contains((inverse_beta, gap));
         }
-        let k = self.nodes.nearest(inverse_beta, gap);
-        core::iter::once(k)
-            .chain(self.nodes.neighbours(k))
-            .filter_map(|node| self.states.get(node).copied().flatten())
-            .any(|guess| followed_at((inverse_beta, gap), self.label, guess).is_some())
+        Oscillator::from_inverse_beta(inverse_beta, gap, EPS).is_ok_and(|osc| {
+            find(&osc, self.label, FindOptions::default()).iter().any(|orbit| orbit.physical && orbit.cycle.stable())
+        })
     }
 }
 
-/// An orbit some run settled into: where, and one of its impacts.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Seed {
-    pub(crate) label: Label,
-    pub(crate) at: (f64, f64),
-    pub(crate) state: ImpactState,
-}
-
-/// The regions of these labels in the window, in the order asked for.
-pub(crate) fn regions(run: &Run<'_>, nodes: &Nodes, labels: &[Label], seeds: &[Seed]) -> Result<Vec<Region>, Error> {
-    run.stage("figure 4: regions from theory", labels.len() as u64)?;
-    let parts = tiles(labels.len() as u64, 1, run.control, |range, tick| {
+/// The regions of these labels, in the order asked for; existence of the first `both` of them.
+pub(crate) fn regions(run: &Run<'_>, window: Window, labels: &[Label], both: usize) -> Result<Vec<Region>, Error> {
+    let stable = labels.iter().map(|label| (*label, RegionKind::Stability));
+    let jobs: Vec<_> = stable.chain(labels[..both].iter().map(|label| (*label, RegionKind::Existence))).collect();
+    run.stage("figure 4: regions from theory", jobs.len() as u64)?;
+    let options = RegionOptions { longest: run.size(0.02, 0.05), ..RegionOptions::default() };
+    // the regions of high orders are low: more rows there, and fewer seeds
+    let (plain, fine) = run.size(((24, 24), (24, 48)), ((12, 12), (12, 24)));
+    let of = |label: Label| {
+        if label.impacts > Count::Finite(3) {
+            RegionOptions { grid: fine, seeds: (16, 8), ..options }
+        } else {
+            RegionOptions { grid: plain, ..options }
+        }
+    };
+    // 1/beta and the gap vary, so those given here count for nothing
+    let osc = Oscillator::from_inverse_beta(window.x.0, 0.0, EPS)?;
+    let frame = Frame {
+        parameters: (Parameter::InverseBeta, Parameter::Gap),
+        ranges: (window.x.0..=window.x.1, window.gap.0..=window.gap.1),
+    };
+    let parts = tiles(jobs.len() as u64, 1, run.control, |range, tick| {
         let mut found = Vec::new();
         for k in range {
             #[allow(clippy::cast_possible_truncation)] // a handful
-            let label = labels[k as usize];
-            let stopped = || run.control.stop.load(std::sync::atomic::Ordering::Relaxed);
-            found.push(if label.impacts == Label::new(1, 1).impacts {
-                closed(nodes, label, stopped)
-            } else {
-                followed(nodes, label, seeds, stopped)
-            });
-            tick();
+            let (label, kind) = jobs[k as usize];
+            found.push(region(&osc, label, kind, &frame, of(label)));
+            if tick() {
+                break;
+            }
         }
         found
     })?;
-    Ok(parts.into_iter().flatten().collect())
+    let mut found: Vec<_> = parts.into_iter().flatten().collect();
+    let mut exists = found.split_off(labels.len()).into_iter();
+    Ok(labels.iter().zip(found).map(|(label, stable)| measured(*label, stable, exists.next(), window)).collect())
 }
 
-fn system((inverse_beta, gap): (f64, f64)) -> Option<Oscillator> {
-    Oscillator::from_inverse_beta(inverse_beta, gap, EPS).ok()
-}
-
-fn closed_at(at: (f64, f64), label: Label) -> bool {
-    system(at)
-        .is_some_and(|osc| one_impact(&osc, label.periods).iter().any(|orbit| orbit.physical && orbit.cycle.stable()))
-}
-
-fn followed_at(at: (f64, f64), label: Label, guess: ImpactState) -> Option<ImpactState> {
-    let Count::Finite(m) = label.impacts else {
-        return None;
-    };
-    let cycle = shoot(&system(at)?, guess, m, label.periods).ok()?;
-    (cycle.label == label && cycle.stable()).then(|| cycle.points[0].state)
-}
-
-/// One impact in n periods.
-fn closed(nodes: &Nodes, label: Label, stopped: impl Fn() -> bool) -> Region {
-    let ask = |x: f64, gap: f64| !stopped() && closed_at((x, gap), label);
-    let inside: Vec<bool> = (0..nodes.count()).map(|k| ask(nodes.at(k).0, nodes.at(k).1)).collect();
-    let lines = outlines(nodes, &inside, |a, b| bisect(nodes.at(a), nodes.at(b), ask));
-    region(nodes, label, (&inside, Vec::new()), lines)
-}
-
-/// How often a node is tried from different neighbours before it counts as outside.
-const TRIES: u8 = 3;
-
-/// m impacts in n periods, by Newton's method from node to node.
-fn followed(nodes: &Nodes, label: Label, seeds: &[Seed], stopped: impl Fn() -> bool) -> Region {
-    let orbit = |at, guess| followed_at(at, label, guess);
-    let mut states: Vec<Option<ImpactState>> = vec![None; nodes.count()];
-    let mut tries = vec![0_u8; nodes.count()];
-    let mut front: std::collections::VecDeque<(usize, ImpactState)> = seeds
-        .iter()
-        .filter(|seed| seed.label == label)
-        .map(|seed| (nodes.nearest(seed.at.0, seed.at.1), seed.state))
-        .collect();
-    while let Some((k, guess)) = front.pop_front() {
-        if states[k].is_some() || tries[k] >= TRIES || stopped() {
-            continue;
-        }
-        tries[k] += 1;
-        let Some(state) = orbit(nodes.at(k), guess) else {
-            continue;
-        };
-        states[k] = Some(state);
-        front.extend(nodes.neighbours(k).map(|next| (next, state)));
-    }
-    let inside: Vec<bool> = states.iter().map(Option::is_some).collect();
-    let lines = outlines(nodes, &inside, |a, b| {
-        let mut last = states[a];
-        bisect(nodes.at(a), nodes.at(b), |x, gap| {
-            let next = last.and_then(|guess| orbit((x, gap), guess));
-            last = next.or(last);
-            next.is_some()
-        })
-    });
-    region(nodes, label, (&inside, states), lines)
-}
-
-/// The measures of a region, over the nodes with a gap that is not negative.
-fn region(
-    nodes: &Nodes,
+/// The measures of a region: area and mean gap over what lies above gap 0, by Green's theorem. Gaps below 0 are raised
+/// to 0, which leaves no area there.
+fn measured(
     label: Label,
-    (inside, states): (&[bool], Vec<Option<ImpactState>>),
-    outlines: Vec<Vec<(f64, f64)>>,
+    stable: continuation::Region,
+    exists: Option<continuation::Region>,
+    window: Window,
 ) -> Region {
-    let (mut count, mut total, mut sum) = (0.0, 0.0, 0.0);
+    let (mut area, mut moment) = (0.0, 0.0);
     let mut gaps = (f64::INFINITY, f64::NEG_INFINITY);
-    for (k, inside) in inside.iter().enumerate() {
-        let gap = nodes.at(k).1;
-        if gap < 0.0 {
-            continue;
-        }
-        total += 1.0;
-        if *inside {
-            count += 1.0;
-            sum += gap;
-            gaps = (gaps.0.min(gap), gaps.1.max(gap));
+    for polygon in &stable.polygons {
+        let raised: Vec<(f64, f64)> = polygon.vertices.iter().map(|v| (v.values.0, v.values.1.max(0.0))).collect();
+        for (k, (x, gap)) in raised.iter().enumerate() {
+            let (u, next) = raised[(k + 1) % raised.len()];
+            area += 0.5 * (x * next - u * gap);
+            moment += (x * next - u * gap) * (gap + next) / 6.0;
+            gaps = (gaps.0.min(*gap), gaps.1.max(*gap));
         }
     }
-    Region { label, outlines, area: count / total, mean_gap: sum / count, gaps, nodes: *nodes, states }
+    let whole = (window.x.1 - window.x.0) * window.gap.1;
+    Region { label, stable, exists, area: area / whole, mean_gap: moment / area, gaps, window }
+}
+
+/// The parts of a polygon's edge that are no part of the frame, each with the bounds along it.
+pub(crate) fn outlines(polygon: &Polygon) -> Vec<Vec<((f64, f64), Bound)>> {
+    let vertices = &polygon.vertices;
+    let m = vertices.len();
+    // begin where the frame is left, so that no line is cut in two
+    let begin = (0..m).find(|&k| vertices[k].bound != Bound::Frame && vertices[(k + m - 1) % m].bound == Bound::Frame);
+    let mut lines: Vec<Vec<((f64, f64), Bound)>> = Vec::new();
+    let mut open = false;
+    for k in 0..m {
+        let (here, next) = (vertices[(begin.unwrap_or(0) + k) % m], vertices[(begin.unwrap_or(0) + k + 1) % m]);
+        if here.bound == Bound::Frame {
+            open = false;
+            continue;
+        }
+        if !open {
+            lines.push(vec![(here.values, here.bound)]);
+            open = true;
+        }
+        if let Some(line) = lines.last_mut() {
+            line.push((next.values, here.bound));
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vibroimpact::continuation::Vertex;
+
+    fn square(bounds: [Bound; 4]) -> Polygon {
+        let corners = [(0.5, -1.0), (1.5, -1.0), (1.5, 1.0), (0.5, 1.0)];
+        let vertices = corners.into_iter().zip(bounds).map(|(values, bound)| Vertex { values, bound }).collect();
+        Polygon { vertices, hole: false, below: true }
+    }
+
+    #[test]
+    fn what_lies_below_zero_does_not_count() {
+        let polygon = square([Bound::Fold; 4]);
+        let stable = continuation::Region { polygons: vec![polygon], unresolved: Vec::new() };
+        let window = Window { x: (0.0, 2.0), gap: (-1.0, 5.0) };
+        let region = measured(Label::new(1, 1), stable, None, window);
+        assert!((region.area - 0.1).abs() < 1e-15 && (region.mean_gap - 0.5).abs() < 1e-15, "{region:?}");
+        assert_eq!(region.gaps, (0.0, 1.0));
+        assert!(region.holds(1.0, -0.5) && !region.holds(0.4, 0.5));
+    }
+
+    #[test]
+    fn the_frame_is_no_outline() {
+        let lines = outlines(&square([Bound::Fold, Bound::Frame, Bound::Flip, Bound::Touch]));
+        assert_eq!(lines.len(), 1);
+        let corners: Vec<(f64, f64)> = lines[0].iter().map(|(at, _)| *at).collect();
+        assert_eq!(corners, [(1.5, 1.0), (0.5, 1.0), (0.5, -1.0), (1.5, -1.0)]);
+        let closed = outlines(&square([Bound::Fold; 4]));
+        assert_eq!((closed.len(), closed[0].len()), (1, 5));
+        assert_eq!(outlines(&square([Bound::Frame; 4])).len(), 0);
+    }
 }

@@ -73,6 +73,11 @@ fn theory(section: &mut Section, grid: &Grid, plane: &Plane) {
             stable.len()
         ));
     }
+    let open: usize = plane.regions.iter().map(|region| region.stable.unresolved.len()).sum();
+    if open > 0 {
+        parts.push(format!("the regions are uncertain about {}", looks::count(open, "point")));
+    }
+    all &= open == 0;
     section.claim(
         "4",
         "the motions found from starts lie in the regions where theory has 1/1, 2/1 and 1/2 stable",

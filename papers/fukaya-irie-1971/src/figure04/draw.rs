@@ -3,6 +3,7 @@
 use super::{GAP, Plane, X, free_amplitude};
 use crate::grid::Grid;
 use crate::looks;
+use crate::regions::outlines;
 use vibroimpact::scenario;
 use vibroimpact_plot::{Axis, Colour, Dash, Figure, Key, Line, Panel, Points, Rects, Stroke, Text};
 
@@ -13,13 +14,21 @@ const DRAWN: [((u32, u32), (f64, f64)); 4] =
 pub(super) fn figure(grid: &Grid, plane: &Plane) -> Figure {
     let mut panel =
         Panel::new(Axis::new("1/*β*").range(X.0, X.1), Axis::new("gap *δ*").range(GAP.0, GAP.1)).with(cells(grid));
+    let exists = Stroke::new(Colour::BLACK).width(2.0).dash(Dash::Dotted);
     for ((m, n), _) in DRAWN {
         let Some(region) = plane.region(m, n) else {
             continue;
         };
-        // crumbs at the tip of a region, smaller than a cell of the map, are left to the table
-        for outline in region.outlines.iter().filter(|line| extent(line) > CRUMB) {
-            let (xs, ys): (Vec<f64>, Vec<f64>) = outline.iter().copied().unzip();
+        for line in region.exists.iter().flat_map(|found| found.polygons.iter().flat_map(outlines)) {
+            let (xs, ys): (Vec<f64>, Vec<f64>) = line.into_iter().map(|(at, _)| at).unzip();
+            panel.add(Line::new(xs.clone(), ys.clone(), Colour::WHITE).width(4.5));
+            panel.add(Line { xs, ys, stroke: exists });
+        }
+    }
+    // what is stable over what exists, whose lines are often the same
+    for region in DRAWN.iter().filter_map(|((m, n), _)| plane.region(*m, *n)) {
+        for line in region.stable.polygons.iter().flat_map(outlines) {
+            let (xs, ys): (Vec<f64>, Vec<f64>) = line.into_iter().map(|(at, _)| at).unzip();
             panel.add(Line::new(xs.clone(), ys.clone(), Colour::WHITE).width(4.5));
             panel.add(Line::new(xs, ys, Colour::BLACK).width(2.0));
         }
@@ -45,22 +54,10 @@ pub(super) fn figure(grid: &Grid, plane: &Plane) -> Figure {
     let labels = grid.labels();
     let legend = looks::legend(labels.iter().map(|(label, _)| label.as_str()))
         .entry(Key::Outline(Stroke::new(Colour::BLACK).width(2.0)), "stable by theory")
+        .line(exists, "exists, unstable")
         .line(dashed, "amplitude |*f*|")
         .points(&points, "*N* to *U*");
     looks::column(panel, 760.0).legend(legend)
-}
-
-/// See [`figure`]: in units of the window.
-const CRUMB: f64 = 0.02;
-
-/// The longer side of a line's box, the window being 1 by 1.
-fn extent(line: &[(f64, f64)]) -> f64 {
-    let side = |of: &dyn Fn(&(f64, f64)) -> f64, (a, b): (f64, f64)| {
-        let (lo, hi) =
-            line.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
-        (hi - lo) / (b - a)
-    };
-    side(&|p| p.0, X).max(side(&|p| p.1, GAP))
 }
 
 /// Vermilion: far from every class it crosses, for all eyes.
