@@ -9,6 +9,7 @@ mod command;
 mod docs;
 mod figures;
 mod licences;
+mod line;
 mod links;
 mod spdx;
 mod test;
@@ -25,6 +26,7 @@ usage: cargo xtask COMMAND
                           --long  the long-running tests too (VIBROIMPACT_LONG=1)
   docs                    the API documentation, with formulas, in target/doc
   figures                 the pictures of the README, by `vibro reproduce`
+  line                    the table and the figure of docs/orbits.md
   bench-peers [--rounds N] [--seconds S] [--quick]
                           vibroimpact beside other programs, into docs/performance.md
                           --quick  a look, into target/peers/performance.md
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         },
         ["docs"] => finish(docs::build(&root)),
         ["figures"] => finish(figures::draw(&root)),
+        ["line"] => finish(line::write(&root)),
         ["bench-peers", switches @ ..] => match bench_peers::Options::parse(switches) {
             Ok(options) => finish(bench_peers::run(&root, options)),
             Err(sentence) => bad_question(&sentence),

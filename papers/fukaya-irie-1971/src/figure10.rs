@@ -3,12 +3,13 @@
 use crate::claims::{Agreement, Section};
 use crate::folder::Csv;
 use crate::waves::{Impact, impacts};
-use crate::{Error, Run, looks};
+use crate::{Error, Run, line, looks};
+use vibroimpact::continuation::{BranchEvent, Direction};
 use vibroimpact::motion::ImpactState;
-use vibroimpact::orbit::{Cycle, one_impact};
+use vibroimpact::orbit::{Cycle, FindOptions, Orbit, find};
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{SettleOptions, settle};
-use vibroimpact::{Oscillator, scenario};
+use vibroimpact::{Label, Oscillator, scenario};
 use vibroimpact_plot::{Axis, Colour, Dash, Figure, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text};
 
 /// Impacts followed.
@@ -30,7 +31,7 @@ struct Escape {
 pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     run.stage("figure 10: from 1/1 to 1/2 at T", 0)?;
     let osc = scenario::T.oscillator();
-    let orbits = one_impact(&osc, 1);
+    let orbits = find(&osc, Label::new(1, 1), FindOptions::default());
     let orbit = orbits.iter().find(|orbit| orbit.physical).ok_or(Error::Unexpected("T has no fundamental orbit"))?;
     let exact = escape(&osc, &orbit.cycle, 0.0);
     let (ulps, seen) = least(&osc, &orbit.cycle);
@@ -55,6 +56,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     )
     .svg("figure-10", svg, &[]);
     claims(&mut section, &osc, &orbit.cycle, (&exact, ulps, &seen), &coarser);
+    windows(&mut section)?;
     run.report.sections.push(section);
     Ok(())
 }
@@ -172,7 +174,10 @@ fn claims(
 ) {
     let state = cycle.points[0].state;
     let [large, small] = cycle.multipliers;
-    let halves: Vec<_> = one_impact(osc, 2).into_iter().filter(|o| o.physical && o.cycle.stable()).collect();
+    let halves: Vec<Orbit> = find(osc, Label::new(1, 2), FindOptions::default())
+        .into_iter()
+        .filter(|o| o.physical && o.cycle.stable())
+        .collect();
     section.claim(
         "10",
         "at T (1.11, 2.0) the fundamental motion 1/1 is unstable and 1/2 is stable",
@@ -184,7 +189,10 @@ fn claims(
             small.re,
             halves.first().map_or_else(
                 || "is not stable".to_owned(),
-                |o| format!("is stable, {:.6} in modulus", o.cycle.multipliers[0].modulus())
+                |o| {
+                    let [one, _] = o.cycle.multipliers;
+                    format!("is stable, {:.6} +- {:.6}i, {:.6} in modulus", one.re, one.im.abs(), one.modulus())
+                }
             )
         ),
         Agreement::of(!cycle.stable() && !halves.is_empty(), !cycle.stable()),
@@ -231,4 +239,38 @@ fn claims(
         ),
         Agreement::of(seen.leaves.is_some() && seen.settles.is_some() && to_half, seen.leaves.is_some()),
     );
+}
+
+/// Between which gaps on the line through T the two motions are stable.
+fn windows(section: &mut Section) -> Result<(), Error> {
+    let gap = scenario::T.gap;
+    // where 1/1 is still stable
+    let one = line::branch((1, 1), 1.0, Direction::Up)?;
+    let doubles = one.iter().find(|p| p.event == Some(BranchEvent::Flip)).map(|p| p.value);
+    let half = |direction| -> Result<Option<f64>, Error> {
+        let branch = line::branch((1, 2), gap, direction)?;
+        let ends = |p: &&vibroimpact::continuation::Point| {
+            matches!(p.event, Some(BranchEvent::Flip | BranchEvent::Grazing { .. }))
+        };
+        Ok(branch.iter().find(ends).map(|p| p.value))
+    };
+    let (begins, ends) = (half(Direction::Down)?, half(Direction::Up)?);
+    let told = |gap: Option<f64>| gap.map_or("nowhere".to_owned(), |gap| format!("at delta = {gap:.9}"));
+    let inside = |low: Option<f64>, high: f64| low.is_some_and(|low| low < gap && gap < high);
+    section.claim(
+        "10",
+        "T lies where 1/1 has become unstable and 1/2 has come to be",
+        format!(
+            "followed over delta at 1/beta = 1.11, 1/1 doubles its period {} and is unstable from there on; 1/2 begins {}, where \
+             its flight touches the wall, and doubles {}",
+            told(doubles),
+            told(begins),
+            told(ends)
+        ),
+        Agreement::of(
+            inside(doubles, f64::INFINITY) && inside(begins, ends.unwrap_or(f64::NEG_INFINITY)),
+            doubles.is_some() && begins.is_some(),
+        ),
+    );
+    Ok(())
 }

@@ -157,9 +157,9 @@ fn simple(section: &mut Section, orbits: &[(Label, Vec<Orbit>)]) {
             match possible.as_slice() {
                 [] => format!("{label} none"),
                 list => {
-                    let largest: Vec<String> =
-                        list.iter().map(|o| format!("{:.2}", o.cycle.multipliers[0].modulus())).collect();
-                    format!("{label} with a multiplier of modulus {}", looks::list(&largest, 4))
+                    let of = |o: &Orbit| o.cycle.multipliers.map(|m| format!("{:.6}", m.re)).join(" and ");
+                    let told: Vec<String> = list.iter().map(|o| of(o)).collect();
+                    format!("{label} with multipliers {}", looks::list(&told, 4))
                 }
             }
         })

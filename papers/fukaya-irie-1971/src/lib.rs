@@ -17,6 +17,7 @@
 //! | figure 10: from an unstable motion to a stable one | `figure10` |
 //! | figure 11: impacts that never settle | `figure11` |
 //! | section 4: the conclusions | `conclusions` |
+//! | the line through T and U, for `docs/orbits.md` | [`line`] |
 //!
 //! | around it | file |
 //! |---|---|
@@ -37,6 +38,7 @@ mod figure10;
 mod figure11;
 mod folder;
 mod grid;
+pub mod line;
 mod looks;
 mod page;
 mod regions;
