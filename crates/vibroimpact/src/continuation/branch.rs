@@ -6,6 +6,7 @@
 //! rounding. At a grazing impact the signature changes and the branch goes on with one impact more or less.
 
 use super::arc::{Equations, correct, tangent};
+use super::free::hides;
 use super::options::{BranchError, BranchOptions, Direction};
 use super::point::{BranchEvent, Point};
 use super::varied::Varied;
@@ -85,6 +86,9 @@ impl Branch {
     ) -> Result<Self, BranchError> {
         let value = parameter.get(osc).ok_or(BranchError::NoSuchParameter(parameter.name()))?;
         let ring = Ring::of(osc, cycle).ok_or(BranchError::Rests)?;
+        if ring.len() == 0 && osc.damping() == 0.0 {
+            return Err(BranchError::Undamped);
+        }
         let (ring, _) = solve(osc, ring).ok_or(BranchError::NoCycle)?;
         let equations = Self::equations(osc, parameter, &range, value, &ring)?;
         let w = Varied::join(&ring, value);
@@ -198,6 +202,13 @@ impl Branch {
         if self.here.orbit.physical && !there.orbit.physical && !self.crosses(&there).any(|j| self.watches[j].needed())
         {
             return None;
+        }
+        if self.equations.impacts() == 0 && there.orbit.physical {
+            let (here, _) = self.equations.split(&self.here.w)?;
+            let (next, _) = self.equations.split(&there.w)?;
+            if hides(&here, &next) {
+                return None;
+            }
         }
         Some(Reached { there, length: h, corrections, cosine, end: beyond })
     }

@@ -178,6 +178,10 @@ impl Curve {
             Some(BranchEvent::Flip) => (CurveKind::Flip, None),
             Some(BranchEvent::Grazing { change: Change::Disappears, impact, .. }) => (CurveKind::Grazing, Some(impact)),
             Some(BranchEvent::LossOfContact { .. }) => (CurveKind::Grazing, Some(0)),
+            Some(BranchEvent::Grazing { change: Change::Appears, side, phase, .. }) if ring.len() == 0 => {
+                ring = Ring { sides: vec![side], unknowns: vec![phase, 0.0], periods: 1 };
+                (CurveKind::Grazing, Some(0))
+            }
             Some(BranchEvent::Grazing { change: Change::Appears, impact, side, phase, .. }) => {
                 let ahead = crate::system::phase::wrap(phase - ring.theta(impact));
                 // the touch may come more than a turn after the impact: where the mass is nearest

@@ -80,7 +80,7 @@ pub(super) fn beyond(
 }
 
 /// In the direction in which the impacts `new` gain speed.
-fn striking(equations: Varied, w: Vec<f64>, new: &[usize]) -> Option<Beyond> {
+pub(super) fn striking(equations: Varied, w: Vec<f64>, new: &[usize]) -> Option<Beyond> {
     let mut towards = vec![0.0; w.len()];
     for k in new {
         towards[2 * k + 1] = 1.0;

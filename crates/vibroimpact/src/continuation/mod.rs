@@ -10,6 +10,7 @@
 //! | the branch, step by step | [`Branch`], [`BranchOptions`] |
 //! | the events on a step: where and what | `events` |
 //! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
+//! | the motion without impacts: to it and from it | `free` |
 //! | the equations with two parameters free and a condition, and walks along their curves | `plane`, `walk` |
 //! | curves of folds, flips and grazing impacts | [`Curve`] |
 //! | where a motion exists or is stable, as polygons along these curves | [`region`], [`Region`], `round` |
@@ -19,6 +20,7 @@ mod arc;
 mod branch;
 mod curve;
 mod events;
+mod free;
 mod graze;
 mod interpolate;
 mod options;

@@ -56,6 +56,11 @@ pub enum BranchError {
     /// A cycle with a rest: it is fixed by its release and has no equations to follow.
     #[error("a cycle that rests on a stop cannot be followed: it is determined by its release at each value anew")]
     Rests,
+    /// The motion without impacts of an oscillator without damping.
+    #[error(
+        "without damping the steady motion without impacts is one of many and cannot be followed\nhint: a damping above 0, or a branch from 1/1 towards it"
+    )]
+    Undamped,
     /// Newton's method does not converge from the cycle at these parameters.
     #[error("the cycle given does not solve its equations at these parameters")]
     NoCycle,

@@ -63,7 +63,10 @@ pub enum BranchEvent {
         /// Whether the parameter turns back here (a nonsmooth fold); if not, it goes on (persistence).
         turns: bool,
     },
-    /// The only impact has speed zero: beyond, the mass never touches the stop.
+    /// The only impact has speed zero: beyond, the mass never touches the stop. Only without damping, where orbits 1/n of
+    /// every n end together in one of a continuum of motions without impacts, so that there is nothing to follow. With
+    /// damping this is a [`Grazing`](Self::Grazing) event with the label 0/1 after it, and the branch goes on along the
+    /// steady motion without impacts.
     LossOfContact {
         /// Stop of the touch.
         side: Side,

@@ -50,7 +50,7 @@ impl Default for RegionOptions {
 ///
 /// Orbits are looked for on a grid, and from each that lies in no polygon yet a walk goes round the part of the region
 /// it lies in; from grid points inside a polygon without an orbit, round the hole. A region of orbits that rest on a stop
-/// (`inf/n`) is not looked for.
+/// (`inf/n`) is not looked for, nor that of the motion without impacts: that is where $`|f|`$ exceeds no gap.
 #[must_use]
 pub fn region(osc: &Oscillator, label: Label, kind: RegionKind, frame: &Frame, options: RegionOptions) -> Region {
     let mut search =
@@ -148,7 +148,7 @@ impl Search<'_> {
         let orbits = find(&osc, label, FindOptions { seeds: self.options.seeds, ..FindOptions::default() });
         let wanted = |o: &Orbit| o.physical && (self.kind == RegionKind::Existence || o.cycle.stable());
         let seed = |cycle: &Cycle| {
-            let ring = Ring::of(&osc, cycle)?;
+            let ring = Ring::of(&osc, cycle).filter(|ring| ring.len() > 0)?;
             let [one, two] = cycle.multipliers;
             // (1 - one)(1 - two): positive below +1
             let product = (1.0 - one.re) * (1.0 - two.re) - one.im * two.im;

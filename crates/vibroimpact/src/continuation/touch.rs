@@ -1,18 +1,19 @@
 //! A branch at a grazing impact: what happens, and which cycle it goes on with.
 
 use super::branch::{Branch, Here, sign};
+use super::free::{arriving, leaving};
 use super::graze::{Beyond, beyond};
 use super::point::{BranchEvent, Change};
 use super::watch::Watch;
-use crate::orbit::closest;
-use crate::system::phase;
+use crate::orbit::{closest, crest};
+use crate::system::{Side, phase};
 use crate::verdict::Label;
 
 impl Branch {
     /// Where in the list of the point's cycle impact `k` is.
     pub(super) fn listed(&self, at: &Here, k: usize) -> usize {
         let points = &at.orbit.cycle.points;
-        let Some((_, ring)) = self.equations.split(&at.w) else { return k };
+        let Some((_, ring)) = self.equations.split(&at.w).filter(|(_, ring)| k < ring.len()) else { return k };
         let theta = phase::wrap(ring.theta(k));
         points.iter().position(|p| p.state.phase == theta && p.state.velocity == ring.speed(k)).unwrap_or(k)
     }
@@ -23,6 +24,8 @@ impl Branch {
         let watches: Vec<Watch> = together.filter_map(|(_, j)| j.map(|j| self.watches[j])).collect();
         let gone: Vec<usize> =
             watches.iter().filter_map(|w| if let Watch::Speed(k) = w { Some(*k) } else { None }).collect();
+        let rooms: Vec<Side> =
+            watches.iter().filter_map(|w| if let Watch::Room(side) = w { Some(*side) } else { None }).collect();
         let mut touches: Vec<_> = watches
             .iter()
             .filter_map(|w| if let Watch::Clear(k, side) = w { Some((*k, *side)) } else { None })
@@ -35,26 +38,35 @@ impl Branch {
             return self.finish(BranchEvent::NoConvergence);
         };
         let before = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
-        let (change, k, side) = match (touches.first(), gone.first()) {
-            (Some(&(k, side)), _) => (Change::Appears, k, side),
-            (None, Some(&k)) => (Change::Disappears, k, ring.side(k)),
-            (None, None) => return self.finish(BranchEvent::NoConvergence),
+        let (change, k, side) = match (touches.first(), gone.first(), rooms.first()) {
+            (Some(&(k, side)), ..) => (Change::Appears, k, side),
+            (None, Some(&k), _) => (Change::Disappears, k, ring.side(k)),
+            (None, None, Some(&side)) => (Change::Appears, 0, side),
+            (None, None, None) => return self.finish(BranchEvent::NoConvergence),
         };
         let phase = match change {
+            Change::Appears if ring.len() == 0 => crest(&osc, side),
             Change::Appears => {
                 let time = closest(&osc, &ring, k, side).map_or(0.0, |closest| closest.time);
                 phase::advance(phase::wrap(ring.theta(k)), osc.beta(), time)
             }
             Change::Disappears => phase::wrap(ring.theta(k)),
         };
-        // where the motion without impacts just touches, all impacts of a longer cycle go at once
-        if (0..ring.len()).all(|k| ring.speed(k).abs() < AT_REST) {
-            self.emit(at, BranchEvent::LossOfContact { side, phase });
-            self.over = true;
-            return;
-        }
         let value = self.value(at);
-        let next = beyond(&self.equations, (&osc, &ring, value), &touches, &gone, &at.tangent);
+        let next = if ring.len() == 0 {
+            arriving(&self.equations, &osc, value, &rooms)
+        } else if (0..ring.len()).all(|k| ring.speed(k).abs() < AT_REST) {
+            // where the motion without impacts just touches, all impacts of a longer cycle go at once
+            let next = leaving(&self.equations, &osc, value, side);
+            if next.is_none() {
+                self.emit(at, BranchEvent::LossOfContact { side, phase });
+                self.over = true;
+                return;
+            }
+            next
+        } else {
+            beyond(&self.equations, (&osc, &ring, value), &touches, &gone, &at.tangent)
+        };
         let Some((Beyond { equations, w, tangent, positive }, after)) = next.and_then(|next| {
             let (_, ring) = next.equations.split(&next.w)?;
             let label = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);

@@ -2,7 +2,7 @@
 
 use super::varied::Varied;
 use crate::math::sin_cos;
-use crate::orbit::{Block, Floquet, Ring, closest};
+use crate::orbit::{Block, Floquet, Ring, closest, room};
 use crate::system::{Oscillator, Side};
 
 /// A watched function.
@@ -18,6 +18,8 @@ pub(super) enum Watch {
     Speed(usize),
     /// Smallest distance to a stop between an impact and the next.
     Clear(usize, Side),
+    /// Distance of the motion without impacts from a stop.
+    Room(Side),
     /// Restitution 0: the pull away from the stop after an impact.
     Pull(usize),
 }
@@ -25,6 +27,9 @@ pub(super) enum Watch {
 impl Watch {
     /// All that is watched for the cycles of these equations.
     pub(super) fn all(osc: &Oscillator, ring: &Ring) -> Vec<Self> {
+        if ring.len() == 0 {
+            return osc.stops().map(|(side, _)| Self::Room(side)).collect();
+        }
         let mut list = vec![Self::Pace, Self::PlusOne, Self::MinusOne];
         for k in 0..ring.len() {
             list.push(Self::Speed(k));
@@ -38,7 +43,7 @@ impl Watch {
 
     /// Whether the cycle is a motion only while this is positive.
     pub(super) const fn needed(&self) -> bool {
-        matches!(self, Self::Speed(_) | Self::Clear(..) | Self::Pull(_))
+        matches!(self, Self::Speed(_) | Self::Clear(..) | Self::Room(_) | Self::Pull(_))
     }
 
     /// Its value at a point: the tangent and the flights there.
@@ -50,6 +55,7 @@ impl Watch {
             Self::MinusOne => Floquet::new(osc, ring, flights).minus_one(),
             Self::Speed(k) => ring.speed(k),
             Self::Clear(k, side) => closest(osc, ring, k, side).map_or(f64::INFINITY, |closest| closest.distance),
+            Self::Room(side) => room(osc, side),
             Self::Pull(k) => {
                 let gap = osc.stop(ring.side(k)).map_or(0.0, |stop| stop.gap);
                 gap - ring.side(k).sign() * sin_cos(ring.theta(k)).0

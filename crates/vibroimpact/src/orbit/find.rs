@@ -1,7 +1,10 @@
 //! All periodic orbits of a label: Newton's method on the equations of the whole cycle, from many seeds.
 
 use super::ring::Ring;
-use super::{Cycle, DEFAULT_EVENTS, EarlierContact, earlier_contact, flight_limits, from_release, newton, one_impact};
+use super::{
+    Cycle, DEFAULT_EVENTS, EarlierContact, earlier_contact, flight_limits, from_release, newton, one_impact,
+    without_impacts,
+};
 use crate::motion::{ImpactState, Mapped, impact_map};
 use crate::system::{Oscillator, Side};
 use crate::verdict::{Count, Label};
@@ -49,7 +52,7 @@ impl Default for FindOptions {
 /// Each seed is flown through m impacts, and where that takes something like n periods, Newton's method closes the
 /// whole chain of impacts at once ([equations](super)). Orbits with a rest in them - all `inf/n`, and m/n with
 /// restitution 0 - come from their release, and none can be missed; those with one impact a period come from their
-/// closed form, and none can be missed. The search for the others is deterministic but not exhaustive: an orbit that no
+/// closed form, and none can be missed; 0/1 is the steady motion [without impacts](without_impacts). The search for the others is deterministic but not exhaustive: an orbit that no
 /// seed leads to is not found. Of the solutions that are no motions only some come up.
 #[must_use]
 pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> {
@@ -62,6 +65,10 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
     // with two stops one cycle may have a release from each
     orbits.dedup_by(|a, b| a.cycle.same_as(&b.cycle, options.tolerance));
     let Count::Finite(m) = label.impacts else { return orbits };
+    if m == 0 {
+        orbits.extend(without_impacts(osc).filter(|c| c.label == label).map(|cycle| Orbit::judged(osc, cycle)));
+        return orbits;
+    }
     if m == 1 {
         let closed = one_impact(osc, label.periods).into_iter();
         orbits.extend(closed.map(|o| Orbit::judged(osc, o.cycle)));

@@ -10,6 +10,7 @@
 //! | Newton's method on these equations, and their linear systems | [`refine`], `newton`, `condense` |
 //! | multipliers and test functions from them | `floquet` |
 //! | whether a solution is a motion, and how close it comes to a stop | [`earlier_contact`], `clearance` |
+//! | the steady motion without impacts | [`without_impacts`] |
 //! | all orbits of a label from many seeds | [`find`] |
 
 mod clearance;
@@ -18,6 +19,7 @@ mod cycle;
 mod cyclic;
 mod find;
 mod floquet;
+mod free;
 mod newton;
 mod one_impact;
 mod physical;
@@ -27,6 +29,7 @@ mod shooting;
 
 pub use cycle::{Cycle, CyclePoint, RestSpan};
 pub use find::{FindOptions, Orbit, find};
+pub use free::without_impacts;
 pub use newton::refine;
 pub use one_impact::{OneImpact, one_impact};
 pub use physical::{EarlierContact, earlier_contact};
@@ -37,6 +40,7 @@ pub(crate) use clearance::closest;
 pub(crate) use cycle::distance as cycle_distance;
 pub(crate) use cyclic::{Block, blocks, by_parameter, fill};
 pub(crate) use floquet::Floquet;
+pub(crate) use free::{crest, room};
 pub(crate) use newton::{cycle as ring_cycle, solve};
 pub(crate) use ring::Ring;
 pub(crate) use shooting::{Lap, flight_limits};

@@ -5,6 +5,7 @@ use super::condense::correction;
 use super::cycle::{Cycle, CyclePoint};
 use super::cyclic::{Block, blocks, residual};
 use super::floquet::Floquet;
+use super::free;
 use super::ring::Ring;
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, phase};
@@ -20,6 +21,10 @@ const PATIENCE: u32 = 10;
 
 /// The solution of the equations of a cycle near `ring`, with its last flights; `None` if none is reached.
 pub(crate) fn solve(osc: &Oscillator, mut ring: Ring) -> Option<(Ring, Vec<Block>)> {
+    if ring.len() == 0 {
+        // the motion without impacts is given in closed form
+        return (osc.damping() > 0.0).then(|| (ring, Vec::new()));
+    }
     for step in 0..MAX_STEPS {
         let flights = blocks(osc, &ring)?;
         let change = correction(&flights)?;
@@ -81,7 +86,8 @@ pub fn refine(osc: &Oscillator, guess: &Cycle) -> Option<Orbit> {
 
 /// A ring as a cycle, with its multipliers; the fastest arrival first.
 pub(crate) fn cycle(osc: &Oscillator, ring: &Ring, flights: &[Block]) -> Cycle {
-    let floquet = Floquet::new(osc, ring, flights);
+    let multipliers =
+        if ring.len() == 0 { free::multipliers(osc) } else { Floquet::new(osc, ring, flights).multipliers() };
     let point = |k: usize| CyclePoint {
         state: ImpactState { phase: phase::wrap(ring.theta(k)), velocity: ring.speed(k), side: ring.side(k) },
         interval: ring.turn(k) / osc.beta(),
@@ -90,7 +96,7 @@ pub(crate) fn cycle(osc: &Oscillator, ring: &Ring, flights: &[Block]) -> Cycle {
         label: Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods),
         points: (0..ring.len()).map(point).collect(),
         rests: Vec::new(),
-        multipliers: floquet.multipliers(),
+        multipliers,
         residual: residual(ring, flights),
     };
     cycle.rotate_to_fastest();

@@ -12,7 +12,7 @@ pub struct EarlierContact {
     pub flight: usize,
     /// Which stop it meets.
     pub side: Side,
-    /// When, since the impact it leaves; 0 where it does not leave the stop at all.
+    /// When, since the impact it leaves, or since phase 0 for the motion without impacts; 0 where it does not leave the stop at all.
     pub time: f64,
 }
 
@@ -30,6 +30,9 @@ pub fn earlier_contact(osc: &Oscillator, cycle: &Cycle) -> Option<EarlierContact
         return None;
     }
     let m = cycle.points.len();
+    if m == 0 {
+        return super::free::met(osc);
+    }
     (0..m).find_map(|k| {
         let (point, next) = (&cycle.points[k], &cycle.points[(k + 1) % m]);
         if point.state.velocity <= 0.0 {

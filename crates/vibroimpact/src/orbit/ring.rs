@@ -2,6 +2,7 @@
 
 use super::cycle::Cycle;
 use crate::system::{Oscillator, Side, phase};
+use crate::verdict::Count;
 use core::f64::consts::TAU;
 
 /// The impacts of a cycle with their phases lifted, so that they increase along the cycle; speeds may be zero or
@@ -19,11 +20,14 @@ pub(crate) struct Ring {
 impl Ring {
     /// The impacts of `cycle`; `None` if it has rests, which no finite list of impacts describes.
     pub(crate) fn of(osc: &Oscillator, cycle: &Cycle) -> Option<Self> {
-        if !cycle.rests.is_empty() || cycle.points.is_empty() {
+        if !cycle.rests.is_empty() {
             return None;
         }
+        let Some(first) = cycle.points.first() else {
+            return (cycle.label.impacts == Count::Finite(0)).then(Self::free);
+        };
         let (mut sides, mut unknowns) = (Vec::new(), Vec::new());
-        let mut theta = cycle.points[0].state.phase;
+        let mut theta = first.state.phase;
         for point in &cycle.points {
             // the phase itself, on the turn that the time since the first impact says
             let turns = ((theta - point.state.phase) / TAU).round();
@@ -32,6 +36,11 @@ impl Ring {
             theta += osc.beta() * point.interval;
         }
         Some(Self { sides, unknowns, periods: cycle.label.periods })
+    }
+
+    /// That of the steady motion without impacts.
+    pub(crate) const fn free() -> Self {
+        Self { sides: Vec::new(), unknowns: Vec::new(), periods: 1 }
     }
 
     /// Number of impacts.
@@ -67,7 +76,8 @@ impl Ring {
 
     /// Brings the first phase into $`[0, 2\pi)`$.
     pub(crate) fn wrap(&mut self) {
-        let shift = phase::wrap(self.unknowns[0]) - self.unknowns[0];
+        let Some(&first) = self.unknowns.first() else { return };
+        let shift = phase::wrap(first) - first;
         if shift != 0.0 {
             let turns = (shift / TAU).round();
             self.unknowns.iter_mut().step_by(2).for_each(|theta| *theta += turns * TAU);

@@ -29,16 +29,19 @@ fn from_gap_one_to_the_grazing() {
     let branch = Branch::new(&at(1.0), begin, Parameter::Gap, range, Direction::Up, BranchOptions::default()).unwrap();
     let points: Vec<Point> = branch.collect();
     let (a, b) = ellipse();
-    for point in &points {
+    for point in points.iter().filter(|p| !p.cycle.points.is_empty()) {
         assert!(point.physical);
         let u = point.cycle.points[0].state.velocity;
         let off = (point.value - a * u).powi(2) + (b * u).powi(2) - 100.0;
         assert!(off.abs() < 1e-11, "{off:e} at {}", point.value);
     }
     let events: Vec<(BranchEvent, f64)> = points.iter().filter_map(|p| Some((p.event?, p.value))).collect();
-    let [(BranchEvent::Fold, fold), (BranchEvent::LossOfContact { phase, .. }, graze)] = events[..] else {
+    let [(BranchEvent::Fold, fold), (BranchEvent::Grazing { phase, after, turns, .. }, graze), (end, _)] = events[..]
+    else {
         panic!("{events:?}")
     };
+    // the gentle orbit comes from above, and the motion without impacts goes back up
+    assert!(after == Label::new(0, 1) && turns && end == BranchEvent::EndOfRange);
     assert!((fold - 10.0 * (1.0 + (a / b).powi(2)).sqrt()).abs() < 1e-11, "{fold}");
     assert!((graze - 10.0).abs() < 1e-11, "{graze}");
     // the steady motion is a quarter of a period behind

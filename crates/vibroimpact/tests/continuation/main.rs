@@ -4,6 +4,7 @@
 //! |---|---|
 //! | one impact in n periods: orbit, multipliers, fold and doubling curves | `closed_forms` |
 //! | curves of folds, flips and grazing impacts in the plane | `curves` |
+//! | the steady motion without impacts, and what begins where it touches | `free` |
 //! | every event between 1/beta = 1.11, delta = 0 and loss of contact, confirmed by simulation | `line` |
 //! | where 1/1 exists and where it is stable, against motions inside, outside and beside the edge | `regions` |
 //! | two stops alike: symmetry lost and found | `symmetric` |
@@ -12,6 +13,7 @@
 
 mod closed_forms;
 mod curves;
+mod free;
 mod grazing;
 mod line;
 mod regions;

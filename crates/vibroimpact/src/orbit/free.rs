@@ -1,0 +1,129 @@
+//! The steady motion without impacts, as a cycle with no impact.
+//!
+//! With damping $`x = S\sin\theta + C\cos\theta`$, $`S = (1-\beta^2)f^2`$, $`C = -2\zeta\beta f^2`$, is what every motion
+//! tends to that stays clear of the stops. It is possible while $`|f|`$ does not exceed a gap. Its multipliers are those
+//! of the free oscillator over a period, $`e^{-2\pi\zeta/\beta}e^{\pm 2\pi i\sqrt{1-\zeta^2}/\beta}`$.
+
+use super::cycle::Cycle;
+use super::physical::EarlierContact;
+use crate::math::{Multiplier, asin, atan2, exp, sin_cos};
+use crate::system::{Oscillator, Side, phase};
+use crate::verdict::Label;
+use core::f64::consts::{FRAC_PI_2, PI};
+
+/// The steady motion of `osc` without impacts, a cycle called 0/1 that has no points; `None` without damping, where it is
+/// only one of many motions without impacts and attracts none of them.
+///
+/// Whether it is a possible motion says [`earlier_contact`](super::earlier_contact).
+///
+/// ```
+/// use vibroimpact::{Oscillator, orbit};
+/// let osc = Oscillator::new(1.0, 12.0, 0.8)?.with_damping(0.05)?;
+/// let cycle = orbit::without_impacts(&osc).expect("it is damped");
+/// assert!(cycle.points.is_empty() && cycle.stable());
+/// assert!(orbit::earlier_contact(&osc, &cycle).is_none());
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+#[must_use]
+pub fn without_impacts(osc: &Oscillator) -> Option<Cycle> {
+    (osc.damping() > 0.0).then(|| Cycle {
+        label: Label::new(0, 1),
+        points: Vec::new(),
+        rests: Vec::new(),
+        multipliers: multipliers(osc),
+        residual: 0.0,
+    })
+}
+
+/// Its multipliers, the larger first.
+pub(super) fn multipliers(osc: &Oscillator) -> [Multiplier; 2] {
+    let (zeta, period) = (osc.damping(), osc.period());
+    let real = |rate: f64| Multiplier { re: exp(rate * period), im: 0.0 };
+    if zeta >= 1.0 {
+        // the slow rate as a quotient, which keeps its digits
+        let fast = zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt();
+        return [real(-1.0 / fast), real(-fast)];
+    }
+    let size = exp(-zeta * period);
+    let (sin, cos) = sin_cos(((1.0 - zeta) * (1.0 + zeta)).sqrt() * period);
+    [1.0, -1.0].map(|sign| Multiplier { re: size * cos, im: sign * size * sin })
+}
+
+/// How far it stays from the stop on `side`; negative where it would pass it. Infinite where there is none.
+pub(crate) fn room(osc: &Oscillator, side: Side) -> f64 {
+    osc.stop(side).map_or(f64::INFINITY, |stop| stop.gap - osc.free_amplitude())
+}
+
+/// The phase at which it is nearest to the stop on `side`.
+pub(crate) fn crest(osc: &Oscillator, side: Side) -> f64 {
+    let beta = osc.beta();
+    let upper = atan2((1.0 - beta) * (1.0 + beta), -2.0 * osc.damping() * beta);
+    phase::wrap(if side == Side::Upper { upper } else { upper + PI })
+}
+
+/// The first stop it meets from phase 0 on, if it is not possible; a touch to rounding counts as none.
+pub(super) fn met(osc: &Oscillator) -> Option<EarlierContact> {
+    let beyond = |side: &Side| room(osc, *side) < -ROUNDING * osc.free_amplitude();
+    let mut met: Vec<EarlierContact> = osc
+        .stops()
+        .map(|(side, _)| side)
+        .filter(beyond)
+        .map(|side| {
+            let gap = osc.stop(side).map_or(0.0, |stop| stop.gap);
+            // f cos(theta - crest) rises through the gap this long before the crest
+            let ahead = FRAC_PI_2 - asin((gap / osc.free_amplitude()).clamp(-1.0, 1.0));
+            EarlierContact { flight: 0, side, time: phase::wrap(crest(osc, side) - ahead) / osc.beta() }
+        })
+        .collect();
+    met.sort_by(|a, b| a.time.total_cmp(&b.time));
+    met.first().copied()
+}
+
+/// Relative.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::eigenvalues;
+    use crate::orbit::{EarlierContact, earlier_contact};
+    use crate::system::Start;
+
+    fn at(beta: f64, gap: f64, zeta: f64) -> Oscillator {
+        Oscillator::new(beta, gap, 0.5).unwrap().with_damping(zeta).unwrap()
+    }
+
+    /// Against the free response over a period, from its trace.
+    #[test]
+    fn multipliers_are_those_of_the_free_oscillator() {
+        for (beta, zeta) in [(0.3, 0.01), (1.0, 0.05), (2.7, 0.6), (1.3, 1.0), (1.3, 1.4), (6.0, 3.0)] {
+            let osc = at(beta, 1.0, zeta);
+            let p = osc.response().at(osc.period());
+            let expected = eigenvalues(p.c + p.s_rate, exp(-2.0 * zeta * osc.period()));
+            for (a, b) in multipliers(&osc).iter().zip(expected) {
+                // a double one is known to the root of rounding only
+                let tolerance = if zeta == 1.0 { 1e-7 } else { 1e-13 };
+                assert!((a.re - b.re).abs() < tolerance && (a.im.abs() - b.im.abs()).abs() < tolerance, "{a:?} {b:?}");
+            }
+        }
+        assert_eq!(without_impacts(&at(0.5, 2.0, 0.0)), None);
+    }
+
+    #[test]
+    fn it_meets_a_stop_where_its_curve_does() {
+        for (beta, gap, zeta) in [(0.8, 1.5, 0.1), (1.0, 3.0, 0.05), (1.6, 0.2, 0.3), (1.2, -0.4, 0.2)] {
+            let osc = at(beta, gap, zeta).with_second_stop(gap.abs() + 0.1, 0.5).unwrap();
+            let cycle = without_impacts(&osc).unwrap();
+            let Some(EarlierContact { side, time, .. }) = earlier_contact(&osc, &cycle) else { panic!("{osc:?}") };
+            // along the motion itself, from far stops
+            let far = at(beta, 100.0, zeta);
+            let flight = crate::flight::Flight::new(&far, Start::free_motion(&far).unwrap());
+            let stop = side.sign() * osc.stop(side).unwrap().gap;
+            let point = flight.state(time);
+            assert!((point.0 - stop).abs() < 1e-13 && side.sign() * point.1 > 0.0, "{point:?} {stop}");
+            assert!((flight.state(crest(&osc, side) / beta).0 - side.sign() * osc.free_amplitude()).abs() < 1e-13);
+        }
+        let wide = at(1.0, 10.0, 0.05);
+        assert_eq!(earlier_contact(&wide, &without_impacts(&wide).unwrap()), None);
+    }
+}
