@@ -1,147 +1,17 @@
 //! Curves of folds, flips and grazing impacts in a plane of two parameters, and the points of codimension two on them.
 
 use super::arc::{Equations, correct, tangent};
+use super::curve_end::{Trail, reason};
+use super::curve_point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
+use super::frame::Frame;
 use super::options::BranchError;
 use super::plane::{Condition, Plane};
 use super::point::{BranchEvent, Change, Point};
 use super::walk::{Spot, Stride, Walk};
-use crate::orbit::{Cycle, Floquet, Orbit, Ring, ring_cycle};
+use crate::math::hypot;
+use crate::orbit::{Floquet, Orbit, Ring, ring_cycle};
 use crate::system::{Oscillator, Parameter, Side};
-use core::ops::RangeInclusive;
 use std::collections::VecDeque;
-
-/// A plane of two parameters and the box in it that is looked at.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
-    /// The parameters.
-    pub parameters: (Parameter, Parameter),
-    /// Their ranges.
-    pub ranges: (RangeInclusive<f64>, RangeInclusive<f64>),
-}
-
-impl Frame {
-    /// What a change of each parameter counts by: a quarter of its range.
-    pub(super) fn scales(&self) -> (f64, f64) {
-        let quarter = |range: &RangeInclusive<f64>| 0.25 * (range.end() - range.start());
-        (quarter(&self.ranges.0), quarter(&self.ranges.1))
-    }
-
-    /// Whether the ranges are finite and in order.
-    pub(super) fn sensible(&self) -> bool {
-        let good = |r: &RangeInclusive<f64>| r.start().is_finite() && r.end().is_finite() && r.start() < r.end();
-        good(&self.ranges.0) && good(&self.ranges.1)
-    }
-
-    /// Its edges, each positive inside.
-    pub(super) fn edges(&self) -> [Condition; 4] {
-        let (p, q) = &self.ranges;
-        [
-            Condition::Line(1.0, 0.0, *p.start()),
-            Condition::Line(-1.0, 0.0, -*p.end()),
-            Condition::Line(0.0, 1.0, *q.start()),
-            Condition::Line(0.0, -1.0, -*q.end()),
-        ]
-    }
-
-    /// The same with each range shrunk by a share of it at either end.
-    pub(super) fn shrunk(&self, share: f64) -> Self {
-        let shrink = |r: &RangeInclusive<f64>| {
-            let by = share * (r.end() - r.start());
-            r.start() + by..=r.end() - by
-        };
-        Self { parameters: self.parameters, ranges: (shrink(&self.ranges.0), shrink(&self.ranges.1)) }
-    }
-
-    /// Whether it holds a point.
-    pub(super) fn holds(&self, (p, q): (f64, f64)) -> bool {
-        self.ranges.0.contains(&p) && self.ranges.1.contains(&q)
-    }
-}
-
-/// What holds along a curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CurveKind {
-    /// A multiplier is +1 and the parameters turn.
-    Fold,
-    /// A multiplier is -1.
-    Flip,
-    /// An impact has speed zero.
-    Grazing,
-}
-
-/// A point of a curve.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CurvePoint {
-    /// Values of the two parameters.
-    pub values: (f64, f64),
-    /// The cycle; on a grazing curve with the impact of speed zero in it.
-    pub cycle: Cycle,
-    /// Whether it is a possible motion (on a grazing curve: apart from that impact).
-    pub physical: bool,
-    /// What happens here; `None` for an ordinary point.
-    pub event: Option<CurveEvent>,
-}
-
-/// What happens at a point of a curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CurveEvent {
-    /// A fold curve comes back on itself: two folds meet.
-    Cusp,
-    /// A grazing impact without the infinite multiplier: the trace of the linearised turn is zero, and curves of folds
-    /// and flips end on the grazing curve. Without damping, for 1/n, where $`\sin(2\pi n/\beta) = 0`$.
-    ResonantGrazing,
-    /// A second impact has speed zero, or another flight touches a stop.
-    DoubleGrazing,
-    /// The mass touches with no acceleration.
-    DegenerateGrazing,
-    /// A flight of a cycle at a fold or a flip touches a stop: beyond, the curve is not one of motions.
-    Touch,
-    /// Both multipliers are -1, which takes a determinant of 1: restitution 1 and no damping.
-    OneToTwo,
-    /// The curve closed.
-    Closed,
-    /// The edge of the box.
-    EndOfBox,
-    /// The most points were reached.
-    StepLimit,
-    /// The curve was lost.
-    NoConvergence,
-}
-
-impl CurveEvent {
-    /// Its name in tables.
-    #[must_use]
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Cusp => "cusp",
-            Self::ResonantGrazing => "resonant grazing",
-            Self::DoubleGrazing => "double grazing",
-            Self::DegenerateGrazing => "degenerate grazing",
-            Self::Touch => "touch",
-            Self::OneToTwo => "1:2",
-            Self::Closed => "closed",
-            Self::EndOfBox => "end of box",
-            Self::StepLimit => "step limit",
-            Self::NoConvergence => "no convergence",
-        }
-    }
-}
-
-/// How a curve is followed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurveOptions {
-    /// The longest step: phases in radians, speeds, and parameters in quarters of their ranges.
-    pub longest: f64,
-    /// The most points.
-    pub points: u32,
-}
-
-impl Default for CurveOptions {
-    /// Steps up to 0.05, 20 000 points.
-    fn default() -> Self {
-        Self { longest: 0.05, points: 20_000 }
-    }
-}
 
 /// A curve of folds, flips or grazing impacts: an iterator over its points, one way from where it was begun.
 #[derive(Clone, Debug)]
@@ -155,6 +25,7 @@ pub struct Curve {
     count: u32,
     pending: VecDeque<CurvePoint>,
     over: bool,
+    trail: Trail,
 }
 
 impl Curve {
@@ -250,7 +121,17 @@ impl Curve {
         let (w, _) = correct(&plane, w, &fix, level)?;
         let walk = Walk::new(plane, watched, w.clone(), &row, options.longest)?;
         let begin = (w, walk.here.tangent.clone());
-        let mut curve = Self { kind, grazing, walk, begin, options, count: 0, pending: VecDeque::new(), over: false };
+        let mut curve = Self {
+            kind,
+            grazing,
+            walk,
+            begin,
+            options,
+            count: 0,
+            pending: VecDeque::new(),
+            over: false,
+            trail: Trail::default(),
+        };
         let first = curve.point(&curve.walk.here, None)?;
         curve.pending.push_back(first);
         Some(curve)
@@ -267,7 +148,7 @@ impl Curve {
         let cycle = ring_cycle(&osc, &ring, &flights);
         let physical = match self.grazing {
             None => Orbit::judged(&osc, cycle.clone()).physical,
-            Some(k) => grazes(&self.walk.watched, spot, k),
+            Some(_) => grazes(&self.walk.watched, spot),
         };
         Some(CurvePoint { values: Plane::values(&spot.w), cycle, physical, event })
     }
@@ -290,11 +171,14 @@ impl Curve {
             return self.finish(&here, CurveEvent::StepLimit);
         }
         let Some(Stride { there, length, mut crossed }) = self.walk.stride() else {
-            return self.finish(&here, CurveEvent::NoConvergence);
+            let (spot, event) = reason(&self.walk, self.kind, &self.trail).unwrap_or((here, CurveEvent::NoConvergence));
+            return self.finish(&spot, event);
         };
         let course = |spot: &Spot| self.walk.plane.scaled(&spot.tangent);
         let ((p, q), (r, s)) = (course(&here), course(&there));
-        if self.kind == CurveKind::Fold && p * r + q * s < 0.0 {
+        // where only speeds still grow, rounding turns the course
+        let moves = hypot(p, q).max(hypot(r, s)) > STILL;
+        if self.kind == CurveKind::Fold && p * r + q * s < 0.0 && moves {
             let f = |at: f64| {
                 let spot = self.walk.spot(self.walk.between(&there, at, length)?)?;
                 let (r, s) = course(&spot);
@@ -332,6 +216,9 @@ impl Curve {
         }
         let closed = self.closes(&there);
         self.walk.settle(there.clone());
+        if self.kind == CurveKind::Fold {
+            self.trail.pass(&self.walk);
+        }
         self.emit(&there, closed.then_some(CurveEvent::Closed));
         self.over = closed;
     }
@@ -350,13 +237,16 @@ impl Curve {
 }
 
 /// Whether nothing but the impact of speed zero is wrong with the cycle at a point of a grazing curve.
-fn grazes(watched: &[Condition], spot: &Spot, _grazing: usize) -> bool {
+fn grazes(watched: &[Condition], spot: &Spot) -> bool {
     watched.iter().zip(&spot.values).all(|(condition, &value)| match condition {
         Condition::Speed(_) | Condition::Pull(_) => value > -1e-9,
         Condition::Clear(_, Side::Upper | Side::Lower) => value > -1e-9,
         _ => true,
     })
 }
+
+/// A course slower than this, parameters over arclength, is rounding.
+const STILL: f64 = 1e-4;
 
 impl Iterator for Curve {
     type Item = CurvePoint;

@@ -12,14 +12,18 @@
 //! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
 //! | the motion without impacts: to it and from it | `free` |
 //! | the equations with two parameters free and a condition, and walks along their curves | `plane`, `walk` |
-//! | curves of folds, flips and grazing impacts | [`Curve`] |
+//! | curves of folds, flips and grazing impacts; a point of one; why one ends | [`Curve`], [`CurvePoint`], `curve_end` |
+//! | the box that is looked at | [`Frame`] |
 //! | where a motion exists or is stable, as polygons along these curves | [`region`], [`Region`], `round` |
 //! | branches that begin at a flip or a branch point | `switch` |
 
 mod arc;
 mod branch;
 mod curve;
+mod curve_end;
+mod curve_point;
 mod events;
+mod frame;
 mod free;
 mod graze;
 mod interpolate;
@@ -37,7 +41,9 @@ mod walk;
 mod watch;
 
 pub use branch::Branch;
-pub use curve::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
+pub use curve::Curve;
+pub use curve_point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
+pub use frame::Frame;
 pub use options::{BranchError, BranchOptions, Direction};
 pub use point::{BranchEvent, Change, Point};
 pub use polygon::{Bound, Polygon, Region, Vertex};

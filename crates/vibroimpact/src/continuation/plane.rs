@@ -33,7 +33,7 @@ pub(super) enum Condition {
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     osc: Oscillator,
-    parameters: (Parameter, Parameter),
+    pub(super) parameters: (Parameter, Parameter),
     sides: Vec<Side>,
     periods: u32,
     scales: (f64, f64),

@@ -7,7 +7,7 @@
 //! is bounded by curves along which one of them is zero, with corners where two are. A walk goes along one curve until
 //! another bound would be passed and goes on along that, the way on which the former holds, until it is back.
 
-use super::curve::Frame;
+use super::frame::Frame;
 use super::polygon::{Polygon, Region};
 use super::round::Round;
 use crate::orbit::{Cycle, FindOptions, Orbit, Ring, find};

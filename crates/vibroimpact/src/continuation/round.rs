@@ -1,7 +1,7 @@
 //! A walk round a sheet: along one bound until another would be passed, then along that, until it is back.
 
 use super::arc::Equations;
-use super::curve::Frame;
+use super::frame::Frame;
 use super::plane::{Condition, Plane};
 use super::polygon::{Bound, Vertex};
 use super::region::{INWARDS, RegionKind, RegionOptions, Seed};

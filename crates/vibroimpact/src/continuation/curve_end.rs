@@ -1,0 +1,128 @@
+//! Why a curve ends where no further step converges.
+//!
+//! Steps become ever shorter towards a point where the equations are singular. What that point is shows in the cycle
+//! reached: speeds that vanish together, halves that become alike, a flight of whole natural periods.
+
+use super::arc::Equations;
+use super::curve_point::{CurveEvent, CurveKind};
+use super::plane::Plane;
+use super::walk::{Spot, Walk};
+use crate::orbit::Ring;
+use crate::system::Parameter;
+use core::f64::consts::TAU;
+
+/// The last points of a fold curve on which the two halves of the cycle become alike.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Trail(Vec<(f64, Vec<f64>)>);
+
+/// Points kept.
+const KEPT: usize = 6;
+/// By how much they draw nearer from one to the next.
+const NEARER: f64 = 0.85;
+/// Halves more unlike than this do not merge yet.
+const FAR: f64 = 0.2;
+/// Where steps become too short speeds are below this, and halves of the period this near to whole ones.
+const NEAR: f64 = 1e-6;
+
+impl Trail {
+    /// Takes note of where a walk is.
+    pub(super) fn pass(&mut self, walk: &Walk) {
+        let w = &walk.here.w;
+        let Some(unlike) = walk.plane.split(w).and_then(|(_, ring)| unlike(&ring)) else { return };
+        match self.0.last() {
+            Some((last, _)) if unlike > *last => self.0.clear(),
+            Some((last, _)) if unlike > NEARER * last => return,
+            _ => {}
+        }
+        self.0.push((unlike, w.clone()));
+        if self.0.len() > KEPT {
+            self.0.remove(0);
+        }
+    }
+
+    /// Where the halves are alike: everything that does not change when they are exchanged is even in how unlike they are,
+    /// so it is extrapolated in the square of that.
+    fn merged(&self, plane: &Plane) -> Option<Vec<f64>> {
+        if self.0.len() < KEPT || self.0.last()?.0 > FAR {
+            return None;
+        }
+        let mut table: Vec<(f64, Vec<f64>)> = Vec::new();
+        for (unlike, w) in &self.0 {
+            let (_, ring) = plane.split(w)?;
+            table.push((unlike * unlike, Plane::join(&evened(&ring), Plane::values(w))));
+        }
+        // Neville's scheme at 0
+        for order in 1..table.len() {
+            for k in 0..table.len() - order {
+                let (near, far) = (table[k + order].0, table[k].0);
+                let next = table[k + 1].1.clone();
+                for (value, other) in table[k].1.iter_mut().zip(next) {
+                    *value = (far * other - near * *value) / (far - near);
+                }
+            }
+        }
+        Some(table.swap_remove(0).1)
+    }
+}
+
+/// How unlike the two halves of a ring are that could go round a shorter one twice.
+fn unlike(ring: &Ring) -> Option<f64> {
+    let m = ring.len();
+    if m.is_multiple_of(2) { ring.unlike_after(m / 2) } else { None }
+}
+
+/// The ring with its halves made alike.
+fn evened(ring: &Ring) -> Ring {
+    let (m, mut even) = (ring.len(), ring.clone());
+    let half = m / 2;
+    let turn = 0.5 * TAU * f64::from(ring.periods);
+    for k in 0..half {
+        let theta = 0.5 * (ring.theta(k) + ring.theta(k + half) - turn);
+        let speed = 0.5 * (ring.speed(k) + ring.speed(k + half));
+        (even.unknowns[2 * k], even.unknowns[2 * k + 1]) = (theta, speed);
+        (even.unknowns[2 * (k + half)], even.unknowns[2 * (k + half) + 1]) = (theta + turn, speed);
+    }
+    even
+}
+
+/// The point at which a walk is lost, and what it is; `None` for no known reason.
+pub(super) fn reason(walk: &Walk, kind: CurveKind, trail: &Trail) -> Option<(Spot, CurveEvent)> {
+    let (plane, here) = (&walk.plane, &walk.here);
+    let (osc, ring) = plane.split(&here.w)?;
+    let m = ring.len();
+    let onward = |step: f64| here.w.iter().zip(&here.tangent).map(|(w, t)| w + step * t).collect::<Vec<f64>>();
+    let spot = |w: Vec<f64>| Spot { w, ..here.clone() };
+    if kind == CurveKind::Grazing && m > 1 && (0..m).all(|k| ring.speed(k).abs() < NEAR) {
+        // on by what the fastest one still has
+        let fastest = (0..m).max_by(|&a, &b| ring.speed(a).abs().total_cmp(&ring.speed(b).abs()))?;
+        let step = -ring.speed(fastest) / here.tangent[2 * fastest + 1];
+        return (step.abs() < 1e3 * NEAR).then(|| (spot(onward(step)), CurveEvent::LossOfContact));
+    }
+    if kind == CurveKind::Fold
+        && let Some(w) = trail.merged(plane)
+    {
+        let off: Vec<f64> = w.iter().zip(&here.w).map(|(a, b)| a - b).collect();
+        return (plane.length(&off) < FAR).then(|| (spot(w), CurveEvent::DegenerateFlip));
+    }
+    let turns = f64::from(ring.periods) / osc.beta();
+    let whole = turns.round();
+    if m == 1 && osc.damping() == 0.0 && (turns - whole).abs() < NEAR {
+        let n = f64::from(ring.periods);
+        let mut w = here.w.clone();
+        let (p, q) = (w.len() - 2, w.len() - 1);
+        for (at, parameter) in [(p, plane.parameters.0), (q, plane.parameters.1)] {
+            let exact = match parameter {
+                Parameter::Beta => n / whole,
+                Parameter::InverseBeta => whole / n,
+                _ => continue,
+            };
+            let step = (exact - w[at]) / here.tangent[at];
+            if step.abs() < 1e3 * NEAR {
+                w = onward(step);
+            }
+            w[at] = exact;
+        }
+        return Some((spot(w), CurveEvent::WholePeriods));
+    }
+    None
+}

@@ -1,0 +1,53 @@
+//! A plane of two parameters, and a box in it.
+
+use super::plane::Condition;
+use crate::system::Parameter;
+use core::ops::RangeInclusive;
+
+/// A plane of two parameters and the box in it that is looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// The parameters.
+    pub parameters: (Parameter, Parameter),
+    /// Their ranges.
+    pub ranges: (RangeInclusive<f64>, RangeInclusive<f64>),
+}
+
+impl Frame {
+    /// What a change of each parameter counts by: a quarter of its range.
+    pub(super) fn scales(&self) -> (f64, f64) {
+        let quarter = |range: &RangeInclusive<f64>| 0.25 * (range.end() - range.start());
+        (quarter(&self.ranges.0), quarter(&self.ranges.1))
+    }
+
+    /// Whether the ranges are finite and in order.
+    pub(super) fn sensible(&self) -> bool {
+        let good = |r: &RangeInclusive<f64>| r.start().is_finite() && r.end().is_finite() && r.start() < r.end();
+        good(&self.ranges.0) && good(&self.ranges.1)
+    }
+
+    /// Its edges, each positive inside.
+    pub(super) fn edges(&self) -> [Condition; 4] {
+        let (p, q) = &self.ranges;
+        [
+            Condition::Line(1.0, 0.0, *p.start()),
+            Condition::Line(-1.0, 0.0, -*p.end()),
+            Condition::Line(0.0, 1.0, *q.start()),
+            Condition::Line(0.0, -1.0, -*q.end()),
+        ]
+    }
+
+    /// The same with each range shrunk by a share of it at either end.
+    pub(super) fn shrunk(&self, share: f64) -> Self {
+        let shrink = |r: &RangeInclusive<f64>| {
+            let by = share * (r.end() - r.start());
+            r.start() + by..=r.end() - by
+        };
+        Self { parameters: self.parameters, ranges: (shrink(&self.ranges.0), shrink(&self.ranges.1)) }
+    }
+
+    /// Whether it holds a point.
+    pub(super) fn holds(&self, (p, q): (f64, f64)) -> bool {
+        self.ranges.0.contains(&p) && self.ranges.1.contains(&q)
+    }
+}
