@@ -82,7 +82,9 @@ impl Curve {
             if grazing != Some(k) {
                 watched.push(Condition::Speed(k));
             }
-            watched.extend(osc.stops().map(|(side, _)| Condition::Clear(k, side)));
+            // one impact of speed zero in n periods is the motion without impacts: its other crests are the same touch
+            let itself = |side: Side| grazing.is_some() && ring.len() == 1 && side == ring.side(k);
+            watched.extend(osc.stops().filter(|(s, _)| !itself(*s)).map(|(side, _)| Condition::Clear(k, side)));
         }
         if let Some(k) = grazing {
             watched.extend([Condition::Trace, Condition::Pull(k)]);
@@ -171,6 +173,9 @@ impl Curve {
             return self.finish(&here, CurveEvent::StepLimit);
         }
         let Some(Stride { there, length, mut crossed }) = self.walk.stride() else {
+            if let Some(edge) = self.on_edge() {
+                return self.end_of_box(&edge);
+            }
             let (spot, event) = reason(&self.walk, self.kind, &self.trail).unwrap_or((here, CurveEvent::NoConvergence));
             return self.finish(&spot, event);
         };
@@ -197,13 +202,7 @@ impl Curve {
             };
             let event = match self.walk.watched.get(j) {
                 None => CurveEvent::Cusp,
-                Some(Condition::Line(..)) => {
-                    let flat = self.walk.plane.flights(&spot.w).map(|(o, r, f)| Floquet::new(&o, &r, &f).determinant);
-                    if self.kind == CurveKind::Flip && flat.is_some_and(|det| (det - 1.0).abs() < 1e-12) {
-                        self.emit(&spot, Some(CurveEvent::OneToTwo));
-                    }
-                    return self.finish(&spot, CurveEvent::EndOfBox);
-                }
+                Some(Condition::Line(..)) => return self.end_of_box(&spot),
                 Some(Condition::Trace) => CurveEvent::ResonantGrazing,
                 Some(Condition::Pull(_)) => CurveEvent::DegenerateGrazing,
                 Some(Condition::Speed(_)) if self.kind != CurveKind::Grazing => {
@@ -221,6 +220,34 @@ impl Curve {
         }
         self.emit(&there, closed.then_some(CurveEvent::Closed));
         self.over = closed;
+    }
+
+    /// The point on an edge of the box that the curve has come so near to that only the edge itself is left: beyond it
+    /// there may be no oscillator to try a step with.
+    fn on_edge(&self) -> Option<Spot> {
+        let here = &self.walk.here;
+        let edges = self.walk.watched.iter().zip(&here.values);
+        let near = |(condition, value): (&Condition, &f64)| match condition {
+            Condition::Line(a, b, c) if value.abs() < AT_EDGE => Some((*a, *b, *c)),
+            _ => None,
+        };
+        edges.filter_map(near).find_map(|(a, b, c)| {
+            let mut row = vec![0.0; here.w.len()];
+            let (p, q) = (row.len() - 2, row.len() - 1);
+            (row[p], row[q]) = (a, b);
+            let (mut w, _) = correct(&self.walk.plane, &here.w, &row, c)?;
+            let at = if a == 0.0 { (q, c / b) } else { (p, c / a) };
+            w[at.0] = at.1;
+            self.walk.spot(w)
+        })
+    }
+
+    fn end_of_box(&mut self, spot: &Spot) {
+        let turn = self.walk.plane.flights(&spot.w).map(|(o, r, f)| Floquet::new(&o, &r, &f).determinant);
+        if self.kind == CurveKind::Flip && turn.is_some_and(|det| (det - 1.0).abs() < 1e-12) {
+            self.emit(spot, Some(CurveEvent::OneToTwo));
+        }
+        self.finish(spot, CurveEvent::EndOfBox);
     }
 
     /// Whether the step to `there` passes the beginning.
@@ -245,6 +272,8 @@ fn grazes(watched: &[Condition], spot: &Spot) -> bool {
     })
 }
 
+/// Nearer to an edge of the box than this a lost curve is at the edge.
+const AT_EDGE: f64 = 1e-8;
 /// A course slower than this, parameters over arclength, is rounding.
 const STILL: f64 = 1e-4;
 

@@ -46,7 +46,8 @@ pub enum CurveEvent {
     /// A grazing curve of a longer cycle ends on that of the motion without impacts: all speeds vanish.
     LossOfContact,
     /// One impact, no damping, and whole natural periods in the periods of the force: the mass is back on the stop whatever
-    /// its speed, and the equations are singular. The curve goes no further.
+    /// its speed, and the equations are singular. The curve goes no further; the frequency is exact, the other parameter
+    /// right to about 1e-7.
     WholePeriods,
     /// Both multipliers are -1, which takes a determinant of 1: restitution 1 and no damping.
     OneToTwo,

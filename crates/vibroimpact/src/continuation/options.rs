@@ -54,7 +54,9 @@ pub enum BranchError {
         high: f64,
     },
     /// A cycle with a rest: it is fixed by its release and has no equations to follow.
-    #[error("a cycle that rests on a stop cannot be followed: it is determined by its release at each value anew")]
+    #[error(
+        "a cycle that rests on a stop cannot be followed: it is determined by its release at each value anew\nhint: ask for it at single values, where it is found at once"
+    )]
     Rests,
     /// The motion without impacts of an oscillator without damping.
     #[error(

@@ -49,8 +49,9 @@ impl Default for RegionOptions {
 /// The region of the orbits of `osc` that are called `label` in a frame of two parameters.
 ///
 /// Orbits are looked for on a grid, and from each that lies in no polygon yet a walk goes round the part of the region
-/// it lies in; from grid points inside a polygon without an orbit, round the hole. A region of orbits that rest on a stop
-/// (`inf/n`) is not looked for, nor that of the motion without impacts: that is where $`|f|`$ exceeds no gap.
+/// it lies in; from grid points inside a polygon without an orbit, round the hole. Where a walk is lost, the points of the
+/// grid that it would have gone round are [unresolved](Region::unresolved). Not looked for are the regions of orbits that
+/// rest on a stop (`inf/n`), and that of the motion without impacts: it is where $`|f|`$ exceeds no gap.
 #[must_use]
 pub fn region(osc: &Oscillator, label: Label, kind: RegionKind, frame: &Frame, options: RegionOptions) -> Region {
     let mut search =

@@ -3,6 +3,8 @@
 //! | what | file |
 //! |---|---|
 //! | one impact in n periods: orbit, multipliers, fold and doubling curves | `closed_forms` |
+//! | points of codimension two, and ends of curves | `codimension` |
+//! | the events of 2/1, 1/3 and 1/4 on a line, flown on either side | `events` |
 //! | curves of folds, flips and grazing impacts in the plane | `curves` |
 //! | the steady motion without impacts, and what begins where it touches | `free` |
 //! | every event between 1/beta = 1.11, delta = 0 and loss of contact, confirmed by simulation | `line` |
@@ -12,7 +14,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 mod closed_forms;
+mod codimension;
 mod curves;
+mod events;
 mod free;
 mod grazing;
 mod line;

@@ -103,6 +103,24 @@ fn two_impacts_a_period_in_the_papers_plane() {
 }
 
 #[test]
+fn one_impact_in_two_periods() {
+    let osc = Oscillator::from_inverse_beta(1.11, 1.0, 0.5).unwrap();
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.9..=1.3, 1.0..=5.0) };
+    Case { osc, label: Label::new(1, 2), frame: frame.clone() }.check(RegionKind::Existence, 60);
+    Case { osc, label: Label::new(1, 2), frame }.check(RegionKind::Stability, 60);
+}
+
+#[test]
+fn two_impacts_with_damping_and_on_two_stops() {
+    let osc = Oscillator::from_inverse_beta(1.3, 0.3, 0.6).unwrap().with_damping(0.04).unwrap();
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.8..=1.6, -0.5..=0.8) };
+    Case { osc, label: Label::new(2, 1), frame }.check(RegionKind::Existence, 60);
+    let two = Oscillator::new(0.7, 0.6, 0.7).unwrap().with_damping(0.1).unwrap().with_second_stop(0.8, 0.6).unwrap();
+    let frame = Frame { parameters: (Parameter::Beta, Parameter::Gap), ranges: (0.5..=1.2, 0.1..=2.0) };
+    Case { osc: two, label: Label::new(2, 1), frame }.check(RegionKind::Existence, 60);
+}
+
+#[test]
 fn with_damping_and_in_other_planes() {
     let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap().with_damping(0.03).unwrap();
     let label = Label::new(1, 1);
