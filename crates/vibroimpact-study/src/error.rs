@@ -1,8 +1,9 @@
 //! Why a plan makes no sense.
 
 use thiserror::Error;
-use vibroimpact::SystemError;
+use vibroimpact::continuation::BranchError;
 use vibroimpact::verdict::LabelError;
+use vibroimpact::{Label, SystemError};
 
 /// A plan that cannot be run. The sentence names the value, the allowed range and often a hint.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -97,6 +98,112 @@ pub enum PlanError {
         /// The most allowed.
         most: u64,
     },
+    /// A parameter that is to go where it is already.
+    #[error("{name} is to go from {value} to {value}: there is nothing on the way\nhint: --to another value")]
+    Nowhere {
+        /// The parameter.
+        name: &'static str,
+        /// Where it is.
+        value: f64,
+    },
+    /// A number of branches to follow that makes no sense.
+    #[error("follow = {given} lies outside 0 <= follow <= {most}")]
+    Follow {
+        /// What was asked.
+        given: u32,
+        /// The most allowed.
+        most: u32,
+    },
+    /// A number of points of a branch that makes no sense.
+    #[error("points = {given} lies outside 2 <= points <= {most}")]
+    BranchPoints {
+        /// What was asked.
+        given: u32,
+        /// The most allowed.
+        most: u32,
+    },
+    /// A grid that makes no sense.
+    #[error("grid = {given} lies outside 2 <= grid <= {most}")]
+    Grid {
+        /// What was asked.
+        given: u32,
+        /// The most allowed.
+        most: u32,
+    },
+    /// A range of a parameter that is none.
+    #[error("{name} from {from} to {to} is no range: two finite numbers in rising order are needed")]
+    Stretch {
+        /// The parameter.
+        name: &'static str,
+        /// One end.
+        from: f64,
+        /// The other.
+        to: f64,
+    },
+    /// Two parameters that are one.
+    #[error("{0} and {1} do not span a plane: they are one parameter")]
+    SameParameter(&'static str, &'static str),
+    /// The system lies outside the range of a parameter.
+    #[error(
+        "{name} = {value} lies outside the range from {from} to {to}\nhint: the orbit to begin with is looked for at the system given"
+    )]
+    Outside {
+        /// The parameter.
+        name: &'static str,
+        /// Its value in the system.
+        value: f64,
+        /// Smallest value of the range.
+        from: f64,
+        /// Largest value.
+        to: f64,
+    },
+    /// No motion of a label to begin with.
+    #[error(
+        "no orbit {label} was found that is a motion, so there is nothing to follow\nhint: `vibro orbit` lists what there is; solutions that are no motions ({others} here) are followed when named"
+    )]
+    NoOrbit {
+        /// The label.
+        label: Label,
+        /// Solutions of the equations that are no motions.
+        others: usize,
+    },
+    /// An orbit by a number that none has.
+    #[error(
+        "there is no orbit {label} number {given}: {count} were found\nhint: they are numbered from 1, as `vibro orbit` lists them"
+    )]
+    NoSuchOrbit {
+        /// What was asked.
+        given: u32,
+        /// How many there are.
+        count: usize,
+        /// The label.
+        label: Label,
+    },
+    /// No event of a kind on a branch, or none of that number.
+    #[error(
+        "{} on the branch of {label} with {name} from {from} to {to}{}\nhint: `vibro branch` lists the events",
+        asked.map_or_else(|| format!("no {kind} was found"), |n| format!("there is no {kind} number {n}")),
+        if *count == 0 { String::new() } else { format!(": {count} found") }
+    )]
+    NoEvent {
+        /// The kind.
+        kind: &'static str,
+        /// Label of the branch.
+        label: Label,
+        /// The parameter that varies.
+        name: &'static str,
+        /// Smallest value of its range.
+        from: f64,
+        /// Largest value.
+        to: f64,
+        /// How many there are.
+        count: usize,
+        /// Which was asked for, if one was.
+        asked: Option<u32>,
+    },
+    /// A branch or a curve that cannot begin.
+    #[error(transparent)]
+    Branch(#[from] BranchError),
     /// Not a label.
     #[error(transparent)]
     Label(#[from] LabelError),

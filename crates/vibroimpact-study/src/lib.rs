@@ -14,26 +14,41 @@
 //! | the motions of one system from many starts | [`attractors`] |
 //! | the motion after its transient at each value of a parameter | [`diagram()`], [`mod@diagram`] |
 //! | the Lyapunov exponents of a motion: the question | [`LyapunovPlan`] |
-//! | the parameters by name | [`Parameter`] |
+//! | a branch of periodic orbits in one parameter, and those that begin on it | [`BranchPlan`], [`branches`] |
+//! | which orbit it begins with | [`Chosen`] |
+//! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`curve`](curve()) |
+//! | where a motion exists and where it is stable | [`RegionPlan`], [`regions`] |
+//! | a parameter and its range | [`Stretch`] |
+//! | the parameters of the core in plans | [`Parameter`], `parameter` |
 
 mod attractors;
 mod basin;
+mod begin;
+mod branch;
 mod control;
+mod curve;
 pub mod diagram;
 mod error;
 mod lyapunov;
 mod map;
 mod parameter;
 mod plan;
+mod region;
 mod span;
+mod stretch;
 
 pub use attractors::attractors;
 pub use basin::{Basin, RunError, basin};
+pub use begin::Chosen;
+pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin, branches};
 pub use control::{Control, Stopped, tiles};
+pub use curve::{CurvePlan, EventCurve, EventKind, curve};
 pub use diagram::{Diagram, DiagramPlan, diagram};
 pub use error::PlanError;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use map::{MapPoint, RegionMap, Share, map};
-pub use parameter::Parameter;
+pub use parameter::{Parameter, is_length};
 pub use plan::{BasinPlan, MapPlan, PLAN_VERSION, Plan, SecondStop, StartPlan, SystemPlan, Task};
+pub use region::{DEFAULT_GRID, RegionPlan, Regions, regions};
 pub use span::Span;
+pub use stretch::Stretch;

@@ -1,66 +1,57 @@
-//! What can vary: the parameters of a system by name.
+//! What can vary: the parameters of the core, in plans.
 
 use crate::{PlanError, SecondStop, SystemPlan};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+pub use vibroimpact::Parameter;
 
-/// A parameter of a [`SystemPlan`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Parameter {
-    /// $`\beta`$.
-    Beta,
-    /// $`1/\beta`$.
-    InverseBeta,
-    /// $`\delta`$.
-    Gap,
-    /// $`\varepsilon`$ of the first stop.
-    Restitution,
-    /// $`\zeta`$.
-    Damping,
-    /// $`\delta_2`$, the gap of the second stop.
-    SecondGap,
-    /// $`\varepsilon_2`$, the restitution of the second stop.
-    SecondRestitution,
+/// Whether a parameter's unit is that of a length.
+#[must_use]
+pub const fn is_length(parameter: Parameter) -> bool {
+    matches!(parameter, Parameter::Gap | Parameter::SecondGap)
 }
 
-impl Parameter {
-    /// Its name in plans and tables.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Beta => "beta",
-            Self::InverseBeta => "inverse_beta",
-            Self::Gap => "gap",
-            Self::Restitution => "restitution",
-            Self::Damping => "damping",
-            Self::SecondGap => "second_gap",
-            Self::SecondRestitution => "second_restitution",
-        }
-    }
+/// A parameter in a plan stands by its name.
+pub(crate) fn serialize<S: Serializer>(parameter: &Parameter, to: S) -> Result<S::Ok, S::Error> {
+    parameter.name().serialize(to)
+}
 
-    /// Whether its unit is that of a length.
-    #[must_use]
-    pub const fn is_length(self) -> bool {
-        matches!(self, Self::Gap | Self::SecondGap)
-    }
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Parameter, D::Error> {
+    let name = String::deserialize(from)?;
+    Parameter::ALL.into_iter().find(|parameter| parameter.name() == name).ok_or_else(|| {
+        let known = Parameter::ALL.map(Parameter::name).join(", ");
+        serde::de::Error::custom(format!("`{name}` is no parameter; there are {known}"))
+    })
+}
 
-    /// `system` with another value of this parameter. Setting $`\beta`$ or $`1/\beta`$ replaces whichever was given.
+impl SystemPlan {
+    /// The same with another value of a parameter. Setting $`\beta`$ or $`1/\beta`$ replaces whichever was given.
     ///
     /// # Errors
     /// [`PlanError::NoSecondStop`] for a parameter of a second stop that is not there.
-    pub fn set(self, system: &SystemPlan, value: f64) -> Result<SystemPlan, PlanError> {
-        let second = || system.second_stop.ok_or(PlanError::NoSecondStop(self.name()));
-        Ok(match self {
-            Self::Beta => SystemPlan { beta: Some(value), inverse_beta: None, ..*system },
-            Self::InverseBeta => SystemPlan { beta: None, inverse_beta: Some(value), ..*system },
-            Self::Gap => SystemPlan { gap: value, ..*system },
-            Self::Restitution => SystemPlan { restitution: value, ..*system },
-            Self::Damping => SystemPlan { damping: value, ..*system },
-            Self::SecondGap => SystemPlan { second_stop: Some(SecondStop { gap: value, ..second()? }), ..*system },
-            Self::SecondRestitution => {
-                SystemPlan { second_stop: Some(SecondStop { restitution: value, ..second()? }), ..*system }
+    pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
+        let second = || self.second_stop.ok_or(PlanError::NoSecondStop(parameter.name()));
+        Ok(match parameter {
+            Parameter::Beta => Self { beta: Some(value), inverse_beta: None, ..*self },
+            Parameter::InverseBeta => Self { beta: None, inverse_beta: Some(value), ..*self },
+            Parameter::Gap => Self { gap: value, ..*self },
+            Parameter::Restitution => Self { restitution: value, ..*self },
+            Parameter::Damping => Self { damping: value, ..*self },
+            Parameter::SecondGap => Self { second_stop: Some(SecondStop { gap: value, ..second()? }), ..*self },
+            Parameter::SecondRestitution => {
+                Self { second_stop: Some(SecondStop { restitution: value, ..second()? }), ..*self }
             }
         })
+    }
+
+    /// The value of a parameter, as it was given where it was.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a system that makes no sense, or a parameter of a second stop that is not there.
+    pub fn value(&self, parameter: Parameter) -> Result<f64, PlanError> {
+        if let (Parameter::InverseBeta, Some(inverse)) = (parameter, self.inverse_beta) {
+            return Ok(inverse);
+        }
+        parameter.get(&self.oscillator()?).ok_or(PlanError::NoSecondStop(parameter.name()))
     }
 }
 
@@ -78,7 +69,7 @@ mod tests {
             second_stop: Some(stop),
             ..SystemPlan::default()
         };
-        let with = |parameter: Parameter| parameter.set(&system, 0.25).unwrap();
+        let with = |parameter: Parameter| system.with(parameter, 0.25).unwrap();
         assert_eq!((with(Parameter::InverseBeta).beta, with(Parameter::InverseBeta).inverse_beta), (None, Some(0.25)));
         assert_eq!(with(Parameter::Beta), SystemPlan { beta: Some(0.25), ..system });
         assert_eq!(with(Parameter::Gap), SystemPlan { gap: 0.25, ..system });
@@ -87,13 +78,23 @@ mod tests {
         assert_eq!(with(Parameter::SecondGap).second_stop, Some(SecondStop { gap: 0.25, ..stop }));
         assert_eq!(with(Parameter::SecondRestitution).second_stop, Some(SecondStop { restitution: 0.25, ..stop }));
         let single = SystemPlan { second_stop: None, ..system };
-        assert_eq!(Parameter::SecondGap.set(&single, 1.0), Err(PlanError::NoSecondStop("second_gap")));
+        assert_eq!(single.with(Parameter::SecondGap, 1.0), Err(PlanError::NoSecondStop("second_gap")));
+        assert_eq!(single.value(Parameter::SecondGap), Err(PlanError::NoSecondStop("second_gap")));
+        for parameter in Parameter::ALL {
+            assert_eq!(with(parameter).value(parameter), Ok(0.25));
+        }
     }
 
     #[test]
-    fn names_are_those_of_the_plan() {
-        for parameter in [Parameter::Beta, Parameter::InverseBeta, Parameter::SecondRestitution] {
-            assert_eq!(serde_json::to_value(parameter).unwrap(), parameter.name());
+    fn names_are_those_of_the_core() {
+        #[derive(Serialize, Deserialize)]
+        struct Named(#[serde(with = "crate::parameter")] Parameter);
+        for parameter in Parameter::ALL {
+            let text = serde_json::to_value(Named(parameter)).unwrap();
+            assert_eq!(text, parameter.name());
+            assert_eq!(serde_json::from_value::<Named>(text).unwrap().0, parameter);
         }
+        let error = serde_json::from_str::<Named>("\"mass\"").err().unwrap().to_string();
+        assert!(error.contains("`mass` is no parameter; there are beta, inverse_beta"), "{error}");
     }
 }

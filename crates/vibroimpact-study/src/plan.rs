@@ -3,7 +3,7 @@
 //! Threads, output files and progress bars are no part of it. Absent fields have one meaning each, stated here; unknown
 //! fields are errors, so that a misspelt parameter cannot be ignored.
 
-use crate::{DiagramPlan, LyapunovPlan, PlanError, Span};
+use crate::{BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, PlanError, RegionPlan, Span};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Label, Oscillator, Start};
 
@@ -16,7 +16,8 @@ pub const PLAN_VERSION: u32 = 1;
 pub struct Plan {
     /// [`PLAN_VERSION`].
     pub version: u32,
-    /// The oscillator. For a map, its frequency and gap are those of the first point; for a diagram, what varies is.
+    /// The oscillator. For a map, its frequency and gap are those of the first point; for a diagram, what varies is; for a
+    /// region, what varies has its smallest values.
     pub system: SystemPlan,
     /// What is asked of it.
     pub task: Task,
@@ -61,6 +62,9 @@ impl Plan {
             }
             Task::Diagram(diagram) => diagram.check(&self.system),
             Task::Lyapunov(lyapunov) => lyapunov.check(&osc),
+            Task::Branch(branch) => branch.check(&self.system),
+            Task::Curve(curve) => curve.check(&self.system),
+            Task::Region(region) => region.check(&self.system),
         }
     }
 }
@@ -181,6 +185,12 @@ pub enum Task {
     Diagram(DiagramPlan),
     /// The Lyapunov exponents of a motion.
     Lyapunov(LyapunovPlan),
+    /// A branch of periodic orbits in one parameter.
+    Branch(BranchPlan),
+    /// A curve of events in two.
+    Curve(CurvePlan),
+    /// Where a motion exists and is stable in a plane of two.
+    Region(RegionPlan),
 }
 
 /// The starts of a basin: a grid over position and velocity at one phase.

@@ -1,14 +1,16 @@
 //! The command line. Groups that several commands share are here; what belongs to one command is in its file.
 
 mod output;
+mod plane;
 mod start;
 mod system;
 mod vary;
 
 pub(crate) use output::Globals;
+pub(crate) use plane::{Over, Place};
 pub(crate) use start::StartArgs;
 pub(crate) use system::{Asked, SystemArgs, Units};
-pub(crate) use vary::Vary;
+pub(crate) use vary::parameter;
 
 use crate::commands::Command;
 use clap::Parser;

@@ -3,7 +3,7 @@
 use crate::exit::Failure;
 use clap::{Args, ValueEnum};
 use vibroimpact::{Frequency, Machine, Scales};
-use vibroimpact_study::{Parameter, SecondStop, SystemPlan};
+use vibroimpact_study::{Parameter, SecondStop, SystemPlan, is_length};
 
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "System")]
@@ -114,6 +114,11 @@ impl Units {
 
     pub(crate) fn velocity(&self) -> f64 {
         self.factor(Scales::velocity_m_per_s)
+    }
+
+    /// Of a parameter.
+    pub(crate) fn of(&self, parameter: Parameter) -> f64 {
+        if is_length(parameter) { self.length() } else { 1.0 }
     }
 
     /// `name`, followed by its unit where there is one: `time (s)`.

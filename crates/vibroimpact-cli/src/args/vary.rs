@@ -2,60 +2,56 @@
 
 use super::{Asked, SystemArgs};
 use crate::exit::Failure;
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vibroimpact_study::Parameter;
 
 /// A parameter by the name of its flag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Vary {
-    /// Frequency ratio omega/omega_n
-    Beta,
-    /// Its inverse omega_n/omega
-    InverseBeta,
-    /// Distance of the stop
-    Gap,
-    /// Restitution of the stop
-    Restitution,
-    /// Damping ratio zeta
-    Damping,
-    /// Distance of the second stop
-    SecondGap,
-    /// Restitution of the second stop
-    SecondRestitution,
+pub(crate) fn parameter() -> impl TypedValueParser<Value = Parameter> {
+    let values = Parameter::ALL.map(|parameter| PossibleValue::new(flag(parameter)).help(meaning(parameter)));
+    PossibleValuesParser::new(values).try_map(|name| {
+        let named = Parameter::ALL.into_iter().find(|parameter| flag(*parameter) == name);
+        named.ok_or_else(|| format!("`{name}` is no parameter"))
+    })
 }
 
-impl Vary {
-    pub(crate) const fn parameter(self) -> Parameter {
-        match self {
-            Self::Beta => Parameter::Beta,
-            Self::InverseBeta => Parameter::InverseBeta,
-            Self::Gap => Parameter::Gap,
-            Self::Restitution => Parameter::Restitution,
-            Self::Damping => Parameter::Damping,
-            Self::SecondGap => Parameter::SecondGap,
-            Self::SecondRestitution => Parameter::SecondRestitution,
-        }
+/// Its flag, without the dashes.
+pub(crate) const fn flag(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::Beta => "beta",
+        Parameter::InverseBeta => "inverse-beta",
+        Parameter::Gap => "gap",
+        Parameter::Restitution => "restitution",
+        Parameter::Damping => "damping",
+        Parameter::SecondGap => "second-gap",
+        Parameter::SecondRestitution => "second-restitution",
     }
 }
 
-fn flag(parameter: Parameter) -> String {
-    format!("--{}", parameter.name().replace('_', "-"))
+const fn meaning(parameter: Parameter) -> &'static str {
+    match parameter {
+        Parameter::Beta => "Frequency ratio omega/omega_n",
+        Parameter::InverseBeta => "Its inverse omega_n/omega",
+        Parameter::Gap => "Distance of the stop",
+        Parameter::Restitution => "Restitution of the stop",
+        Parameter::Damping => "Damping ratio zeta",
+        Parameter::SecondGap => "Distance of the second stop",
+        Parameter::SecondRestitution => "Restitution of the second stop",
+    }
 }
 
 impl SystemArgs {
     /// The system with `first` for the parameter that varies, which has no value of its own. A machine in physical units
     /// is given whole, because its units need all of it; its value is replaced.
-    pub(crate) fn varied(&self, vary: Vary, first: f64) -> Result<Asked, Failure> {
-        let parameter = vary.parameter();
+    pub(crate) fn varied(&self, parameter: Parameter, first: f64) -> Result<Asked, Failure> {
         let frequency = [Parameter::Beta, Parameter::InverseBeta];
         let same =
             |other: &Parameter| *other == parameter || frequency.contains(other) && frequency.contains(&parameter);
         let mut args = *self;
         if let Some(given) = frequency.into_iter().chain([parameter]).filter(same).find(|p| args.slot(*p).is_some()) {
             return Err(Failure::bad(format!(
-                "{} cannot go together with --vary {}\nhint: leave it out, --over has its values",
+                "--{} cannot go together with --vary {}\nhint: leave it out, --over has its values",
                 flag(given),
-                flag(parameter).trim_start_matches("--")
+                flag(parameter)
             )));
         }
         if parameter == Parameter::Restitution && args.second_stop_follows() {
@@ -69,7 +65,6 @@ impl SystemArgs {
             return args.asked();
         }
         let asked = args.asked()?;
-        let unit = if parameter.is_length() { asked.units.length() } else { 1.0 };
-        Ok(Asked { system: parameter.set(&asked.system, first / unit)?, ..asked })
+        Ok(Asked { system: asked.system.with(parameter, first / asked.units.of(parameter))?, ..asked })
     }
 }

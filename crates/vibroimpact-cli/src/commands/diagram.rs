@@ -1,6 +1,6 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
-use crate::args::{SystemArgs, Vary};
+use crate::args::{SystemArgs, parameter};
 use crate::commands::basin::scaled;
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
@@ -14,7 +14,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::path::PathBuf;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
-use vibroimpact_study::{DiagramPlan, Plan, Span, Task, diagram};
+use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Task, diagram};
 
 /// The orbit diagram: impacts or states after the transient, at each value of one parameter
 ///
@@ -45,8 +45,8 @@ pub(crate) struct Diagram {
     system: SystemArgs,
 
     /// The parameter that varies
-    #[arg(long, value_enum, value_name = "PARAMETER", help_heading = "Sweep")]
-    vary: Vary,
+    #[arg(long, value_parser = parameter(), value_name = "PARAMETER", help_heading = "Sweep")]
+    vary: Parameter,
 
     /// Its values: N from A to B, both included
     #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Sweep")]
@@ -134,10 +134,10 @@ impl Diagram {
 
 pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     let asked = args.system.varied(args.vary, args.over.ends().0)?;
-    let (units, vary) = (asked.units, args.vary.parameter());
+    let (units, vary) = (asked.units, args.vary);
     let task = DiagramPlan {
         vary,
-        over: scaled(&args.over, if vary.is_length() { units.length() } else { 1.0 })?,
+        over: scaled(&args.over, units.of(vary))?,
         show: match args.show {
             What::Velocity => Show::Velocity,
             What::Strobe => Show::Strobe,
@@ -175,7 +175,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
 
 fn summary(args: &Diagram, sweeps: &[Counts]) -> String {
     let (from, to) = args.over.ends();
-    let name = args.vary.parameter().name().replace('_', " ");
+    let name = args.vary.name().replace('_', " ");
     let heads = ["<sweep", "motions", "with impacts", "none", "stuck", "undecided", "points"].map(str::to_owned);
     let rows: Vec<Vec<String>> = sweeps
         .iter()

@@ -3,13 +3,16 @@
 mod attractors;
 mod basin;
 mod bench;
+mod branch;
 mod completions;
+mod curve;
 mod diagram;
 mod lyapunov;
 mod man;
 mod map;
 mod orbit;
 mod outputs;
+mod region;
 mod reproduce;
 mod settle;
 mod simulate;
@@ -24,6 +27,9 @@ pub(crate) enum Command {
     Settle(settle::Settle),
     Attractors(attractors::Attractors),
     Orbit(orbit::Orbit),
+    Branch(branch::Branch),
+    Curve(curve::Curve),
+    Region(region::Region),
     Basin(basin::Basin),
     Map(map::Map),
     Diagram(diagram::Diagram),
@@ -40,6 +46,9 @@ pub(crate) fn run(command: &Command, session: &Session) -> Result<(), Failure> {
         Command::Settle(args) => settle::run(args, session),
         Command::Attractors(args) => attractors::run(args, session),
         Command::Orbit(args) => orbit::run(args, session),
+        Command::Branch(args) => branch::run(args, session),
+        Command::Curve(args) => curve::run(args, session),
+        Command::Region(args) => region::run(args, session),
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),
         Command::Diagram(args) => diagram::run(args, session),

@@ -2,21 +2,25 @@
 
 use crate::args::SystemArgs;
 use crate::exit::Failure;
-use crate::report::json::{Document, Motion};
-use crate::report::text;
+use crate::report::json::Document;
+use crate::report::orbit::{OrbitObject, text};
+use crate::report::text as words;
 use crate::session::Session;
 use crate::signal;
 use clap::Args;
 use serde::Serialize;
 use vibroimpact::Label;
 use vibroimpact::orbit::{FindOptions, find};
-use vibroimpact::verdict::{LabelError, Verdict};
+use vibroimpact::verdict::LabelError;
 use vibroimpact_study::{Plan, Task};
 
 /// All periodic orbits with m impacts in n forcing periods, stable or not
 ///
-/// Looked for by Newton's method from many seeds, and in closed form for 1/n. An orbit that is not physical solves the
-/// equations but would pass through a stop on its way. An orbit that no seed leads to is not found.
+/// Looked for by Newton's method from many seeds, and in closed form for 1/n. An orbit that no seed leads to is not found.
+///
+/// A solution of the equations that passes through a stop on its way is no motion: "physical" is false, and
+/// "earlier_contact" says after which of its impacts, counted from 1, it meets which stop, and how long after. Of these
+/// only some come up.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro orbit --beta B --gap D --restitution E --label m/n [OPTIONS]",
@@ -42,13 +46,6 @@ struct Answer {
     orbits: Vec<OrbitObject>,
 }
 
-#[derive(Serialize)]
-struct OrbitObject {
-    #[serde(flatten)]
-    motion: Motion,
-    physical: bool,
-}
-
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let task = Task::Orbit { label: args.label.clone() };
@@ -60,27 +57,20 @@ pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let orbits = signal::interruptible("looking for orbits", move || find(&osc, label, FindOptions::default()))?;
 
     if args.json {
-        let orbits = orbits
-            .into_iter()
-            .map(|orbit| OrbitObject {
-                motion: Motion::new(&Verdict::Periodic(orbit.cycle), &osc, &asked.units),
-                physical: orbit.physical,
-            })
-            .collect();
-        session.print_json(&Document::new(&asked, &osc, &plan, Answer { orbits }))?;
-    } else {
-        let mut text = text::system(&asked, &osc);
-        if orbits.is_empty() {
-            text.push_str(&format!("\nno orbit {label} was found\n"));
-        }
-        for orbit in orbits {
-            text.push('\n');
-            if !orbit.physical {
-                text.push_str("not physical, it passes through a stop on its way: ");
-            }
-            text.push_str(&text::motion(&Verdict::Periodic(orbit.cycle), &osc, &asked.units));
-        }
-        session.print(&text)?;
+        let orbits = orbits.into_iter().map(|orbit| OrbitObject::new(orbit, &osc, &asked.units)).collect();
+        return session.print_json(&Document::new(&asked, &osc, &plan, Answer { orbits }));
     }
-    Ok(())
+    let mut said = words::system(&asked, &osc);
+    if orbits.is_empty() {
+        said.push_str(&format!("\nno orbit {label} was found\n"));
+    }
+    let count = orbits.len();
+    for (k, orbit) in orbits.into_iter().enumerate() {
+        said.push('\n');
+        if count > 1 {
+            said.push_str(&format!("orbit {} of {count}\n", k + 1));
+        }
+        said.push_str(&text(orbit, &osc, &asked.units));
+    }
+    session.print(&said)
 }

@@ -7,7 +7,7 @@ use crate::args::Asked;
 use crate::exit::Failure;
 use crate::plot::{
     basin::{axis, half_cell},
-    symbol, title_without,
+    named, symbol, title_without,
 };
 use std::collections::HashSet;
 use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Points, Raster, SERIES};
@@ -41,12 +41,21 @@ pub(crate) fn figure(found: &Diagram, over: &Span, asked: &Asked) -> Result<Figu
         thin(&mut cloud.small, range);
     }
     let vary = found.plan.vary;
-    let name = if vary.is_length() { asked.units.named(symbol(vary), "m") } else { symbol(vary).into() };
-    let panel = Panel::new(axis(&name, over), ordinate(found, asked).range(range.0, range.1));
+    let panel = Panel::new(axis(&named(vary, &asked.units), over), ordinate(found, asked).range(range.0, range.1));
     let dots: usize = clouds.iter().map(|cloud| cloud.large.len() + cloud.small.len()).sum();
     let (panel, legend) =
         if dots > MOST_DOTS { as_cells(panel, &clouds, over, range)? } else { as_dots(panel, clouds, over) };
-    Ok(Figure::new(panel).title(title_without(&asked.system, Some(vary))).legend(legend))
+    Ok(Figure::new(panel).title(title_without(&asked.system, &[vary])).legend(legend))
+}
+
+/// All its dots in one colour, to lie behind curves.
+pub(crate) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colour) -> Points {
+    let mut dots: Vec<(u32, f64)> =
+        clouds(found, asked).into_iter().flat_map(|cloud| cloud.large.into_iter().chain(cloud.small)).collect();
+    let range = spread(dots.iter());
+    thin(&mut dots, range);
+    let (xs, ys): (Vec<f64>, Vec<f64>) = dots.into_iter().map(|(k, y)| (over.at(k), y)).unzip();
+    Points::new(xs, ys, colour).size(2.4)
 }
 
 fn ordinate(found: &Diagram, asked: &Asked) -> Axis {

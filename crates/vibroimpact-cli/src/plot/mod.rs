@@ -1,17 +1,22 @@
 //! Figures: each file one kind of picture; here their files.
 
 pub(crate) mod basin;
+pub(crate) mod branch;
+pub(crate) mod curve;
 pub(crate) mod diagram;
 pub(crate) mod map;
+pub(crate) mod region;
 pub(crate) mod section;
+pub(crate) mod tracks;
 pub(crate) mod waveform;
 
+use crate::args::Units;
 use crate::exit::Failure;
 use crate::files::Target;
 use crate::report::text::short;
 use std::path::Path;
 use vibroimpact_plot::{Colour, DPI_300, Figure, plain};
-use vibroimpact_study::{Parameter, SystemPlan};
+use vibroimpact_study::{Parameter, SystemPlan, is_length};
 
 /// A place for a figure, known to be writable and of a known format.
 #[derive(Debug)]
@@ -43,11 +48,11 @@ impl Picture {
 
 /// The parameters as a title, the frequency as it was given.
 pub(crate) fn title(system: &SystemPlan) -> String {
-    title_without(system, None)
+    title_without(system, &[])
 }
 
-/// The same without the parameter that varies in the figure.
-pub(crate) fn title_without(system: &SystemPlan, varied: Option<Parameter>) -> String {
+/// The same without the parameters that vary in the figure.
+pub(crate) fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String {
     let frequency = match (system.inverse_beta, system.beta) {
         (Some(inverse), _) => (Parameter::InverseBeta, inverse),
         (None, beta) => (Parameter::Beta, beta.unwrap_or(f64::NAN)),
@@ -58,11 +63,13 @@ pub(crate) fn title_without(system: &SystemPlan, varied: Option<Parameter>) -> S
     }
     if let Some(stop) = system.second_stop {
         given.push((Parameter::SecondGap, stop.gap));
-        if stop.restitution != system.restitution || varied == Some(Parameter::Restitution) {
+        if stop.restitution != system.restitution || varied.contains(&Parameter::Restitution) {
             given.push((Parameter::SecondRestitution, stop.restitution));
         }
     }
-    given.retain(|(parameter, _)| Some(*parameter) != varied);
+    let is_frequency = |parameter: &Parameter| matches!(parameter, Parameter::Beta | Parameter::InverseBeta);
+    let tuned = varied.iter().any(is_frequency);
+    given.retain(|(parameter, _)| !varied.contains(parameter) && !(tuned && is_frequency(parameter)));
     let parts: Vec<String> =
         given.iter().map(|(parameter, value)| format!("{} = {}", symbol(*parameter), short(*value))).collect();
     parts.join(", ").replace('-', "−")
@@ -79,6 +86,11 @@ pub(crate) const fn symbol(parameter: Parameter) -> &'static str {
         Parameter::SecondGap => "*δ*_2",
         Parameter::SecondRestitution => "*ε*_2",
     }
+}
+
+/// The same with its unit, for an axis.
+pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
+    if is_length(parameter) { units.named(symbol(parameter), "m") } else { symbol(parameter).into() }
 }
 
 /// A label as a figure shows it.

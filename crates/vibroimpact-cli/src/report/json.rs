@@ -220,8 +220,9 @@ pub(crate) struct Motion {
     tried: Option<Tried>,
 }
 
+/// An impact of a cycle.
 #[derive(Serialize)]
-struct CyclePoint {
+pub(crate) struct CyclePoint {
     phase: f64,
     velocity_before: f64,
     interval: f64,
@@ -292,7 +293,6 @@ impl HorizonObject {
 
 impl Motion {
     pub(crate) fn new(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
-        let pair = |m: [Multiplier; 2]| m.map(|m| [m.re, m.im]);
         let bare = Self {
             kind: "undecided",
             label: verdict.label().into_owned(),
@@ -300,7 +300,7 @@ impl Motion {
             periods: None,
             sticks: None,
             stable: verdict.stable(osc),
-            multipliers: verdict.multipliers(osc).map(pair),
+            multipliers: verdict.multipliers(osc).map(pairs),
             cycle: Vec::new(),
             chatter_end: None,
             release: None,
@@ -367,16 +367,7 @@ impl Motion {
             },
             periods: Some(cycle.label.periods),
             sticks: Some(rests.len()),
-            cycle: cycle
-                .points
-                .iter()
-                .map(|point| CyclePoint {
-                    phase: point.state.phase,
-                    velocity_before: point.state.velocity * units.velocity(),
-                    interval: point.interval * units.time(),
-                    side: side(point.state.side),
-                })
-                .collect(),
+            cycle: impacts(cycle, units),
             chatter_end: last.filter(|rest| rest.chatter).map(|rest| rest.begin),
             release: last.map(|rest| rest.release),
             rests: (!rests.is_empty()).then_some(rests),
@@ -384,6 +375,25 @@ impl Motion {
             ..bare
         }
     }
+}
+
+/// The impacts of a cycle.
+pub(crate) fn impacts(cycle: &Cycle, units: &Units) -> Vec<CyclePoint> {
+    cycle
+        .points
+        .iter()
+        .map(|point| CyclePoint {
+            phase: point.state.phase,
+            velocity_before: point.state.velocity * units.velocity(),
+            interval: point.interval * units.time(),
+            side: side(point.state.side),
+        })
+        .collect()
+}
+
+/// Real and imaginary part of each multiplier.
+pub(crate) fn pairs(multipliers: [Multiplier; 2]) -> [[f64; 2]; 2] {
+    multipliers.map(|m| [m.re, m.im])
 }
 
 /// A motion and how many starts led to it.

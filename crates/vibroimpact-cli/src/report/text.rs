@@ -29,6 +29,21 @@ pub(crate) fn short(x: f64) -> String {
     }
 }
 
+/// Twelve digits: what the value of an event is good for.
+pub(crate) fn precise(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() {
+        return short(x);
+    }
+    let size = x.abs();
+    if (1e-4..1e7).contains(&size) {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 0 and 15
+        let places = (11.0 - size.log10().floor()).clamp(0.0, 15.0) as usize;
+        format!("{x:.places$}")
+    } else {
+        format!("{x:.11e}")
+    }
+}
+
 /// The system on one line.
 pub(crate) fn system(asked: &Asked, osc: &Oscillator) -> String {
     let inverse = asked.system.inverse_beta.unwrap_or(1.0 / osc.beta());
@@ -131,7 +146,7 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
     }
 }
 
-const fn stop_name(side: Side) -> &'static str {
+pub(crate) const fn stop_name(side: Side) -> &'static str {
     match side {
         Side::Upper => "stop",
         Side::Lower => "second stop",
@@ -231,7 +246,7 @@ pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Stri
 /// Impacts shown of a long cycle.
 const MOST_IMPACTS: usize = 40;
 
-fn impacts(cycle: &Cycle, osc: &Oscillator, units: &Units) -> String {
+pub(crate) fn impacts(cycle: &Cycle, osc: &Oscillator, units: &Units) -> String {
     let both = osc.stop(Side::Lower).is_some();
     let mut heads =
         vec!["impact".to_owned(), "phase".into(), units.named("velocity", "m/s"), units.named("interval", "s")];
@@ -296,6 +311,18 @@ mod tests {
             (f64::INFINITY, "infinite"),
         ] {
             assert_eq!(short(x), text);
+        }
+    }
+
+    #[test]
+    fn events_have_twelve_digits() {
+        for (x, text) in [
+            (1.829_006_189_683_6, "1.82900618968"),
+            (-0.012_345_678_901_234, "-0.0123456789012"),
+            (1e-9, "1.00000000000e-9"),
+            (0.0, "0"),
+        ] {
+            assert_eq!(precise(x), text);
         }
     }
 

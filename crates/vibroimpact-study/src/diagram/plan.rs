@@ -14,6 +14,7 @@ pub const DEFAULT_KEEP: u64 = 64;
 #[serde(deny_unknown_fields)]
 pub struct DiagramPlan {
     /// The parameter that varies; its value in the system counts for nothing.
+    #[serde(with = "crate::parameter")]
     pub vary: Parameter,
     /// Its values.
     pub over: Span,
@@ -111,7 +112,7 @@ impl DiagramPlan {
     /// # Errors
     /// [`PlanError`] for a value that gives no legal system.
     pub fn oscillator(&self, system: &SystemPlan, value: f64) -> Result<Oscillator, PlanError> {
-        self.vary.set(system, value)?.oscillator()
+        system.with(self.vary, value)?.oscillator()
     }
 
     /// Motions followed at each value.

@@ -1,0 +1,126 @@
+//! `vibro branch`: an orbit followed in one parameter, through its events.
+
+use crate::args::{SystemArgs, parameter};
+use crate::commands::outputs::Outputs;
+use crate::exit::Failure;
+use crate::plot;
+use crate::report::branch::{Answer, columns, rows, text};
+use crate::report::csv;
+use crate::report::json::Document;
+use crate::report::text as words;
+use crate::session::Session;
+use crate::signal;
+use clap::Args;
+use std::path::PathBuf;
+use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Task, branches, diagram};
+
+/// An orbit followed in one parameter, stable or not, with every event on the way
+///
+/// The orbit is looked for at the system given, as `vibro orbit` does, and followed from there by pseudo-arclength to the
+/// value of --to. Events are located to rounding: fold, flip (a multiplier is -1), branch point, grazing (an impact
+/// appears or disappears, and the branch goes on with the motion that takes over), loss of contact. In JSON a multiplier
+/// that is infinite, as at a grazing, is null; impacts are counted from 1.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro branch --beta B --gap D --restitution E --label m/n --vary PARAMETER --to VALUE [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5\n  \
+        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5 \\\n    \
+        --follow 3 --csv branch.csv --plot branch.png"
+)]
+pub(crate) struct Branch {
+    #[command(flatten)]
+    system: SystemArgs,
+
+    /// m impacts in n forcing periods, for example 2/1: the orbit at the system given
+    #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Branch")]
+    label: String,
+
+    /// Which of several orbits, as `vibro orbit` numbers them [default: the stable one, else the fastest motion]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Branch")]
+    orbit: Option<u32>,
+
+    /// The parameter that varies, from its value in the system
+    #[arg(long, value_parser = parameter(), value_name = "PARAMETER", help_heading = "Branch")]
+    vary: Parameter,
+
+    /// The other end of its range
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, help_heading = "Branch")]
+    to: f64,
+
+    /// Follow up to so many of the branches that begin at flips and branch points, 0 to 100
+    #[arg(long, value_name = "N", default_value_t = 0, allow_hyphen_values = true, help_heading = "Branch")]
+    follow: u32,
+
+    /// Points of each branch at most, 2 to 100000
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_BRANCH_POINTS, allow_hyphen_values = true, help_heading = "Branch")]
+    points: u32,
+
+    /// Write one row a point to this file; - for stdout. Columns: branch, the parameter, label, physical, stable, event,
+    /// real and imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw the bifurcation diagram into this file, .svg or .png: stable solid, unstable dashed, behind it in grey what
+    /// simulation finds
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    /// Leave out the simulation behind the figure
+    #[arg(long, help_heading = "Output")]
+    no_diagram: bool,
+
+    /// Draw solutions that are no motions too, dotted
+    #[arg(long = "virtual", help_heading = "Output")]
+    show_virtual: bool,
+
+    /// Print one JSON object instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
+    let asked = args.system.asked()?;
+    let vary = args.vary;
+    if args.plot.is_none() && (args.no_diagram || args.show_virtual) {
+        return Err(Failure::bad("--no-diagram and --virtual say how the figure is drawn\nhint: --plot FILE"));
+    }
+    let task = BranchPlan {
+        label: args.label.clone(),
+        vary,
+        to: args.to / asked.units.of(vary),
+        orbit: args.orbit,
+        follow: args.follow,
+        points: args.points,
+    };
+    let plan = Plan::new(asked.system, Task::Branch(task.clone()));
+    plan.check()?;
+    let osc = asked.system.oscillator()?;
+    let ends = (asked.system.value(vary)?, task.to);
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let to_stdout = args.csv.as_deref().is_some_and(|path| path.as_os_str() == "-");
+
+    let (system, question) = (asked.system, task.clone());
+    let found = signal::interruptible("following a branch", move || branches(&system, &question))??;
+    let behind = if args.plot.is_some() && !args.no_diagram {
+        let sweep = task.diagram(&asked.system)?;
+        let total = u64::from(sweep.over.count()) * sweep.runs();
+        Some(session.tiled(total, "motions", |control, _| diagram(&asked.system, &sweep, control))?)
+    } else {
+        None
+    };
+
+    outputs.write(
+        session,
+        |out| csv::write(out, &columns(vary), rows(&found, vary, &asked.units)),
+        || plot::branch::figure(&found, vary, ends, behind.as_ref(), args.show_virtual, &asked),
+    )?;
+    if args.json {
+        return session.print_json(&Document::new(&asked, &osc, &plan, Answer::new(&found, vary, ends, &asked.units)));
+    }
+    if to_stdout {
+        // the table is the answer
+        return Ok(());
+    }
+    session.print(&(words::system(&asked, &osc) + "\n" + &text(&found, vary, ends, &asked.units)))
+}

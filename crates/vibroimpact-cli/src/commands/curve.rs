@@ -1,0 +1,130 @@
+//! `vibro curve`: a fold, flip or grazing of an orbit over a plane of two parameters.
+
+use crate::args::{Over, SystemArgs, Units};
+use crate::commands::outputs::Outputs;
+use crate::exit::Failure;
+use crate::plot;
+use crate::report::csv;
+use crate::report::curve::{Answer, columns, rows, text};
+use crate::report::json::Document;
+use crate::report::text as words;
+use crate::session::Session;
+use crate::signal;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use vibroimpact_study::{CurvePlan, EventKind, Plan, Stretch, Task, curve};
+
+/// The curve of an event of an orbit in a plane of two parameters: where it folds, flips or grazes
+///
+/// The orbit is looked for at the system given and followed in the first parameter, to both ends of its range, while it
+/// keeps its label. From an event of the kind asked for the curve is followed both ways to the edge of the plane. Points
+/// of codimension two are named: cusp, resonant grazing (curves of folds and flips end there), double grazing,
+/// degenerate grazing, touch (beyond, the orbit is no motion), 1:2.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro curve --beta B --gap D --restitution E --label m/n --kind KIND --vary PARAMETER=A:B --and PARAMETER=A:B [OPTIONS]",
+    after_help = "Examples: where 1/1 doubles its period; where it begins\n  \
+        vibro curve --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --kind flip \\\n    \
+        --vary gap=0:3 --and inverse-beta=1.05:1.2 --plot flip.png\n  \
+        vibro curve --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --kind fold \\\n    \
+        --vary gap=1:5 --and inverse-beta=0.6:0.9 --csv fold.csv"
+)]
+pub(crate) struct Curve {
+    #[command(flatten)]
+    system: SystemArgs,
+
+    /// m impacts in n forcing periods, for example 2/1: the orbit at the system given
+    #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Curve")]
+    label: String,
+
+    /// Which of several orbits, as `vibro orbit` numbers them [default: the stable one, else the fastest motion]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
+    orbit: Option<u32>,
+
+    /// What holds along the curve
+    #[arg(long, value_enum, value_name = "KIND", help_heading = "Curve")]
+    kind: Kind,
+
+    /// The parameter in which the orbit is followed to the event, and its range
+    #[arg(long, value_name = "PARAMETER=A:B", help_heading = "Curve")]
+    vary: Over,
+
+    /// The other parameter and its range
+    #[arg(long, value_name = "PARAMETER=A:B", help_heading = "Curve")]
+    and: Over,
+
+    /// Which of several events, counted from 1 from small values to large [default: the nearest]
+    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
+    event: Option<u32>,
+
+    /// Write one row a point to this file; - for stdout. Columns: both parameters, label, physical, event, real and
+    /// imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw the curve into this file, .svg or .png
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    /// Print one JSON object instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// A multiplier is +1: two orbits meet
+    Fold,
+    /// A multiplier is -1: the period doubles
+    Flip,
+    /// An impact has speed zero: one appears, disappears, or the mass no longer reaches the stop
+    Grazing,
+}
+
+impl Curve {
+    fn plan(&self, units: &Units) -> CurvePlan {
+        let stretch = |Over(parameter, range): &Over| {
+            let unit = units.of(*parameter);
+            Stretch { parameter: *parameter, from: range.0 / unit, to: range.1 / unit }
+        };
+        CurvePlan {
+            label: self.label.clone(),
+            kind: match self.kind {
+                Kind::Fold => EventKind::Fold,
+                Kind::Flip => EventKind::Flip,
+                Kind::Grazing => EventKind::Grazing,
+            },
+            vary: stretch(&self.vary),
+            and: stretch(&self.and),
+            orbit: self.orbit,
+            event: self.event,
+        }
+    }
+}
+
+pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
+    let asked = args.system.asked()?;
+    let task = args.plan(&asked.units);
+    let plan = Plan::new(asked.system, Task::Curve(task.clone()));
+    plan.check()?;
+    let osc = asked.system.oscillator()?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let to_stdout = args.csv.as_deref().is_some_and(|path| path.as_os_str() == "-");
+
+    let (system, question) = (asked.system, task.clone());
+    let found = signal::interruptible("following a curve", move || curve(&system, &question))??;
+
+    outputs.write(
+        session,
+        |out| csv::write(out, &columns(&task), rows(&found, &task, &asked.units)),
+        || Ok(plot::curve::figure(&found, &task, &asked)),
+    )?;
+    if args.json {
+        return session.print_json(&Document::new(&asked, &osc, &plan, Answer::new(&found, &task, &asked.units)));
+    }
+    if to_stdout {
+        // the table is the answer
+        return Ok(());
+    }
+    session.print(&(words::system(&asked, &osc) + "\n" + &text(&found, &task, &asked.units)))
+}

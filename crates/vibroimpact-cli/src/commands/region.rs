@@ -1,0 +1,195 @@
+//! `vibro region`: where in a plane of two parameters a motion exists, and where it is stable.
+
+use crate::args::Place;
+use crate::commands::outputs::Outputs;
+use crate::exit::Failure;
+use crate::plot;
+use crate::report::csv;
+use crate::report::json::PROGRAM;
+use crate::report::region::{Answer, columns, rows, text};
+use crate::session::Session;
+use clap::Args;
+use serde::Serialize;
+use std::path::PathBuf;
+use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, SecondStop, Stretch, SystemPlan, Task, regions};
+
+/// Where in a plane of two parameters the motion m/n exists, and where it is stable: closed polygons
+///
+/// Two parameters are given as ranges A:B, the others as values. Orbits are looked for on a grid, and from each a walk goes
+/// round the part of the region it lies in, along the curves that bound it: fold (two orbits meet), flip (a multiplier
+/// is -1), no speed (an impact has speed zero), touch (a flight touches a stop), merging (with an orbit of half the
+/// period), frame. The surface of orbits folds, so polygons of different sheets may overlap.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro region --label 1/1 --inverse-beta 0.4:2 --gap -1:5 --restitution 0.5 --csv region.csv --plot region.png\n  \
+        vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 --restitution 0.2:0.9 --plot plane.png"
+)]
+pub(crate) struct Region {
+    /// m impacts in n forcing periods, for example 2/1
+    #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Motion")]
+    label: String,
+
+    /// Frequency ratio: forcing over natural frequency, a value or a range A:B
+    #[arg(long, value_name = "B", allow_hyphen_values = true, conflicts_with = "inverse_beta", help_heading = "Plane")]
+    beta: Option<Place>,
+
+    /// Its inverse omega_n/omega instead
+    #[arg(long, value_name = "X", allow_hyphen_values = true, help_heading = "Plane")]
+    inverse_beta: Option<Place>,
+
+    /// Distance of the stop from the rest position in units of F/k
+    #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Plane")]
+    gap: Place,
+
+    /// Restitution: rebound speed over arrival speed, 0 to 1
+    #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Plane")]
+    restitution: Place,
+
+    /// Damping ratio zeta, 0 or more [default: 0]
+    #[arg(long, value_name = "Z", allow_hyphen_values = true, help_heading = "Plane")]
+    damping: Option<Place>,
+
+    /// A second stop on the other side, at x = -D2
+    #[arg(long, value_name = "D2", allow_hyphen_values = true, help_heading = "Plane")]
+    second_gap: Option<Place>,
+
+    /// Restitution of the second stop [default: that of the first]
+    #[arg(long, value_name = "E2", allow_hyphen_values = true, requires = "second_gap", help_heading = "Plane")]
+    second_restitution: Option<Place>,
+
+    /// Points of the grid at which orbits are looked for, in each direction, 2 to 400: smaller parts may be missed
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_GRID, allow_hyphen_values = true, help_heading = "Plane")]
+    grid: u32,
+
+    /// Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, hole, sheet
+    /// (below: multipliers below +1, or above), both parameters, and what bounds the region from here to the next vertex
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw both regions into this file, .svg or .png
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    /// Print one JSON object with the polygons instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+/// The object; what varies has no value in `system`.
+#[derive(Serialize)]
+struct Object<'a> {
+    system: SystemObject,
+    #[serde(flatten)]
+    answer: Answer,
+    units: &'static str,
+    plan: &'a Plan,
+    program: &'static str,
+}
+
+#[derive(Serialize)]
+struct SystemObject {
+    beta: Option<f64>,
+    inverse_beta: Option<f64>,
+    gap: Option<f64>,
+    restitution: Option<f64>,
+    damping: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_gap: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_restitution: Option<f64>,
+}
+
+impl Region {
+    fn system(&self) -> SystemPlan {
+        let first = |place: Option<Place>| place.map(Place::first);
+        SystemPlan {
+            beta: first(self.beta),
+            inverse_beta: first(self.inverse_beta),
+            gap: self.gap.first(),
+            restitution: self.restitution.first(),
+            damping: first(self.damping).unwrap_or(0.0),
+            second_stop: first(self.second_gap).map(|gap| SecondStop {
+                gap,
+                restitution: self.second_restitution.unwrap_or(self.restitution).first(),
+            }),
+        }
+    }
+
+    /// The two parameters that are ranges, the abscissa first.
+    fn plane(&self) -> Result<(Stretch, Stretch), Failure> {
+        let places = [
+            (Parameter::Beta, self.beta),
+            (Parameter::InverseBeta, self.inverse_beta),
+            (Parameter::Gap, Some(self.gap)),
+            (Parameter::Restitution, Some(self.restitution)),
+            (Parameter::Damping, self.damping),
+            (Parameter::SecondGap, self.second_gap),
+            (Parameter::SecondRestitution, self.second_restitution),
+        ];
+        let over: Vec<Stretch> = places.into_iter().filter_map(|(parameter, place)| place?.over(parameter)).collect();
+        if self.second_gap.is_some()
+            && self.second_restitution.is_none()
+            && self.restitution.over(Parameter::Gap).is_some()
+        {
+            return Err(Failure::bad(
+                "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
+            ));
+        }
+        match over.as_slice() {
+            [across, up] => Ok((*across, *up)),
+            _ => Err(Failure::bad(format!(
+                "a plane has two parameters, and {} are given as a range A:B\nhint: --inverse-beta 0.4:2 --gap -1:5",
+                over.len()
+            ))),
+        }
+    }
+}
+
+pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
+    let (across, up) = args.plane()?;
+    let system = args.system();
+    let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
+    let plan = Plan::new(system, Task::Region(task.clone()));
+    plan.check()?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let to_stdout = args.csv.as_deref().is_some_and(|path| path.as_os_str() == "-");
+
+    let found = session.tiled(2, "regions", |control, _| regions(&system, &task, control))?;
+
+    outputs.write(
+        session,
+        |out| csv::write(out, &columns(&task), rows(&found)),
+        || {
+            let title = plot::title_without(&system, &[across.parameter, up.parameter]);
+            Ok(plot::region::figure(&found, &task, title))
+        },
+    )?;
+    if args.json {
+        let fixed = |parameter: Parameter, value: Option<f64>| {
+            value.filter(|_| ![across.parameter, up.parameter].contains(&parameter))
+        };
+        let second = system.second_stop;
+        return session.print_json(&Object {
+            system: SystemObject {
+                beta: fixed(Parameter::Beta, system.beta),
+                inverse_beta: fixed(Parameter::InverseBeta, system.inverse_beta),
+                gap: fixed(Parameter::Gap, Some(system.gap)),
+                restitution: fixed(Parameter::Restitution, Some(system.restitution)),
+                damping: fixed(Parameter::Damping, Some(system.damping)),
+                second_gap: fixed(Parameter::SecondGap, second.map(|stop| stop.gap)),
+                second_restitution: fixed(Parameter::SecondRestitution, second.map(|stop| stop.restitution)),
+            },
+            answer: Answer::new(&found, &task),
+            units: "nondimensional",
+            plan: &plan,
+            program: PROGRAM,
+        });
+    }
+    if to_stdout {
+        // the table is the answer
+        return Ok(());
+    }
+    session.print(&text(&found, &task))
+}

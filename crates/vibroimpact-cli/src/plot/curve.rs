@@ -1,0 +1,89 @@
+//! A curve of events in the plane of its two parameters, and the points of codimension two on it.
+
+use crate::args::Asked;
+use crate::plot::{label, named, title_without};
+use std::collections::BTreeMap;
+use vibroimpact::continuation::CurveEvent;
+use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
+use vibroimpact_study::{CurvePlan, EventCurve, EventKind, Stretch};
+
+/// Size of a mark.
+const MARK: f64 = 13.0;
+/// Width of the curve.
+const WIDTH: f64 = 2.8;
+
+pub(crate) fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
+    let (p, q) = (plan.vary.parameter, plan.and.parameter);
+    let (x, y) = (asked.units.of(p), asked.units.of(q));
+    let axis = |stretch: &Stretch, unit: f64| {
+        Axis::new(named(stretch.parameter, &asked.units)).range(stretch.from * unit, stretch.to * unit)
+    };
+    let mut panel = Panel::new(axis(&plan.vary, x), axis(&plan.and, y));
+    let colour = match plan.kind {
+        EventKind::Fold => SERIES[1],
+        EventKind::Flip => SERIES[0],
+        EventKind::Grazing => SERIES[2],
+    };
+    let mut legend = Legend::below();
+    for (physical, dash) in [(true, Dash::Solid), (false, Dash::Dotted)] {
+        let (mut xs, mut ys) = (Vec::new(), Vec::new());
+        let mut last = false;
+        for pair in found.points.windows(2) {
+            // an event lies on the edge and counts for neither side
+            let one = if pair[1].event.is_some() && pair[0].event.is_none() { &pair[0] } else { &pair[1] };
+            let belongs = one.physical == physical;
+            if belongs && !last {
+                xs.extend([f64::NAN, pair[0].values.0 * x]);
+                ys.extend([f64::NAN, pair[0].values.1 * y]);
+            }
+            if belongs {
+                xs.push(pair[1].values.0 * x);
+                ys.push(pair[1].values.1 * y);
+            }
+            last = belongs;
+        }
+        if xs.is_empty() {
+            continue;
+        }
+        let name = if physical { "" } else { ", no motion" };
+        let stroke = Stroke::new(colour).width(WIDTH).dash(dash);
+        legend = legend.line(stroke, format!("{} of {}{name}", plan.kind.name(), label(plan.label.trim())));
+        panel.add(Line { xs, ys, stroke });
+    }
+    for (kind, points) in marks(found, x, y) {
+        legend = legend.points(&points, kind);
+        panel.add(points);
+    }
+    let begin = found.points.get(found.begin).map(|point| (point.values.0 * x, point.values.1 * y));
+    if let Some((x, y)) = begin {
+        let points = Points::new([x], [y], Colour::BLACK).size(8.0);
+        legend = legend.points(&points, "found on the branch");
+        panel.add(points);
+    }
+    Figure::new(panel).size(680.0, 520.0).title(title_without(&asked.system, &[p, q])).legend(legend)
+}
+
+/// The marks of points of codimension two by kind; ends of the curve have none.
+fn marks(found: &EventCurve, x: f64, y: f64) -> BTreeMap<&'static str, Points> {
+    let mut marks: BTreeMap<&'static str, Points> = BTreeMap::new();
+    for point in &found.points {
+        let Some((event, shape)) = point.event.and_then(|event| Some((event, shape(event)?))) else { continue };
+        let points = marks
+            .entry(event.name())
+            .or_insert_with(|| Points::new([], [], Colour::WHITE).shape(shape).size(MARK).rim(Colour::BLACK));
+        points.xs.push(point.values.0 * x);
+        points.ys.push(point.values.1 * y);
+    }
+    marks
+}
+
+const fn shape(event: CurveEvent) -> Option<Shape> {
+    Some(match event {
+        CurveEvent::Cusp => Shape::TriangleDown,
+        CurveEvent::ResonantGrazing => Shape::Diamond,
+        CurveEvent::DoubleGrazing => Shape::Square,
+        CurveEvent::DegenerateGrazing => Shape::TriangleUp,
+        CurveEvent::Touch | CurveEvent::OneToTwo => Shape::Circle,
+        CurveEvent::Closed | CurveEvent::EndOfBox | CurveEvent::StepLimit | CurveEvent::NoConvergence => return None,
+    })
+}

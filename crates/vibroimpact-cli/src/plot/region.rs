@@ -1,0 +1,91 @@
+//! Where a motion exists and where it is stable, in a plane of two parameters: the edges in the colour of what bounds them.
+
+use crate::plot::{label, symbol};
+use vibroimpact::continuation::{Bound, Polygon, Region};
+use vibroimpact_plot::{
+    Axis, ClassStyle, Colour, Dash, Figure, Legend, Line, Panel, Region as Area, SERIES, Stroke, class_style,
+};
+use vibroimpact_study::{RegionPlan, Regions, Stretch};
+
+/// Where it exists and is unstable.
+const EXISTS: Colour = Colour::hex(0xec_ecec);
+/// Every bound that is drawn, in the order of the legend. The frame is the edge of the figure.
+const BOUNDS: [Bound; 5] = [Bound::Fold, Bound::Flip, Bound::NoSpeed, Bound::Touch, Bound::Merging];
+
+pub(crate) fn figure(found: &Regions, plan: &RegionPlan, title: String) -> Figure {
+    let axis = |stretch: &Stretch| Axis::new(symbol(stretch.parameter)).range(stretch.from, stretch.to);
+    let mut panel = Panel::new(axis(&plan.across), axis(&plan.up));
+    let stable = class_style(plan.label.trim()).colour;
+    let mut legend = Legend::below();
+    let name = label(plan.label.trim());
+    for (region, colour, what) in [(&found.existence, EXISTS, "exists, unstable"), (&found.stability, stable, "stable")]
+    {
+        for area in areas(region) {
+            panel.add(area.fill(colour));
+        }
+        legend = legend.patch(ClassStyle::plain(colour), format!("{name} {what}"));
+    }
+    for bound in BOUNDS {
+        let (mut xs, mut ys) = (Vec::new(), Vec::new());
+        for polygon in found.existence.polygons.iter().chain(&found.stability.polygons) {
+            edges(polygon, bound, &mut xs, &mut ys);
+        }
+        if !xs.is_empty() {
+            let (stroke, name) = pen(bound);
+            panel.add(Line { xs, ys, stroke });
+            legend = legend.line(stroke, name);
+        }
+    }
+    Figure::new(panel).size(680.0, 620.0).title(title).legend(legend)
+}
+
+/// Each outer ring with the holes in it: sheets of a surface may overlap, so not all rings together.
+fn areas(region: &Region) -> impl Iterator<Item = Area> + '_ {
+    region.polygons.iter().filter(|polygon| !polygon.hole).map(|outer| {
+        let alone = Region { polygons: vec![outer.clone()], unresolved: Vec::new() };
+        let inside = |hole: &&Polygon| {
+            hole.hole
+                && hole.below == outer.below
+                && hole.vertices.first().is_some_and(|vertex| alone.contains(vertex.values))
+        };
+        let holes = region.polygons.iter().filter(inside);
+        Area::new(core::iter::once(outer).chain(holes).map(ring).collect())
+    })
+}
+
+fn ring(polygon: &Polygon) -> Vec<(f64, f64)> {
+    polygon.vertices.iter().map(|vertex| vertex.values).collect()
+}
+
+/// Adds the edges of a polygon that are bounded by `bound`, run by run.
+fn edges(polygon: &Polygon, bound: Bound, xs: &mut Vec<f64>, ys: &mut Vec<f64>) {
+    let count = polygon.vertices.len();
+    let mut joined = false;
+    for (k, vertex) in polygon.vertices.iter().enumerate() {
+        if vertex.bound != bound {
+            joined = false;
+            continue;
+        }
+        let next = polygon.vertices[(k + 1) % count];
+        if !joined {
+            xs.extend([f64::NAN, vertex.values.0]);
+            ys.extend([f64::NAN, vertex.values.1]);
+        }
+        xs.push(next.values.0);
+        ys.push(next.values.1);
+        joined = true;
+    }
+}
+
+/// How an edge is drawn, and what it means.
+const fn pen(bound: Bound) -> (Stroke, &'static str) {
+    let (colour, dash, name) = match bound {
+        Bound::Fold => (SERIES[1], Dash::Solid, "fold"),
+        Bound::Flip => (SERIES[0], Dash::Dashed, "flip"),
+        Bound::NoSpeed => (SERIES[2], Dash::DashDot, "an impact without speed"),
+        Bound::Touch => (Colour::BLACK, Dash::Solid, "a touch on the way"),
+        Bound::Merging => (SERIES[3], Dash::Dotted, "merging"),
+        Bound::Frame => (Colour::GREY, Dash::Solid, "frame"),
+    };
+    (Stroke { colour, width: 3.0, dash }, name)
+}

@@ -1,0 +1,77 @@
+//! With which orbit of a label a branch begins.
+
+use crate::PlanError;
+use vibroimpact::continuation::BranchError;
+use vibroimpact::orbit::{FindOptions, Orbit, find};
+use vibroimpact::verdict::Count;
+use vibroimpact::{Label, Oscillator};
+
+/// One of the orbits of a label.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chosen {
+    /// The orbit.
+    pub orbit: Orbit,
+    /// Its number among all that were found, counted from 1, the fastest last.
+    pub number: u32,
+    /// How many were found.
+    pub count: u32,
+}
+
+/// A label that can be followed: with finitely many impacts.
+///
+/// # Errors
+/// [`PlanError`] for what is no label, and for `inf/n`.
+pub(crate) fn followable(label: &str) -> Result<Label, PlanError> {
+    let label: Label = label.parse()?;
+    match label.impacts {
+        Count::Finite(_) => Ok(label),
+        Count::Infinite => Err(BranchError::Rests.into()),
+    }
+}
+
+/// Orbit number `number` of those with this label; where none is named, the stable one, else the fastest that is a motion.
+///
+/// # Errors
+/// [`PlanError`] where there is none to choose.
+pub(crate) fn choose(osc: &Oscillator, label: Label, number: Option<u32>) -> Result<Chosen, PlanError> {
+    let orbits = find(osc, label, FindOptions::default());
+    let count = orbits.len();
+    let index = match number {
+        Some(given) => {
+            let index = usize::try_from(given).ok().and_then(|n| n.checked_sub(1)).filter(|index| *index < count);
+            index.ok_or(PlanError::NoSuchOrbit { given, count, label })?
+        }
+        None => {
+            let rank = |orbit: &Orbit| (orbit.physical, orbit.physical && orbit.cycle.stable());
+            // of equals the last, which is the fastest
+            let best = (0..count).max_by_key(|index| rank(&orbits[*index]));
+            best.filter(|index| orbits[*index].physical).ok_or(PlanError::NoOrbit { label, others: count })?
+        }
+    };
+    let counted = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    let orbit = orbits.into_iter().nth(index).ok_or(PlanError::NoOrbit { label, others: 0 })?;
+    Ok(Chosen { orbit, number: counted(index + 1), count: counted(count) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stable_one_else_the_fastest_motion() {
+        let osc = Oscillator::from_inverse_beta(1.11, 2.0, 0.5).unwrap();
+        let one = choose(&osc, Label::new(1, 1), None).unwrap();
+        assert!(one.orbit.physical && !one.orbit.cycle.stable());
+        let half = choose(&osc, Label::new(1, 2), None).unwrap();
+        assert!(half.orbit.physical && half.orbit.cycle.stable());
+        assert_eq!(choose(&osc, Label::new(1, 2), Some(half.number)).as_ref(), Ok(&half));
+        for given in [0, half.count + 1] {
+            let error = choose(&osc, Label::new(1, 2), Some(given)).unwrap_err();
+            assert!(matches!(error, PlanError::NoSuchOrbit { given: g, .. } if g == given));
+        }
+        let far = Oscillator::from_inverse_beta(0.7, 40.0, 0.5).unwrap();
+        let error = choose(&far, Label::new(1, 1), None).unwrap_err().to_string();
+        assert!(error.starts_with("no orbit 1/1 was found"), "{error}");
+        assert!(followable("inf/1").is_err() && followable("1/0").is_err() && followable("2/1").is_ok());
+    }
+}

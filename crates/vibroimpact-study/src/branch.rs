@@ -1,0 +1,245 @@
+//! Branches of periodic orbits in one parameter, and those that begin where one loses its stability.
+
+use crate::begin::{Chosen, choose, followable};
+use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction as Sweep, Show};
+use crate::{DiagramPlan, Parameter, PlanError, Span, SystemPlan};
+use core::ops::RangeInclusive;
+use serde::{Deserialize, Serialize};
+use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, Point};
+use vibroimpact::verdict::Count;
+use vibroimpact::{Label, Oscillator};
+
+/// Points of a branch at most, where no number is given.
+pub const DEFAULT_BRANCH_POINTS: u32 = 5_000;
+/// Most points of a branch.
+const MOST_POINTS: u32 = 100_000;
+/// Most further branches.
+const MOST_FOLLOWED: u32 = 100;
+/// Values of the orbit diagram behind a branch.
+const DIAGRAM_VALUES: u32 = 401;
+
+/// An orbit that is followed in one parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BranchPlan {
+    /// m/n of the orbit at the system given.
+    pub label: String,
+    /// The parameter that varies, from its value in the system.
+    #[serde(with = "crate::parameter")]
+    pub vary: Parameter,
+    /// The other end of its range.
+    pub to: f64,
+    /// Which of the orbits, counted from 1, the fastest last; when absent the stable one, else the fastest motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orbit: Option<u32>,
+    /// How many of the branches that begin at flips and branch points are followed as well.
+    #[serde(default)]
+    pub follow: u32,
+    /// Points of each branch at most.
+    #[serde(default = "points")]
+    pub points: u32,
+}
+
+const fn points() -> u32 {
+    DEFAULT_BRANCH_POINTS
+}
+
+impl BranchPlan {
+    /// Checks everything that can be checked without running it.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first value that makes no sense.
+    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        followable(&self.label)?;
+        let from = system.value(self.vary)?;
+        system.with(self.vary, self.to)?.oscillator()?;
+        if from == self.to {
+            return Err(PlanError::Nowhere { name: self.vary.name(), value: self.to });
+        }
+        if self.follow > MOST_FOLLOWED {
+            return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
+        }
+        if !(2..=MOST_POINTS).contains(&self.points) {
+            return Err(PlanError::BranchPoints { given: self.points, most: MOST_POINTS });
+        }
+        Ok(())
+    }
+
+    /// The orbit diagram over the same range.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a plan that makes no sense.
+    pub fn diagram(&self, system: &SystemPlan) -> Result<DiagramPlan, PlanError> {
+        Ok(DiagramPlan {
+            vary: self.vary,
+            over: Span::new(system.value(self.vary)?, self.to, DIAGRAM_VALUES)?,
+            show: Show::Velocity,
+            direction: Sweep::Both,
+            transient: DEFAULT_TRANSIENT,
+            keep: DEFAULT_KEEP,
+        })
+    }
+}
+
+/// Where a further branch begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// The branch that it leaves, as a place in the list of all.
+    pub branch: usize,
+    /// The point of that.
+    pub point: Point,
+}
+
+/// A branch that was followed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Followed {
+    /// Where it begins; `None` for the first branch.
+    pub origin: Option<Origin>,
+    /// Its points.
+    pub points: Vec<Point>,
+}
+
+/// A branch and those that begin on it, on those, and so on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branches {
+    /// The orbit it began with.
+    pub chosen: Chosen,
+    /// The branches, that of the orbit first.
+    pub followed: Vec<Followed>,
+    /// Events where a further branch should begin and none could be followed.
+    pub lost: Vec<Origin>,
+}
+
+/// Follows the orbit of a plan, and the branches that begin on its way.
+///
+/// # Errors
+/// [`PlanError`] for a plan that makes no sense or an orbit that is not there.
+pub fn branches(system: &SystemPlan, plan: &BranchPlan) -> Result<Branches, PlanError> {
+    plan.check(system)?;
+    let osc = system.oscillator()?;
+    let from = plan.vary.get(&osc).ok_or(PlanError::NoSecondStop(plan.vary.name()))?;
+    let chosen = choose(&osc, followable(&plan.label)?, plan.orbit)?;
+    let range = from.min(plan.to)..=from.max(plan.to);
+    let direction = if plan.to > from { Direction::Up } else { Direction::Down };
+    let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
+    let first = Branch::new(&osc, &chosen.orbit.cycle, plan.vary, range.clone(), direction, options)?;
+    let mut all =
+        Branches { chosen, followed: vec![Followed { origin: None, points: first.collect() }], lost: Vec::new() };
+    let ground = Ground { osc, vary: plan.vary, range, options };
+    all.follow(&ground, plan.follow as usize);
+    Ok(all)
+}
+
+/// What all branches of a plan have in common.
+struct Ground {
+    osc: Oscillator,
+    vary: Parameter,
+    range: RangeInclusive<f64>,
+    options: BranchOptions,
+}
+
+impl Ground {
+    /// The branches that begin at an event.
+    fn from(&self, point: &Point) -> Result<Vec<Branch>, BranchError> {
+        let range = self.range.clone();
+        if point.event == Some(BranchEvent::Flip) {
+            return Ok(vec![Branch::from_flip(&self.osc, point, self.vary, range, self.options)?]);
+        }
+        let both = Branch::from_branch_point(&self.osc, point, self.vary, range, self.options)?;
+        Ok(both.into_iter().collect())
+    }
+}
+
+/// Values of the parameter closer than this, relative, are the same event.
+const SAME: f64 = 1e-7;
+
+impl Branches {
+    /// Follows what begins at the events of all branches so far, branch by branch, up to so many.
+    fn follow(&mut self, ground: &Ground, most: usize) {
+        let mut seen: Vec<(f64, Label)> = Vec::new();
+        let mut at = 0;
+        while at < self.followed.len() && self.followed.len() <= most {
+            let begins = |point: &&Point| {
+                matches!(point.event, Some(BranchEvent::Flip | BranchEvent::BranchPoint)) && point.physical
+            };
+            let origins: Vec<Point> = self.followed[at].points.iter().filter(begins).cloned().collect();
+            for point in origins {
+                let known = |(value, label): &(f64, Label)| {
+                    *label == point.cycle.label && (value - point.value).abs() <= SAME * (1.0 + value.abs())
+                };
+                if seen.iter().any(known) || self.followed.len() > most {
+                    continue;
+                }
+                seen.push((point.value, point.cycle.label));
+                let origin = Origin { branch: at, point };
+                match ground.from(&origin.point) {
+                    Ok(found) => {
+                        for branch in found.into_iter().take(most + 1 - self.followed.len()) {
+                            let points: Vec<Point> = branch.collect();
+                            seen.extend(points.iter().filter_map(other_end));
+                            self.followed.push(Followed { origin: Some(origin.clone()), points });
+                        }
+                    }
+                    Err(_) => self.lost.push(origin),
+                }
+            }
+            at += 1;
+        }
+    }
+}
+
+/// The flip at which a branch of twice the period ends: what begins there is that branch.
+fn other_end(point: &Point) -> Option<(f64, Label)> {
+    let Count::Finite(impacts) = point.cycle.label.impacts else { return None };
+    let half = Label::new(impacts / 2, point.cycle.label.periods / 2);
+    (point.event == Some(BranchEvent::Halving)).then_some((point.value, half))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Plan, Task};
+
+    fn plan() -> (SystemPlan, BranchPlan) {
+        let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
+        let branch =
+            BranchPlan { label: "1/1".into(), vary: Parameter::Gap, to: 2.5, orbit: None, follow: 0, points: 5000 };
+        (system, branch)
+    }
+
+    #[test]
+    fn the_doubling_of_one_impact_a_period_and_what_begins_there() {
+        let (system, plan) = plan();
+        let found = branches(&system, &BranchPlan { follow: 1, ..plan }).unwrap();
+        assert_eq!((found.followed.len(), found.lost.len()), (2, 0));
+        let flip = found.followed[0].points.iter().find(|p| p.event == Some(BranchEvent::Flip)).unwrap();
+        assert!((flip.value - 1.829_006_189_683_6).abs() < 1e-12);
+        let second = &found.followed[1];
+        let origin = second.origin.as_ref().unwrap();
+        assert_eq!((origin.branch, origin.point.value), (0, flip.value));
+        assert_eq!(second.points[1].cycle.label, Label::new(2, 2));
+        assert!(second.points.last().unwrap().event.unwrap().ends());
+    }
+
+    #[test]
+    fn a_plan_survives_json_and_nonsense_is_refused() {
+        let (system, good) = plan();
+        let whole = Plan::new(system, Task::Branch(good.clone()));
+        assert_eq!(whole.check(), Ok(()));
+        let text = serde_json::to_string(&whole).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);
+        let short: BranchPlan = serde_json::from_str(r#"{"label": "1/1", "vary": "gap", "to": 2.5}"#).unwrap();
+        assert_eq!(short, good);
+        for (branch, sentence) in [
+            (BranchPlan { label: "inf/1".into(), ..good.clone() }, "a cycle that rests on a stop cannot be followed"),
+            (BranchPlan { to: 1.5, ..good.clone() }, "gap is to go from 1.5 to 1.5"),
+            (BranchPlan { to: f64::NAN, ..good.clone() }, "gap delta = NaN"),
+            (BranchPlan { vary: Parameter::SecondGap, ..good.clone() }, "second_gap is to vary"),
+            (BranchPlan { follow: 101, ..good.clone() }, "follow = 101 lies outside 0 <= follow <= 100"),
+            (BranchPlan { points: 1, ..good.clone() }, "points = 1 lies outside 2 <= points <= 100000"),
+        ] {
+            let message = branch.check(&system).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! Curves of folds, flips and grazing impacts in a plane of two parameters, from an event on a branch in the first.
+
+use crate::begin::{Chosen, choose, followable};
+use crate::stretch::check_plane;
+use crate::{PlanError, Stretch, SystemPlan};
+use serde::{Deserialize, Serialize};
+use vibroimpact::continuation::{
+    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, Point,
+};
+use vibroimpact::{Label, Oscillator};
+
+/// What holds along a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventKind {
+    /// A multiplier is +1 and the parameters turn.
+    Fold,
+    /// A multiplier is -1.
+    Flip,
+    /// An impact has speed zero.
+    Grazing,
+}
+
+impl EventKind {
+    /// Its name in plans and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::Flip => "flip",
+            Self::Grazing => "grazing",
+        }
+    }
+
+    const fn is(self, event: BranchEvent) -> bool {
+        match self {
+            Self::Fold => matches!(event, BranchEvent::Fold),
+            Self::Flip => matches!(event, BranchEvent::Flip),
+            Self::Grazing => matches!(event, BranchEvent::Grazing { .. } | BranchEvent::LossOfContact { .. }),
+        }
+    }
+}
+
+/// A curve through an event of the branch of an orbit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CurvePlan {
+    /// m/n of the orbit at the system given.
+    pub label: String,
+    /// What holds along the curve.
+    pub kind: EventKind,
+    /// The parameter in which the orbit is followed to the event, and its range.
+    pub vary: Stretch,
+    /// The other one.
+    pub and: Stretch,
+    /// Which of the orbits, as for a branch.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orbit: Option<u32>,
+    /// Which of the events of that kind, counted from 1 from small values to large; when absent the nearest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub event: Option<u32>,
+}
+
+impl CurvePlan {
+    /// Checks everything that can be checked without running it.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first value that makes no sense.
+    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        followable(&self.label)?;
+        check_plane(system, &self.vary, &self.and)?;
+        for stretch in [&self.vary, &self.and] {
+            let value = system.value(stretch.parameter)?;
+            if !stretch.range().contains(&value) {
+                let name = stretch.parameter.name();
+                return Err(PlanError::Outside { name, value, from: stretch.from, to: stretch.to });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A curve, both ways from the event it was begun at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventCurve {
+    /// The orbit that led to it.
+    pub chosen: Chosen,
+    /// The events of that kind on its branch, from small values to large.
+    pub events: Vec<Point>,
+    /// Which of them the curve goes through.
+    pub through: usize,
+    /// The points from one end to the other.
+    pub points: Vec<CurvePoint>,
+    /// Place of the event among them.
+    pub begin: usize,
+}
+
+/// Follows an orbit in the first parameter to an event, and the event over the plane.
+///
+/// # Errors
+/// [`PlanError`] for a plan that makes no sense, an orbit that is not there, or no event of that kind.
+pub fn curve(system: &SystemPlan, plan: &CurvePlan) -> Result<EventCurve, PlanError> {
+    plan.check(system)?;
+    let osc = system.oscillator()?;
+    let label = followable(&plan.label)?;
+    let chosen = choose(&osc, label, plan.orbit)?;
+    let events = events(&osc, &chosen, plan, label)?;
+    let own = system.value(plan.vary.parameter)?;
+    let nearest = || {
+        let off = |index: &usize| (events[*index].value - own).abs();
+        (0..events.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
+    };
+    let through = match plan.event {
+        Some(given) => (given as usize).checked_sub(1).filter(|index| *index < events.len()),
+        None => nearest(),
+    };
+    let through = through.ok_or(PlanError::NoEvent {
+        kind: plan.kind.name(),
+        label,
+        name: plan.vary.parameter.name(),
+        from: plan.vary.from,
+        to: plan.vary.to,
+        count: events.len(),
+        asked: plan.event,
+    })?;
+    let frame = plan.vary.frame(&plan.and);
+    let options = CurveOptions::default();
+    let [forth, back] = Curve::through(&osc, &events[through], plan.vary.parameter, &frame, options)?;
+    let forth: Vec<CurvePoint> = forth.collect();
+    let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
+    // the event itself is the first point of either
+    let mut points: Vec<CurvePoint> = if closed { Vec::new() } else { back.skip(1).collect() };
+    points.reverse();
+    let begin = points.len();
+    points.extend(forth);
+    Ok(EventCurve { chosen, events, through, points, begin })
+}
+
+/// The events of the plan's kind on the branch of its orbit, to both ends of the range, while it has its label.
+fn events(osc: &Oscillator, chosen: &Chosen, plan: &CurvePlan, label: Label) -> Result<Vec<Point>, PlanError> {
+    let own = plan.vary.parameter.get(osc).ok_or(PlanError::NoSecondStop(plan.vary.parameter.name()))?;
+    let mut events: Vec<Point> = Vec::new();
+    for (direction, end) in [(Direction::Up, plan.vary.to), (Direction::Down, plan.vary.from)] {
+        if (direction == Direction::Up && own >= end) || (direction == Direction::Down && own <= end) {
+            continue;
+        }
+        let (cycle, parameter) = (&chosen.orbit.cycle, plan.vary.parameter);
+        // an inverse may be rounded out of its range
+        let range = plan.vary.from.min(own)..=plan.vary.to.max(own);
+        let branch = Branch::new(osc, cycle, parameter, range, direction, BranchOptions::default())?;
+        for point in branch.take_while(|point| point.cycle.label == label) {
+            let known = |other: &Point| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
+            if point.event.is_some_and(|event| plan.kind.is(event)) && !events.iter().any(known) {
+                events.push(point);
+            }
+        }
+    }
+    events.sort_by(|a, b| a.value.total_cmp(&b.value));
+    Ok(events)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Parameter, Plan, Task};
+
+    fn plan() -> (SystemPlan, CurvePlan) {
+        let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
+        let vary = Stretch { parameter: Parameter::Gap, from: 0.0, to: 3.0 };
+        let and = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.2 };
+        (system, CurvePlan { label: "1/1".into(), kind: EventKind::Flip, vary, and, orbit: None, event: None })
+    }
+
+    #[test]
+    fn the_flip_of_one_impact_a_period() {
+        let (system, plan) = plan();
+        let found = curve(&system, &plan).unwrap();
+        assert!((found.events[found.through].value - 1.829_006_189_683_6).abs() < 1e-12);
+        let at = &found.points[found.begin];
+        assert!((at.values.0 - 1.829_006_189_683_6).abs() < 1e-9 && (at.values.1 - 1.11).abs() < 1e-9);
+        for point in &found.points {
+            let one = point.cycle.multipliers;
+            assert!(one.iter().any(|m| (m.re + 1.0).abs() < 1e-6), "{one:?}");
+        }
+        assert!(found.points[0].event.is_some() && found.points.last().unwrap().event.is_some());
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let (system, good) = plan();
+        let whole = Plan::new(system, Task::Curve(good.clone()));
+        assert_eq!(whole.check(), Ok(()));
+        let text = serde_json::to_string(&whole).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);
+        let away = Stretch { from: 2.0, ..good.vary };
+        for (plan, sentence) in [
+            (CurvePlan { vary: away, ..good.clone() }, "gap = 1.5 lies outside the range from 2 to 3"),
+            (CurvePlan { event: Some(7), ..good.clone() }, "there is no flip number 7 on the branch of 1/1"),
+            (CurvePlan { kind: EventKind::Fold, ..good.clone() }, "no fold was found on the branch of 1/1"),
+        ] {
+            let message = curve(&system, &plan).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The regions of a plane of two parameters in which a motion exists, and in which it is stable.
+
+use crate::begin::followable;
+use crate::stretch::check_plane;
+use crate::{Control, PlanError, RunError, Stretch, SystemPlan, tiles};
+use serde::{Deserialize, Serialize};
+use vibroimpact::continuation::{Region, RegionKind, RegionOptions, region};
+
+/// Points of the grid at which orbits are looked for, in each direction, where no number is given.
+pub const DEFAULT_GRID: u32 = 24;
+/// Most of them.
+const MOST_GRID: u32 = 400;
+
+/// The regions of a motion in a plane.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RegionPlan {
+    /// m/n.
+    pub label: String,
+    /// The parameter on the abscissa and its range.
+    pub across: Stretch,
+    /// The parameter on the ordinate and its range.
+    pub up: Stretch,
+    /// Points of the grid at which orbits are looked for, in each direction: smaller parts of a region may be missed.
+    #[serde(default = "grid")]
+    pub grid: u32,
+}
+
+const fn grid() -> u32 {
+    DEFAULT_GRID
+}
+
+impl RegionPlan {
+    /// Checks everything that can be checked without running it.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first value that makes no sense.
+    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        followable(&self.label)?;
+        if !(2..=MOST_GRID).contains(&self.grid) {
+            return Err(PlanError::Grid { given: self.grid, most: MOST_GRID });
+        }
+        check_plane(system, &self.across, &self.up)
+    }
+}
+
+/// Both regions of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regions {
+    /// Where it exists.
+    pub existence: Region,
+    /// Where it exists and is stable.
+    pub stability: Region,
+}
+
+/// Finds both regions, each on a thread of its own.
+///
+/// # Errors
+/// [`RunError`] for a plan that makes no sense, or when stopped before the second is begun.
+pub fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
+    plan.check(system)?;
+    let (p, q) = (&plan.across, &plan.up);
+    let osc = system.with(p.parameter, p.from)?.with(q.parameter, q.from)?.oscillator()?;
+    let label = followable(&plan.label)?;
+    let (frame, options) = (p.frame(q), RegionOptions { grid: (plan.grid, plan.grid), ..RegionOptions::default() });
+    let found = tiles(2, 1, control, |range, tick| {
+        let kind = if range.start == 0 { RegionKind::Existence } else { RegionKind::Stability };
+        let found = region(&osc, label, kind, &frame, options);
+        tick();
+        found
+    })?;
+    let mut found = found.into_iter();
+    let mut next = || found.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
+    Ok(Regions { existence: next(), stability: next() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Parameter, Plan, Task};
+
+    fn plan() -> (SystemPlan, RegionPlan) {
+        let system = SystemPlan { inverse_beta: Some(1.05), gap: 1.0, restitution: 0.5, ..SystemPlan::default() };
+        let across = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.2 };
+        let up = Stretch { parameter: Parameter::Gap, from: 1.0, to: 2.5 };
+        (system, RegionPlan { label: "1/1".into(), across, up, grid: 5 })
+    }
+
+    /// On the line of the flip at 1.829, stable below and unstable above; the same for any threads.
+    #[test]
+    fn one_impact_a_period_about_its_flip() {
+        let (system, plan) = plan();
+        let found = regions(&system, &plan, &Control { threads: 1, ..Control::default() }).unwrap();
+        for (gap, stable) in [(1.828, true), (1.830, false)] {
+            assert!(found.existence.contains((1.11, gap)));
+            assert_eq!(found.stability.contains((1.11, gap)), stable, "{gap}");
+        }
+        assert_eq!(regions(&system, &plan, &Control { threads: 2, ..Control::default() }).unwrap(), found);
+    }
+
+    #[test]
+    fn a_plan_survives_json_and_nonsense_is_refused() {
+        let (system, good) = plan();
+        let whole = Plan::new(system, Task::Region(good.clone()));
+        assert_eq!(whole.check(), Ok(()));
+        let text = serde_json::to_string(&whole).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), whole);
+        for (plan, sentence) in [
+            (RegionPlan { grid: 1, ..good.clone() }, "grid = 1 lies outside 2 <= grid <= 400"),
+            (RegionPlan { label: "inf/1".into(), ..good.clone() }, "a cycle that rests"),
+            (RegionPlan { up: good.across, ..good.clone() }, "inverse_beta and inverse_beta do not span a plane"),
+        ] {
+            let message = plan.check(&system).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}

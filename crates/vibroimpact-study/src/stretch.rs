@@ -1,0 +1,81 @@
+//! A parameter and its range.
+
+use crate::{Parameter, PlanError, SystemPlan};
+use core::ops::RangeInclusive;
+use serde::{Deserialize, Serialize};
+use vibroimpact::continuation::Frame;
+
+/// A parameter from one value to a larger one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stretch {
+    /// The parameter.
+    #[serde(with = "crate::parameter")]
+    pub parameter: Parameter,
+    /// Its smallest value.
+    pub from: f64,
+    /// Its largest value.
+    pub to: f64,
+}
+
+impl Stretch {
+    /// Its values.
+    #[must_use]
+    pub const fn range(&self) -> RangeInclusive<f64> {
+        self.from..=self.to
+    }
+
+    /// The plane of this and another parameter.
+    #[must_use]
+    pub const fn frame(&self, other: &Self) -> Frame {
+        Frame { parameters: (self.parameter, other.parameter), ranges: (self.range(), other.range()) }
+    }
+}
+
+/// Checks that two stretches span a plane of legal systems.
+///
+/// # Errors
+/// [`PlanError`] for ends out of order, a parameter that is there twice and a corner that is no legal system.
+pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
+    for stretch in [one, two] {
+        if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {
+            let name = stretch.parameter.name();
+            return Err(PlanError::Stretch { name, from: stretch.from, to: stretch.to });
+        }
+    }
+    let frequency = |parameter| matches!(parameter, Parameter::Beta | Parameter::InverseBeta);
+    let (p, q) = (one.parameter, two.parameter);
+    if p == q || (frequency(p) && frequency(q)) {
+        return Err(PlanError::SameParameter(p.name(), q.name()));
+    }
+    for x in [one.from, one.to] {
+        for y in [two.from, two.to] {
+            system.with(p, x)?.with(q, y)?.oscillator()?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn planes_that_make_no_sense() {
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let over = |parameter, from, to| Stretch { parameter, from, to };
+        let gap = over(Parameter::Gap, -1.0, 5.0);
+        assert_eq!(check_plane(&system, &over(Parameter::InverseBeta, 0.4, 2.0), &gap), Ok(()));
+        for (one, two, sentence) in [
+            (over(Parameter::Beta, 2.0, 1.0), gap, "beta from 2 to 1 is no range"),
+            (over(Parameter::Beta, 2.0, f64::NAN), gap, "beta from 2 to NaN is no range"),
+            (gap, gap, "gap and gap do not span a plane"),
+            (over(Parameter::Beta, 1.0, 2.0), over(Parameter::InverseBeta, 1.0, 2.0), "beta and inverse_beta do not"),
+            (gap, over(Parameter::Restitution, 0.5, 1.5), "restitution eps = 1.5"),
+            (gap, over(Parameter::SecondGap, 0.5, 1.5), "second_gap is to vary, but there is no second stop"),
+        ] {
+            let message = check_plane(&system, &one, &two).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}
