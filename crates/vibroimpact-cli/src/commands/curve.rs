@@ -19,7 +19,8 @@ use vibroimpact_study::{CurvePlan, EventKind, Plan, Stretch, Task, curve};
 /// The orbit is looked for at the system given and followed in the first parameter, to both ends of its range, while it
 /// keeps its label. From an event of the kind asked for the curve is followed both ways to the edge of the plane. Points
 /// of codimension two are named: cusp, resonant grazing (curves of folds and flips end there), double grazing,
-/// degenerate grazing, touch (beyond, the orbit is no motion), 1:2.
+/// degenerate grazing, touch (beyond, the orbit is no motion), 1:2. The cycles of a grazing curve have the impact of speed
+/// zero among theirs.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro curve --beta B --gap D --restitution E --label m/n --kind KIND --vary PARAMETER=A:B --and PARAMETER=A:B [OPTIONS]",
@@ -57,7 +58,7 @@ pub(crate) struct Curve {
     #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
     event: Option<u32>,
 
-    /// Write one row a point to this file; - for stdout. Columns: both parameters, label, physical, event, real and
+    /// Write one row a point to this file; - for stdout. Columns: both parameters, physical, event, real and
     /// imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,

@@ -16,8 +16,15 @@ use vibroimpact_study::{Branches, Parameter, Span};
 const GREY: Colour = Colour::hex(0xb0_b0b0);
 /// Width of a curve.
 const WIDTH: f64 = 2.8;
-/// Size of the mark of an event.
+/// Size of the mark of an event, and where there are many.
 const MARK: f64 = 12.0;
+const SMALL_MARK: f64 = 7.0;
+/// Marks that are many.
+const MANY: usize = 40;
+/// Labels with a colour of their own.
+const NAMED: usize = 12;
+/// Colour of the others.
+const OTHERS: Colour = Colour::hex(0x50_5050);
 
 pub(crate) fn figure(
     found: &Branches,
@@ -36,7 +43,9 @@ pub(crate) fn figure(
     if let Some(diagram) = behind {
         let (a, b) = diagram.plan.over.ends();
         let over = Span::new(a * unit, b * unit, diagram.plan.over.count())?;
-        panel.add(backdrop(diagram, &over, asked, GREY));
+        for dots in backdrop(diagram, &over, asked, GREY) {
+            panel.add(dots);
+        }
     }
     let curves: Vec<Curves> = found.followed.iter().map(|branch| velocities(&branch.points)).collect();
     let colours = colours(found);
@@ -54,8 +63,11 @@ pub(crate) fn figure(
         let (width, dash) = pen(look);
         panel.add(Line::new(xs, ys, colour).width(width).dash(dash));
     }
-    for (name, colour) in &colours {
+    for (name, colour) in colours.iter().take(NAMED) {
         legend = legend.line(Stroke::new(*colour).width(WIDTH), label(name));
+    }
+    if colours.len() > NAMED {
+        legend = legend.line(Stroke::new(OTHERS).width(WIDTH), format!("{} others", colours.len() - NAMED));
     }
     looks.sort_unstable();
     for look in looks {
@@ -73,7 +85,7 @@ pub(crate) fn figure(
     }
     if behind.is_some() {
         // a dot of the cloud is too small for a key
-        legend = legend.points(&Points::new([], [], GREY).size(6.0), "simulation");
+        legend = legend.points(&Points::new([], [], GREY).size(7.0), "simulation");
     }
     Ok(Figure::new(panel).size(680.0, 520.0).title(title_without(&asked.system, &[vary])).legend(legend))
 }
@@ -97,7 +109,7 @@ fn colours(found: &Branches) -> Vec<(String, Colour)> {
             labels.push(label);
         }
     }
-    let colour = |k: usize| variant(SERIES[k % USABLE], k / USABLE);
+    let colour = |k: usize| if k < NAMED { variant(SERIES[k % USABLE], k / USABLE) } else { OTHERS };
     labels.into_iter().enumerate().map(|(k, label)| (label, colour(k))).collect()
 }
 
@@ -114,8 +126,10 @@ fn marks(found: &Branches, show_virtual: bool, unit: f64, speed: f64) -> BTreeMa
         xs.extend(velocities.iter().map(|_| point.value * unit));
         ys.extend(velocities.iter().map(|velocity| velocity * speed));
     }
+    let count: usize = places.values().map(|(_, xs, _)| xs.len()).sum();
+    let size = if count > MANY { SMALL_MARK } else { MARK };
     let style = |(shape, xs, ys): (Shape, Vec<f64>, Vec<f64>)| {
-        Points::new(xs, ys, Colour::WHITE).shape(shape).size(MARK).rim(Colour::BLACK)
+        Points::new(xs, ys, Colour::WHITE).shape(shape).size(size).rim(Colour::BLACK)
     };
     places.into_iter().map(|(kind, place)| (kind, style(place))).collect()
 }

@@ -48,14 +48,29 @@ pub(crate) fn figure(found: &Diagram, over: &Span, asked: &Asked) -> Result<Figu
     Ok(Figure::new(panel).title(title_without(&asked.system, &[vary])).legend(legend))
 }
 
-/// All its dots in one colour, to lie behind curves.
-pub(crate) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colour) -> Points {
-    let mut dots: Vec<(u32, f64)> =
-        clouds(found, asked).into_iter().flat_map(|cloud| cloud.large.into_iter().chain(cloud.small)).collect();
-    let range = spread(dots.iter());
-    thin(&mut dots, range);
-    let (xs, ys): (Vec<f64>, Vec<f64>) = dots.into_iter().map(|(k, y)| (over.at(k), y)).unzip();
-    Points::new(xs, ys, colour).size(2.4)
+/// All its dots in one colour, to lie behind curves: those of motions that repeat themselves are wider than a curve.
+pub(crate) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colour) -> [Points; 2] {
+    let range = spread(clouds(found, asked).iter().flat_map(|cloud| cloud.large.iter().chain(&cloud.small)));
+    [(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
+        let steps = found.steps.iter().filter(|step| repeats(found, step) == repeating);
+        let mut dots: Vec<(u32, f64)> =
+            steps.flat_map(|step| step.points.iter().map(|point| (step.index, ordinate_of(point, asked)))).collect();
+        thin(&mut dots, range);
+        let (xs, ys): (Vec<f64>, Vec<f64>) = dots.into_iter().map(|(k, y)| (over.at(k), y)).unzip();
+        Points::new(xs, ys, colour).size(size)
+    })
+}
+
+/// Sizes of dots behind curves.
+const WIDE: f64 = 7.0;
+const NARROW: f64 = 2.6;
+
+fn ordinate_of(point: &Point, asked: &Asked) -> f64 {
+    match point {
+        Point::Impact { velocity, .. } => velocity * asked.units.velocity(),
+        Point::Chatter { .. } => 0.0,
+        Point::State { x, .. } => x * asked.units.length(),
+    }
 }
 
 fn ordinate(found: &Diagram, asked: &Asked) -> Axis {
@@ -81,14 +96,7 @@ fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
         let above = usize::from(both && step.sweep == Sweep::Down);
         let cloud = &mut clouds[above];
         let list = if both && above == 0 && repeats(found, step) { &mut cloud.large } else { &mut cloud.small };
-        list.extend(step.points.iter().map(|point| {
-            let value = match point {
-                Point::Impact { velocity, .. } => velocity * asked.units.velocity(),
-                Point::Chatter { .. } => 0.0,
-                Point::State { x, .. } => x * asked.units.length(),
-            };
-            (step.index, value)
-        }));
+        list.extend(step.points.iter().map(|point| (step.index, ordinate_of(point, asked))));
     }
     clouds
 }

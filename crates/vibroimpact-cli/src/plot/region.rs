@@ -9,6 +9,9 @@ use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
 /// Where it exists and is unstable.
 const EXISTS: Colour = Colour::hex(0xec_ecec);
+/// Widths of edges.
+const THICK: f64 = 3.2;
+const THIN: f64 = 1.5;
 /// Every bound that is drawn, in the order of the legend. The frame is the edge of the figure.
 const BOUNDS: [Bound; 5] = [Bound::Fold, Bound::Flip, Bound::NoSpeed, Bound::Touch, Bound::Merging];
 
@@ -26,13 +29,21 @@ pub(crate) fn figure(found: &Regions, plan: &RegionPlan, title: String) -> Figur
         legend = legend.patch(ClassStyle::plain(colour), format!("{name} {what}"));
     }
     for bound in BOUNDS {
-        let (mut xs, mut ys) = (Vec::new(), Vec::new());
-        for polygon in found.existence.polygons.iter().chain(&found.stability.polygons) {
-            edges(polygon, bound, &mut xs, &mut ys);
+        let (stroke, name) = pen(bound);
+        let mut seen = false;
+        // the second orbit that exists beside another one has thin edges
+        for (below, stroke) in [(false, stroke.width(THIN)), (true, stroke)] {
+            let (mut xs, mut ys) = (Vec::new(), Vec::new());
+            let polygons = found.existence.polygons.iter().chain(&found.stability.polygons);
+            for polygon in polygons.filter(|polygon| polygon.below == below) {
+                edges(polygon, bound, &mut xs, &mut ys);
+            }
+            if !xs.is_empty() {
+                panel.add(Line { xs, ys, stroke });
+                seen = true;
+            }
         }
-        if !xs.is_empty() {
-            let (stroke, name) = pen(bound);
-            panel.add(Line { xs, ys, stroke });
+        if seen {
             legend = legend.line(stroke, name);
         }
     }
@@ -87,5 +98,5 @@ const fn pen(bound: Bound) -> (Stroke, &'static str) {
         Bound::Merging => (SERIES[3], Dash::Dotted, "merging"),
         Bound::Frame => (Colour::GREY, Dash::Solid, "frame"),
     };
-    (Stroke { colour, width: 3.0, dash }, name)
+    (Stroke { colour, width: THICK, dash }, name)
 }

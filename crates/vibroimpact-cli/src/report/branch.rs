@@ -6,9 +6,9 @@ use crate::report::json::{CyclePoint, impacts, pairs, side};
 use crate::report::text::{precise, short, stop_name, table};
 use serde::Serialize;
 use std::fmt::Write;
-use vibroimpact::Parameter;
 use vibroimpact::continuation::{BranchEvent, Change, Point};
 use vibroimpact::orbit::Cycle;
+use vibroimpact::{Label, Parameter};
 use vibroimpact_study::{Branches, Chosen, Followed};
 
 /// The command's part of the object.
@@ -280,9 +280,12 @@ fn of(branch: &Followed, unit: f64, name: &str) -> String {
         .clone()
         .filter(|(.., event)| !event.ends())
         .map(|(k, point, event)| {
-            let plain = |point: &&Point| point.event.is_none();
-            let before = points[..k].iter().rev().find(plain).map_or_else(String::new, state);
-            let after = points[k + 1..].iter().find(plain).map_or_else(String::new, state);
+            let (before, after) = match event {
+                BranchEvent::Grazing { before, after, .. } => (before, after),
+                _ => (point.cycle.label, point.cycle.label),
+            };
+            let before = beside(k.checked_sub(1).and_then(|k| points.get(k)), before);
+            let after = beside(points.get(k + 1), after);
             vec![event.name().into(), precise(point.value * unit), before, after, remark(&event)]
         })
         .collect();
@@ -295,6 +298,12 @@ fn of(branch: &Followed, unit: f64, name: &str) -> String {
         let _ = writeln!(text, "  ends at {name} {value}, {before}: {}{why}", event.name());
     }
     text
+}
+
+/// What a branch is beside an event; of a neighbour that is an event itself only the label is known.
+fn beside(neighbour: Option<&Point>, label: Label) -> String {
+    let plain = neighbour.filter(|point| point.event.is_none() && point.cycle.label == label);
+    plain.map_or_else(|| label.to_string(), state)
 }
 
 /// `1/1 stable`.

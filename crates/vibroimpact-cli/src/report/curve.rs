@@ -35,8 +35,8 @@ struct Through {
 #[derive(Serialize)]
 struct PointObject {
     values: [f64; 2],
-    label: String,
     physical: bool,
+    /// On a grazing curve with the impact of speed zero in it.
     cycle: Vec<CyclePoint>,
     multipliers: [[f64; 2]; 2],
 }
@@ -73,7 +73,6 @@ impl Answer {
             points: points
                 .map(|point| PointObject {
                     values: values(point, plan, units),
-                    label: point.cycle.label.to_string(),
                     physical: point.physical,
                     cycle: impacts(&point.cycle, units),
                     multipliers: pairs(point.cycle.multipliers),
@@ -86,7 +85,7 @@ impl Answer {
 /// The columns of the table.
 pub(crate) fn columns(plan: &CurvePlan) -> String {
     let (p, q) = (plan.vary.parameter.name(), plan.and.parameter.name());
-    format!("{p},{q},label,physical,event,re_1,im_1,re_2,im_2,phases,velocities")
+    format!("{p},{q},physical,event,re_1,im_1,re_2,im_2,phases,velocities")
 }
 
 /// One row a point, from one end to the other.
@@ -98,7 +97,7 @@ pub(crate) fn rows<'a>(
     found.points.iter().map(move |point| {
         let [p, q] = values(point, plan, units);
         let event = point.event.map_or("", |event| event.name());
-        let head = format!("{},{},{},{},{event}", Number(p), Number(q), point.cycle.label, point.physical);
+        let head = format!("{},{},{},{event}", Number(p), Number(q), point.physical);
         format!("{head},{}", cells(&point.cycle, units))
     })
 }
@@ -118,12 +117,16 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
     let _ = writeln!(text, "  found at {} {}{which}", name(p), found_at.join(", "));
     let _ = writeln!(text, "  followed over {}, {}: {} points", over(&plan.vary), over(&plan.and), found.points.len());
     let heads = ["<event".to_owned(), name(p), name(plan.and.parameter), "<motion".into()];
-    let rows: Vec<Vec<String>> = found
-        .points
+    let all = &found.points;
+    let rows: Vec<Vec<String>> = all
         .iter()
-        .filter_map(|point| {
+        .enumerate()
+        .filter_map(|(k, point)| {
             let [p, q] = values(point, plan, units);
-            let motion = if point.physical { point.cycle.label.to_string() } else { "no motion".into() };
+            // at an event itself rounding decides; what lies beside it counts
+            let beside = [k.checked_sub(1).and_then(|k| all.get(k)), all.get(k + 1)];
+            let physical = point.physical || beside.into_iter().flatten().any(|point| point.physical);
+            let motion = if physical { plan.label.trim() } else { "no motion" }.to_owned();
             Some(vec![point.event?.name().into(), precise(p), precise(q), motion])
         })
         .collect();

@@ -117,8 +117,27 @@ fn orbits_stable_or_not() {
         one["orbits"].as_array().unwrap().iter().filter(|orbit| orbit["physical"] == true).collect();
     assert_eq!(physical.len(), 1);
     assert_eq!(physical[0]["stable"], false);
+    assert_eq!(physical[0]["earlier_contact"], Value::Null);
     let half = json("orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2");
     assert!(half["orbits"].as_array().unwrap().iter().any(|orbit| orbit["stable"] == true && orbit["label"] == "1/2"));
+}
+
+/// A solution that passes through the stop: followed from its impact, a flight strikes where it is said to.
+#[test]
+fn solutions_that_are_no_motions() {
+    let system = "--inverse-beta 1.8 --gap 1 --restitution 0.5";
+    let answer = json(&format!("orbit {system} --label 1/1"));
+    let orbit = &answer["orbits"][0];
+    assert_eq!((&orbit["physical"], &orbit["earlier_contact"]["side"]), (&false.into(), &"upper".into()));
+    assert_eq!(orbit["earlier_contact"]["after_impact"], 1);
+    let number = |value: &Value| value.as_f64().unwrap();
+    let at = &orbit["cycle"][0];
+    let (velocity, phase) = (-0.5 * number(&at["velocity_before"]), number(&at["phase"]));
+    let flown = json(&format!("simulate {system} --x 1 --v {velocity} --phase {phase} --impacts 1"));
+    let time = number(&orbit["earlier_contact"]["time"]);
+    assert!((number(&flown["events"][0]["time"]) - time).abs() < 1e-9 && time < number(&at["interval"]));
+    let text = String::from_utf8(vibro(&format!("orbit {system} --label 1/1")).output().unwrap().stdout).unwrap();
+    assert!(text.contains("earlier contact: after impact 1 it meets the stop at a time of 3.93216, not"), "{text}");
 }
 
 #[test]

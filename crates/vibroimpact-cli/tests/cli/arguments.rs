@@ -100,6 +100,19 @@ fn diagram() -> impl Strategy<Value = Vec<String>> {
         })
 }
 
+fn branch() -> impl Strategy<Value = Vec<String>> {
+    let flags = vec!["inverse-beta", "gap", "restitution", "damping", "second-gap"];
+    let vary = prop::sample::select(flags).prop_map(str::to_owned);
+    let few = || prop::sample::select(vec!["0", "1", "2", "30", "-1", "x"]).prop_map(str::to_owned);
+    (
+        (always("--vary", vary), always("--to", number())),
+        option("--follow", 0.5, few()),
+        option("--orbit", 0.2, few()),
+        prop::sample::select(vec!["2", "50", "300"]).prop_map(|n| vec![format!("--points={n}")]),
+    )
+        .prop_map(|((a, b), c, d, e)| [a, b, c, d, e].concat())
+}
+
 fn command() -> impl Strategy<Value = Vec<String>> {
     let named = |name: &str| Just(vec![name.to_owned()]);
     let joined = |(a, b, c): (Vec<String>, Vec<String>, Vec<String>)| [a, b, c].concat();
@@ -126,6 +139,8 @@ fn command() -> impl Strategy<Value = Vec<String>> {
             always("--starts", count()),
         ).prop_map(joined),
         1 => diagram(),
+        2 => (named("branch"), system(), (always("--label", label()), branch(), Just(Vec::new())).prop_map(joined))
+            .prop_map(joined),
         1 => (
             named("lyapunov"),
             system(),

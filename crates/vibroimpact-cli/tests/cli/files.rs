@@ -7,6 +7,10 @@ use std::process::{Command, Stdio};
 
 const GRID: &str = "--x -4:0.75:37 --v -4:4:29";
 const SWEEP: &str = "--inverse-beta 1.3 --restitution 0.5 --vary gap --over -0.5:3:31";
+const BRANCH: &str = "branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2 --follow 1";
+const CURVE: &str = "curve --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --kind fold --vary gap=0:4 \
+                     --and inverse-beta=0.45:0.8";
+const REGION: &str = "region --label 1/1 --inverse-beta 1.05:1.2 --gap 1:2.5 --restitution 0.5 --grid 4";
 const PLANE: &str = "--inverse-beta 0.5:1.9:8 --gap -0.5:3:6 --restitution 0.5 --starts 6";
 
 #[test]
@@ -47,10 +51,16 @@ fn existing_files_stay_unless_forced() {
         format!("simulate {S} --csv keep.csv"),
         format!("diagram {SWEEP} --csv keep.csv"),
         format!("lyapunov {S} --section keep.csv"),
+        format!("{BRANCH} --csv keep.csv"),
+        format!("{CURVE} --csv keep.csv"),
+        format!("{REGION} --csv keep.csv"),
+        // nothing is reserved for a question that turns out to have no answer
+        format!("branch {S} --label 7/5 --vary gap --to 1 --orbit 99 --csv keep.csv --force"),
     ] {
         let output = vibro(&line).current_dir(&folder).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
-        assert!(String::from_utf8_lossy(&output.stderr).contains("`keep.csv` exists already"));
+        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(complaint.contains("`keep.csv` exists already") || line.contains("--force"), "{complaint}");
         assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
     }
     let forced = format!("simulate {S} --csv keep.csv --force");
@@ -119,6 +129,10 @@ fn pictures() {
             "lyapunov --beta 0.7 --gap 0.6 --restitution 0.7 --second-gap 0.8 --impacts 1000 --plot sides.svg".into(),
         ),
         ("still", "lyapunov --beta 0.9 --gap -1.5 --restitution 0.5 --plot still.svg".into()),
+        ("branch", format!("{BRANCH} --plot branch.png")),
+        ("alone", format!("{BRANCH} --no-diagram --virtual --plot alone.svg")),
+        ("curve", format!("{CURVE} --plot curve.svg")),
+        ("region", format!("{REGION} --plot region.svg")),
         ("nothing", "diagram --beta 2 --restitution 0.5 --vary gap --over 5:6:3 --plot nothing.svg".into()),
     ] {
         let output = vibro(&line).current_dir(&folder).output().unwrap();

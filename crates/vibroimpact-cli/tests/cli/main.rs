@@ -2,9 +2,11 @@
 
 mod answers;
 mod arguments;
+mod branches;
 mod diagrams;
 mod files;
 mod lyapunov;
+mod planes;
 mod refusals;
 
 use assert_cmd::Command;

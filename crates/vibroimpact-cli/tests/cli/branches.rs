@@ -1,0 +1,125 @@
+//! `vibro branch`: points, events, and what is said of them.
+
+use crate::{json, vibro};
+use serde_json::Value;
+
+/// From before the doubling of 1/1 on the line 1/beta = 1.11.
+const DOUBLING: &str = "branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap";
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+fn events<'a>(branch: &'a Value, kind: &str) -> Vec<&'a Value> {
+    branch["events"].as_array().unwrap().iter().filter(|event| event["kind"] == kind).collect()
+}
+
+#[test]
+fn points_events_and_the_branch_that_begins_at_a_flip() {
+    let answer = json(&format!("{DOUBLING} --to 2.5 --follow 3"));
+    assert_eq!((&answer["vary"], &answer["from"], &answer["to"]), (&"gap".into(), &1.5.into(), &2.5.into()));
+    let flip = events(&answer, "flip")[0];
+    assert!((number(&flip["parameter"]) - 1.829_006_189_683_6).abs() < 1e-12);
+    for point in answer["points"].as_array().unwrap() {
+        let before = number(&point["parameter"]) < number(&flip["parameter"]);
+        let at = (number(&point["parameter"]) - number(&flip["parameter"])).abs() < 1e-9;
+        assert!(at || point["stable"] == before, "{point}");
+        assert_eq!((&point["label"], &point["physical"]), (&"1/1".into(), &true.into()));
+        let product = number(&point["multipliers"][0][0]) * number(&point["multipliers"][1][0])
+            - number(&point["multipliers"][0][1]) * number(&point["multipliers"][1][1]);
+        assert!((product - 0.25).abs() < 1e-9);
+        assert_eq!(point["cycle"].as_array().unwrap().len(), 1);
+    }
+    let place = flip["point"].as_u64().unwrap();
+    assert_eq!(answer["points"][usize::try_from(place).unwrap()]["parameter"], flip["parameter"]);
+    let end = answer["events"].as_array().unwrap().last().unwrap();
+    assert_eq!((&end["kind"], &end["ends"], &end["parameter"]), (&"end of range".into(), &true.into(), &2.5.into()));
+
+    assert_eq!(answer["branches"].as_array().unwrap().len(), 1);
+    let second = &answer["branches"][0];
+    assert_eq!((&second["from"]["kind"], &second["from"]["branch"]), (&"flip".into(), &1.into()));
+    assert_eq!(second["from"]["parameter"], flip["parameter"]);
+    let grazing = events(second, "grazing")[0];
+    assert_eq!((&grazing["label_before"], &grazing["label_after"]), (&"2/2".into(), &"1/2".into()));
+    assert_eq!((&grazing["change"], &grazing["turns"]), (&"disappears".into(), &true.into()));
+    assert_eq!((&grazing["impact"], &grazing["side"]), (&2.into(), &"upper".into()));
+    assert!(number(&grazing["phase"]) > 0.0 && events(second, "fold").len() == 1);
+    // the motion that takes over is what simulation settles into
+    let settled = json("settle --inverse-beta 1.11 --gap 2.5 --restitution 0.5");
+    let last = second["points"].as_array().unwrap().last().unwrap();
+    assert_eq!((&last["label"], &settled["motion"]["label"]), (&"1/2".into(), &"1/2".into()));
+    let velocity = |cycle: &Value| number(&cycle[0]["velocity_before"]);
+    assert!((velocity(&last["cycle"]) - velocity(&settled["motion"]["cycle"])).abs() < 1e-9);
+    assert_eq!(json(&format!("{DOUBLING} --to 2.5"))["branches"], Value::Array(Vec::new()));
+}
+
+/// Down to lower values, in any parameter; the plan says what was asked.
+#[test]
+fn other_parameters_and_the_other_way() {
+    let answer = json(&format!("{DOUBLING} --to 0.5"));
+    let values: Vec<f64> = answer["points"].as_array().unwrap().iter().map(|p| number(&p["parameter"])).collect();
+    assert!(values[0] == 1.5 && values.windows(2).all(|pair| pair[1] <= pair[0]), "{values:?}");
+    let task = &answer["plan"]["task"]["branch"];
+    assert_eq!((&task["label"], &task["vary"], &task["to"]), (&"1/1".into(), &"gap".into(), &0.5.into()));
+    for (vary, to) in [("inverse-beta", "1.3"), ("beta", "0.8"), ("restitution", "0.7"), ("damping", "0.1")] {
+        let answer = json(&DOUBLING.replace("--vary gap", &format!("--vary {vary} --to {to}")));
+        assert_eq!(answer["events"].as_array().unwrap().last().unwrap()["kind"], "end of range", "{vary}");
+        assert_eq!(answer["vary"], vary.replace('-', "_"));
+    }
+}
+
+/// The fast one of two is stable; the slow one, named, is not.
+#[test]
+fn one_of_several_orbits() {
+    let system = "branch --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --vary gap --to 3.5";
+    let fast = json(system);
+    assert_eq!((&fast["orbit"]["number"], &fast["orbit"]["count"]), (&2.into(), &2.into()));
+    assert_eq!(fast["points"][0]["stable"], true);
+    let slow = json(&format!("{system} --orbit 1"));
+    assert_eq!((&slow["orbit"]["number"], &slow["points"][0]["stable"]), (&1.into(), &false.into()));
+    // they meet at a fold, from which the branch comes back to where it began
+    let [one, two] = [&fast, &slow].map(|answer| number(&events(answer, "fold")[0]["parameter"]));
+    assert!((one - two).abs() < 1e-10);
+    let back = fast["points"].as_array().unwrap().last().unwrap();
+    assert!(
+        (number(&back["cycle"][0]["velocity_before"]) - number(&slow["points"][0]["cycle"][0]["velocity_before"]))
+            .abs()
+            < 1e-9
+    );
+}
+
+#[test]
+fn text_and_table() {
+    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let text = said(&format!("{DOUBLING} --to 2.5 --follow 1"));
+    for sentence in [
+        "branch 1: 1/1 (stable there), gap from 1.5 to 2.5",
+        "flip   1.82900618968  1/1 stable  1/1 unstable",
+        "ends at gap 2.50000000000, 1/1 unstable: end of range",
+        "branch 2: 2/2 from the flip of branch 1 at gap 1.82900618968",
+        "impact 2 on the stop disappears",
+    ] {
+        assert!(text.contains(sentence), "{sentence}: {text}");
+    }
+    let table = said(&format!("{DOUBLING} --to 2.5 --follow 1 --csv -"));
+    let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows[0][..6], ["branch", "gap", "label", "physical", "stable", "event"]);
+    assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{table}");
+    let double = rows.iter().find(|row| row[0] == "2" && row[2] == "2/2").unwrap();
+    assert_eq!((double[10].split(' ').count(), double[11].split(' ').count()), (2, 2));
+    assert!(rows.iter().any(|row| row[5] == "flip") && rows.iter().any(|row| row[0] == "2" && row[2] == "1/2"));
+}
+
+/// In metres, of the same line in physical units: one unit of length is 5 mm, of velocity 0.1 m/s.
+#[test]
+fn a_machine_in_physical_units() {
+    let machine =
+        "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 18 --gap-m 0.0075 --restitution 0.5";
+    let si = json(&format!("branch {machine} --units si --label 1/1 --vary gap --to 0.0125"));
+    let plain = json("branch --beta 0.9 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5");
+    let flip = |answer: &Value| number(&events(answer, "flip")[0]["parameter"]);
+    assert!((flip(&si) - 0.005 * flip(&plain)).abs() < 1e-14);
+    let velocity = |answer: &Value| number(&answer["points"][0]["cycle"][0]["velocity_before"]);
+    assert!((velocity(&si) - 0.1 * velocity(&plain)).abs() < 1e-12);
+    assert_eq!(si["to"], 0.0125);
+}

@@ -1,0 +1,109 @@
+//! `vibro curve` and `vibro region`: what is said of a plane of two parameters.
+
+use crate::{json, vibro};
+use serde_json::Value;
+
+const FOLD: &str = "curve --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --kind fold --vary gap=0:5 \
+                    --and inverse-beta=0.45:0.9";
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+/// Folds end on the grazing curve where 1/beta = 1/2: there the gap is the amplitude of the motion without stops, 1/3.
+#[test]
+fn the_fold_of_one_impact_a_period_ends_at_a_resonant_grazing() {
+    let answer = json(FOLD);
+    assert_eq!((&answer["kind"], &answer["parameters"][1]), (&"fold".into(), &"inverse_beta".into()));
+    let events = answer["events"].as_array().unwrap();
+    let grazing = events.iter().find(|event| event["kind"] == "resonant grazing").unwrap();
+    assert!((number(&grazing["values"][0]) - 1.0 / 3.0).abs() < 1e-9);
+    assert!((number(&grazing["values"][1]) - 0.5).abs() < 1e-9);
+    assert!(events.iter().any(|event| event["kind"] == "end of box" && event["values"][0] == 5.0));
+    let points = answer["points"].as_array().unwrap();
+    let through = &points[usize::try_from(answer["through"]["point"].as_u64().unwrap()).unwrap()];
+    assert!((number(&through["values"][0]) - number(&answer["found_at"][0])).abs() < 1e-9);
+    assert!((number(&through["values"][1]) - 0.7).abs() < 1e-12);
+    for point in points.iter().filter(|point| number(&point["values"][1]) > 0.52) {
+        assert!((number(&point["multipliers"][0][0]) - 1.0).abs() < 1e-5, "{point}");
+    }
+}
+
+#[test]
+fn one_of_several_events() {
+    let line = "curve --inverse-beta 1.3 --gap 1 --restitution 0.5 --label 1/1 --kind grazing --vary gap=-0.5:4 \
+                --and inverse-beta=1.2:1.4";
+    let nearest = json(line);
+    assert_eq!((&nearest["through"]["event"], nearest["found_at"].as_array().unwrap().len()), (&1.into(), 2));
+    let other = json(&format!("{line} --event 2"));
+    assert_eq!(other["through"]["event"], 2);
+    let place = usize::try_from(other["through"]["point"].as_u64().unwrap()).unwrap();
+    assert!((number(&other["points"][place]["values"][0]) - number(&other["found_at"][1])).abs() < 1e-9);
+    assert_eq!(vibro(&format!("{line} --event 3")).output().unwrap().status.code(), Some(2));
+}
+
+#[test]
+fn text_and_tables() {
+    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let text = said(FOLD);
+    for sentence in ["fold of 1/1 (orbit 2 of 2, stable there)", "found at gap 3.14214107148", "resonant grazing"] {
+        assert!(text.contains(sentence), "{sentence}: {text}");
+    }
+    let table = said(&format!("{FOLD} --csv -"));
+    assert!(table.starts_with("gap,inverse_beta,physical,event,re_1"), "{table}");
+    assert!(table.lines().any(|row| row.contains(",resonant grazing,")));
+    let columns = table.lines().next().unwrap().split(',').count();
+    assert!(table.lines().all(|row| row.split(',').count() == columns));
+}
+
+const REGION: &str = "region --label 1/1 --inverse-beta 1.05:1.2 --gap 1:2.5 --restitution 0.5 --grid 4";
+
+/// Whether a point lies in one of the polygons.
+fn inside(polygons: &Value, (x, y): (f64, f64)) -> bool {
+    let vertices = |polygon: &Value| -> Vec<(f64, f64)> {
+        polygon["vertices"].as_array().unwrap().iter().map(|v| (number(&v[0]), number(&v[1]))).collect()
+    };
+    polygons.as_array().unwrap().iter().map(vertices).any(|ring| {
+        let edges = ring.iter().zip(ring.iter().cycle().skip(1));
+        let above = |&(&(x0, y0), &(x1, y1)): &(&(f64, f64), &(f64, f64))| {
+            (y0 > y) != (y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0)
+        };
+        edges.filter(above).count() % 2 == 1
+    })
+}
+
+/// Below the flip at 1.829 it is what `orbit` says it is, above too.
+#[test]
+fn the_regions_of_one_impact_a_period() {
+    let answer = json(REGION);
+    assert_eq!((&answer["label"], &answer["parameters"][0]), (&"1/1".into(), &"inverse_beta".into()));
+    assert_eq!((&answer["system"]["gap"], &answer["system"]["restitution"]), (&Value::Null, &0.5.into()));
+    for gap in [1.2, 1.82, 1.84, 2.4] {
+        let orbits = json(&format!("orbit --inverse-beta 1.11 --gap {gap} --restitution 0.5 --label 1/1"));
+        let any =
+            |key: &str| orbits["orbits"].as_array().unwrap().iter().any(|o| o["physical"] == true && o[key] == true);
+        let in_region = |kind: &str| inside(&answer[kind]["polygons"], (1.11, gap));
+        assert_eq!((in_region("existence"), in_region("stability")), (any("physical"), any("stable")), "{gap}");
+    }
+    let polygon = &answer["stability"]["polygons"][0];
+    let bounds = polygon["bounds"].as_array().unwrap();
+    assert_eq!(bounds.len(), polygon["vertices"].as_array().unwrap().len());
+    assert!(bounds.contains(&"flip".into()) && bounds.contains(&"frame".into()));
+    let task = &answer["plan"]["task"]["region"];
+    assert_eq!((&task["across"]["parameter"], &task["up"]["to"]), (&"inverse_beta".into(), &2.5.into()));
+}
+
+#[test]
+fn a_region_as_text_and_table_for_any_threads() {
+    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let text = said(REGION);
+    for sentence in ["1/1 over inverse beta from 1.05 to 1.2, gap from 1 to 2.5", "existence\n", "stability\n", "flip"]
+    {
+        assert!(text.contains(sentence), "{sentence}: {text}");
+    }
+    let table = said(&format!("{REGION} --csv - --threads 1"));
+    assert!(table.starts_with("region,polygon,hole,sheet,inverse_beta,gap,bound\nexistence,1,false,below,"), "{table}");
+    assert_eq!(said(&format!("{REGION} --csv - --threads 2")), table);
+    let other = said("region --label 1/2 --inverse-beta 1.11 --gap 2:3 --restitution 0.4:0.6 --grid 3 --csv -");
+    assert!(other.starts_with("region,polygon,hole,sheet,gap,restitution,bound\n") && other.lines().count() > 10);
+}
