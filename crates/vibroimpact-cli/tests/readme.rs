@@ -53,7 +53,17 @@ fn every_command_line_runs() {
         }
     }
     assert!(ran >= 4);
-    for file in ["basin.csv", "basin.png", "map.csv", "map.svg", "diagram.csv", "diagram.png", "attractor.png"] {
+    for file in [
+        "basin.csv",
+        "basin.png",
+        "map.csv",
+        "map.svg",
+        "diagram.csv",
+        "diagram.png",
+        "attractor.png",
+        "region.csv",
+        "region.png",
+    ] {
         assert!(folder.path().join(file).exists(), "{file}");
     }
 }

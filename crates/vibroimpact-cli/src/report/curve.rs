@@ -1,7 +1,8 @@
 //! Curves of events in a plane of two parameters as tables, text and JSON.
 
 use crate::args::Units;
-use crate::report::branch::{ChosenObject, cells, chosen, named};
+use crate::report::branch::{ChosenObject, cells};
+use crate::report::branch_text::{chosen, named};
 use crate::report::csv::Number;
 use crate::report::json::{CyclePoint, impacts, pairs};
 use crate::report::text::{precise, short, table};

@@ -1,6 +1,7 @@
 //! What a command says: JSON for programs, text for people, CSV for tables.
 
 pub(crate) mod branch;
+pub(crate) mod branch_text;
 pub(crate) mod csv;
 pub(crate) mod curve;
 pub(crate) mod diagram;

@@ -1,0 +1,131 @@
+//! Branches of periodic orbits in words: their events one by one, and how they end.
+
+use crate::args::Units;
+use crate::report::text::{precise, short, stop_name, table};
+use std::fmt::Write;
+use vibroimpact::continuation::{BranchEvent, Change, Point};
+use vibroimpact::{Label, Parameter};
+use vibroimpact_study::{Branches, Chosen, Followed};
+
+/// `gap`, `inverse beta`: a parameter in a sentence.
+pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
+    let name = parameter.name().replace('_', " ");
+    if vibroimpact_study::is_length(parameter) { units.named(&name, "m") } else { name }
+}
+
+/// Which orbit, if there were several.
+pub(crate) fn chosen(chosen: &Chosen) -> String {
+    let which = if chosen.count > 1 { format!("orbit {} of {}, ", chosen.number, chosen.count) } else { String::new() };
+    let stable = match (chosen.orbit.physical, chosen.orbit.cycle.stable()) {
+        (false, _) => "no motion",
+        (true, true) => "stable",
+        (true, false) => "unstable",
+    };
+    format!("{which}{stable} there")
+}
+
+/// Every branch: its events, and how it ends.
+pub(crate) fn text(found: &Branches, vary: Parameter, (from, to): (f64, f64), units: &Units) -> String {
+    let (unit, name) = (units.of(vary), named(vary, units));
+    let mut text = String::new();
+    for (k, branch) in found.followed.iter().enumerate() {
+        let origin = branch.origin.as_ref().and_then(|origin| Some((origin, origin.point.event?)));
+        let _ = match origin {
+            None => writeln!(
+                text,
+                "branch 1: {} ({}), {name} from {} to {}, {} points",
+                found.chosen.orbit.cycle.label,
+                chosen(&found.chosen),
+                short(from * unit),
+                short(to * unit),
+                branch.points.len()
+            ),
+            Some((origin, event)) => writeln!(
+                text,
+                "\nbranch {}: {} from the {} of branch {} at {name} {}, {} points",
+                k + 1,
+                branch.points.first().map_or_else(String::new, |point| point.cycle.label.to_string()),
+                event.name(),
+                origin.branch + 1,
+                precise(origin.point.value * unit),
+                branch.points.len()
+            ),
+        };
+        text.push_str(&of(branch, unit, &name));
+    }
+    for origin in &found.lost {
+        let kind = origin.point.event.map_or("event", |event| event.name());
+        let value = precise(origin.point.value * unit);
+        let _ = writeln!(text, "\nno branch was found at the {kind} of branch {} at {name} {value}", origin.branch + 1);
+    }
+    text
+}
+
+fn of(branch: &Followed, unit: f64, name: &str) -> String {
+    let heads = ["<event".to_owned(), name.to_owned(), "<before".into(), "<after".into(), "<".into()];
+    let points = &branch.points;
+    let events = points.iter().enumerate().filter_map(|(k, point)| Some((k, point, point.event?)));
+    let rows: Vec<Vec<String>> = events
+        .clone()
+        .filter(|(.., event)| !event.ends())
+        .map(|(k, point, event)| {
+            let (before, after) = match event {
+                BranchEvent::Grazing { before, after, .. } => (before, after),
+                _ => (point.cycle.label, point.cycle.label),
+            };
+            let before = beside(k.checked_sub(1).and_then(|k| points.get(k)), before);
+            let after = beside(points.get(k + 1), after);
+            vec![event.name().into(), precise(point.value * unit), before, after, remark(&event)]
+        })
+        .collect();
+    let mut text = if rows.is_empty() { "  no events on the way\n".to_owned() } else { table(&heads, &rows) };
+    if let Some((_, point, event)) = events.last().filter(|(.., event)| event.ends()) {
+        let value = precise(point.value * unit);
+        let before = points.iter().rev().find(|point| point.event.is_none()).map_or_else(String::new, state);
+        let why = remark(&event);
+        let why = if why.is_empty() { why } else { format!(": {why}") };
+        let _ = writeln!(text, "  ends at {name} {value}, {before}: {}{why}", event.name());
+    }
+    text
+}
+
+/// What a branch is beside an event; of a neighbour that is an event itself only the label is known.
+fn beside(neighbour: Option<&Point>, label: Label) -> String {
+    let plain = neighbour.filter(|point| point.event.is_none() && point.cycle.label == label);
+    plain.map_or_else(|| label.to_string(), state)
+}
+
+/// `1/1 stable`.
+fn state(point: &Point) -> String {
+    let stability = match (point.physical, point.stable()) {
+        (false, _) => "no motion",
+        (true, true) => "stable",
+        (true, false) => "unstable",
+    };
+    format!("{} {stability}", point.cycle.label)
+}
+
+fn remark(event: &BranchEvent) -> String {
+    match event {
+        BranchEvent::Grazing { change, impact, side, phase, turns, .. } => {
+            let way = if *turns { "the parameter turns" } else { "the parameter goes on" };
+            let (impact, phase) = (impact + 1, short(*phase));
+            match change {
+                Change::Appears => {
+                    format!("an impact on the {} appears after impact {impact}, phase {phase}; {way}", stop_name(*side))
+                }
+                Change::Disappears => {
+                    format!("impact {impact} on the {} disappears, phase {phase}; {way}", stop_name(*side))
+                }
+            }
+        }
+        BranchEvent::LossOfContact { side, phase } => {
+            format!("the mass no longer reaches the {}, phase {}", stop_name(*side), short(*phase))
+        }
+        BranchEvent::Stick { impact } => format!("the mass stays on the stop after impact {}", impact + 1),
+        BranchEvent::Halving => "it becomes an orbit of half the period".into(),
+        BranchEvent::StepLimit => "--points allows more".into(),
+        BranchEvent::ImpactLimit => "a complete chatter is near".into(),
+        _ => String::new(),
+    }
+}
