@@ -69,7 +69,7 @@ pub(crate) fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String
     }
     let is_frequency = |parameter: &Parameter| matches!(parameter, Parameter::Beta | Parameter::InverseBeta);
     let tuned = varied.iter().any(is_frequency);
-    given.retain(|(parameter, _)| !varied.contains(parameter) && !(tuned && is_frequency(parameter)));
+    given.retain(|(parameter, _)| !(varied.contains(parameter) || tuned && is_frequency(parameter)));
     let parts: Vec<String> =
         given.iter().map(|(parameter, value)| format!("{} = {}", symbol(*parameter), short(*value))).collect();
     parts.join(", ").replace('-', "−")

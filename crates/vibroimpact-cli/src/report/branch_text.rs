@@ -66,7 +66,6 @@ fn of(branch: &Followed, unit: f64, name: &str) -> String {
     let points = &branch.points;
     let events = points.iter().enumerate().filter_map(|(k, point)| Some((k, point, point.event?)));
     let rows: Vec<Vec<String>> = events
-        .clone()
         .filter(|(.., event)| !event.ends())
         .map(|(k, point, event)| {
             let (before, after) = match event {
@@ -79,7 +78,8 @@ fn of(branch: &Followed, unit: f64, name: &str) -> String {
         })
         .collect();
     let mut text = if rows.is_empty() { "  no events on the way\n".to_owned() } else { table(&heads, &rows) };
-    if let Some((_, point, event)) = events.last().filter(|(.., event)| event.ends()) {
+    let end = points.last().and_then(|point| Some((point, point.event.filter(BranchEvent::ends)?)));
+    if let Some((point, event)) = end {
         let value = precise(point.value * unit);
         let before = points.iter().rev().find(|point| point.event.is_none()).map_or_else(String::new, state);
         let why = remark(&event);

@@ -11,7 +11,7 @@ fn number(value: &Value) -> f64 {
 }
 
 fn events<'a>(branch: &'a Value, kind: &str) -> Vec<&'a Value> {
-    branch["events"].as_array().unwrap().iter().filter(|event| event["kind"] == kind).collect()
+    branch["events"].as_array().expect("a list").iter().filter(|event| event["kind"] == kind).collect()
 }
 
 #[test]

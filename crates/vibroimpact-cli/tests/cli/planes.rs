@@ -61,9 +61,9 @@ const REGION: &str = "region --label 1/1 --inverse-beta 1.05:1.2 --gap 1:2.5 --r
 /// Whether a point lies in one of the polygons.
 fn inside(polygons: &Value, (x, y): (f64, f64)) -> bool {
     let vertices = |polygon: &Value| -> Vec<(f64, f64)> {
-        polygon["vertices"].as_array().unwrap().iter().map(|v| (number(&v[0]), number(&v[1]))).collect()
+        polygon["vertices"].as_array().expect("a list").iter().map(|v| (number(&v[0]), number(&v[1]))).collect()
     };
-    polygons.as_array().unwrap().iter().map(vertices).any(|ring| {
+    polygons.as_array().expect("a list").iter().map(vertices).any(|ring| {
         let edges = ring.iter().zip(ring.iter().cycle().skip(1));
         let above = |&(&(x0, y0), &(x1, y1)): &(&(f64, f64), &(f64, f64))| {
             (y0 > y) != (y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0)
