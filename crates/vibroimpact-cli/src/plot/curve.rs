@@ -84,6 +84,8 @@ const fn shape(event: CurveEvent) -> Option<Shape> {
         CurveEvent::DoubleGrazing => Shape::Square,
         CurveEvent::DegenerateGrazing => Shape::TriangleUp,
         CurveEvent::Touch | CurveEvent::OneToTwo => Shape::Circle,
+        CurveEvent::DegenerateFlip => Shape::Cross,
+        CurveEvent::LossOfContact | CurveEvent::WholePeriods => Shape::Plus,
         CurveEvent::Closed | CurveEvent::EndOfBox | CurveEvent::StepLimit | CurveEvent::NoConvergence => return None,
     })
 }
