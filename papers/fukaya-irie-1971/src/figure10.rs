@@ -1,10 +1,11 @@
 //! Figure 10: started exactly on the unstable fundamental motion at T, which rounding errors leave for 1/2.
 
+mod windows;
+
 use crate::claims::{Agreement, Section};
 use crate::folder::Csv;
 use crate::waves::{Impact, impacts};
-use crate::{Error, Run, line, looks};
-use vibroimpact::continuation::{BranchEvent, Direction};
+use crate::{Error, Run, looks};
 use vibroimpact::motion::ImpactState;
 use vibroimpact::orbit::{Cycle, FindOptions, Orbit, find};
 use vibroimpact::system::phase;
@@ -56,7 +57,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     )
     .svg("figure-10", svg, &[]);
     claims(&mut section, &osc, &orbit.cycle, (&exact, ulps, &seen), &coarser);
-    windows(&mut section)?;
+    windows::add(&mut section)?;
     run.report.sections.push(section);
     Ok(())
 }
@@ -239,38 +240,4 @@ fn claims(
         ),
         Agreement::of(seen.leaves.is_some() && seen.settles.is_some() && to_half, seen.leaves.is_some()),
     );
-}
-
-/// Between which gaps on the line through T the two motions are stable.
-fn windows(section: &mut Section) -> Result<(), Error> {
-    let gap = scenario::T.gap;
-    // where 1/1 is still stable
-    let one = line::branch((1, 1), 1.0, Direction::Up)?;
-    let doubles = one.iter().find(|p| p.event == Some(BranchEvent::Flip)).map(|p| p.value);
-    let half = |direction| -> Result<Option<f64>, Error> {
-        let branch = line::branch((1, 2), gap, direction)?;
-        let ends = |p: &&vibroimpact::continuation::Point| {
-            matches!(p.event, Some(BranchEvent::Flip | BranchEvent::Grazing { .. }))
-        };
-        Ok(branch.iter().find(ends).map(|p| p.value))
-    };
-    let (begins, ends) = (half(Direction::Down)?, half(Direction::Up)?);
-    let told = |gap: Option<f64>| gap.map_or("nowhere".to_owned(), |gap| format!("at delta = {gap:.9}"));
-    let inside = |low: Option<f64>, high: f64| low.is_some_and(|low| low < gap && gap < high);
-    section.claim(
-        "10",
-        "T lies where 1/1 has become unstable and 1/2 has come to be",
-        format!(
-            "followed over delta at 1/beta = 1.11, 1/1 doubles its period {} and is unstable from there on; 1/2 begins {}, where \
-             its flight touches the wall, and doubles {}",
-            told(doubles),
-            told(begins),
-            told(ends)
-        ),
-        Agreement::of(
-            inside(doubles, f64::INFINITY) && inside(begins, ends.unwrap_or(f64::NEG_INFINITY)),
-            doubles.is_some() && begins.is_some(),
-        ),
-    );
-    Ok(())
 }
