@@ -32,7 +32,7 @@ pub(crate) struct Orbit {
     #[command(flatten)]
     system: SystemArgs,
 
-    /// m impacts in n forcing periods, for example 2/1; m and n from 1 to 10000
+    /// m impacts in n forcing periods, for example 2/1; m and n from 1 to 10000; or inf/n; 0 is the steady motion without impacts
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Orbit")]
     label: String,
 
@@ -63,6 +63,9 @@ pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let mut said = words::system(&asked, &osc);
     if orbits.is_empty() {
         said.push_str(&format!("\nno orbit {label} was found\n"));
+        if label == Label::new(0, 1) {
+            said.push_str("without damping, motions without impacts are no single cycle: `vibro settle` finds them\n");
+        }
     }
     let count = orbits.len();
     for (k, orbit) in orbits.into_iter().enumerate() {

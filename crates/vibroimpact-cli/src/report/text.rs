@@ -128,6 +128,7 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
             let rests = u32::try_from(cycle.rests.len()).unwrap_or(u32::MAX);
             let rest = if rests == 0 { String::new() } else { format!(", and {} on the stop", counted(rests, "rest")) };
             match cycle.label.impacts {
+                Count::Finite(0) => "the steady motion, without impacts".to_owned(),
                 Count::Finite(m) => format!("{}{rest} {periods}", counted(m, "impact")),
                 Count::Infinite => format!("a complete chatter (infinitely many impacts){rest} {periods}"),
             }
@@ -166,6 +167,7 @@ const fn stability(stable: Option<bool>, verdict: &Verdict) -> &'static str {
 /// Why it is so.
 fn grounds(verdict: &Verdict, units: &Units) -> String {
     match verdict {
+        Verdict::Periodic(cycle) if cycle.points.is_empty() => "a closed form; it stays short of the stops".into(),
         Verdict::Periodic(cycle) if cycle.rests.is_empty() => format!(
             "Newton's method on the {}-fold impact map returns to itself within {:.0e}; no earlier contact",
             cycle.points.len(),
@@ -247,6 +249,9 @@ pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Stri
 const MOST_IMPACTS: usize = 40;
 
 pub(crate) fn impacts(cycle: &Cycle, osc: &Oscillator, units: &Units) -> String {
+    if cycle.points.is_empty() {
+        return String::new();
+    }
     let both = osc.stop(Side::Lower).is_some();
     let mut heads =
         vec!["impact".to_owned(), "phase".into(), units.named("velocity", "m/s"), units.named("interval", "s")];

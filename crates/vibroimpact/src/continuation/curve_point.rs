@@ -41,7 +41,7 @@ pub enum CurveEvent {
     /// A flight of a cycle at a fold or a flip touches a stop: beyond, the curve is not one of motions.
     Touch,
     /// A fold curve ends on the curve of flips of the cycle of half the period: on one side of this point the doubled
-    /// cycle is born there, on the other it ends. Extrapolated, right to about 1e-8.
+    /// cycle is born there, on the other it ends. Extrapolated, right to about 1e-7.
     DegenerateFlip,
     /// A grazing curve of a longer cycle ends on that of the motion without impacts: all speeds vanish.
     LossOfContact,

@@ -65,7 +65,7 @@ pub enum BranchEvent {
     },
     /// The only impact has speed zero: beyond, the mass never touches the stop. Only without damping, where orbits 1/n of
     /// every n end together in one of a continuum of motions without impacts, so that there is nothing to follow. With
-    /// damping this is a [`Grazing`](Self::Grazing) event with the label 0/1 after it, and the branch goes on along the
+    /// damping this is a [`Grazing`](Self::Grazing) event with the label 0 after it, and the branch goes on along the
     /// steady motion without impacts.
     LossOfContact {
         /// Stop of the touch.

@@ -11,7 +11,7 @@ use crate::system::{Oscillator, Side, phase};
 use crate::verdict::Label;
 use core::f64::consts::{FRAC_PI_2, PI};
 
-/// The steady motion of `osc` without impacts, a cycle called 0/1 that has no points; `None` without damping, where it is
+/// The steady motion of `osc` without impacts, a cycle called 0 that has no points; `None` without damping, where it is
 /// only one of many motions without impacts and attracts none of them.
 ///
 /// Whether it is a possible motion says [`earlier_contact`](super::earlier_contact).

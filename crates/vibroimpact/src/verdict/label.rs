@@ -1,7 +1,7 @@
 //! The name of a periodic motion: `m/n`, m impacts in n forcing periods over its smallest period.
 //!
 //! `2/2` is not `1/1`: its two impacts differ. A motion with a complete chatter in it has infinitely many impacts and
-//! is called `inf/n`. The 1971 paper calls 1/1 fundamental, m/1 of higher order, 1/n fractional and the rest super-sub.
+//! is called `inf/n`, the steady motion without impacts `0`. The 1971 paper calls 1/1 fundamental, m/1 of higher order, 1/n fractional and the rest super-sub.
 
 use core::fmt;
 use core::str::FromStr;
@@ -45,6 +45,7 @@ impl Label {
 impl fmt::Display for Label {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.impacts {
+            Count::Finite(0) => f.write_str("0"),
             Count::Finite(m) => write!(f, "{m}/{}", self.periods),
             Count::Infinite => write!(f, "inf/{}", self.periods),
         }
@@ -54,7 +55,7 @@ impl fmt::Display for Label {
 /// A text that is no label.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error(
-    "label `{given}` is not m/n with m and n whole numbers from 1 to 10000 (or inf/n)\nhint: m impacts in n forcing periods, for example 2/1"
+    "label `{given}` is not m/n with m and n whole numbers from 1 to 10000 (or inf/n, or 0)\nhint: m impacts in n forcing periods, for example 2/1"
 )]
 pub struct LabelError {
     given: String,
@@ -69,6 +70,9 @@ impl FromStr for Label {
             Ok(k @ 1..=10_000) if part.bytes().all(|b| b.is_ascii_digit()) => Ok(k),
             _ => Err(bad()),
         };
+        if text.trim() == "0" {
+            return Ok(Self::new(0, 1));
+        }
         let (m, n) = text.trim().split_once('/').ok_or_else(bad)?;
         let impacts = if m == "inf" { Count::Infinite } else { Count::Finite(whole(m)?) };
         Ok(Self { impacts, periods: whole(n)? })
@@ -81,12 +85,10 @@ mod tests {
 
     #[test]
     fn only_labels_parse() {
-        for good in ["1/1", "10000/1", "inf/3"] {
+        for good in ["1/1", "10000/1", "inf/3", "0"] {
             assert_eq!(good.parse::<Label>().unwrap().to_string(), good);
         }
-        for bad in
-            ["3/0", "0/1", "0", "1", "1/1/1", "-1/2", "+1/2", "1.5/2", "inf/0", "inf", "", "1/99999999999", "nan/1"]
-        {
+        for bad in ["3/0", "0/1", "1", "1/1/1", "-1/2", "+1/2", "1.5/2", "inf/0", "inf", "", "1/99999999999", "nan/1"] {
             let message = bad.parse::<Label>().unwrap_err().to_string();
             assert!(message.contains(bad) && message.contains("1 to 10000"), "{message}");
         }
