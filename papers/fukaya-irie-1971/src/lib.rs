@@ -17,7 +17,7 @@
 //! | figure 10: from an unstable motion to a stable one | `figure10` |
 //! | figure 11: impacts that never settle | `figure11` |
 //! | section 4: the conclusions | `conclusions` |
-//! | the line through T and U, for `docs/orbits.md` | [`line`] |
+//! | the line through T and U, for `docs/orbits.md` | [`mod@line`] |
 //!
 //! | around it | file |
 //! |---|---|
