@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::lanes::{ABREAST, Batch, Width};
 use vibroimpact::motion::{EventKind, Motion};
-use vibroimpact::system::phase;
 use vibroimpact::verdict::{Atlas, SettleOptions, settle_many};
 use vibroimpact::{Oscillator, Start, scenario};
 
@@ -99,11 +98,7 @@ fn along(osc: &Oscillator, start: Start) -> Vec<Start> {
     let mut motion = Motion::new(osc, start);
     let settled = motion.by_ref().nth(TRANSIENT).is_some();
     let Some(leg) = motion.leg().filter(|_| settled) else { return Vec::new() };
-    let at = |s: f64| {
-        let (x, v) = leg.state(osc, s);
-        Start { x, v, phase: phase::advance(leg.phase, osc.beta(), s) }
-    };
-    parts().map(|part| at(part * leg.duration)).collect()
+    parts().map(|part| leg.start(osc, part * leg.duration)).collect()
 }
 
 /// Impacts per second of many motions side by side.

@@ -99,7 +99,7 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let osc = asked.system.oscillator()?;
     let ends = (asked.system.value(vary)?, task.to);
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = args.csv.as_deref().is_some_and(|path| path.as_os_str() == "-");
+    let to_stdout = outputs.table_on_stdout();
 
     let (system, question) = (asked.system, task.clone());
     let found = signal::interruptible("following a branch", move || branches(&system, &question))??;
@@ -120,7 +120,6 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
         return session.print_json(&Document::new(&asked, &osc, &plan, Answer::new(&found, vary, ends, &asked.units)));
     }
     if to_stdout {
-        // the table is the answer
         return Ok(());
     }
     session.print(&(words::system(&asked, &osc) + "\n" + &text(&found, vary, ends, &asked.units)))

@@ -110,7 +110,7 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     plan.check()?;
     let osc = asked.system.oscillator()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = args.csv.as_deref().is_some_and(|path| path.as_os_str() == "-");
+    let to_stdout = outputs.table_on_stdout();
 
     let (system, question) = (asked.system, task.clone());
     let found = signal::interruptible("following a curve", move || curve(&system, &question))??;
@@ -124,7 +124,6 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
         return session.print_json(&Document::new(&asked, &osc, &plan, Answer::new(&found, &task, &asked.units)));
     }
     if to_stdout {
-        // the table is the answer
         return Ok(());
     }
     session.print(&(words::system(&asked, &osc) + "\n" + &text(&found, &task, &asked.units)))

@@ -80,8 +80,8 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     plan.check()?;
     let osc = asked.system.oscillator()?;
     let start = task.start.start(&osc)?;
-    let to_stdout = args.section.as_deref().is_some_and(|path| path.as_os_str() == "-");
     let outputs = Outputs::reserve(args.section.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let to_stdout = outputs.table_on_stdout();
 
     let (settled, found, points) = signal::interruptible("measuring", move || {
         let points = task.points.map_or_else(Section::default, |n| section(&osc, start, task.transient, n));
@@ -99,7 +99,6 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         return session.print_json(&document.start(&start, &asked.units));
     }
     if to_stdout {
-        // the table is the answer
         return Ok(());
     }
     let head = words::system(&asked, &osc) + &words::start(&start, &asked.units) + "\n";

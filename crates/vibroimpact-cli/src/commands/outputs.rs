@@ -60,6 +60,11 @@ impl Outputs {
         self.csv.is_some() || self.picture.is_some() || self.json
     }
 
+    /// Whether the table goes to stdout: then it is the answer, and no text follows it.
+    pub(super) const fn table_on_stdout(&self) -> bool {
+        matches!(self.csv, Some(Sheet::Stdout))
+    }
+
     pub(super) fn write(
         self,
         session: &Session,

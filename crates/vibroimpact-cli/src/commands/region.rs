@@ -154,7 +154,7 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(system, Task::Region(task.clone()));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = args.csv.as_deref().is_some_and(|path| path.as_os_str() == "-");
+    let to_stdout = outputs.table_on_stdout();
 
     let found = session.tiled(2, "regions", |control, _| regions(&system, &task, control))?;
 
@@ -188,7 +188,6 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
         });
     }
     if to_stdout {
-        // the table is the answer
         return Ok(());
     }
     session.print(&text(&found, &task))

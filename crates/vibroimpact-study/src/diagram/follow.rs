@@ -1,7 +1,7 @@
 //! What following one motion gives: the points to show, of what kind they are, and where it was left.
 
 use vibroimpact::verdict::SettleOptions;
-use vibroimpact::{Oscillator, Side, Start, motion::Leg, system::phase};
+use vibroimpact::{Oscillator, Side, Start};
 
 /// What the motion at one value turned out to be, after the transient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,13 +61,6 @@ pub(super) const SAME: f64 = 1e-9;
 /// Search steps and events a motion may take: those of a verdict, and a thousand for each impact or period asked for.
 pub(super) fn budget(transient: u64, keep: u64) -> u64 {
     SettleOptions::default().max_steps + 1000 * (transient + keep)
-}
-
-/// The state a time `s` after the beginning of `leg`, within the stops.
-pub(super) fn along(osc: &Oscillator, leg: &Leg, s: f64) -> Start {
-    let (x, v) = leg.state(osc, s);
-    let (lowest, highest) = Start::room(osc);
-    Start { x: x.clamp(lowest, highest), v, phase: phase::advance(leg.phase, osc.beta(), s) }
 }
 
 /// The state `from` of the oscillator `before` as a start of `osc`: what is on a stop stays on it, what a stop has moved

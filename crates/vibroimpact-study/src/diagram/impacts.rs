@@ -1,6 +1,6 @@
 //! The impacts of a motion once its transient is over.
 
-use super::follow::{Found, Kind, Point, SAME, along, budget};
+use super::follow::{Found, Kind, Point, SAME, budget};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
 use vibroimpact::system::phase;
@@ -95,14 +95,14 @@ fn ended(osc: &Oscillator, motion: &Motion<'_>, start: Start, transient: u64) ->
         Some(End::NoneFor(time)) => (Kind::Undecided, later.min(time)),
         None => (Kind::Undecided, 0.0),
     };
-    let last = motion.leg().map_or(start, |leg| along(osc, leg, later));
+    let last = motion.leg().map_or(start, |leg| leg.start(osc, later));
     Found { kind, points: Vec::new(), last }
 }
 
 /// Followed no further; the state is that halfway to the next event.
 fn halfway(osc: &Oscillator, mut motion: Motion<'_>, start: Start, kind: Kind) -> Found {
     let part = if motion.next().is_some() { 0.5 } else { 0.0 };
-    let last = motion.leg().map_or(start, |leg| along(osc, leg, if part > 0.0 { part * leg.duration } else { 0.0 }));
+    let last = motion.leg().map_or(start, |leg| leg.start(osc, if part > 0.0 { part * leg.duration } else { 0.0 }));
     Found { kind, points: Vec::new(), last }
 }
 

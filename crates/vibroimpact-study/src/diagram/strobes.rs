@@ -1,10 +1,9 @@
 //! The states of a motion once in every forcing period, at phase 0, once its transient is over.
 
-use super::follow::{Found, Kind, Point, SAME, along, budget};
+use super::follow::{Found, Kind, Point, SAME, budget};
 use core::f64::consts::TAU;
 use vibroimpact::flight::SearchLimits;
-use vibroimpact::motion::{End, EventKind, Leg, Motion, Path};
-use vibroimpact::system::phase;
+use vibroimpact::motion::{End, EventKind, Motion, Path};
 use vibroimpact::{Oscillator, Start};
 
 /// Follows the motion of `osc` from `start` for `transient` forcing periods and keeps the `keep` states at phase 0 after
@@ -34,7 +33,7 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
             if time > leg.begin + known {
                 break;
             }
-            let state = at_phase_zero(osc, leg, time - leg.begin, known);
+            let state = leg.at_phase(osc, time - leg.begin, 0.0, known);
             number += 1;
             let again = number > transient && shown.see(state, matches!(leg.path, Path::Rest(_)));
             if again || number >= transient + keep {
@@ -46,15 +45,8 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
             Some(event) => shown.struck |= !shown.points.is_empty() && matches!(event.kind, EventKind::Impact { .. }),
         }
     }
-    let last = motion.leg().map_or(start, |leg| along(osc, leg, 0.0));
+    let last = motion.leg().map_or(start, |leg| leg.start(osc, 0.0));
     Found { kind: Kind::Undecided, points: Vec::new(), last }
-}
-
-/// The state near a time `s` after the beginning of the leg at which the phase is 0: the number of periods since the start
-/// only chooses which, so that nothing drifts.
-fn at_phase_zero(osc: &Oscillator, leg: &Leg, s: f64, known: f64) -> Start {
-    let early = phase::difference(0.0, phase::advance(leg.phase, osc.beta(), s)) / osc.beta();
-    Start { phase: 0.0, ..along(osc, leg, (s + early).clamp(0.0, known)) }
 }
 
 /// The states kept, and what happened meanwhile.

@@ -2,8 +2,9 @@
 //! parameters.
 
 use super::arc::Equations;
+use super::varied::slopes;
 use crate::math::sin_cos;
-use crate::orbit::{Block, Floquet, Ring, blocks, by_parameter, closest, fill};
+use crate::orbit::{Block, Floquet, Ring, blocks, closest};
 use crate::system::{Oscillator, Parameter, Side};
 
 /// What holds along a curve, as the zero of a function of the cycle and the parameters.
@@ -170,13 +171,7 @@ impl Equations for Plane {
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
         let width = w.len();
-        let mut rows = vec![0.0; width * width];
-        fill(&mut rows, width, &flights);
-        for (column, parameter) in [(width - 2, self.parameters.0), (width - 1, self.parameters.1)] {
-            for (k, slope) in by_parameter(&osc, &ring, parameter)?.into_iter().enumerate() {
-                rows[k * width + column] = slope;
-            }
-        }
+        let mut rows = slopes(&osc, &ring, &flights, &[self.parameters.0, self.parameters.1])?;
         let mut miss: Vec<f64> = flights.iter().flat_map(|b| b.miss).collect();
         let last = (width - 2) * width;
         rows[last..last + width].copy_from_slice(&self.gradient(self.condition, w)?);

@@ -78,12 +78,22 @@ impl Equations for Varied {
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
-        let width = w.len();
-        let mut rows = vec![0.0; width * width];
-        fill(&mut rows, width, &flights);
-        for (k, slope) in by_parameter(&osc, &ring, self.parameter)?.into_iter().enumerate() {
-            rows[k * width + width - 1] = slope;
-        }
+        let rows = slopes(&osc, &ring, &flights, &[self.parameter])?;
         Some((flights.iter().flat_map(|b| b.miss).collect(), rows))
     }
+}
+
+/// The derivatives of what flights miss by, in a square matrix, row by row: by the phases and speeds of the impacts, then by
+/// these parameters. A row for each parameter is left at the end, for what else is asked.
+pub(super) fn slopes(osc: &Oscillator, ring: &Ring, flights: &[Block], parameters: &[Parameter]) -> Option<Vec<f64>> {
+    let impacts = 2 * ring.len();
+    let width = impacts + parameters.len();
+    let mut rows = vec![0.0; width * width];
+    fill(&mut rows, width, flights);
+    for (k, parameter) in parameters.iter().enumerate() {
+        for (row, slope) in by_parameter(osc, ring, *parameter)?.into_iter().enumerate() {
+            rows[row * width + impacts + k] = slope;
+        }
+    }
+    Some(rows)
 }

@@ -48,7 +48,7 @@ impl Doubts {
         self.count
     }
 
-    /// Eight slots from the `first` on; those past the last are of no meaning, but there.
+    /// Sixteen slots from the `first` on; those past the last are of no meaning, but there.
     #[inline(always)]
     pub(super) fn slots(&self, first: usize) -> &[u32; WIDEST] {
         self.slots[first.min(SEGMENT)..].first_chunk().unwrap_or(&[0; WIDEST])

@@ -28,13 +28,13 @@ pub(super) struct Launch<L> {
 #[derive(Clone, Copy)]
 pub(super) struct Strike<L: Lane> {
     /// Whether the contact is there, to the last bits.
-    pub(super) settled: L::Mask,
+    settled: L::Mask,
     /// Time since the launch.
     pub(super) time: L,
     /// Speed of arrival.
     pub(super) velocity: L,
-    /// Deceleration on arrival, seen from the stop.
-    pub(super) acceleration: L,
+    /// Acceleration on arrival, towards the stop.
+    acceleration: L,
     /// +1 at the upper stop, -1 at the lower one.
     pub(super) side: L,
 }
@@ -125,7 +125,7 @@ impl<L: Lane> Strike<L> {
 }
 
 impl Stride {
-    /// Step 1: Where the interpolant of the step meets a stop.
+    /// Step 1: where the interpolant of the step meets a stop.
     #[inline(always)]
     pub(super) fn guess<N: Numbers>(&self, h: N, s: N, from: &End<N>, to: &End<N>) -> Guess<N> {
         let mut side = N::splat(1.0);
@@ -139,14 +139,14 @@ impl Stride {
         Guess { time: s + h * t, side }
     }
 
-    /// Step 1: The same from the estimate of a swing.
+    /// Step 1: the same from the estimate of a swing.
     #[inline(always)]
     pub(super) fn guess_near<L: Lane>(&self, h: L, (s, from, to): &(L, End<L>, End<L>), swing: &Swing<L>) -> Guess<L> {
         let quintic = Quintic::of(h, from, to, Mirror::at(self, swing.side));
         Guess { time: *s + h * quintic.root(swing.estimate, [L::splat(0.0); 2]), side: swing.side }
     }
 
-    /// Step 2: The motion there.
+    /// Step 2: the motion there.
     #[inline(always)]
     pub(super) fn approach<L: Lane>(
         &self,
@@ -167,7 +167,7 @@ impl Stride {
         Approach { room: room - self.moved(&node, &rest), state }
     }
 
-    /// Step 3: The contact.
+    /// Step 3: the contact.
     #[inline(always)]
     pub(super) fn polish<L: Lane>(&self, guess: &Guess<L>, approach: &Approach<L>) -> Strike<L> {
         let Approach { room: g, state: Launch { x, v: p, sin, cos } } = *approach;

@@ -8,7 +8,7 @@ use crate::contact::{chatter, sticking};
 use crate::flight::{Contact, Flight, SearchLimits};
 use crate::lanes::{self, Stride};
 use crate::math::Sum;
-use crate::system::{Oscillator, Side, Start};
+use crate::system::{Oscillator, Side, Start, phase};
 
 /// What the mass does between two events.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +40,22 @@ impl Leg {
             Path::Flight(flight) => flight.state(s),
             Path::Rest(side) => (side.sign() * osc.stop(*side).map_or(0.0, |stop| stop.gap), 0.0),
         }
+    }
+
+    /// The same as a start: within the stops, whatever rounding made of the position on one, and with the phase there.
+    #[must_use]
+    pub fn start(&self, osc: &Oscillator, s: f64) -> Start {
+        let (x, v) = self.state(osc, s);
+        let (lowest, highest) = Start::room(osc);
+        Start { x: x.clamp(lowest, highest), v, phase: phase::advance(self.phase, osc.beta(), s) }
+    }
+
+    /// The state with this phase of the force nearest to a time `s` after the beginning of the leg, of which so much is `known`. `s`
+    /// only chooses which moment of that phase, so that nothing drifts where it is a sum of many periods.
+    #[must_use]
+    pub fn at_phase(&self, osc: &Oscillator, s: f64, wanted: f64, known: f64) -> Start {
+        let early = phase::difference(wanted, phase::advance(self.phase, osc.beta(), s)) / osc.beta();
+        Start { phase: wanted, ..self.start(osc, (s + early).clamp(0.0, known)) }
     }
 }
 
@@ -217,7 +233,7 @@ impl Iterator for Motion<'_> {
             Mode::Flying(flight) => self.fly(flight),
             Mode::Settling { side, phase, duration, error, chatter } => {
                 let leg = Leg { begin: self.time.value(), duration, phase, path: Path::Rest(side) };
-                let phase = crate::system::phase::advance(phase, self.osc.beta(), duration);
+                let phase = phase::advance(phase, self.osc.beta(), duration);
                 self.mode = Mode::Resting { side, phase };
                 Some(self.event(leg, phase, side, EventKind::Stick { chatter, error }))
             }

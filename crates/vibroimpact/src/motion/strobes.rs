@@ -70,12 +70,7 @@ impl Iterator for Strobes<'_> {
             };
         };
         self.count += 1;
-        // the number of periods only chooses which moment of that phase, so that nothing drifts
-        let s = time - leg.begin;
-        let early = phase::difference(self.phase, phase::advance(leg.phase, self.osc.beta(), s)) / self.osc.beta();
-        let (x, v) = leg.state(self.osc, (s + early).clamp(0.0, self.known));
-        let (lowest, highest) = Start::room(self.osc);
-        Some(Start { x: x.clamp(lowest, highest), v, phase: self.phase })
+        Some(leg.at_phase(self.osc, time - leg.begin, self.phase, self.known))
     }
 }
 

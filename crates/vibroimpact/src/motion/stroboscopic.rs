@@ -26,10 +26,8 @@ pub fn stroboscopic_map(osc: &Oscillator, start: Start, cap: u32) -> Option<Stro
         let leg = motion.leg().copied()?;
         let left = period - leg.begin;
         if event.is_none() || leg.duration > left {
-            let (x, v) = leg.state(osc, left);
-            let (lowest, highest) = Start::room(osc);
             strobe.stuck |= matches!(leg.path, super::Path::Rest(_));
-            strobe.state = Start { x: x.clamp(lowest, highest), v, phase: start.phase };
+            strobe.state = Start { phase: start.phase, ..leg.start(osc, left) };
             return Some(strobe);
         }
         match event.map(|event| event.kind) {
