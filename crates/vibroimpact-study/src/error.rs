@@ -1,5 +1,7 @@
 //! Why a plan makes no sense.
 
+use crate::Axis;
+use crate::plan::MOST_CELLS;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
 use vibroimpact::verdict::LabelError;
@@ -20,6 +22,12 @@ pub enum PlanError {
         /// What was typed.
         given: String,
     },
+    /// Equal ratios from or to what is not positive.
+    #[error("range `{given}` is logarithmic, so both ends must be positive")]
+    Logarithmic {
+        /// What was typed.
+        given: String,
+    },
     /// A range with a number of values that is too small or too large.
     #[error("range `{given}` asks for {count} values; allowed is 1 to {most}, and 1 only when A = B")]
     Count {
@@ -30,6 +38,70 @@ pub enum PlanError {
         /// The largest number allowed.
         most: u64,
     },
+    /// A list of values that is empty, too long, or has something in it that is no number.
+    #[error("a list of {count} values was given: allowed are 1 to {most} finite numbers, none of them twice{}",
+        wrong.map_or_else(String::new, |value| format!(", not {value}")))]
+    Listed {
+        /// Its length.
+        count: usize,
+        /// The largest length allowed.
+        most: u64,
+        /// The value that is wrong, if it is one.
+        wrong: Option<f64>,
+    },
+    /// Too few or too many axes.
+    #[error("{given} axes were given; a {task} has {least} to {most}")]
+    Axes {
+        /// What was asked.
+        given: usize,
+        /// The task.
+        task: &'static str,
+        /// The least.
+        least: usize,
+        /// The most.
+        most: usize,
+    },
+    /// An axis that a task cannot have.
+    #[error("a {task} has no axis {name}; it may have {known}")]
+    WrongAxis {
+        /// The task.
+        task: &'static str,
+        /// What varies.
+        name: &'static str,
+        /// What may vary.
+        known: &'static str,
+    },
+    /// A basin over parameters only.
+    #[error(
+        "a basin needs an axis over x, v or phase\nhint: which motions there are at points of a plane of parameters is a map"
+    )]
+    NoStartAxis,
+    /// A question that fills no grid.
+    #[error(
+        "a plan that asks to {0} fills no grid, so there is nothing to store\nhint: tasks for a store are map, basin, attractors, diagram and lyapunov"
+    )]
+    NoStudy(&'static str),
+    /// A size of tiles that makes no sense.
+    #[error("tile = {given} lies outside 1 <= tile <= {most}")]
+    Tile {
+        /// What was asked.
+        given: u32,
+        /// The most allowed.
+        most: u32,
+    },
+    /// A coarse step that makes no sense.
+    #[error(
+        "refine = {given} lies outside 2 <= refine <= {most}: the distance, in points, of the coarse grid to begin with"
+    )]
+    Refine {
+        /// What was asked.
+        given: u32,
+        /// The most allowed.
+        most: u32,
+    },
+    /// A parameter given neither in the system nor on an axis.
+    #[error("{0} is missing: it is neither in the system nor on an axis")]
+    Missing(&'static str),
     /// Neither or both of beta and its inverse.
     #[error(
         "the frequency is given {0}: exactly one of beta and inverse beta is needed\nhint: --beta B or --inverse-beta X, with X = 1/B"
@@ -85,7 +157,7 @@ pub enum PlanError {
     NoSecondStop(&'static str),
     /// More results than fit any memory.
     #[error(
-        "{rows} x {columns} = {total} {what}; at most {most} are allowed\nhint: fewer values, or several smaller runs",
+        "{rows} x {columns} = {total} {what}; at most {most} are allowed\nhint: fewer values, or a store (--store), which holds any number",
         total = u128::from(*rows) * u128::from(*columns)
     )]
     Size {
@@ -95,6 +167,14 @@ pub enum PlanError {
         columns: u64,
         /// Values on the other.
         rows: u64,
+        /// The most allowed.
+        most: u64,
+    },
+    /// More numbers than fit any memory.
+    #[error("{numbers} numbers would have to be kept; at most {most} fit\nhint: give a store, which holds any number")]
+    Memory {
+        /// Numbers asked for.
+        numbers: u64,
         /// The most allowed.
         most: u64,
     },
@@ -210,4 +290,14 @@ pub enum PlanError {
     /// A plan of a version this program does not know.
     #[error("the plan has version {0}; this program knows version {known}", known = crate::PLAN_VERSION)]
     Version(u32),
+}
+
+impl PlanError {
+    /// More results than fit any memory, on these axes.
+    pub(crate) fn too_many(what: &'static str, axes: &[Axis]) -> Self {
+        let count = |axis: &Axis| axis.over.count() as u64;
+        let columns = axes.first().map_or(1, count);
+        let rows = axes.iter().skip(1).map(count).product();
+        Self::Size { what, columns, rows, most: MOST_CELLS }
+    }
 }

@@ -22,13 +22,16 @@
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 
 mod attractors;
-mod basin;
+pub mod axis;
+pub mod basin;
 mod begin;
 mod branch;
 mod control;
 mod curve;
 pub mod diagram;
 mod error;
+mod field;
+mod grid;
 mod lyapunov;
 mod map;
 mod parameter;
@@ -36,19 +39,25 @@ mod plan;
 mod region;
 mod span;
 mod stretch;
+pub mod study;
+mod written;
 
 pub use attractors::attractors;
-pub use basin::{Basin, RunError, basin};
+pub use axis::{Axis, Coordinate, Values};
+pub use basin::{Basin, BasinPlan, RunError, basin};
 pub use begin::Chosen;
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin, branches};
 pub use control::{Control, Stopped, tiles};
 pub use curve::{CurvePlan, EventCurve, EventKind, curve};
 pub use diagram::{Diagram, DiagramPlan, diagram};
 pub use error::PlanError;
+pub use field::{Column, Extra, Field, Kind};
+pub use grid::{Block, Dimension, Grid};
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
-pub use map::{MapPoint, RegionMap, Share, map};
+pub use map::{MapPlan, MapPoint, RegionMap, Share, map};
 pub use parameter::{Parameter, is_length};
-pub use plan::{BasinPlan, MapPlan, PLAN_VERSION, Plan, SecondStop, StartPlan, SystemPlan, Task};
+pub use plan::{PLAN_VERSION, Plan, SecondStop, StartPlan, SystemPlan, Task};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, regions};
 pub use span::Span;
 pub use stretch::Stretch;
+pub use study::Study;

@@ -1,18 +1,21 @@
 //! What is asked of the Lyapunov exponents of a motion: from where, over how long, and whether its sections are shown.
 
-use crate::{PlanError, StartPlan};
+use crate::axis::{self, Axis, Coordinate};
+use crate::{PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
-use vibroimpact::Oscillator;
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions};
 
 /// Points shown of each section, where no number is given.
 pub const DEFAULT_POINTS: u64 = 5_000;
 
-/// The exponents of the motion from a start.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// The exponents of the motion from a start, or from each start of each system of a grid.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LyapunovPlan {
-    /// Where to start.
+    /// What varies, parameters and coordinates of the start; nothing when absent. The first runs fastest.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub axes: Vec<Axis>,
+    /// Where to start, as far as it is on no axis.
     #[serde(default)]
     pub start: StartPlan,
     /// Impacts to measure over.
@@ -34,6 +37,8 @@ const fn transient() -> u64 {
     DEFAULT_TRANSIENT
 }
 
+/// Most axes.
+const MOST_AXES: usize = 4;
 /// Fewer impacts make no error bar.
 const FEWEST_IMPACTS: u64 = 1_000;
 /// Most impacts to measure over: several seconds.
@@ -48,7 +53,7 @@ impl LyapunovPlan {
     ///
     /// # Errors
     /// [`PlanError`] names the first value that makes no sense.
-    pub fn check(&self, osc: &Oscillator) -> Result<(), PlanError> {
+    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         if !(FEWEST_IMPACTS..=MOST_IMPACTS).contains(&self.impacts) {
             return Err(PlanError::Measured { given: self.impacts, least: FEWEST_IMPACTS, most: MOST_IMPACTS });
         }
@@ -58,7 +63,17 @@ impl LyapunovPlan {
         if let Some(given) = self.points.filter(|points| !(1..=MOST_POINTS).contains(points)) {
             return Err(PlanError::Points { given, most: MOST_POINTS });
         }
-        self.start.start(osc).map(|_| ())
+        axis::check(
+            "study of exponents",
+            &self.axes,
+            (0, MOST_AXES),
+            ((|_| true) as fn(Coordinate) -> bool, "anything"),
+        )?;
+        for corner in axis::corners(&self.axes) {
+            let (system, start) = axis::at((system, &self.start), &self.axes, |k| corner[k])?;
+            start.start(&system.oscillator()?)?;
+        }
+        Ok(())
     }
 
     /// How long to follow the motion.
@@ -74,6 +89,7 @@ mod tests {
     use crate::{Plan, SystemPlan, Task};
 
     const GOOD: LyapunovPlan = LyapunovPlan {
+        axes: Vec::new(),
         start: StartPlan { x: Some(0.5), v: -1.0, phase: 2.0 },
         impacts: 2000,
         transient: 0,
@@ -94,7 +110,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        let osc = Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap();
+        let system = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, restitution: 0.5, ..SystemPlan::default() };
         let beyond = StartPlan { x: Some(3.5), ..StartPlan::default() };
         for (plan, sentence) in [
             (LyapunovPlan { impacts: 999, ..GOOD }, "impacts = 999 lies outside 1000 <= impacts <= 10000000"),
@@ -103,7 +119,7 @@ mod tests {
             (LyapunovPlan { points: Some(0), ..GOOD }, "points = 0 lies outside 1 <= points <= 100000"),
             (LyapunovPlan { start: beyond, ..GOOD }, "start x = 3.5 lies beyond the stop"),
         ] {
-            let message = plan.check(&osc).unwrap_err().to_string();
+            let message = plan.check(&system).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
         }
     }

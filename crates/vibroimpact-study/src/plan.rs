@@ -3,7 +3,7 @@
 //! Threads, output files and progress bars are no part of it. Absent fields have one meaning each, stated here; unknown
 //! fields are errors, so that a misspelt parameter cannot be ignored.
 
-use crate::{BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, PlanError, RegionPlan, Span};
+use crate::{BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, PlanError, RegionPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Label, Oscillator, Start};
 
@@ -12,22 +12,30 @@ pub const PLAN_VERSION: u32 = 1;
 
 /// What is asked, of which system.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, try_from = "crate::written::Written")]
 pub struct Plan {
     /// [`PLAN_VERSION`].
     pub version: u32,
-    /// The oscillator. For a map, its frequency and gap are those of the first point; for a diagram, what varies is; for a
-    /// region, what varies has its smallest values.
+    /// The oscillator. What varies on an axis has its first value here, and need not be written; for a region, what varies
+    /// has its smallest value.
     pub system: SystemPlan,
     /// What is asked of it.
     pub task: Task,
+    /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tile: Option<u32>,
 }
+
+/// The most results one run keeps in memory.
+pub(crate) const MOST_CELLS: u64 = 100_000_000;
+/// Most points of a tile along one axis.
+const MOST_TILE: u32 = 4096;
 
 impl Plan {
     /// A plan of the present version.
     #[must_use]
     pub const fn new(system: SystemPlan, task: Task) -> Self {
-        Self { version: PLAN_VERSION, system, task }
+        Self { version: PLAN_VERSION, system, task, tile: None }
     }
 
     /// Checks everything that can be checked without running it.
@@ -39,9 +47,9 @@ impl Plan {
             return Err(PlanError::Version(self.version));
         }
         let osc = self.system.oscillator()?;
-        let starts = |n: u64| {
-            if (1..=1_000_000_000).contains(&n) { Ok(()) } else { Err(PlanError::Starts(n)) }
-        };
+        if let Some(given) = self.tile.filter(|tile| !(1..=MOST_TILE).contains(tile)) {
+            return Err(PlanError::Tile { given, most: MOST_TILE });
+        }
         match &self.task {
             Task::Simulate { start, impacts, periods } => {
                 if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
@@ -55,18 +63,23 @@ impl Plan {
             Task::Settle { start } => start.start(&osc).map(|_| ()),
             Task::Attractors { starts: n, .. } => starts(*n),
             Task::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
-            Task::Basin(basin) => basin.starts(&osc).map(|_| ()),
-            Task::Map(map) => {
-                starts(map.starts)?;
-                map.oscillators(&self.system).map(|_| ())
-            }
+            Task::Basin(basin) => basin.check(&self.system),
+            Task::Map(map) => map.check(&self.system),
             Task::Diagram(diagram) => diagram.check(&self.system),
-            Task::Lyapunov(lyapunov) => lyapunov.check(&osc),
+            Task::Lyapunov(lyapunov) => lyapunov.check(&self.system),
             Task::Branch(branch) => branch.check(&self.system),
             Task::Curve(curve) => curve.check(&self.system),
             Task::Region(region) => region.check(&self.system),
         }
     }
+}
+
+/// Checks a number of starts.
+///
+/// # Errors
+/// [`PlanError::Starts`] for none, or more than a thousand million.
+pub(crate) fn starts(n: u64) -> Result<(), PlanError> {
+    if (1..=1_000_000_000).contains(&n) { Ok(()) } else { Err(PlanError::Starts(n)) }
 }
 
 /// The oscillator: exactly one of `beta` and `inverse_beta`, one or two stops.
@@ -193,89 +206,13 @@ pub enum Task {
     Region(RegionPlan),
 }
 
-/// The starts of a basin: a grid over position and velocity at one phase.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BasinPlan {
-    /// Positions.
-    pub x: Span,
-    /// Velocities.
-    pub v: Span,
-    /// Phase of the force at all of them.
-    #[serde(default)]
-    pub phase: f64,
-}
-
-impl BasinPlan {
-    /// Checks that all starts are allowed and returns their number.
-    ///
-    /// # Errors
-    /// [`PlanError`] when an end of the range of positions lies beyond a stop.
-    pub fn starts(&self, osc: &Oscillator) -> Result<u64, PlanError> {
-        let (a, b) = self.x.ends();
-        for x in [a, b] {
-            Start::new(osc, x, self.v.ends().0, self.phase)?;
-        }
-        cells("starts", &self.x, &self.v)
-    }
-}
-
-/// The points of a map: a grid over inverse frequency and gap, several starts each.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MapPlan {
-    /// Values of $`1/\beta`$.
-    pub inverse_beta: Span,
-    /// Values of $`\delta`$.
-    pub gap: Span,
-    /// Starts per point: the first at rest, the second on the free motion if it clears the stops, the others scattered.
-    pub starts: u64,
-    /// Which sequence of them.
-    #[serde(default)]
-    pub seed: u64,
-}
-
-impl MapPlan {
-    /// Checks the corners and returns the number of points.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a corner that is no legal system.
-    pub fn oscillators(&self, system: &SystemPlan) -> Result<u64, PlanError> {
-        for x in [self.inverse_beta.ends().0, self.inverse_beta.ends().1] {
-            for gap in [self.gap.ends().0, self.gap.ends().1] {
-                Self::point(system, x, gap)?;
-            }
-        }
-        cells("points", &self.inverse_beta, &self.gap)
-    }
-
-    /// The oscillator at a point of the map; everything else as in `system`.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a point that is no legal system.
-    pub fn point(system: &SystemPlan, inverse_beta: f64, gap: f64) -> Result<Oscillator, PlanError> {
-        SystemPlan { beta: None, inverse_beta: Some(inverse_beta), gap, ..*system }.oscillator()
-    }
-}
-
-/// The most results one run keeps in memory.
-const MOST_CELLS: u64 = 100_000_000;
-
-fn cells(what: &'static str, columns: &Span, rows: &Span) -> Result<u64, PlanError> {
-    let (columns, rows) = (u64::from(columns.count()), u64::from(rows.count()));
-    if columns * rows > MOST_CELLS {
-        return Err(PlanError::Size { what, columns, rows, most: MOST_CELLS });
-    }
-    Ok(columns * rows)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn plan() -> Plan {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
-        let basin = BasinPlan { x: "-3:0.75:4".parse().unwrap(), v: "-1:1:3".parse().unwrap(), phase: 0.0 };
+        let basin = BasinPlan::plane("-3:0.75:4".parse().unwrap(), "-1:1:3".parse().unwrap(), 0.0);
         Plan::new(system, Task::Basin(basin))
     }
 
@@ -301,9 +238,7 @@ mod tests {
         assert_eq!(later.check(), Err(PlanError::Version(2)));
         let none = Plan { task: Task::Attractors { starts: 0, seed: 0 }, ..plan() };
         assert_eq!(none.check(), Err(PlanError::Starts(0)));
-        let too_many = BasinPlan { x: "-3:0.75:20000".parse().unwrap(), v: "-1:1:20000".parse().unwrap(), phase: 0.0 };
         for (task, sentence) in [
-            (Task::Basin(too_many), "20000 x 20000 = 400000000 starts"),
             (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
             (simulate(Some(0), None), "impacts = 0"),
             (simulate(None, Some(f64::NAN)), "periods = NaN"),

@@ -1,16 +1,18 @@
-//! `A:B:N`: N values from A to B, both included.
+//! `A:B:N`: N values from A to B, both included; `A:B:N:log` spaced evenly in their logarithms.
 
 use crate::PlanError;
 use core::fmt;
 use core::str::FromStr;
 use serde::{Deserialize, Serialize};
 
-/// Evenly spaced values, both ends included.
+/// Evenly spaced values, or values in equal ratios, both ends included.
 ///
 /// ```
 /// use vibroimpact_study::Span;
 /// let span: Span = "0.4:2:33".parse()?;
 /// assert_eq!((span.at(0), span.at(32), span.count()), (0.4, 2.0, 33));
+/// let decades: Span = "0.01:100:5:log".parse()?;
+/// assert!(decades.values().zip([0.01, 0.1, 1.0, 10.0, 100.0]).all(|(a, b)| (a / b - 1.0).abs() < 1e-15));
 /// assert!("1:2".parse::<Span>().is_err() && "2:1:0".parse::<Span>().is_err());
 /// # Ok::<(), vibroimpact_study::PlanError>(())
 /// ```
@@ -20,6 +22,7 @@ pub struct Span {
     first: f64,
     last: f64,
     count: u32,
+    logarithmic: bool,
 }
 
 /// The most values on one axis.
@@ -32,9 +35,24 @@ impl Span {
     /// [`PlanError`] for ends that are not finite or equal (with more than one value) and for a count outside
     /// 1 to 1 000 000.
     pub fn new(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
-        let span = Self { first, last, count };
+        Self { first, last, count, logarithmic: false }.checked()
+    }
+
+    /// `count` values from `first` to `last`, neighbours in equal ratios.
+    ///
+    /// # Errors
+    /// As for [`Span::new`], and [`PlanError::Logarithmic`] for ends that are not both positive.
+    pub fn logarithmic(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
+        Self { first, last, count, logarithmic: true }.checked()
+    }
+
+    fn checked(self) -> Result<Self, PlanError> {
+        let (span, Self { first, last, count, logarithmic }) = (self, self);
         if !(first.is_finite() && last.is_finite()) {
             return Err(PlanError::Range { given: span.to_string() });
+        }
+        if logarithmic && (first <= 0.0 || last <= 0.0) {
+            return Err(PlanError::Logarithmic { given: span.to_string() });
         }
         // one value over a distance, or many at one place, is a slip of the pen
         let many = u64::from(count);
@@ -50,6 +68,11 @@ impl Span {
         if k + 1 >= self.count && self.count > 1 {
             return self.last;
         }
+        if self.logarithmic && k > 0 {
+            let share = f64::from(k) / f64::from(self.count - 1);
+            // not the platform's power, whose last bit differs from machine to machine
+            return self.first * libm::exp(share * libm::log(self.last / self.first));
+        }
         // a weighted mean, not first + k step: 0.4:2:33 passes through 1.2 and not through 1.2000000000000002
         let (k, last) = (f64::from(k), f64::from((self.count - 1).max(1)));
         let sum = (last - k) * self.first + k * self.last;
@@ -60,6 +83,20 @@ impl Span {
     #[must_use]
     pub const fn count(&self) -> u32 {
         self.count
+    }
+
+    /// Whether neighbours are in equal ratios rather than at equal distances.
+    #[must_use]
+    pub const fn is_logarithmic(&self) -> bool {
+        self.logarithmic
+    }
+
+    /// The same number of values, spaced in the same way, with both ends divided by `unit`.
+    ///
+    /// # Errors
+    /// [`PlanError`] where that leaves the range of numbers.
+    pub fn scaled(&self, unit: f64) -> Result<Self, PlanError> {
+        Self { first: self.first / unit, last: self.last / unit, ..*self }.checked()
     }
 
     /// The two ends.
@@ -76,7 +113,7 @@ impl Span {
 
 impl fmt::Display for Span {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}", self.first, self.last, self.count)
+        write!(f, "{}:{}:{}{}", self.first, self.last, self.count, if self.logarithmic { ":log" } else { "" })
     }
 }
 
@@ -86,7 +123,11 @@ impl FromStr for Span {
     fn from_str(text: &str) -> Result<Self, PlanError> {
         let bad = || PlanError::Range { given: text.chars().take(60).collect() };
         let parts: Vec<&str> = text.split(':').collect();
-        let [first, last, count] = parts.as_slice() else {
+        let (logarithmic, parts) = match parts.as_slice() {
+            [rest @ .., "log"] => (true, rest),
+            all => (false, all),
+        };
+        let [first, last, count] = parts else {
             return Err(bad());
         };
         let number = |part: &str| part.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(bad);
@@ -95,7 +136,7 @@ impl FromStr for Span {
         let Ok(count) = u32::try_from(count) else {
             return Err(PlanError::Count { given: text.to_owned(), count, most: MOST });
         };
-        Self::new(first, last, count)
+        Self { first, last, count, logarithmic }.checked()
     }
 }
 
@@ -123,6 +164,10 @@ mod tests {
             let message = bad.parse::<Span>().unwrap_err().to_string();
             assert!(message.contains("A:B:N"), "{bad}: {message}");
         }
+        for bad in ["0:1:3:log", "-1:-2:3:log"] {
+            let message = bad.parse::<Span>().unwrap_err().to_string();
+            assert!(message.contains("positive"), "{bad}: {message}");
+        }
         for bad in ["0:1:0", "0:1:1", "1:1:5", "0:1:99999999999"] {
             let message = bad.parse::<Span>().unwrap_err().to_string();
             assert!(message.contains("allowed is 1 to 1000000"), "{bad}: {message}");
@@ -138,6 +183,12 @@ mod tests {
         assert_eq!((paper[1], paper[16], paper[28]), (0.45, 1.2, 1.8));
         let widest = Span::new(-1.7e308, 1.7e308, 3).unwrap();
         assert_eq!(widest.values().nth(1), Some(0.0));
+        let logarithmic: Span = "1e3:1e-3:7:log".parse().unwrap();
+        assert_eq!(
+            (logarithmic.at(0), logarithmic.at(6), logarithmic.to_string()),
+            (1e3, 1e-3, "1000:0.001:7:log".into())
+        );
+        assert!((logarithmic.at(3) - 1.0).abs() < 1e-15);
         assert_eq!(Span::new(1.5, 1.5, 1).unwrap().values().collect::<Vec<_>>(), [1.5]);
     }
 }

@@ -8,12 +8,16 @@ use vibroimpact::scenario::{self, Scenario};
 use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::{Axis, ClassStyle, Colour, Legend, Panel, Points, Raster, Shape, class_style, legend_text};
-use vibroimpact_study::{Basin, BasinPlan, Span, basin};
+use vibroimpact_study::{Basin, BasinPlan, Span, SystemPlan, basin};
 
 /// A basin and what was measured on it.
 struct Picture {
     point: Scenario,
     osc: Oscillator,
+    /// The positions of the starts.
+    x: Span,
+    /// Their velocities.
+    v: Span,
     basin: Basin,
     /// Share of the starts by label.
     shares: BTreeMap<String, f64>,
@@ -44,11 +48,17 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<Shares, Error> {
     let mut pictures = Vec::new();
     let mut drawings = Vec::new();
     for (name, stage, point, lowest, fastest) in FIGURES {
-        let plan = BasinPlan { x: Span::new(lowest, point.gap, n)?, v: Span::new(-fastest, fastest, n)?, phase: 0.0 };
+        let (x, v) = (Span::new(lowest, point.gap, n)?, Span::new(-fastest, fastest, n)?);
+        let plan = BasinPlan::plane(x, v, 0.0);
         run.stage(stage, u64::from(n) * u64::from(n))?;
-        let osc = point.oscillator();
-        let basin = basin(&osc, &plan, &SettleOptions::default(), run.control)?;
-        let picture = measure(point, osc, basin);
+        let system = SystemPlan {
+            inverse_beta: Some(point.inverse_beta),
+            gap: point.gap,
+            restitution: 0.5,
+            ..SystemPlan::default()
+        };
+        let basin = basin(&system, &plan, &SettleOptions::default(), run.control)?;
+        let picture = measure(point, (x, v), basin);
         run.folder.write(&format!("{name}.csv"), table(&picture).bytes())?;
         drawings.push(run.folder.figure(name, draw(&picture)?)?);
         pictures.push(picture);
@@ -78,27 +88,29 @@ fn caption(p: &Picture) -> String {
         p.point.name,
         p.point.inverse_beta,
         p.point.gap,
-        p.basin.plan.x.count(),
-        p.basin.plan.v.count(),
-        p.basin.plan.x.ends().0,
-        p.basin.plan.v.ends().1,
+        p.x.count(),
+        p.v.count(),
+        p.x.ends().0,
+        p.v.ends().1,
     )
 }
 
-fn measure(point: Scenario, osc: Oscillator, basin: Basin) -> Picture {
+fn measure(point: Scenario, (x, v): (Span, Span), basin: Basin) -> Picture {
+    let osc = point.oscillator();
     let mut shares: BTreeMap<String, f64> = BTreeMap::new();
     for (k, motion) in basin.motions.iter().enumerate() {
         *shares.entry(motion.verdict.label().into_owned()).or_default() += basin.share(k);
     }
     let origin = settle(&osc, Start::at_rest(&osc), &SettleOptions::default());
-    let (x, v) = (basin.plan.x, basin.plan.v);
     let window = (x.ends().1 - x.ends().0) * (v.ends().1 - v.ends().0);
     Picture {
         quiet: window * shares.get("0").copied().unwrap_or(0.0),
-        round_origin: window * piece(&basin),
+        round_origin: window * piece(&basin, (x, v)),
         origin: origin.verdict.label().into_owned(),
         point,
         osc,
+        x,
+        v,
         basin,
         shares,
     }
@@ -106,13 +118,13 @@ fn measure(point: Scenario, osc: Oscillator, basin: Basin) -> Picture {
 
 /// The share of the starts that are joined to the one nearest the origin by starts with the same end.
 #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a small grid
-fn piece(basin: &Basin) -> f64 {
-    let (nx, ny) = (basin.plan.x.count() as usize, basin.plan.v.count() as usize);
+fn piece(basin: &Basin, (x, v): (Span, Span)) -> f64 {
+    let (nx, ny) = (x.count() as usize, v.count() as usize);
     let index = |span: Span| {
         let (a, b) = span.ends();
         ((0.0 - a) / (b - a) * f64::from(span.count() - 1)).round() as usize
     };
-    let first = index(basin.plan.v) * nx + index(basin.plan.x);
+    let first = index(v) * nx + index(x);
     let label = basin.label(first);
     let mut seen = vec![false; nx * ny];
     let (mut front, mut count) = (vec![first], 0_usize);
@@ -131,8 +143,7 @@ fn piece(basin: &Basin) -> f64 {
 }
 
 fn table(p: &Picture) -> Csv {
-    let columns: Vec<String> =
-        std::iter::once("u0".to_owned()).chain(p.basin.plan.x.values().map(|x| x.to_string())).collect();
+    let columns: Vec<String> = std::iter::once("u0".to_owned()).chain(p.x.values().map(|x| x.to_string())).collect();
     let mut csv = Csv::new(
         &format!(
             "Starts at {}, 1/beta = {}, delta = {}, restitution 0.5, phase 0: the motion each leads to; a row for each u0, a column \
@@ -142,7 +153,7 @@ fn table(p: &Picture) -> Csv {
         &columns.join(","),
     );
     let labels: Vec<_> = p.basin.motions.iter().map(|motion| motion.verdict.label()).collect();
-    for (row, v) in p.basin.cells.chunks(columns.len() - 1).zip(p.basin.plan.v.values()) {
+    for (row, v) in p.basin.cells.chunks(columns.len() - 1).zip(p.v.values()) {
         let mut cells: Vec<&dyn std::fmt::Display> = vec![&v];
         cells.extend(row.iter().map(|k| &labels[usize::from(*k)] as &dyn std::fmt::Display));
         csv.row(&cells);
@@ -151,7 +162,7 @@ fn table(p: &Picture) -> Csv {
 }
 
 fn draw(p: &Picture) -> Result<vibroimpact_plot::Figure, Error> {
-    let (x, v) = (p.basin.plan.x, p.basin.plan.v);
+    let (x, v) = (p.x, p.v);
     // one class per motion: all cycles with one label have one colour
     let palette: Vec<Colour> =
         p.basin.motions.iter().map(|motion| class_style(&motion.verdict.label()).colour).collect();

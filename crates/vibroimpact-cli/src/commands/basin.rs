@@ -65,16 +65,16 @@ struct Answer {
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let units = asked.units;
-    let task =
-        BasinPlan { x: scaled(&args.x, units.length())?, v: scaled(&args.v, units.velocity())?, phase: args.phase };
-    let plan = Plan::new(asked.system, Task::Basin(task));
+    let task = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
+    let plan = Plan::new(asked.system, Task::Basin(task.clone()));
     plan.check()?;
     let osc = asked.system.oscillator()?;
-    let total = task.starts(&osc)?;
+    let total = task.starts();
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     outputs.drawable(&args.x, &args.v)?;
 
-    let found = session.tiled(total, "starts", |control, _| basin(&osc, &task, &SettleOptions::default(), control))?;
+    let found =
+        session.tiled(total, "starts", |control, _| basin(&asked.system, &task, &SettleOptions::default(), control))?;
 
     let silent = outputs.any();
     outputs.write(
@@ -125,12 +125,6 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     session.print(&(text::system(&asked, &osc) + "\n" + &text::table(&heads, &rows)))?;
     session.note("hint: --csv FILE keeps every start, --plot FILE.png draws them");
     Ok(())
-}
-
-/// The range in nondimensional units.
-pub(super) fn scaled(span: &Span, unit: f64) -> Result<Span, Failure> {
-    let (a, b) = span.ends();
-    Ok(Span::new(a / unit, b / unit, span.count())?)
 }
 
 /// Rows in the order of the cells, in the units and with the very numbers of the question.

@@ -1,7 +1,6 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
 use crate::args::{SystemArgs, parameter};
-use crate::commands::basin::scaled;
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::plot;
@@ -137,7 +136,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     let (units, vary) = (asked.units, args.vary);
     let task = DiagramPlan {
         vary,
-        over: scaled(&args.over, units.of(vary))?,
+        over: args.over.scaled(units.of(vary))?,
         show: match args.show {
             What::Velocity => Show::Velocity,
             What::Strobe => Show::Strobe,

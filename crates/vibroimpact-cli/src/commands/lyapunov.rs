@@ -71,12 +71,13 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         ));
     }
     let task = LyapunovPlan {
+        axes: Vec::new(),
         start: args.start.plan(&asked.units),
         impacts: args.impacts,
         transient: args.transient,
         points: shown.then(|| args.points.unwrap_or(DEFAULT_POINTS)),
     };
-    let plan = Plan::new(asked.system, Task::Lyapunov(task));
+    let plan = Plan::new(asked.system, Task::Lyapunov(task.clone()));
     plan.check()?;
     let osc = asked.system.oscillator()?;
     let start = task.start.start(&osc)?;

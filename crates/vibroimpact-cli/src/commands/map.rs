@@ -115,10 +115,10 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
             .second_gap
             .map(|gap| SecondStop { gap, restitution: args.second_restitution.unwrap_or(args.restitution) }),
     };
-    let task = MapPlan { inverse_beta: args.inverse_beta, gap: args.gap, starts: args.starts, seed: args.seed };
-    let plan = Plan::new(system, Task::Map(task));
+    let task = MapPlan::plane(args.inverse_beta, args.gap, args.starts, args.seed);
+    let plan = Plan::new(system, Task::Map(task.clone()));
     plan.check()?;
-    let total = task.oscillators(&system)?;
+    let total = task.points();
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     outputs.drawable(&args.inverse_beta, &args.gap)?;
 
@@ -130,7 +130,11 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         |out| csv::write(out, "inverse_beta,gap,label,share", rows(&found)),
         || {
             let damping = if args.damping > 0.0 { format!(", *ζ* = {}", short(args.damping)) } else { String::new() };
-            plot::map::figure(&found, format!("*ε* = {}{damping}", short(args.restitution)))
+            plot::map::figure(
+                &found,
+                (&args.inverse_beta, &args.gap),
+                format!("*ε* = {}{damping}", short(args.restitution)),
+            )
         },
     )?;
     let labels = counts(&found);
@@ -174,8 +178,8 @@ fn rows(found: &RegionMap) -> impl Iterator<Item = String> + '_ {
         point.motions.iter().map(|motion| {
             format!(
                 "{},{},{},{}",
-                Number(point.inverse_beta),
-                Number(point.gap),
+                Number(point.at[0]),
+                Number(point.at[1]),
                 motion.verdict.label(),
                 Number(motion.share)
             )

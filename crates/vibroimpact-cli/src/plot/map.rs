@@ -5,12 +5,12 @@ use crate::plot::basin::{axis, half_cell};
 use vibroimpact_plot::{
     ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_group, legend_text,
 };
-use vibroimpact_study::{MapPoint, RegionMap};
+use vibroimpact_study::{MapPoint, RegionMap, Span};
 
 /// Above so many points coexisting motions could not be told apart, and a raster shows the most frequent one.
 const SPLIT: usize = 40_000;
 
-pub(crate) fn figure(map: &RegionMap, title: String) -> Result<Figure, Failure> {
+pub(crate) fn figure(map: &RegionMap, (x, y): (&Span, &Span), title: String) -> Result<Figure, Failure> {
     let mut present = [false; GROUPS.len()];
     let classes: Vec<Vec<usize>> = map.points.iter().map(groups).collect();
     let split = map.points.len() <= SPLIT;
@@ -19,13 +19,12 @@ pub(crate) fn figure(map: &RegionMap, title: String) -> Result<Figure, Failure> 
             present[*class] = true;
         }
     }
-    let (x, y) = (&map.plan.inverse_beta, &map.plan.gap);
     let panel = Panel::new(axis("1/*β*", x), axis("*δ*", y));
     let panel = if split {
         let mut cells = Rects::new(GROUPS.map(class_style).to_vec());
         let (dx, dy) = (half_cell(x), half_cell(y));
         for (point, classes) in map.points.iter().zip(&classes) {
-            let (px, py) = (point.inverse_beta, point.gap);
+            let (px, py) = (point.at[0], point.at[1]);
             cells.cell((px - dx, px + dx), (py - dy, py + dy), classes);
         }
         panel.with(cells)

@@ -1,6 +1,11 @@
 //! Which motion each start of a plane leads to.
 
-use crate::{BasinPlan, Control, PlanError, Stopped, tiles};
+mod plan;
+
+pub use plan::BasinPlan;
+
+use crate::plan::MOST_CELLS;
+use crate::{Control, PlanError, Stopped, SystemPlan, axis, tiles};
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{Atlas, Census, Found, SettleOptions, settle_many};
 use vibroimpact::{Oscillator, Start};
@@ -10,9 +15,9 @@ use vibroimpact::{Oscillator, Start};
 pub struct Basin {
     /// The starts.
     pub plan: BasinPlan,
-    /// The motions, in order of first appearance (rows of rising velocity, positions in order within a row).
+    /// The motions, in order of first appearance.
     pub motions: Vec<Found>,
-    /// The motion of each start as an index into `motions`; row by row, one row a velocity.
+    /// The motion of each start as an index into `motions`, the first axis running fastest.
     pub cells: Vec<u16>,
 }
 
@@ -28,20 +33,6 @@ pub enum RunError {
 }
 
 impl Basin {
-    /// The start of cell number `k`.
-    #[must_use]
-    #[allow(clippy::cast_possible_truncation)] // indices of a grid with at most 1e6 values a side
-    pub fn start(plan: &BasinPlan, osc: &Oscillator, k: u64) -> Start {
-        let columns = u64::from(plan.x.count());
-        let (lowest, highest) = Start::room(osc);
-        Start {
-            // the ends are within the stops; rounding in between must not leave them
-            x: plan.x.at((k % columns) as u32).clamp(lowest, highest),
-            v: plan.v.at((k / columns) as u32),
-            phase: vibroimpact::system::phase::wrap(plan.phase),
-        }
-    }
-
     /// The label of cell number `k`.
     #[must_use]
     pub fn label(&self, k: usize) -> std::borrow::Cow<'static, str> {
@@ -61,28 +52,58 @@ const TILE: u64 = 4096;
 /// Starts settled beforehand, spread over the plane, to know its cycles and their traps.
 const SURVEY: u64 = 24;
 
-/// Settles every start of the plane.
+/// The start of cell number `k` of a basin of one oscillator.
+#[must_use]
+pub fn start(osc: &Oscillator, plan: &BasinPlan, k: u64) -> Start {
+    let mut rest = k;
+    let mut place = [0; 4];
+    for (place, axis) in place.iter_mut().zip(&plan.axes) {
+        let count = axis.over.count() as u64;
+        *place = usize::try_from(rest % count).unwrap_or(0);
+        rest /= count;
+    }
+    // parameters are not looked at
+    let given = axis::at((&SystemPlan::default(), &plan.start), &plan.axes, |k| place[k]);
+    let given = given.map_or(plan.start, |(_, start)| start);
+    let (lowest, highest) = Start::room(osc);
+    Start {
+        // the ends are within the stops; rounding in between must not leave them
+        x: given.x.unwrap_or_else(|| Start::at_rest(osc).x).clamp(lowest, highest),
+        v: given.v,
+        phase: vibroimpact::system::phase::wrap(given.phase),
+    }
+}
+
+/// Settles every start of the basin of one system; all of them, without refinement.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense, or when stopped.
+/// [`RunError`] for a plan that makes no sense or varies parameters too, or when stopped.
 pub fn basin(
-    osc: &Oscillator,
+    system: &SystemPlan,
     plan: &BasinPlan,
     options: &SettleOptions,
     control: &Control<'_>,
 ) -> Result<Basin, RunError> {
-    in_tiles(osc, plan, options, control, TILE)
+    in_tiles(system, plan, options, control, TILE)
 }
 
 fn in_tiles(
-    osc: &Oscillator,
+    system: &SystemPlan,
     plan: &BasinPlan,
     options: &SettleOptions,
     control: &Control<'_>,
     tile: u64,
 ) -> Result<Basin, RunError> {
-    let total = plan.starts(osc)?;
-    let start = |k: u64| Basin::start(plan, osc, k);
+    plan.check(system)?;
+    let (osc, total) = (&system.oscillator()?, plan.starts());
+    if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
+        let (task, name) = ("basin of one system", axis.vary.name());
+        return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
+    }
+    if total > MOST_CELLS {
+        return Err(PlanError::too_many("starts", &plan.axes).into());
+    }
+    let start = |k: u64| start(osc, plan, k);
     let atlas = Atlas::survey(osc, (0..SURVEY.min(total)).map(|k| start(total / SURVEY.min(total) * k)), options);
     let parts = tiles(total, tile, control, |range, tick| {
         let settlement = settle_many(osc, range, start, &atlas, options, Width::best(), tick);
@@ -96,7 +117,7 @@ fn in_tiles(
             motions.iter().map(|found| u16::try_from(merged.add_found(found)).unwrap_or(u16::MAX)).collect();
         all.extend(cells.into_iter().map(|local| numbers[usize::from(local)]));
     }
-    Ok(Basin { plan: *plan, motions: merged.motions().to_vec(), cells: all })
+    Ok(Basin { plan: plan.clone(), motions: merged.motions().to_vec(), cells: all })
 }
 
 #[cfg(test)]
@@ -105,8 +126,8 @@ mod tests {
 
     #[test]
     fn the_same_for_any_number_of_threads() {
-        let osc = vibroimpact::scenario::S.oscillator();
-        let plan = BasinPlan { x: "-4:0.75:50".parse().unwrap(), v: "-4:4:40".parse().unwrap(), phase: 0.0 };
+        let osc = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let plan = BasinPlan::plane("-4:0.75:50".parse().unwrap(), "-4:4:40".parse().unwrap(), 0.0);
         let run = |threads| {
             basin(&osc, &plan, &SettleOptions::default(), &Control { threads, ..Control::default() }).unwrap()
         };
@@ -126,12 +147,13 @@ mod tests {
     /// As one start after another, without lanes and traps.
     #[test]
     fn the_same_as_one_by_one() {
-        let osc = vibroimpact::scenario::R.oscillator();
-        let plan = BasinPlan { x: "-4:2.25:40".parse().unwrap(), v: "-4:4:30".parse().unwrap(), phase: 0.5 };
-        let got = basin(&osc, &plan, &SettleOptions::default(), &Control::default()).unwrap();
+        let system = SystemPlan { inverse_beta: Some(1.7), gap: 2.25, restitution: 0.5, ..SystemPlan::default() };
+        let osc = system.oscillator().unwrap();
+        let plan = BasinPlan::plane("-4:2.25:40".parse().unwrap(), "-4:4:30".parse().unwrap(), 0.5);
+        let got = basin(&system, &plan, &SettleOptions::default(), &Control::default()).unwrap();
         let mut census = Census::default();
         let one_by_one = |k| {
-            let verdict = vibroimpact::verdict::settle(&osc, Basin::start(&plan, &osc, k), &SettleOptions::default());
+            let verdict = vibroimpact::verdict::settle(&osc, start(&osc, &plan, k), &SettleOptions::default());
             census.add(&verdict.verdict)
         };
         let cells: Vec<usize> = (0..1200).map(one_by_one).collect();

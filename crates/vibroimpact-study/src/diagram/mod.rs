@@ -85,21 +85,28 @@ pub fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -
 /// Motion number `k`: at which value, and which of those there.
 #[allow(clippy::cast_possible_truncation)] // indices of a range of at most 1e6 values
 fn place(plan: &DiagramPlan, k: u64) -> (u32, Sweep) {
+    let count = u64::from(plan.over.count());
+    match plan.direction {
+        Direction::Scatter { starts, .. } => ((k / starts) as u32, Sweep::Start(k % starts)),
+        _ => carried(plan, k / count, (k % count) as u32),
+    }
+}
+
+/// Step number `j` of sweep number `row`: at which value, and in which direction.
+pub(crate) fn carried(plan: &DiagramPlan, row: u64, j: u32) -> (u32, Sweep) {
     let count = plan.over.count();
     let (first, last) = plan.over.ends();
     // number j of the values in rising order
     let rising = |j: u32| if first <= last { j } else { count - 1 - j };
-    let (row, j) = (k / u64::from(count), (k % u64::from(count)) as u32);
     match plan.direction {
-        Direction::Scatter { starts, .. } => ((k / starts) as u32, Sweep::Start(k % starts)),
-        Direction::Both if row == 0 => (rising(j), Sweep::Up),
-        Direction::Up => (rising(j), Sweep::Up),
-        Direction::Both | Direction::Down => (rising(count - 1 - j), Sweep::Down),
+        Direction::Down => (rising(count - 1 - j), Sweep::Down),
+        Direction::Both if row == 1 => (rising(count - 1 - j), Sweep::Down),
+        _ => (rising(j), Sweep::Up),
     }
 }
 
 /// The motion at one value, and the oscillator and state to carry on.
-fn step(
+pub(crate) fn step(
     system: &SystemPlan,
     plan: &DiagramPlan,
     (index, sweep): (u32, Sweep),

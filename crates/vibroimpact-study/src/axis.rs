@@ -1,0 +1,328 @@
+//! An axis of a grid: what varies, and over which values.
+
+use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan};
+use core::fmt;
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// What an axis varies: a parameter of the system or a coordinate of the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Coordinate {
+    /// A parameter.
+    Parameter(Parameter),
+    /// The position of the start.
+    X,
+    /// Its velocity.
+    V,
+    /// The phase of the force there.
+    Phase,
+}
+
+impl Coordinate {
+    /// Its name in plans, and that of the dimension in a store.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Parameter(parameter) => parameter.name(),
+            Self::X => "x",
+            Self::V => "v",
+            Self::Phase => "phase",
+        }
+    }
+
+    /// The coordinate of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let parameters = Parameter::ALL.into_iter().map(Self::Parameter);
+        parameters.chain([Self::X, Self::V, Self::Phase]).find(|coordinate| coordinate.name() == name)
+    }
+
+    /// What it is, for people.
+    #[must_use]
+    pub const fn long_name(self) -> &'static str {
+        match self {
+            Self::Parameter(Parameter::Beta) => "frequency ratio beta = omega / omega_n",
+            Self::Parameter(Parameter::InverseBeta) => "inverse frequency ratio 1 / beta = omega_n / omega",
+            Self::Parameter(Parameter::Gap) => "gap delta of the stop",
+            Self::Parameter(Parameter::Restitution) => "coefficient of restitution eps",
+            Self::Parameter(Parameter::Damping) => "damping ratio zeta",
+            Self::Parameter(Parameter::SecondGap) => "gap of the second stop",
+            Self::Parameter(Parameter::SecondRestitution) => "coefficient of restitution of the second stop",
+            Self::X => "position of the start",
+            Self::V => "velocity of the start",
+            Self::Phase => "phase of the force at the start",
+        }
+    }
+
+    /// Its unit.
+    #[must_use]
+    pub const fn units(self) -> &'static str {
+        match self {
+            Self::Parameter(Parameter::Gap | Parameter::SecondGap) | Self::X => "F/k",
+            Self::V => "omega_n F/k",
+            Self::Phase => "radian",
+            Self::Parameter(_) => "1",
+        }
+    }
+
+    /// Whether a length, in physical units, is scaled like it.
+    #[must_use]
+    pub const fn is_start(self) -> bool {
+        !matches!(self, Self::Parameter(_))
+    }
+}
+
+impl Serialize for Coordinate {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.name().serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Coordinate {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(from)?;
+        Self::named(&name).ok_or_else(|| {
+            let known = Parameter::ALL.map(Parameter::name).join(", ");
+            D::Error::custom(format!("`{name}` cannot vary; what can is {known}, x, v and phase"))
+        })
+    }
+}
+
+/// The values of an axis: a range as text, `A:B:N` or `A:B:N:log`, or a list of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// A range.
+    Span(Span),
+    /// These, in this order.
+    Listed(Vec<f64>),
+}
+
+/// The most values in a list.
+const MOST_LISTED: u64 = 1_000_000;
+
+impl Values {
+    /// Value number `k`, counted from 0.
+    ///
+    /// # Panics
+    /// When there is no such value.
+    #[must_use]
+    pub fn at(&self, k: usize) -> f64 {
+        match self {
+            Self::Span(span) => span.at(u32::try_from(k).unwrap_or(u32::MAX)),
+            Self::Listed(values) => values[k],
+        }
+    }
+
+    /// How many.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Span(span) => span.count() as usize,
+            Self::Listed(values) => values.len(),
+        }
+    }
+
+    /// All of them.
+    #[must_use]
+    pub fn all(&self) -> Vec<f64> {
+        (0..self.count()).map(|k| self.at(k)).collect()
+    }
+
+    /// The smallest and the largest.
+    #[must_use]
+    pub fn extent(&self) -> (f64, f64) {
+        match self {
+            Self::Span(span) => (span.ends().0.min(span.ends().1), span.ends().0.max(span.ends().1)),
+            Self::Listed(values) => {
+                values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
+            }
+        }
+    }
+
+    /// Checks a list; a range was checked when it was made.
+    ///
+    /// # Errors
+    /// [`PlanError::Listed`] for a list that is empty or too long, or has a value in it that is not finite or there twice.
+    pub fn check(&self) -> Result<(), PlanError> {
+        let Self::Listed(values) = self else { return Ok(()) };
+        let bad = |wrong| PlanError::Listed { count: values.len(), most: MOST_LISTED, wrong };
+        if values.is_empty() || values.len() as u64 > MOST_LISTED {
+            return Err(bad(None));
+        }
+        let mut sorted = values.clone();
+        sorted.sort_by(f64::total_cmp);
+        let twice = sorted.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0]);
+        match values.iter().copied().find(|v| !v.is_finite()).or(twice) {
+            Some(value) => Err(bad(Some(value))),
+            None => Ok(()),
+        }
+    }
+}
+
+impl From<Span> for Values {
+    fn from(span: Span) -> Self {
+        Self::Span(span)
+    }
+}
+
+impl Serialize for Values {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Span(span) => span.serialize(to),
+            Self::Listed(values) => values.serialize(to),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Values {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Either;
+        impl<'de> Visitor<'de> for Either {
+            type Value = Values;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a range \"A:B:N\" or \"A:B:N:log\", or a list of numbers")
+            }
+
+            fn visit_str<E: Error>(self, text: &str) -> Result<Values, E> {
+                text.parse().map(Values::Span).map_err(E::custom)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Values, A::Error> {
+                let mut values = Vec::new();
+                while let Some(value) = items.next_element::<f64>()? {
+                    values.push(value);
+                }
+                Ok(Values::Listed(values))
+            }
+        }
+        from.deserialize_any(Either)
+    }
+}
+
+/// What varies over which values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Axis {
+    /// What varies.
+    pub vary: Coordinate,
+    /// Its values.
+    pub over: Values,
+}
+
+impl Axis {
+    /// An axis over a range.
+    #[must_use]
+    pub fn new(vary: Coordinate, over: impl Into<Values>) -> Self {
+        Self { vary, over: over.into() }
+    }
+
+    /// An axis over the values of a parameter.
+    #[must_use]
+    pub fn parameter(parameter: Parameter, over: impl Into<Values>) -> Self {
+        Self::new(Coordinate::Parameter(parameter), over)
+    }
+}
+
+/// The system and the start at a point of the axes; what is on no axis is as given.
+///
+/// # Errors
+/// [`PlanError::NoSecondStop`] for a parameter of a second stop that is not there.
+pub fn at(
+    (system, start): (&SystemPlan, &StartPlan),
+    axes: &[Axis],
+    index: impl Fn(usize) -> usize,
+) -> Result<(SystemPlan, StartPlan), PlanError> {
+    let (mut system, mut start) = (*system, *start);
+    for (k, axis) in axes.iter().enumerate() {
+        let value = axis.over.at(index(k));
+        match axis.vary {
+            Coordinate::Parameter(parameter) => system = system.with(parameter, value)?,
+            Coordinate::X => start.x = Some(value),
+            Coordinate::V => start.v = value,
+            Coordinate::Phase => start.phase = value,
+        }
+    }
+    Ok((system, start))
+}
+
+/// Checks that the axes are of the right number and kind, none of them there twice.
+///
+/// # Errors
+/// [`PlanError`] names what is wrong.
+pub(crate) fn check(
+    task: &'static str,
+    axes: &[Axis],
+    (least, most): (usize, usize),
+    (allowed, known): (fn(Coordinate) -> bool, &'static str),
+) -> Result<(), PlanError> {
+    if !(least..=most).contains(&axes.len()) {
+        return Err(PlanError::Axes { given: axes.len(), task, least, most });
+    }
+    let frequency =
+        |c| matches!(c, Coordinate::Parameter(Parameter::Beta) | Coordinate::Parameter(Parameter::InverseBeta));
+    for (k, axis) in axes.iter().enumerate() {
+        if !allowed(axis.vary) {
+            return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known });
+        }
+        let same = |other: &&Axis| other.vary == axis.vary || (frequency(other.vary) && frequency(axis.vary));
+        if let Some(other) = axes[..k].iter().find(same) {
+            return Err(PlanError::SameParameter(other.vary.name(), axis.vary.name()));
+        }
+        axis.over.check()?;
+    }
+    Ok(())
+}
+
+/// Every combination of smallest and largest values on the axes, as indices of the values.
+pub(crate) fn corners(axes: &[Axis]) -> impl Iterator<Item = Vec<usize>> + '_ {
+    let ends = axes.iter().map(|axis| {
+        let by = |a: &usize, b: &usize| axis.over.at(*a).total_cmp(&axis.over.at(*b));
+        let all = 0..axis.over.count();
+        [all.clone().min_by(by).unwrap_or(0), all.max_by(by).unwrap_or(0)]
+    });
+    let ends: Vec<[usize; 2]> = ends.collect();
+    (0..1_u32 << ends.len())
+        .map(move |bits| ends.iter().enumerate().map(|(k, e)| e[(bits >> k & 1) as usize]).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_and_lists_survive_json() {
+        let axis = |over| Axis { vary: Coordinate::V, over };
+        for (text, axis) in [
+            (r#"{"vary":"v","over":"-1:2:7"}"#, axis(Values::Span("-1:2:7".parse().unwrap()))),
+            (r#"{"vary":"v","over":"0.1:10:5:log"}"#, axis(Values::Span("0.1:10:5:log".parse().unwrap()))),
+            (r#"{"vary":"v","over":[0.5,0.25]}"#, axis(Values::Listed(vec![0.5, 0.25]))),
+        ] {
+            assert_eq!(serde_json::from_str::<Axis>(text).unwrap(), axis);
+            assert_eq!(serde_json::to_string(&axis).unwrap(), text);
+        }
+        for (text, word) in [
+            (r#"{"vary":"mass","over":"0:1:2"}"#, "`mass` cannot vary; what can is beta"),
+            (r#"{"vary":"v","over":"0:1"}"#, "A:B:N"),
+            (r#"{"vary":"v","over":7}"#, "or a list of numbers"),
+            (r#"{"vary":"v"}"#, "over"),
+        ] {
+            let message = serde_json::from_str::<Axis>(text).unwrap_err().to_string();
+            assert!(message.contains(word), "{message}");
+        }
+    }
+
+    #[test]
+    fn lists_are_checked_and_the_corners_are_the_extremes() {
+        for bad in [vec![], vec![1.0, f64::NAN], vec![2.0, 1.0, 2.0]] {
+            assert!(Values::Listed(bad).check().is_err());
+        }
+        let axes = [
+            Axis::new(Coordinate::X, Values::Listed(vec![0.0, 2.0, -1.0])),
+            Axis::new(Coordinate::V, "3:1:3".parse::<Span>().unwrap()),
+        ];
+        let found: Vec<_> = corners(&axes).collect();
+        assert_eq!(found, [[2, 2], [1, 2], [2, 0], [1, 0]]);
+        assert_eq!(axes[0].over.extent(), (-1.0, 2.0));
+    }
+}

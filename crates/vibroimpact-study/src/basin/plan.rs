@@ -1,0 +1,95 @@
+//! What a basin asks: over which starts, and of which systems.
+
+use crate::axis::{self, Axis, Coordinate};
+use crate::map::check_refine;
+use crate::{PlanError, Span, StartPlan, SystemPlan};
+use serde::{Deserialize, Serialize};
+
+/// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BasinPlan {
+    /// What varies; the first runs fastest and is drawn to the right, the second upwards.
+    pub axes: Vec<Axis>,
+    /// The coordinates that are on no axis.
+    #[serde(default)]
+    pub start: StartPlan,
+    /// Where results are stored: compute every so many-th point first, and the points between only where neighbours
+    /// differ. All of them when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refine: Option<u32>,
+}
+
+/// Most axes.
+const MOST_AXES: usize = 4;
+
+impl BasinPlan {
+    /// A plane of positions and velocities at one phase.
+    #[must_use]
+    pub fn plane(x: Span, v: Span, phase: f64) -> Self {
+        let axes = vec![Axis::new(Coordinate::X, x), Axis::new(Coordinate::V, v)];
+        Self { axes, start: StartPlan { phase, ..StartPlan::default() }, refine: None }
+    }
+
+    /// Checks everything that can be checked without running it.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first value that makes no sense: axes that are none, a start beyond a stop, or a corner
+    /// that is no legal system.
+    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        let allowed = (|_| true) as fn(Coordinate) -> bool;
+        axis::check("basin", &self.axes, (1, MOST_AXES), (allowed, "anything"))?;
+        if !self.axes.iter().any(|axis| axis.vary.is_start()) {
+            return Err(PlanError::NoStartAxis);
+        }
+        check_refine(self.refine)?;
+        for corner in axis::corners(&self.axes) {
+            let (system, start) = axis::at((system, &self.start), &self.axes, |k| corner[k])?;
+            start.start(&system.oscillator()?)?;
+        }
+        Ok(())
+    }
+
+    /// Starts in all.
+    #[must_use]
+    pub fn starts(&self) -> u64 {
+        self.axes.iter().map(|axis| axis.over.count() as u64).product()
+    }
+
+    /// Whether all starts are of one system.
+    #[must_use]
+    pub fn one_system(&self) -> bool {
+        self.axes.iter().all(|axis| axis.vary.is_start())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Parameter;
+
+    #[test]
+    fn nonsense_is_refused() {
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let span = |text: &str| text.parse::<Span>().unwrap();
+        let good = BasinPlan::plane(span("-3:0.75:4"), span("-1:1:3"), 0.0);
+        assert_eq!((good.check(&system), good.starts(), good.one_system()), (Ok(()), 12, true));
+        let with = |axis: Axis| BasinPlan { axes: [good.axes.clone(), vec![axis]].concat(), ..good.clone() };
+        let more = with(Axis::parameter(Parameter::Gap, span("0.75:2:3")));
+        assert_eq!((more.check(&system), more.starts(), more.one_system()), (Ok(()), 36, false));
+        for (plan, sentence) in [
+            (BasinPlan::plane(span("-3:0.8:4"), span("-1:1:3"), 0.0), "start x = 0.8 lies beyond the stop"),
+            (BasinPlan::plane(span("-3:0.75:4"), span("-1:1:3"), f64::NAN), "start phase = NaN"),
+            // with the smallest gap the largest position is beyond the stop
+            (with(Axis::parameter(Parameter::Gap, span("0.5:2:3"))), "start x = 0.75 lies beyond the stop"),
+            (with(Axis::new(Coordinate::X, span("0:0.5:2"))), "x and x do not span a plane"),
+            (
+                BasinPlan { axes: vec![Axis::parameter(Parameter::Gap, span("0:1:3"))], ..good.clone() },
+                "a basin needs an axis over x, v or phase",
+            ),
+        ] {
+            let message = plan.check(&system).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! What a study says of each point: arrays over its grid, with their types, meanings and units.
+
+/// The type of the numbers of a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Small whole numbers.
+    I8,
+    /// Whole numbers.
+    I32,
+    /// Real numbers.
+    F64,
+}
+
+/// A dimension of a field beyond those of the grid.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Extra {
+    /// Its name.
+    pub name: &'static str,
+    /// Its length.
+    pub count: usize,
+}
+
+/// One array of a study: over the grid, and over extra dimensions that run fastest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is, for people.
+    pub long_name: &'static str,
+    /// Its unit; `"1"` for pure numbers.
+    pub units: &'static str,
+    /// The type of its numbers.
+    pub kind: Kind,
+    /// What stands where nothing was computed; for real numbers always not-a-number. No result is ever equal to it.
+    pub fill: i32,
+    /// Dimensions beyond those of the grid.
+    pub extra: Vec<Extra>,
+    /// Values that stand for something, and what.
+    pub flags: Vec<(i32, &'static str)>,
+    /// What else there is to say.
+    pub comment: &'static str,
+}
+
+impl Field {
+    /// Numbers for each point of the grid.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.extra.iter().map(|extra| extra.count).product()
+    }
+
+    /// A column of `points` points in which nothing was computed.
+    #[must_use]
+    pub fn empty(&self, points: usize) -> Column {
+        let len = points * self.width();
+        match self.kind {
+            Kind::I8 => Column::I8(vec![i8::try_from(self.fill).unwrap_or(i8::MIN); len]),
+            Kind::I32 => Column::I32(vec![self.fill; len]),
+            Kind::F64 => Column::F64(vec![f64::NAN; len]),
+        }
+    }
+}
+
+/// The numbers of a field over some points, in row-major order.
+#[derive(Clone, Debug)]
+pub enum Column {
+    /// Small whole numbers.
+    I8(Vec<i8>),
+    /// Whole numbers.
+    I32(Vec<i32>),
+    /// Real numbers.
+    F64(Vec<f64>),
+}
+
+/// Bit for bit: not-a-number equals itself.
+impl PartialEq for Column {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::I8(a), Self::I8(b)) => a == b,
+            (Self::I32(a), Self::I32(b)) => a == b,
+            (Self::F64(a), Self::F64(b)) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+            }
+            _ => false,
+        }
+    }
+}
+
+impl Column {
+    /// How many numbers.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        match self {
+            Self::I8(v) => v.len(),
+            Self::I32(v) => v.len(),
+            Self::F64(v) => v.len(),
+        }
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Copies `len` numbers of `from`, starting at `at`, to `to` here. Columns of another type, which never meet, are
+    /// left alone.
+    pub fn copy(&mut self, to: usize, from: &Self, at: usize, len: usize) {
+        match (self, from) {
+            (Self::I8(a), Self::I8(b)) => a[to..to + len].copy_from_slice(&b[at..at + len]),
+            (Self::I32(a), Self::I32(b)) => a[to..to + len].copy_from_slice(&b[at..at + len]),
+            (Self::F64(a), Self::F64(b)) => a[to..to + len].copy_from_slice(&b[at..at + len]),
+            _ => {}
+        }
+    }
+
+    /// The whole numbers; empty for real ones.
+    #[must_use]
+    pub fn whole(&self) -> &[i32] {
+        if let Self::I32(values) = self { values } else { &[] }
+    }
+
+    /// The real numbers; empty for whole ones.
+    #[must_use]
+    pub fn real(&self) -> &[f64] {
+        if let Self::F64(values) = self { values } else { &[] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn empty_columns_hold_the_fill() {
+        let field = Field {
+            name: "label",
+            long_name: "",
+            units: "1",
+            kind: Kind::I32,
+            fill: -9,
+            extra: vec![Extra { name: "motion", count: 3 }],
+            flags: Vec::new(),
+            comment: "",
+        };
+        assert_eq!(field.empty(2).whole(), [-9; 6]);
+        let real = Field { kind: Kind::F64, ..field };
+        assert_eq!(real.empty(2), real.empty(2));
+        let mut some = real.empty(1);
+        some.copy(1, &Column::F64(vec![1.0, 2.0]), 1, 1);
+        assert_eq!(some.real()[1], 2.0);
+        assert_ne!(some, real.empty(1));
+    }
+}

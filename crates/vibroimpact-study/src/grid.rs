@@ -1,0 +1,134 @@
+//! A grid of points, cut into tiles of equal shape; those at the far edges may be smaller.
+
+use core::ops::Range;
+
+/// One dimension of a grid.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Dimension {
+    /// Its name.
+    pub name: String,
+    /// Points along it.
+    pub count: usize,
+    /// Points of a tile along it.
+    pub tile: usize,
+}
+
+/// Points in row-major order: the last dimension runs fastest.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grid {
+    /// Its dimensions, the slowest first.
+    pub dimensions: Vec<Dimension>,
+}
+
+/// A tile: a range of indices in each dimension.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Block {
+    /// The ranges, the slowest dimension first.
+    pub ranges: Vec<Range<usize>>,
+}
+
+impl Grid {
+    /// Points in all.
+    #[must_use]
+    pub fn points(&self) -> u64 {
+        self.dimensions.iter().map(|d| d.count as u64).product()
+    }
+
+    /// Tiles along each dimension.
+    #[must_use]
+    pub fn tiles_along(&self) -> Vec<usize> {
+        self.dimensions.iter().map(|d| d.count.div_ceil(d.tile)).collect()
+    }
+
+    /// Tiles in all.
+    #[must_use]
+    pub fn tiles(&self) -> u64 {
+        self.tiles_along().iter().map(|n| *n as u64).product()
+    }
+
+    /// Where tile number `k` stands among the tiles, dimension by dimension; tiles are counted in row-major order too.
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation)] // less than the tiles along a dimension, a usize
+    pub fn place(&self, k: u64) -> Vec<usize> {
+        let mut rest = k;
+        let mut place: Vec<usize> = self
+            .tiles_along()
+            .iter()
+            .rev()
+            .map(|n| {
+                let here = rest % *n as u64;
+                rest /= *n as u64;
+                here as usize
+            })
+            .collect();
+        place.reverse();
+        place
+    }
+
+    /// Tile number `k`.
+    #[must_use]
+    pub fn tile(&self, k: u64) -> Block {
+        let range = |(d, i): (&Dimension, usize)| i * d.tile..((i + 1) * d.tile).min(d.count);
+        Block { ranges: self.dimensions.iter().zip(self.place(k)).map(range).collect() }
+    }
+
+    /// The whole grid as one tile.
+    #[must_use]
+    pub fn whole(&self) -> Block {
+        Block { ranges: self.dimensions.iter().map(|d| 0..d.count).collect() }
+    }
+}
+
+impl Block {
+    /// Points in it.
+    #[must_use]
+    pub fn points(&self) -> usize {
+        self.ranges.iter().map(ExactSizeIterator::len).product()
+    }
+
+    /// The indices in the grid of its point number `k`, the slowest dimension first.
+    #[must_use]
+    pub fn index(&self, k: usize) -> Vec<usize> {
+        let mut rest = k;
+        let mut index: Vec<usize> = self
+            .ranges
+            .iter()
+            .rev()
+            .map(|range| {
+                let here = range.start + rest % range.len();
+                rest /= range.len();
+                here
+            })
+            .collect();
+        index.reverse();
+        index
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid() -> Grid {
+        let dimension = |name: &str, count, tile| Dimension { name: name.into(), count, tile };
+        Grid { dimensions: vec![dimension("gap", 5, 2), dimension("x", 7, 3)] }
+    }
+
+    #[test]
+    fn tiles_cover_the_grid_once() {
+        let grid = grid();
+        assert_eq!((grid.points(), grid.tiles(), grid.tiles_along()), (35, 9, vec![3, 3]));
+        let mut seen = [0; 35];
+        for k in 0..grid.tiles() {
+            let block = grid.tile(k);
+            for p in 0..block.points() {
+                let index = block.index(p);
+                seen[index[0] * 7 + index[1]] += 1;
+            }
+        }
+        assert_eq!(seen, [1; 35]);
+        assert_eq!(grid.tile(8).ranges, [4..5, 6..7]);
+        assert_eq!(grid.place(5), [1, 2]);
+        assert_eq!(grid.whole().points(), 35);
+    }
+}

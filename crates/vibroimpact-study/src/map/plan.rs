@@ -1,0 +1,116 @@
+//! What a map asks: over which parameters, with how many starts at each point.
+
+use crate::axis::{self, Axis, Coordinate};
+use crate::plan::starts;
+use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan};
+use serde::{Deserialize, Serialize};
+use vibroimpact::Oscillator;
+
+/// The points of a map: a grid over two parameters or more, several starts each.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapPlan {
+    /// What varies; the first runs fastest and is drawn to the right, the second upwards.
+    pub axes: Vec<Axis>,
+    /// Starts per point: the first at rest, the second on the free motion if it clears the stops, the others scattered.
+    pub starts: u64,
+    /// Which sequence of them.
+    #[serde(default)]
+    pub seed: u64,
+    /// Where results are stored: compute every so many-th point first, and the points between only where neighbours
+    /// differ. All of them when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refine: Option<u32>,
+}
+
+/// Most axes.
+const MOST_AXES: usize = 4;
+/// Coarsest grid to begin with.
+const MOST_REFINE: u32 = 64;
+
+/// Checks the distance of the points of a coarse grid.
+///
+/// # Errors
+/// [`PlanError::Refine`] for one that is none.
+pub(crate) fn check_refine(refine: Option<u32>) -> Result<(), PlanError> {
+    match refine.filter(|step| !(2..=MOST_REFINE).contains(step)) {
+        Some(given) => Err(PlanError::Refine { given, most: MOST_REFINE }),
+        None => Ok(()),
+    }
+}
+
+impl MapPlan {
+    /// A map over inverse frequency and gap, the plane of the 1971 paper.
+    #[must_use]
+    pub fn plane(inverse_beta: Span, gap: Span, starts: u64, seed: u64) -> Self {
+        let axes = vec![Axis::parameter(Parameter::InverseBeta, inverse_beta), Axis::parameter(Parameter::Gap, gap)];
+        Self { axes, starts, seed, refine: None }
+    }
+
+    /// Checks everything that can be checked without running it.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first value that makes no sense: axes that are none, or a corner that is no legal system.
+    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        let allowed = (|c: Coordinate| !c.is_start()) as fn(Coordinate) -> bool;
+        axis::check("map", &self.axes, (1, MOST_AXES), (allowed, "the parameters of the system"))?;
+        starts(self.starts)?;
+        check_refine(self.refine)?;
+        for corner in axis::corners(&self.axes) {
+            self.oscillator(system, |k| corner[k])?;
+        }
+        Ok(())
+    }
+
+    /// Points in all.
+    #[must_use]
+    pub fn points(&self) -> u64 {
+        self.axes.iter().map(|axis| axis.over.count() as u64).product()
+    }
+
+    /// The oscillator at a point, given by the place on each axis; everything else as in `system`.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a point that is no legal system.
+    pub fn oscillator(&self, system: &SystemPlan, place: impl Fn(usize) -> usize) -> Result<Oscillator, PlanError> {
+        axis::at((system, &StartPlan::default()), &self.axes, place)?.0.oscillator()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nonsense_is_refused() {
+        let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
+        let good = MapPlan::plane("0.6:1.4:5".parse().unwrap(), "-0.5:2:3".parse().unwrap(), 6, 1);
+        assert_eq!((good.check(&system), good.points()), (Ok(()), 15));
+        let axes = |list: &[(Parameter, &str)]| {
+            list.iter().map(|(p, over)| Axis::parameter(*p, over.parse::<Span>().unwrap())).collect::<Vec<_>>()
+        };
+        use Parameter::{Beta, Gap, InverseBeta, Restitution, SecondGap};
+        for (plan, sentence) in [
+            (MapPlan { axes: vec![], ..good.clone() }, "0 axes were given; a map has 1 to 4"),
+            (MapPlan { axes: axes(&[(Gap, "0:1:3"), (Gap, "0:1:2")]), ..good.clone() }, "gap and gap do not span"),
+            (
+                MapPlan { axes: axes(&[(Beta, "1:2:3"), (InverseBeta, "1:2:2")]), ..good.clone() },
+                "beta and inverse_beta",
+            ),
+            (MapPlan { axes: axes(&[(Restitution, "0:1.5:3")]), ..good.clone() }, "restitution eps = 1.5 lies outside"),
+            (
+                MapPlan { axes: axes(&[(SecondGap, "0:1.5:3")]), ..good.clone() },
+                "second_gap is to vary, but there is no",
+            ),
+            (MapPlan { starts: 0, ..good.clone() }, "starts = 0 lies outside"),
+            (MapPlan { refine: Some(1), ..good.clone() }, "refine = 1 lies outside 2 <= refine <= 64"),
+            (
+                MapPlan { axes: vec![Axis::new(Coordinate::X, "0:1:3".parse::<Span>().unwrap())], ..good.clone() },
+                "a map has no axis x; it may have the parameters of the system",
+            ),
+        ] {
+            let message = plan.check(&system).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}

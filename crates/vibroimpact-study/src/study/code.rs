@@ -1,0 +1,108 @@
+//! Labels as whole numbers, the same for every tile and machine: m/n is 10000 m + n.
+//!
+//! So 1/1 is 10001, 3/2 is 30002; with a complete chatter 1 000 000 000 + n; without impacts 0. What is no periodic motion
+//! is negative. A number of periods above 9999 does not fit and is left out (0), one of impacts above 99 999 is that.
+
+use vibroimpact::Label;
+use vibroimpact::verdict::{Count, Verdict};
+
+/// Nothing was computed here.
+pub const NOT_COMPUTED: i32 = -9;
+/// There is no further motion here.
+pub const NO_MOTION: i32 = -1;
+/// Chaotic.
+pub const CHAOTIC: i32 = -2;
+/// At rest on a stop for ever.
+pub const STUCK: i32 = -3;
+/// None of these could be shown within the budget.
+pub const UNDECIDED: i32 = -4;
+/// No more impacts.
+pub const NO_IMPACT: i32 = 0;
+
+const PER_IMPACT: u32 = 10_000;
+const CHATTER: u32 = 1_000_000_000;
+
+/// Values that stand for something, and what, for those that have no m and n.
+pub(super) const FLAGS: [(i32, &str); 6] = [
+    (NOT_COMPUTED, "not_computed"),
+    (UNDECIDED, "undecided"),
+    (STUCK, "stuck"),
+    (CHAOTIC, "chaotic"),
+    (NO_MOTION, "no_further_motion"),
+    (NO_IMPACT, "no_impact"),
+];
+
+pub(super) const COMMENT: &str = "10000 m + n for a motion m/n with m impacts in n forcing periods, 1000000000 + n for \
+                                  inf/n with a complete chatter; n = 0 stands for more than 9999 periods";
+
+/// The number that stands for a motion.
+#[must_use]
+pub fn code(verdict: &Verdict) -> i32 {
+    match verdict {
+        Verdict::Periodic(cycle) => of(cycle.label),
+        Verdict::NoImpact(_) => NO_IMPACT,
+        Verdict::Chaotic(_) => CHAOTIC,
+        Verdict::Stuck(_) => STUCK,
+        Verdict::Undecided(_) => UNDECIDED,
+    }
+}
+
+fn of(label: Label) -> i32 {
+    let n = if label.periods < PER_IMPACT { label.periods } else { 0 };
+    let m = match label.impacts {
+        Count::Finite(0) => return NO_IMPACT,
+        Count::Finite(m) => m.min(99_999) * PER_IMPACT,
+        Count::Infinite => CHATTER,
+    };
+    i32::try_from(m + n).unwrap_or(UNDECIDED)
+}
+
+/// The label that a number stands for, as text; `None` where there is no motion.
+///
+/// ```
+/// use vibroimpact_study::study::label_of;
+/// assert_eq!(label_of(20_001).as_deref(), Some("2/1"));
+/// assert_eq!(label_of(1_000_000_003).as_deref(), Some("inf/3"));
+/// assert_eq!(label_of(0).as_deref(), Some("0"));
+/// assert_eq!(label_of(-1), None);
+/// ```
+#[must_use]
+pub fn label_of(code: i32) -> Option<String> {
+    Some(match code {
+        NO_IMPACT => "0".to_owned(),
+        CHAOTIC => "chaotic".to_owned(),
+        STUCK => "stuck".to_owned(),
+        UNDECIDED => "undecided".to_owned(),
+        _ => {
+            let code = u32::try_from(code).ok()?;
+            let (m, n) = match code.checked_sub(CHATTER) {
+                Some(n) => ("inf".to_owned(), n),
+                None => ((code / PER_IMPACT).to_string(), code % PER_IMPACT),
+            };
+            if n == 0 { format!("{m}/>9999") } else { format!("{m}/{n}") }
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_come_back() {
+        for text in ["1/1", "2/1", "1/9999", "99999/3", "inf/1", "inf/17", "0"] {
+            let label = |text: &str| -> Label {
+                // 99999 impacts are more than a label that is typed may have
+                let (m, n) = text.split_once('/').unwrap_or(("0", "1"));
+                let impacts = m.parse().map_or(Count::Infinite, Count::Finite);
+                Label { impacts, periods: n.parse().unwrap() }
+            };
+            assert_eq!(label_of(of(label(text))).unwrap(), text);
+        }
+        assert_eq!(label_of(of(Label::new(3, 10_000))).unwrap(), "3/>9999");
+        assert_eq!(label_of(of(Label::new(4_000_000_000, 1))).unwrap(), "99999/1");
+        for (code, name) in FLAGS {
+            assert_eq!(label_of(code).is_some(), !matches!(name, "not_computed" | "no_further_motion"), "{name}");
+        }
+    }
+}

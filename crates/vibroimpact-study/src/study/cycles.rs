@@ -1,0 +1,134 @@
+//! Numbers for the cycles of one system, the same in all tiles.
+//!
+//! Labels do not tell two motions 1/1 apart. A survey beforehand, which every tile can repeat, numbers the cycles it meets.
+//! A tile that meets another one numbers it for itself, below [`NONE`]; when all tiles are there these few are computed
+//! again, and numbered in their order.
+
+use super::{Cells, Table, Tiles};
+use crate::field::Column;
+use crate::grid::Grid;
+use vibroimpact::verdict::{Census, Found, Verdict};
+
+/// The motion is no cycle.
+pub(super) const NONE: i32 = -1;
+/// The first cycle that only this tile has met; the next are below it.
+const UNKNOWN: i32 = -2;
+
+/// The number of a motion in a tile; `unknown` collects those that the survey has not met.
+pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &Found) -> i32 {
+    if !matches!(found.verdict, Verdict::Periodic(_)) {
+        return NONE;
+    }
+    let whole = |n: usize| i32::try_from(n).unwrap_or(i32::MAX / 2);
+    match known.iter().position(|other| other.same_as(&found.verdict, SAME)) {
+        Some(k) => whole(k),
+        None => UNKNOWN - whole(unknown.add_found(found)),
+    }
+}
+
+/// Two cycles closer than this are one; as in a census.
+const SAME: f64 = 1e-6;
+
+/// The cycles of a survey.
+pub(super) fn survey(found: &Census) -> Vec<Verdict> {
+    let cycles = found.motions().iter().filter(|found| matches!(found.verdict, Verdict::Periodic(_)));
+    cycles.map(|found| found.verdict.clone()).collect()
+}
+
+/// What is needed to number what the survey has not met.
+pub struct Numbering<'a> {
+    /// Which field holds the numbers.
+    pub(super) field: usize,
+    /// The cycles of the survey.
+    pub(super) known: &'a [Verdict],
+    /// The cycles that only this tile has met, in the order of their numbers.
+    pub(super) unknown: Box<dyn Fn(u64) -> Census + 'a>,
+}
+
+impl Numbering<'_> {
+    pub(super) fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<Table>, T::Error> {
+        let mut cycles: Vec<Verdict> = self.known.to_vec();
+        let mut starts = vec![0_i64; cycles.len()];
+        for k in 0..grid.tiles() {
+            let column = tiles.read(k, self.field)?;
+            let mut numbers = column.whole().to_vec();
+            if numbers.iter().any(|n| *n <= UNKNOWN && *n != i32::MIN) {
+                let met = (self.unknown)(k);
+                let renumbered: Vec<usize> = met
+                    .motions()
+                    .iter()
+                    .map(|found| {
+                        let same = cycles.iter().position(|other| other.same_as(&found.verdict, SAME));
+                        same.unwrap_or_else(|| {
+                            cycles.push(found.verdict.clone());
+                            starts.push(0);
+                            cycles.len() - 1
+                        })
+                    })
+                    .collect();
+                for n in numbers.iter_mut().filter(|n| **n <= UNKNOWN && **n != i32::MIN) {
+                    let place = usize::try_from(UNKNOWN - *n).unwrap_or(usize::MAX);
+                    *n = renumbered.get(place).and_then(|n| i32::try_from(*n).ok()).unwrap_or(NONE);
+                }
+                tiles.write(k, self.field, &Column::I32(numbers.clone()))?;
+            }
+            for n in numbers {
+                if let Some(count) = usize::try_from(n).ok().and_then(|n| starts.get_mut(n)) {
+                    *count += 1;
+                }
+            }
+        }
+        Ok(self.tables(&cycles, &starts, grid.points()))
+    }
+
+    /// The cycles: their names, how many starts lead to each, their stability, and their impacts.
+    #[allow(clippy::cast_precision_loss)] // counts below 2^53
+    fn tables(&self, cycles: &[Verdict], starts: &[i64], total: u64) -> Vec<Table> {
+        let cycle = |verdict: &Verdict| if let Verdict::Periodic(cycle) = verdict { Some(cycle.clone()) } else { None };
+        let list: Vec<_> = cycles.iter().filter_map(cycle).collect();
+        let longest = list.iter().map(|cycle| cycle.points.len()).max().unwrap_or(0);
+        let count = list.len();
+        let table = |name, long_name, units, values| Table {
+            name,
+            long_name,
+            units,
+            dimensions: vec![("cycles", count)],
+            values,
+        };
+        let real = |values: Vec<f64>| Cells::Numbers(Column::F64(values));
+        let mut tables = vec![
+            table(
+                "cycle_label",
+                "motion m/n",
+                "1",
+                Cells::Text(list.iter().map(|cycle| cycle.label.to_string()).collect()),
+            ),
+            table(
+                "cycle_share",
+                "share of the starts that lead to the cycle",
+                "1",
+                real(starts.iter().map(|n| *n as f64 / total as f64).collect()),
+            ),
+        ];
+        let moduli = |cycle: &vibroimpact::orbit::Cycle| {
+            let [a, b] = cycle.multipliers;
+            a.modulus().max(b.modulus())
+        };
+        let largest = real(list.iter().map(moduli).collect());
+        tables.push(table("cycle_multiplier", "largest modulus of the Floquet multipliers", "1", largest));
+        if longest > 0 {
+            let each = |name, long_name, units, of: &dyn Fn(&vibroimpact::orbit::CyclePoint) -> f64| {
+                let padded = list.iter().flat_map(|cycle| {
+                    let impacts = cycle.points.iter().map(|point| of(point));
+                    impacts.chain(core::iter::repeat(f64::NAN)).take(longest).collect::<Vec<_>>()
+                });
+                let dimensions = vec![("cycles", count), ("impact", longest)];
+                Table { name, long_name, units, dimensions, values: real(padded.collect()) }
+            };
+            tables.push(each("cycle_phase", "phase of the force at the impact", "radian", &|p| p.state.phase));
+            tables.push(each("cycle_velocity", "speed of arrival", "omega_n F/k", &|p| p.state.velocity));
+            tables.push(each("cycle_interval", "time to the next impact", "1/omega_n", &|p| p.interval));
+        }
+        if count == 0 { Vec::new() } else { tables }
+    }
+}

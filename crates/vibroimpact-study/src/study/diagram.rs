@@ -1,0 +1,190 @@
+//! The tiles of an orbit diagram: a carried sweep is one tile, scattered starts are many.
+
+use super::{Along, Fill};
+use crate::axis::Coordinate;
+use crate::diagram::{Direction, Kind as Motion, Point, Show, Step, Sweep, carried, step};
+use crate::field::{Column, Extra, Field, Kind};
+use crate::grid::{Block, Dimension, Grid};
+use crate::{DiagramPlan, SystemPlan};
+use vibroimpact::Side;
+
+/// Starts and values of a tile of scattered starts.
+const TILE: (usize, usize) = (16, 64);
+
+pub(super) struct DiagramFill {
+    system: SystemPlan,
+    plan: DiagramPlan,
+    grid: Grid,
+    keep: usize,
+}
+
+impl DiagramFill {
+    pub(super) fn new(system: &SystemPlan, plan: &DiagramPlan, tile: Option<u32>) -> Self {
+        let dimension =
+            |name: &str, count: usize, tile: usize| Dimension { name: name.into(), count, tile: tile.min(count) };
+        let (values, runs) = (plan.over.count() as usize, usize::try_from(plan.runs()).unwrap_or(usize::MAX));
+        let name = plan.vary.name();
+        let side = |default: usize| tile.map_or(default, |tile| tile as usize);
+        let dimensions = match plan.direction {
+            Direction::Scatter { .. } => {
+                vec![dimension("start", runs, side(TILE.0)), dimension(name, values, side(TILE.1))]
+            }
+            // each value begins where the one before left off
+            _ => vec![dimension("sweep", runs, 1), dimension(name, values, values)],
+        };
+        let keep = usize::try_from(plan.keep).unwrap_or(usize::MAX);
+        Self { system: *system, plan: *plan, grid: Grid { dimensions }, keep }
+    }
+}
+
+impl Fill for DiagramFill {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn coordinates(&self) -> Vec<Along> {
+        let vary = Coordinate::Parameter(self.plan.vary);
+        let values = Along {
+            dimension: vary.name().to_owned(),
+            values: self.plan.over.values().collect(),
+            long_name: vary.long_name(),
+            units: vary.units(),
+        };
+        let sweep = |values: &[f64]| Along {
+            dimension: "sweep".to_owned(),
+            values: values.to_vec(),
+            long_name: "direction of the sweep: 1 with rising values, -1 with falling ones",
+            units: "1",
+        };
+        match self.plan.direction {
+            Direction::Scatter { .. } => vec![values],
+            Direction::Up => vec![sweep(&[1.0]), values],
+            Direction::Down => vec![sweep(&[-1.0]), values],
+            Direction::Both => vec![sweep(&[1.0, -1.0]), values],
+        }
+    }
+
+    fn fields(&self) -> Vec<Field> {
+        let point = vec![Extra { name: "point", count: self.keep }];
+        let field = |name, long_name, units, kind, fill, extra, flags| Field {
+            name,
+            long_name,
+            units,
+            kind,
+            fill,
+            extra,
+            flags,
+            comment: "",
+        };
+        let motions = vec![(-1, "not_computed"), (0, "no_impact"), (1, "impacts"), (2, "stuck"), (3, "undecided")];
+        let sides = vec![
+            (0, "no_point"),
+            (1, "impact"),
+            (-1, "impact_on_the_second_stop"),
+            (2, "end_of_a_chatter"),
+            (-2, "end_of_a_chatter_on_the_second_stop"),
+        ];
+        let real = |name, long_name, units| field(name, long_name, units, Kind::F64, 0, point.clone(), Vec::new());
+        let mut fields =
+            vec![field("kind", "what the motion is after the transient", "1", Kind::I8, -1, Vec::new(), motions)];
+        match self.plan.show {
+            Show::Velocity => {
+                fields.push(real("velocity", "speed of arrival of an impact", "omega_n F/k"));
+                fields.push(real("impact_phase", "phase of the force at the impact", "radian"));
+                fields.push(field("side", "what the point is", "1", Kind::I8, 0, point.clone(), sides));
+            }
+            Show::Strobe => {
+                fields.push(real("x", "position at phase 0 of the force", "F/k"));
+                fields.push(real("v", "velocity at phase 0 of the force", "omega_n F/k"));
+            }
+        }
+        fields
+    }
+
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        let (rows, values) = (&block.ranges[0], &block.ranges[1]);
+        let mut tile = Tile::empty(block.points(), self.keep);
+        for (i, row) in rows.clone().enumerate() {
+            let mut before = None;
+            for j in 0..values.len() {
+                let row = row as u64;
+                let (index, sweep) = match self.plan.direction {
+                    Direction::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
+                    _ => carried(&self.plan, row, u32::try_from(j).ok()?),
+                };
+                // the ends were checked, and a value between legal ones is legal
+                let (step, left) = step(&self.system, &self.plan, (index, sweep), before).ok()?;
+                before = Some(left);
+                tile.put(i * values.len() + (index as usize - values.start), &step, self.keep);
+                if tick() {
+                    return None;
+                }
+            }
+        }
+        Some(match self.plan.show {
+            Show::Velocity => {
+                vec![tile.kind, tile.first, tile.second, tile.side].into_iter().map(Part::column).collect()
+            }
+            Show::Strobe => vec![tile.kind, tile.first, tile.second].into_iter().map(Part::column).collect(),
+        })
+    }
+}
+
+enum Part {
+    Whole(Vec<i8>),
+    Real(Vec<f64>),
+}
+
+impl Part {
+    fn column(self) -> Column {
+        match self {
+            Self::Whole(values) => Column::I8(values),
+            Self::Real(values) => Column::F64(values),
+        }
+    }
+}
+
+struct Tile {
+    kind: Part,
+    first: Part,
+    second: Part,
+    side: Part,
+}
+
+impl Tile {
+    fn empty(points: usize, keep: usize) -> Self {
+        Self {
+            kind: Part::Whole(vec![-1; points]),
+            first: Part::Real(vec![f64::NAN; points * keep]),
+            second: Part::Real(vec![f64::NAN; points * keep]),
+            side: Part::Whole(vec![0; points * keep]),
+        }
+    }
+
+    fn put(&mut self, at: usize, step: &Step, keep: usize) {
+        let Self {
+            kind: Part::Whole(kind),
+            first: Part::Real(first),
+            second: Part::Real(second),
+            side: Part::Whole(side),
+        } = self
+        else {
+            return;
+        };
+        kind[at] = match step.kind {
+            Motion::NoImpact => 0,
+            Motion::Impacts => 1,
+            Motion::Stuck => 2,
+            Motion::Undecided => 3,
+        };
+        let sign = |s: Side| if s == Side::Upper { 1 } else { -1 };
+        for (i, point) in step.points.iter().take(keep).enumerate() {
+            let at = at * keep + i;
+            (first[at], second[at], side[at]) = match *point {
+                Point::Impact { phase, velocity, side } => (velocity, phase, sign(side)),
+                Point::Chatter { phase, side } => (0.0, phase, 2 * sign(side)),
+                Point::State { x, v } => (x, v, 0),
+            };
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! The tiles of a study of Lyapunov exponents: at each point both, and what they say.
+
+use super::map::side;
+use super::{Along, Fill, along, grid_of, on_axis};
+use crate::axis;
+use crate::field::{Column, Extra, Field, Kind};
+use crate::{Block, Grid, LyapunovPlan, SystemPlan};
+use vibroimpact::chaos::{Grounds, Measured, exponents};
+
+/// Points of a tile along each of two axes where no number is given; some seconds of work.
+const TILE: u32 = 8;
+
+pub(super) struct LyapunovFill {
+    system: SystemPlan,
+    plan: LyapunovPlan,
+    grid: Grid,
+}
+
+impl LyapunovFill {
+    pub(super) fn new(system: &SystemPlan, plan: &LyapunovPlan, tile: Option<u32>) -> Self {
+        let grid = grid_of(&plan.axes, side(tile, TILE, plan.axes.len()));
+        Self { system: *system, plan: plan.clone(), grid }
+    }
+}
+
+const GROUNDS: [(i32, &str); 7] = [
+    (-1, "not_computed"),
+    (0, "undecided"),
+    (1, "measured"),
+    (2, "no_more_impacts"),
+    (3, "sticks_in_each_turn"),
+    (4, "stuck"),
+    (5, "touches_without_speed"),
+];
+
+const fn grounds(of: &Grounds) -> i8 {
+    match of {
+        Grounds::Undecided { .. } => 0,
+        Grounds::Measured { .. } => 1,
+        Grounds::Flight(_) => 2,
+        Grounds::Sticks(_) => 3,
+        Grounds::Stuck(_) => 4,
+        Grounds::Touches(_) => 5,
+    }
+}
+
+impl Fill for LyapunovFill {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn coordinates(&self) -> Vec<Along> {
+        along(&self.plan.axes)
+    }
+
+    fn fields(&self) -> Vec<Field> {
+        let real = |name, long_name, units, extra: &[Extra]| Field {
+            name,
+            long_name,
+            units,
+            kind: Kind::F64,
+            fill: 0,
+            extra: extra.to_vec(),
+            flags: Vec::new(),
+            comment: "",
+        };
+        let both = [Extra { name: "direction", count: 2 }];
+        let mut fields = vec![
+            real("exponent", "Lyapunov exponents per unit time, the larger first", "omega_n", &both),
+            real("exponent_error", "three standard errors of the exponents", "omega_n", &both),
+            real("impacts_per_period", "impacts per forcing period", "1", &[]),
+            real("impacts_per_period_error", "three standard errors of the impacts per period", "1", &[]),
+            real("dimension", "Kaplan-Yorke dimension of the stroboscopic section", "1", &[]),
+        ];
+        fields.push(Field {
+            kind: Kind::I8,
+            fill: -1,
+            flags: GROUNDS.to_vec(),
+            ..real("grounds", "where the exponents come from", "1", &[])
+        });
+        fields
+    }
+
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        let points = block.points();
+        let mut numbers = [2, 2, 1, 1, 1].map(|width| vec![f64::NAN; width * points]);
+        let mut why = vec![0_i8; points];
+        for k in 0..points {
+            let index = block.index(k);
+            let given = axis::at((&self.system, &self.plan.start), &self.plan.axes, |axis| on_axis(&index, axis));
+            // the corners were checked; where a point between them makes no sense, nothing is known
+            let question = given.and_then(|(system, start)| {
+                let osc = system.oscillator()?;
+                Ok((osc, start.start(&osc)?))
+            });
+            if let Ok((osc, start)) = question {
+                let found = exponents(&osc, start, &self.plan.options());
+                let mut put = |array: usize, at: usize, value: f64| numbers[array][at] = value;
+                for (i, Measured { value, error }) in found.exponents.into_iter().enumerate() {
+                    put(0, 2 * k + i, value);
+                    put(1, 2 * k + i, error);
+                }
+                put(2, k, found.impacts_per_period.value);
+                put(3, k, found.impacts_per_period.error);
+                put(4, k, found.section_dimension.map_or(f64::NAN, |d| d.value));
+                why[k] = grounds(&found.grounds);
+            }
+            if tick() {
+                return None;
+            }
+        }
+        Some(numbers.into_iter().map(Column::F64).chain([Column::I8(why)]).collect())
+    }
+}

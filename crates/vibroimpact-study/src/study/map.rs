@@ -1,0 +1,185 @@
+//! The tiles of a map: at each point its motions, the most frequent first.
+
+use super::refine::{self, Cell};
+use super::{Along, Fill, along, code, grid_of, on_axis};
+use crate::field::{Column, Extra, Field, Kind};
+use crate::map::motions;
+use crate::{Block, Grid, MapPlan, SystemPlan};
+use vibroimpact::Oscillator;
+use vibroimpact::verdict::{SettleOptions, Verdict};
+
+/// Motions kept at a point, at most: more than have been seen to coexist in practice.
+const MOST_MOTIONS: usize = 8;
+/// Points of a tile along each of two axes where no number is given; some seconds of work.
+const TILE: u32 = 64;
+
+pub(super) struct MapFill {
+    system: SystemPlan,
+    plan: MapPlan,
+    grid: Grid,
+    kept: usize,
+}
+
+/// A motion as it is stored.
+#[derive(Clone, Debug)]
+struct Row {
+    label: i32,
+    share: f64,
+    speed: f64,
+    multiplier: f64,
+}
+
+/// Points of a tile along each axis, so that tiles are of a like size for any number of axes.
+pub(super) fn side(tile: Option<u32>, plane: u32, axes: usize) -> usize {
+    let points = plane * plane;
+    let side = match axes {
+        1 => points,
+        2 => plane,
+        3 => 1 << ((points.ilog2() + 1) / 3),
+        _ => 1 << (points.ilog2() / 4),
+    };
+    tile.unwrap_or(side) as usize
+}
+
+impl MapFill {
+    pub(super) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
+        let kept = usize::try_from(plan.starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
+        let grid = grid_of(&plan.axes, side(tile, TILE, plan.axes.len()));
+        Self { system: *system, plan: plan.clone(), grid, kept }
+    }
+
+    /// The motions at a point; none where it is no legal system, which only the corners were checked for.
+    fn point(&self, index: &[usize]) -> Vec<Row> {
+        let Ok(osc) = self.plan.oscillator(&self.system, |k| on_axis(index, k)) else { return Vec::new() };
+        let row = |found: crate::Share| Row {
+            label: code(&found.verdict),
+            share: found.share,
+            speed: speed(&found.verdict),
+            multiplier: multiplier(&found.verdict, &osc),
+        };
+        motions(&osc, &self.plan, &SettleOptions::default()).into_iter().take(self.kept).map(row).collect()
+    }
+}
+
+/// The largest speed of arrival of a cycle.
+fn speed(verdict: &Verdict) -> f64 {
+    if let Verdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN }
+}
+
+/// The larger modulus of the multipliers.
+fn multiplier(verdict: &Verdict, osc: &Oscillator) -> f64 {
+    verdict.multipliers(osc).map_or(f64::NAN, |[a, b]| a.modulus().max(b.modulus()))
+}
+
+/// Whether two points have the same motions by name, in whatever order.
+fn alike(a: &[Row], b: &[Row]) -> bool {
+    let labels = |rows: &[Row]| {
+        let mut labels: Vec<i32> = rows.iter().map(|row| row.label).collect();
+        labels.sort_unstable();
+        labels
+    };
+    labels(a) == labels(b)
+}
+
+impl Fill for MapFill {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn coordinates(&self) -> Vec<Along> {
+        along(&self.plan.axes)
+    }
+
+    fn fields(&self) -> Vec<Field> {
+        let motion = vec![Extra { name: "motion", count: self.kept }];
+        let real = Field {
+            name: "share",
+            long_name: "share of the starts that lead to the motion",
+            units: "1",
+            kind: Kind::F64,
+            fill: 0,
+            extra: motion.clone(),
+            flags: Vec::new(),
+            comment: "",
+        };
+        let mut fields = vec![
+            Field {
+                name: "label",
+                long_name: "motion m/n, the most frequent first",
+                kind: Kind::I32,
+                fill: super::NOT_COMPUTED,
+                flags: code::FLAGS.to_vec(),
+                comment: code::COMMENT,
+                ..real.clone()
+            },
+            real.clone(),
+            Field {
+                name: "speed",
+                long_name: "largest speed of arrival in a period",
+                units: "omega_n F/k",
+                ..real.clone()
+            },
+            Field { name: "multiplier", long_name: "largest modulus of the Floquet multipliers", ..real },
+        ];
+        if self.plan.refine.is_some() {
+            fields.push(computed());
+        }
+        fields
+    }
+
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        let points = block.points();
+        let rows = |wanted: &[usize]| -> Option<Vec<Vec<Row>>> {
+            wanted.iter().map(|k| (!tick()).then(|| self.point(&block.index(*k)))).collect()
+        };
+        let cells: Vec<Cell<Vec<Row>>> = match self.plan.refine {
+            None => rows(&(0..points).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
+            Some(step) => refine::fill(block, step as usize, rows, |a, b| alike(a, b))?,
+        };
+        let mut label = vec![super::NO_MOTION; points * self.kept];
+        let mut numbers = [(); 3].map(|()| vec![f64::NAN; points * self.kept]);
+        for (k, cell) in cells.iter().enumerate() {
+            let (rows, own) = match cell {
+                Cell::Computed(rows) => (rows, true),
+                Cell::Like(corner) => match &cells[*corner] {
+                    Cell::Computed(rows) => (rows, false),
+                    // corners are computed
+                    Cell::Like(_) => continue,
+                },
+            };
+            for (i, row) in rows.iter().enumerate() {
+                let at = k * self.kept + i;
+                label[at] = row.label;
+                numbers[0][at] = row.share;
+                // numbers of another point would be wrong here, its labels are what was found to agree
+                if own {
+                    (numbers[1][at], numbers[2][at]) = (row.speed, row.multiplier);
+                }
+            }
+        }
+        let mut columns = vec![Column::I32(label)];
+        columns.extend(numbers.map(Column::F64));
+        if self.plan.refine.is_some() {
+            columns.push(computed_column(&cells));
+        }
+        Some(columns)
+    }
+}
+
+/// The field that says which points were computed.
+pub(super) fn computed() -> Field {
+    Field {
+        name: "computed",
+        long_name: "whether the point was computed itself",
+        units: "1",
+        kind: Kind::I8,
+        fill: 0,
+        extra: Vec::new(),
+        flags: vec![(0, "not_computed"), (1, "computed"), (2, "taken_from_agreeing_neighbours")],
+        comment: "",
+    }
+}
+
+pub(super) fn computed_column<T>(cells: &[Cell<T>]) -> Column {
+    Column::I8(cells.iter().map(|cell| if matches!(cell, Cell::Computed(_)) { 1 } else { 2 }).collect())
+}

@@ -1,0 +1,93 @@
+//! A study computed in memory, whole: for grids that fit it.
+
+use super::{Study, Table, Tiles};
+use crate::field::{Column, Field};
+use crate::grid::{Block, Grid};
+use crate::plan::MOST_CELLS;
+use crate::{Control, PlanError, RunError, tiles};
+
+/// A study with all its arrays.
+pub struct Sheet {
+    /// The study.
+    pub study: Study,
+    /// Its fields.
+    pub fields: Vec<Field>,
+    /// The array of each field over the whole grid, in row-major order.
+    pub columns: Vec<Column>,
+    /// What only the whole could say.
+    pub tables: Vec<Table>,
+}
+
+/// Computes all tiles and puts them together.
+///
+/// # Errors
+/// [`RunError`] when stopped, or for more points than memory should hold.
+pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError> {
+    let (fields, grid) = (study.fields(), study.grid().clone());
+    let numbers = fields.iter().map(|field| field.width() as u64).sum::<u64>().saturating_mul(grid.points());
+    if numbers > 4 * MOST_CELLS {
+        return Err(PlanError::Memory { numbers, most: 4 * MOST_CELLS }.into());
+    }
+    let points = usize::try_from(grid.points()).unwrap_or(usize::MAX);
+    let done = core::sync::atomic::AtomicU64::new(0);
+    let tick = |stop: &(dyn Fn() -> bool + Sync)| {
+        done.fetch_add(1, core::sync::atomic::Ordering::Relaxed);
+        stop()
+    };
+    let stop = || control.stop.load(core::sync::atomic::Ordering::Relaxed);
+    // one tile of the grid is one unit of work; progress is told in points
+    let watched = Control { progress: &|_| {}, ..*control };
+    let parts = tiles(grid.tiles(), 1, &watched, |range, finished| {
+        let columns = study.tile(range.start, &|| tick(&stop));
+        (control.progress)(done.load(core::sync::atomic::Ordering::Relaxed).min(grid.points()));
+        finished();
+        columns
+    })?;
+    let mut columns: Vec<Column> = fields.iter().map(|field| field.empty(points)).collect();
+    for (k, part) in parts.into_iter().enumerate() {
+        let stopped = crate::Stopped { done: k as u64, total: grid.tiles() };
+        let part = part.ok_or(stopped)?;
+        for ((field, column), part) in fields.iter().zip(&mut columns).zip(&part) {
+            rows(&grid, &grid.tile(k as u64), field.width(), |at, from, len| column.copy(at, part, from, len));
+        }
+    }
+    let mut whole = Whole { grid: &grid, fields: &fields, columns: &mut columns };
+    let tables = study.conclude(&mut whole).unwrap_or_else(|never| match never {});
+    Ok(Sheet { fields, columns, tables, study })
+}
+
+/// The rows of a block: where each begins in the whole, where in the block, and its length.
+fn rows(grid: &Grid, block: &Block, width: usize, mut row: impl FnMut(usize, usize, usize)) {
+    let Some(last) = block.ranges.last() else { return };
+    let len = last.len() * width;
+    for r in 0..block.points() / last.len().max(1) {
+        let index = block.index(r * last.len());
+        let at = index.iter().zip(&grid.dimensions).fold(0, |sum, (i, d)| sum * d.count + i);
+        row(at * width, r * len, len);
+    }
+}
+
+struct Whole<'a> {
+    grid: &'a Grid,
+    fields: &'a [Field],
+    columns: &'a mut [Column],
+}
+
+impl Tiles for Whole<'_> {
+    type Error = core::convert::Infallible;
+
+    fn read(&mut self, tile: u64, field: usize) -> Result<Column, Self::Error> {
+        let block = self.grid.tile(tile);
+        let mut part = self.fields[field].empty(block.points());
+        let whole = &self.columns[field];
+        rows(self.grid, &block, self.fields[field].width(), |at, from, len| part.copy(from, whole, at, len));
+        Ok(part)
+    }
+
+    fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), Self::Error> {
+        let block = self.grid.tile(tile);
+        let whole = &mut self.columns[field];
+        rows(self.grid, &block, self.fields[field].width(), |at, from, len| whole.copy(at, column, from, len));
+        Ok(())
+    }
+}

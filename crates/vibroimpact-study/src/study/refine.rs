@@ -1,0 +1,153 @@
+//! A coarse grid first, and finer only where neighbours differ.
+//!
+//! A block is divided into boxes of `step` points a side. A box whose corners all agree is taken to agree inside; others
+//! are halved in every direction until nothing is left between the corners. So a point that was computed has the very
+//! result of the full grid; what is missed is a feature that touches no corner of a box, finer than `step`.
+
+use crate::Block;
+use std::collections::HashSet;
+
+/// What a point was given.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Cell<T> {
+    /// Its own result.
+    Computed(T),
+    /// That of the corner of a box, its point number ...
+    Like(usize),
+}
+
+/// A box: the lowest and highest index of each dimension within the block.
+type Cuboid = Vec<(usize, usize)>;
+
+/// Fills a block. `compute` gets numbers of points and returns their results, or `None` if stopped; `same` says whether
+/// two results agree.
+pub(super) fn fill<T>(
+    block: &Block,
+    step: usize,
+    mut compute: impl FnMut(&[usize]) -> Option<Vec<T>>,
+    same: impl Fn(&T, &T) -> bool,
+) -> Option<Vec<Cell<T>>> {
+    let lengths: Vec<usize> = block.ranges.iter().map(ExactSizeIterator::len).collect();
+    let number = |index: &[usize]| index.iter().zip(&lengths).fold(0, |sum, (i, n)| sum * n + i);
+    let mut cells: Vec<Option<Cell<T>>> = (0..block.points()).map(|_| None).collect();
+    let mut boxes = coarse(&lengths, step);
+    while !boxes.is_empty() {
+        let corners: Vec<Vec<usize>> = boxes.iter().map(|b| corners(b).map(|c| number(&c)).collect()).collect();
+        let mut wanted: Vec<usize> = Vec::new();
+        let mut asked = HashSet::new();
+        for k in corners.iter().flatten() {
+            if !matches!(cells[*k], Some(Cell::Computed(_))) && asked.insert(*k) {
+                wanted.push(*k);
+            }
+        }
+        wanted.sort_unstable();
+        for (k, result) in wanted.iter().zip(compute(&wanted)?) {
+            cells[*k] = Some(Cell::Computed(result));
+        }
+        let mut finer = Vec::new();
+        for (cuboid, corners) in boxes.iter().zip(&corners) {
+            let result = |k: usize| if let Some(Cell::Computed(result)) = &cells[k] { Some(result) } else { None };
+            let first = result(corners[0])?;
+            if corners.iter().all(|k| result(*k).is_some_and(|other| same(first, other))) {
+                for index in within(cuboid) {
+                    cells[number(&index)].get_or_insert(Cell::Like(corners[0]));
+                }
+            } else {
+                finer.extend(halves(cuboid));
+            }
+        }
+        boxes = finer;
+    }
+    cells.into_iter().collect()
+}
+
+/// Boxes of `step` points a side that cover everything, sharing their faces.
+fn coarse(lengths: &[usize], step: usize) -> Vec<Cuboid> {
+    let sides = lengths.iter().map(|n| {
+        let mut edges: Vec<usize> = (0..*n).step_by(step).collect();
+        if edges.last() != Some(&(n - 1)) {
+            edges.push(n - 1);
+        }
+        match edges.as_slice() {
+            [only] => vec![(*only, *only)],
+            edges => edges.windows(2).map(|pair| (pair[0], pair[1])).collect::<Vec<_>>(),
+        }
+    });
+    product(&sides.collect::<Vec<_>>())
+}
+
+/// The box halved in every direction in which something lies between its corners; nothing where nothing does.
+fn halves(cuboid: &Cuboid) -> Vec<Cuboid> {
+    if cuboid.iter().all(|(low, high)| high - low < 2) {
+        return Vec::new();
+    }
+    let halved = |(low, high): &(usize, usize)| {
+        let middle = usize::midpoint(*low, *high);
+        if high - low < 2 { vec![(*low, *high)] } else { vec![(*low, middle), (middle, *high)] }
+    };
+    product(&cuboid.iter().map(halved).collect::<Vec<_>>())
+}
+
+fn corners(cuboid: &Cuboid) -> impl Iterator<Item = Vec<usize>> {
+    let ends = |(low, high): &(usize, usize)| if low == high { vec![*low] } else { vec![*low, *high] };
+    product(&cuboid.iter().map(ends).collect::<Vec<_>>()).into_iter()
+}
+
+fn within(cuboid: &Cuboid) -> impl Iterator<Item = Vec<usize>> {
+    product(&cuboid.iter().map(|(low, high)| (*low..=*high).collect()).collect::<Vec<Vec<_>>>()).into_iter()
+}
+
+/// All combinations, the last factor fastest.
+fn product<T: Clone>(factors: &[Vec<T>]) -> Vec<Vec<T>> {
+    factors.iter().fold(vec![Vec::new()], |done, factor| {
+        let with = |head: &Vec<T>| {
+            let head = head.clone();
+            factor.iter().map(move |item| head.iter().cloned().chain([item.clone()]).collect())
+        };
+        done.iter().flat_map(with).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn disc(block: &Block, k: usize) -> bool {
+        let index = block.index(k);
+        let far = |i: usize, centre: f64| (i as f64 - centre).powi(2);
+        far(index[0], 31.0) + far(index[1], 17.0) < 120.0
+    }
+
+    #[test]
+    fn computed_points_are_those_of_the_full_grid_and_edges_are_all_computed() {
+        let block = Block { ranges: vec![0..61, 0..45] };
+        let mut count = 0;
+        let compute = |points: &[usize]| {
+            count += points.len();
+            Some(points.iter().map(|k| disc(&block, *k)).collect())
+        };
+        let cells = fill(&block, 8, compute, |a, b| a == b).unwrap();
+        assert_eq!(count, cells.iter().filter(|c| matches!(c, Cell::Computed(_))).count());
+        assert!(count < 61 * 45 / 3, "{count}");
+        for (k, cell) in cells.iter().enumerate() {
+            let value = match cell {
+                Cell::Computed(value) => *value,
+                Cell::Like(corner) => disc(&block, *corner),
+            };
+            // a disc of radius 11 has no feature finer than 8 points
+            assert_eq!(value, disc(&block, k), "{k}");
+        }
+    }
+
+    #[test]
+    fn odd_shapes_and_stopping() {
+        for ranges in [vec![0..1, 0..9], vec![3..4, 7..8], vec![0..2, 0..2, 0..5], vec![4..9]] {
+            let block = Block { ranges };
+            let cells = fill(&block, 4, |points| Some(points.to_vec()), |a, b| a == b).unwrap();
+            // nothing agrees, so everything is computed
+            let want: Vec<_> = (0..block.points()).map(Cell::Computed).collect();
+            assert_eq!(cells, want);
+            assert!(fill(&block, 4, |_| None::<Vec<u8>>, |a, b| a == b).is_none());
+        }
+    }
+}

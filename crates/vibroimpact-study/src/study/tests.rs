@@ -1,0 +1,187 @@
+//! Studies against the questions asked one by one.
+
+use super::*;
+use crate::axis::{Coordinate, Values};
+use crate::{BasinPlan, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Span, StartPlan, SystemPlan};
+use vibroimpact::verdict::SettleOptions;
+
+const S: SystemPlan =
+    SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, damping: 0.0, second_stop: None };
+
+fn span(text: &str) -> Span {
+    text.parse().unwrap()
+}
+
+fn sheet(system: SystemPlan, task: Task, tile: Option<u32>, threads: usize) -> Sheet {
+    let plan = Plan { tile, ..Plan::new(system, task) };
+    in_memory(Study::new(&plan).unwrap(), &Control { threads, ..Control::default() }).unwrap()
+}
+
+fn columns<'a>(sheet: &'a Sheet, name: &str) -> &'a Column {
+    &sheet.columns[sheet.fields.iter().position(|field| field.name == name).unwrap()]
+}
+
+#[test]
+fn a_basin_is_that_of_the_starts_one_by_one() {
+    let plan = BasinPlan::plane(span("-4:0.75:37"), span("-4:4:29"), 0.3);
+    let found = sheet(S, Task::Basin(plan.clone()), Some(10), 2);
+    let direct = crate::basin(&S, &plan, &SettleOptions::default(), &Control::default()).unwrap();
+    let labels: Vec<String> = columns(&found, "label").whole().iter().map(|c| label_of(*c).unwrap()).collect();
+    let want: Vec<String> = (0..37 * 29).map(|k| direct.label(k).into_owned()).collect();
+    assert_eq!(labels, want);
+    // the numbers tell the same motions apart, and the table counts them
+    let cycles = columns(&found, "cycle").whole();
+    let number = |motion: u16| cycles[direct.cells.iter().position(|m| *m == motion).unwrap()];
+    assert!(direct.cells.iter().zip(cycles).all(|(motion, cycle)| *cycle == number(*motion)));
+    let share = found.tables.iter().find(|table| table.name == "cycle_share").unwrap();
+    let Cells::Numbers(Column::F64(shares)) = &share.values else { panic!() };
+    assert_eq!(shares.len(), 2);
+    for (m, motion) in direct.motions.iter().enumerate() {
+        let cycle = number(u16::try_from(m).unwrap());
+        assert_eq!(shares[cycle as usize], motion.count as f64 / (37.0 * 29.0));
+    }
+    for (tile, threads) in [(1, 2), (7, 1), (64, 3), (300, 8)] {
+        let other = sheet(S, Task::Basin(plan.clone()), Some(tile), threads);
+        assert!(other.columns == found.columns && other.tables == found.tables, "{tile}");
+    }
+}
+
+/// A survey that has met nothing leaves all numbers to the end.
+#[test]
+fn cycles_that_nobody_knew_of_are_numbered_at_the_end() {
+    let task = Task::Basin(BasinPlan::plane(span("-4:0.75:20"), span("-4:4:20"), 0.0));
+    let plan = Plan { tile: Some(8), ..Plan::new(S, task) };
+    let Task::Basin(basin) = &plan.task else { panic!() };
+    let told = in_memory(Study::new(&plan).unwrap(), &Control::default()).unwrap();
+    let untold = basin::BasinFill::plane(&S, basin, plan.tile).unwrap().forgetful();
+    let untold = in_memory(Study { fill: Box::new(untold) }, &Control::default()).unwrap();
+    let (a, b) = (columns(&told, "cycle").whole(), columns(&untold, "cycle").whole());
+    assert!(b.iter().all(|n| (0..2).contains(n)), "{b:?}");
+    // the same motions, though perhaps in another order
+    let swapped = a[0] != b[0];
+    assert!(a.iter().zip(b).all(|(a, b)| (a == b) != swapped));
+}
+
+#[test]
+fn a_map_is_that_of_its_points() {
+    let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, ..S };
+    let plan = MapPlan::plane(span("0.6:1.4:9"), span("-0.5:2:7"), 6, 1);
+    let found = sheet(system, Task::Map(plan.clone()), Some(4), 2);
+    let direct = crate::map(&system, &plan, &SettleOptions::default(), &Control::default()).unwrap();
+    let (labels, shares) = (columns(&found, "label").whole(), columns(&found, "share").real());
+    for (k, point) in direct.points.iter().enumerate() {
+        for (i, motion) in point.motions.iter().enumerate() {
+            assert_eq!(label_of(labels[6 * k + i]).unwrap(), motion.verdict.label());
+            assert_eq!(shares[6 * k + i], motion.share);
+        }
+        assert!(labels[6 * k + point.motions.len()..6 * (k + 1)].iter().all(|c| *c == NO_MOTION));
+    }
+    let along = found.study.coordinates();
+    assert_eq!((along[0].dimension.as_str(), along[1].dimension.as_str()), ("gap", "inverse_beta"));
+    assert_eq!(along[1].values[1], 0.7);
+}
+
+/// What was computed is what the full grid has; here nothing was missed either.
+#[test]
+fn refinement_computes_less_and_the_same() {
+    let plan = BasinPlan::plane(span("-4:0.75:200"), span("-4:4:200"), 0.0);
+    let full = sheet(S, Task::Basin(plan.clone()), Some(100), 2);
+    let fine = sheet(S, Task::Basin(BasinPlan { refine: Some(8), ..plan }), Some(100), 2);
+    let Column::I8(computed) = columns(&fine, "computed") else { panic!() };
+    let (a, b) = (columns(&full, "label").whole(), columns(&fine, "label").whole());
+    let mut own = 0;
+    for k in 0..a.len() {
+        if computed[k] == 1 {
+            own += 1;
+            assert_eq!(a[k], b[k]);
+        }
+    }
+    assert!(own < 26_000, "{own} of 40000 points computed");
+    let wrong = a.iter().zip(b).filter(|(a, b)| a != b).count();
+    assert!(wrong < 400, "{wrong} of 40000 points differ");
+
+    let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, ..S };
+    let plan = MapPlan::plane(span("0.6:1.4:33"), span("-0.5:2:33"), 4, 1);
+    let full = sheet(system, Task::Map(plan.clone()), None, 2);
+    let fine = sheet(system, Task::Map(MapPlan { refine: Some(4), ..plan }), None, 2);
+    let Column::I8(computed) = columns(&fine, "computed") else { panic!() };
+    for name in ["label", "share", "speed", "multiplier"] {
+        for (k, one) in computed.iter().enumerate().filter(|(_, one)| **one == 1) {
+            let same = match (columns(&full, name), columns(&fine, name)) {
+                (Column::I32(a), Column::I32(b)) => a[4 * k..4 * k + 4] == b[4 * k..4 * k + 4],
+                (Column::F64(a), Column::F64(b)) => {
+                    a[4 * k..4 * k + 4].iter().zip(&b[4 * k..4 * k + 4]).all(|(a, b)| a.to_bits() == b.to_bits())
+                }
+                _ => false,
+            };
+            assert!(same, "{name} at {k} ({one})");
+        }
+    }
+}
+
+#[test]
+fn scattered_starts_exponents_and_three_axes() {
+    let found = sheet(S, Task::Attractors { starts: 500, seed: 3 }, Some(64), 2);
+    let census = vibroimpact::verdict::attractors(&S.oscillator().unwrap(), 500, 3, &SettleOptions::default());
+    for motion in census.motions() {
+        let here = columns(&found, "label").whole().iter().filter(|c| **c == code(&motion.verdict)).count();
+        assert_eq!(here as u64, motion.count);
+    }
+    let gaps = Axis::parameter(Parameter::Gap, Values::Listed(vec![3.0, 2.0]));
+    let speeds = Axis::new(Coordinate::V, span("-1:1:3"));
+    let u = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, ..S };
+    let plan = LyapunovPlan { axes: vec![gaps.clone(), speeds.clone()], impacts: 2000, ..LyapunovPlan::default() };
+    let found = sheet(u, Task::Lyapunov(plan), None, 2);
+    let exponents = columns(&found, "exponent").real();
+    assert_eq!(exponents.len(), 12);
+    // rows of rising velocity, gaps 3 (chaos at U) and 2 (1/2 at T) in each
+    for row in exponents.chunks(4) {
+        assert!(row[0] > 0.005 && row[2] < -0.005, "{row:?}");
+    }
+    let axes = vec![speeds, Axis::new(Coordinate::X, span("-1:0:2")), gaps];
+    let basin = BasinPlan { axes, start: StartPlan::default(), refine: None };
+    let found = sheet(u, Task::Basin(basin), None, 1);
+    assert!(found.tables.is_empty() && found.fields.len() == 1);
+    let labels = columns(&found, "label").whole();
+    assert!(labels[..6].iter().all(|c| *c == CHAOTIC) && labels[6..].iter().all(|c| *c == 10_002), "{labels:?}");
+}
+
+#[test]
+fn a_diagram_is_that_of_its_steps() {
+    use crate::diagram::{Direction, Show};
+    for (direction, rows) in
+        [(Direction::Both, 2), (Direction::Down, 1), (Direction::Scatter { starts: 3, seed: 1 }, 3)]
+    {
+        let plan = DiagramPlan {
+            vary: Parameter::Gap,
+            over: span("0:2:41"),
+            show: Show::Velocity,
+            direction,
+            transient: 100,
+            keep: 6,
+        };
+        let found = sheet(S, Task::Diagram(plan), None, 2);
+        let direct = crate::diagram(&S, &plan, &Control::default()).unwrap();
+        let speeds = columns(&found, "velocity").real();
+        assert_eq!(speeds.len(), rows * 41 * 6);
+        for step in &direct.steps {
+            let row = match step.sweep {
+                crate::diagram::Sweep::Start(k) => k as usize,
+                crate::diagram::Sweep::Down if rows == 2 => 1,
+                _ => 0,
+            };
+            let at = 6 * (41 * row + step.index as usize);
+            for (i, point) in step.points.iter().enumerate() {
+                let crate::diagram::Point::Impact { velocity, .. } = point else { continue };
+                assert_eq!(speeds[at + i], *velocity);
+            }
+            assert!(speeds[at + step.points.len()..at + 6].iter().all(|v| v.is_nan()));
+        }
+    }
+}
+
+#[test]
+fn questions_without_a_grid_are_no_studies() {
+    let refusal = Study::new(&Plan::new(S, Task::Settle { start: StartPlan::default() })).err().unwrap();
+    assert!(refusal.to_string().starts_with("a plan that asks to settle fills no grid"), "{refusal}");
+}
