@@ -72,6 +72,12 @@ impl Grid {
         Block { ranges: self.dimensions.iter().zip(self.place(k)).map(range).collect() }
     }
 
+    /// Tile number `k` with the shape of a full one, though it may reach beyond the grid.
+    pub(crate) fn full_tile(&self, k: u64) -> Block {
+        let range = |(d, i): (&Dimension, usize)| i * d.tile..(i + 1) * d.tile;
+        Block { ranges: self.dimensions.iter().zip(self.place(k)).map(range).collect() }
+    }
+
     /// The whole grid as one tile.
     #[must_use]
     pub fn whole(&self) -> Block {
@@ -103,6 +109,17 @@ impl Block {
         index.reverse();
         index
     }
+
+    /// The rows of this block as parts of a larger one that contains it, with `width` numbers a point: where each begins
+    /// there, where it begins here, and its length.
+    pub(crate) fn rows(&self, within: &Self, width: usize, mut row: impl FnMut(usize, usize, usize)) {
+        let Some(len) = self.ranges.last().map(ExactSizeIterator::len).filter(|len| *len > 0) else { return };
+        for r in 0..self.points() / len {
+            let index = self.index(r * len);
+            let at = index.iter().zip(&within.ranges).fold(0, |sum, (i, range)| sum * range.len() + (i - range.start));
+            row(at * width, r * len * width, len * width);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -130,5 +147,11 @@ mod tests {
         assert_eq!(grid.tile(8).ranges, [4..5, 6..7]);
         assert_eq!(grid.place(5), [1, 2]);
         assert_eq!(grid.whole().points(), 35);
+        let mut rows = Vec::new();
+        grid.tile(5).rows(&grid.whole(), 2, |at, from, len| rows.push((at, from, len)));
+        assert_eq!(rows, [(40, 0, 2), (54, 2, 2)]);
+        rows.clear();
+        grid.tile(5).rows(&grid.full_tile(5), 1, |at, from, len| rows.push((at, from, len)));
+        assert_eq!(rows, [(0, 0, 1), (3, 1, 1)]);
     }
 }

@@ -9,7 +9,7 @@ use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions};
 pub const DEFAULT_POINTS: u64 = 5_000;
 
 /// The exponents of the motion from a start, or from each start of each system of a grid.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LyapunovPlan {
     /// What varies, parameters and coordinates of the start; nothing when absent. The first runs fastest.
@@ -27,6 +27,19 @@ pub struct LyapunovPlan {
     /// Points to show of each section; none when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<u64>,
+}
+
+impl Default for LyapunovPlan {
+    /// From rest, over [`DEFAULT_IMPACTS`] after [`DEFAULT_TRANSIENT`], without sections.
+    fn default() -> Self {
+        Self {
+            axes: Vec::new(),
+            start: StartPlan::default(),
+            impacts: DEFAULT_IMPACTS,
+            transient: DEFAULT_TRANSIENT,
+            points: None,
+        }
+    }
 }
 
 const fn impacts() -> u64 {

@@ -38,6 +38,29 @@ impl Plan {
         Self { version: PLAN_VERSION, system, task, tile: None }
     }
 
+    /// A name for the content: the first 16 digits of the SHA-256 of the plan as JSON.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        use sha2::{Digest, Sha256};
+        // a plan of finite numbers and texts always becomes JSON
+        let text = serde_json::to_vec(self).unwrap_or_default();
+        Sha256::digest(text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// What is asked, in words.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let over = |axes: &[crate::Axis]| axes.iter().map(|axis| axis.vary.name()).collect::<Vec<_>>().join(", ");
+        match &self.task {
+            Task::Map(map) => format!("motions of an impact oscillator over {}", over(&map.axes)),
+            Task::Basin(basin) => format!("motions an impact oscillator settles into over {}", over(&basin.axes)),
+            Task::Attractors { .. } => "motions an impact oscillator settles into from scattered starts".to_owned(),
+            Task::Diagram(diagram) => format!("orbit diagram of an impact oscillator over {}", diagram.vary.name()),
+            Task::Lyapunov(_) => "Lyapunov exponents of an impact oscillator".to_owned(),
+            _ => "an impact oscillator".to_owned(),
+        }
+    }
+
     /// Checks everything that can be checked without running it.
     ///
     /// # Errors

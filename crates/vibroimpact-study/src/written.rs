@@ -29,20 +29,35 @@ struct System {
     second_stop: Option<SecondStop>,
 }
 
-impl Written {
-    /// The first value of a parameter on the axes.
-    fn first(&self, parameter: Parameter) -> Option<f64> {
+impl Task {
+    /// The parameters that vary, with their first values.
+    fn varied(&self) -> Vec<(Parameter, f64)> {
         let on = |axes: &[Axis]| {
-            let axis = axes.iter().find(|axis| axis.vary == Coordinate::Parameter(parameter))?;
-            (axis.over.count() > 0).then(|| axis.over.at(0))
+            let first = |axis: &Axis| match axis.vary {
+                Coordinate::Parameter(parameter) if axis.over.count() > 0 => Some((parameter, axis.over.at(0))),
+                _ => None,
+            };
+            axes.iter().filter_map(first).collect()
         };
-        match &self.task {
-            Task::Map(map) => on(&map.axes),
-            Task::Basin(basin) => on(&basin.axes),
-            Task::Lyapunov(lyapunov) => on(&lyapunov.axes),
-            Task::Diagram(diagram) => (diagram.vary == parameter).then(|| diagram.over.at(0)),
-            _ => None,
+        match self {
+            Self::Map(map) => on(&map.axes),
+            Self::Basin(basin) => on(&basin.axes),
+            Self::Lyapunov(lyapunov) => on(&lyapunov.axes),
+            Self::Diagram(diagram) => vec![(diagram.vary, diagram.over.at(0))],
+            _ => Vec::new(),
         }
+    }
+}
+
+impl Plan {
+    /// The same question in the form in which it is stored: what varies has its first value in the system.
+    ///
+    /// # Errors
+    /// [`PlanError::NoSecondStop`] for a parameter of a second stop that is not there.
+    pub fn canonical(&self) -> Result<Self, PlanError> {
+        let system =
+            self.task.varied().into_iter().try_fold(self.system, |system, (p, value)| system.with(p, value))?;
+        Ok(Self { system, ..self.clone() })
     }
 }
 
@@ -50,32 +65,24 @@ impl TryFrom<Written> for Plan {
     type Error = PlanError;
 
     fn try_from(written: Written) -> Result<Self, PlanError> {
-        let first = |parameter| written.first(parameter);
-        let given = |value: Option<f64>, parameter: Parameter| {
-            first(parameter).or(value).ok_or(PlanError::Missing(parameter.name()))
+        let varied = written.task.varied();
+        let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
+        let given = |value: Option<f64>, parameter: Parameter| match value {
+            Some(value) => Ok(value),
+            // replaced by its first value at once
+            None if varies(parameter) => Ok(0.0),
+            None => Err(PlanError::Missing(parameter.name())),
         };
-        let asked = &written.system;
-        // a frequency on an axis replaces whichever was given
-        let (beta, inverse_beta) = match (first(Parameter::Beta), first(Parameter::InverseBeta)) {
-            (None, None) => (asked.beta, asked.inverse_beta),
-            varied => varied,
-        };
-        let second_stop = match asked.second_stop {
-            None => None,
-            Some(stop) => Some(SecondStop {
-                gap: given(Some(stop.gap), Parameter::SecondGap)?,
-                restitution: given(Some(stop.restitution), Parameter::SecondRestitution)?,
-            }),
-        };
+        let asked = written.system;
         let system = SystemPlan {
-            beta,
-            inverse_beta,
+            beta: asked.beta,
+            inverse_beta: asked.inverse_beta,
             gap: given(asked.gap, Parameter::Gap)?,
             restitution: given(asked.restitution, Parameter::Restitution)?,
-            damping: given(Some(asked.damping), Parameter::Damping)?,
-            second_stop,
+            damping: asked.damping,
+            second_stop: asked.second_stop,
         };
-        Ok(Self { version: written.version, system, task: written.task, tile: written.tile })
+        Self { version: written.version, system, task: written.task, tile: written.tile }.canonical()
     }
 }
 

@@ -119,7 +119,7 @@ impl Numbering<'_> {
         if longest > 0 {
             let each = |name, long_name, units, of: &dyn Fn(&vibroimpact::orbit::CyclePoint) -> f64| {
                 let padded = list.iter().flat_map(|cycle| {
-                    let impacts = cycle.points.iter().map(|point| of(point));
+                    let impacts = cycle.points.iter().map(of);
                     impacts.chain(core::iter::repeat(f64::NAN)).take(longest).collect::<Vec<_>>()
                 });
                 let dimensions = vec![("cycles", count), ("impact", longest)];

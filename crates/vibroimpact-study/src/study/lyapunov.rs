@@ -85,7 +85,7 @@ impl Fill for LyapunovFill {
         let points = block.points();
         let mut numbers = [2, 2, 1, 1, 1].map(|width| vec![f64::NAN; width * points]);
         let mut why = vec![0_i8; points];
-        for k in 0..points {
+        for (k, why) in why.iter_mut().enumerate() {
             let index = block.index(k);
             let given = axis::at((&self.system, &self.plan.start), &self.plan.axes, |axis| on_axis(&index, axis));
             // the corners were checked; where a point between them makes no sense, nothing is known
@@ -103,7 +103,7 @@ impl Fill for LyapunovFill {
                 put(2, k, found.impacts_per_period.value);
                 put(3, k, found.impacts_per_period.error);
                 put(4, k, found.section_dimension.map_or(f64::NAN, |d| d.value));
-                why[k] = grounds(&found.grounds);
+                *why = grounds(&found.grounds);
             }
             if tick() {
                 return None;

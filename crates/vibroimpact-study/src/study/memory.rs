@@ -2,7 +2,7 @@
 
 use super::{Study, Table, Tiles};
 use crate::field::{Column, Field};
-use crate::grid::{Block, Grid};
+use crate::grid::Grid;
 use crate::plan::MOST_CELLS;
 use crate::{Control, PlanError, RunError, tiles};
 
@@ -44,27 +44,17 @@ pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError>
         columns
     })?;
     let mut columns: Vec<Column> = fields.iter().map(|field| field.empty(points)).collect();
+    let all = grid.whole();
     for (k, part) in parts.into_iter().enumerate() {
         let stopped = crate::Stopped { done: k as u64, total: grid.tiles() };
         let part = part.ok_or(stopped)?;
         for ((field, column), part) in fields.iter().zip(&mut columns).zip(&part) {
-            rows(&grid, &grid.tile(k as u64), field.width(), |at, from, len| column.copy(at, part, from, len));
+            grid.tile(k as u64).rows(&all, field.width(), |at, from, len| column.copy(at, part, from, len));
         }
     }
     let mut whole = Whole { grid: &grid, fields: &fields, columns: &mut columns };
     let tables = study.conclude(&mut whole).unwrap_or_else(|never| match never {});
     Ok(Sheet { fields, columns, tables, study })
-}
-
-/// The rows of a block: where each begins in the whole, where in the block, and its length.
-fn rows(grid: &Grid, block: &Block, width: usize, mut row: impl FnMut(usize, usize, usize)) {
-    let Some(last) = block.ranges.last() else { return };
-    let len = last.len() * width;
-    for r in 0..block.points() / last.len().max(1) {
-        let index = block.index(r * last.len());
-        let at = index.iter().zip(&grid.dimensions).fold(0, |sum, (i, d)| sum * d.count + i);
-        row(at * width, r * len, len);
-    }
 }
 
 struct Whole<'a> {
@@ -80,14 +70,14 @@ impl Tiles for Whole<'_> {
         let block = self.grid.tile(tile);
         let mut part = self.fields[field].empty(block.points());
         let whole = &self.columns[field];
-        rows(self.grid, &block, self.fields[field].width(), |at, from, len| part.copy(from, whole, at, len));
+        block.rows(&self.grid.whole(), self.fields[field].width(), |at, from, len| part.copy(from, whole, at, len));
         Ok(part)
     }
 
     fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), Self::Error> {
         let block = self.grid.tile(tile);
         let whole = &mut self.columns[field];
-        rows(self.grid, &block, self.fields[field].width(), |at, from, len| whole.copy(at, column, from, len));
+        block.rows(&self.grid.whole(), self.fields[field].width(), |at, from, len| whole.copy(at, column, from, len));
         Ok(())
     }
 }

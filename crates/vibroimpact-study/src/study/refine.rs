@@ -141,8 +141,9 @@ mod tests {
 
     #[test]
     fn odd_shapes_and_stopping() {
-        for ranges in [vec![0..1, 0..9], vec![3..4, 7..8], vec![0..2, 0..2, 0..5], vec![4..9]] {
-            let block = Block { ranges };
+        let along = |(a, b): (usize, usize)| a..b;
+        for ranges in [&[(0, 1), (0, 9)][..], &[(3, 4), (7, 8)], &[(0, 2), (0, 2), (0, 5)], &[(4, 9)]] {
+            let block = Block { ranges: ranges.iter().copied().map(along).collect() };
             let cells = fill(&block, 4, |points| Some(points.to_vec()), |a, b| a == b).unwrap();
             // nothing agrees, so everything is computed
             let want: Vec<_> = (0..block.points()).map(Cell::Computed).collect();

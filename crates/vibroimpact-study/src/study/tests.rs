@@ -166,7 +166,7 @@ fn a_diagram_is_that_of_its_steps() {
         assert_eq!(speeds.len(), rows * 41 * 6);
         for step in &direct.steps {
             let row = match step.sweep {
-                crate::diagram::Sweep::Start(k) => k as usize,
+                crate::diagram::Sweep::Start(k) => usize::try_from(k).unwrap(),
                 crate::diagram::Sweep::Down if rows == 2 => 1,
                 _ => 0,
             };

@@ -1,0 +1,239 @@
+//! How far a store is, and whether what is in it is what its plan gives.
+
+use super::run::State;
+use super::{Part, Store, StoreError, pretty};
+use crate::Control;
+use crate::field::Column;
+use crate::store::shelf::Memory;
+use core::sync::atomic::{AtomicU64, Ordering};
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::time::{Duration, SystemTime};
+
+/// How far a store is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// Tiles in all.
+    pub tiles: u64,
+    /// Tiles that are done.
+    pub done: u64,
+    /// Points in all.
+    pub points: u64,
+    /// Points of the tiles that are done.
+    pub points_done: u64,
+    /// Whether it was concluded.
+    pub complete: bool,
+    /// When the first tile was done, as far as the place tells.
+    pub first: Option<SystemTime>,
+    /// When the last one was.
+    pub last: Option<SystemTime>,
+    /// How long the rest will take at the rate of the last tiles; `None` where that cannot be told.
+    pub left: Option<Duration>,
+    /// Numbers of the tiles that are not done, up to a thousand of them.
+    pub missing: Vec<u64>,
+    /// Bytes of the store.
+    pub bytes: u64,
+}
+
+/// What is wrong with a tile.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Damage {
+    /// The tile.
+    pub tile: u64,
+    /// What is wrong.
+    pub what: String,
+}
+
+/// What a verification found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Verified {
+    /// Tiles whose check sums were read.
+    pub checked: u64,
+    /// Tiles that were computed again and compared byte by byte.
+    pub recomputed: u64,
+    /// Tiles that are not done.
+    pub open: u64,
+    /// What is wrong.
+    pub damage: Vec<Damage>,
+}
+
+/// Tiles whose times are looked at to tell how long the rest will take.
+const RECENT: usize = 64;
+/// Tiles that are named.
+const NAMED: usize = 1000;
+
+impl Store {
+    /// How far it is.
+    ///
+    /// # Errors
+    /// [`StoreError`] when the place cannot be read.
+    pub fn progress(&self) -> Result<Progress, StoreError> {
+        let items = self.shelf.list("").map_err(|error| self.unread("", error))?;
+        let grid = self.study.grid();
+        let key = |tile: u64| self.layout.status.key(&self.layout.status_place(tile));
+        let find = |tile: &u64| items.binary_search_by(|item| item.key.cmp(&key(*tile))).ok();
+        let (mut done, mut points_done, mut missing, mut times) = (0, 0, Vec::new(), Vec::new());
+        for tile in 0..grid.tiles() {
+            if let Some(at) = find(&tile) {
+                done += 1;
+                points_done += grid.tile(tile).points() as u64;
+                times.push(items[at].modified);
+            } else if missing.len() < NAMED {
+                missing.push(tile);
+            }
+        }
+        times.sort_unstable();
+        let recent = &times[times.len().saturating_sub(RECENT)..];
+        let left = match recent {
+            [first, .., last] if done < grid.tiles() => last.duration_since(*first).ok().map(|time| {
+                #[allow(clippy::cast_precision_loss)] // numbers of tiles
+                let share = (grid.tiles() - done) as f64 / (recent.len() - 1) as f64;
+                time.mul_f64(share)
+            }),
+            _ => None,
+        };
+        let root = self.root()?;
+        let complete = root.pointer("/attributes/complete").and_then(serde_json::Value::as_i64) == Some(1);
+        Ok(Progress {
+            tiles: grid.tiles(),
+            done,
+            points: grid.points(),
+            points_done,
+            complete: complete && done == grid.tiles(),
+            first: times.first().copied(),
+            last: times.last().copied(),
+            left,
+            missing,
+            bytes: items.iter().map(|item| item.size).sum(),
+        })
+    }
+
+    /// Reads the check sums of all finished tiles, computes `sample` of them again, chosen by `seed`, and compares the
+    /// bytes. Changes nothing.
+    ///
+    /// # Errors
+    /// [`StoreError`] when the place cannot be read.
+    pub fn verify(&self, sample: u64, seed: u64, control: &Control<'_>) -> Result<Verified, StoreError> {
+        let grid = self.study.grid();
+        let tiles: Vec<u64> = (0..grid.tiles()).collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(control.threads).build();
+        let pool = pool.map_err(|error| StoreError::Unreachable { place: "threads".into(), why: error.to_string() })?;
+        let stop = || control.stop.load(Ordering::Relaxed);
+        let stopped = || StoreError::Stopped(crate::Stopped { done: 0, total: grid.points() });
+        let states = pool.install(|| {
+            let state = |tile: &u64| if stop() { Err(stopped()) } else { self.state(*tile) };
+            tiles.par_iter().map(state).collect::<Result<Vec<State>, StoreError>>()
+        })?;
+        let mut damage = self.descriptions()?;
+        let torn = |tile: u64| Damage { tile, what: "a chunk is missing, cut short or has a wrong check sum".into() };
+        let with =
+            |wanted| (tiles.iter().zip(&states)).filter(move |(_, state)| **state == wanted).map(|(tile, _)| *tile);
+        damage.extend(with(State::Damaged).map(torn));
+        let whole: Vec<u64> = with(State::Whole).collect();
+        let chosen = choose(&whole, sample, seed);
+        let twin = Self::over(Arc::new(Memory::default()), &self.plan, self.begun_by.clone())?;
+        let done = AtomicU64::new(0);
+        let complete = self.progress()?.complete;
+        let compared = pool.install(|| {
+            let compare = |tile: &u64| -> Result<Option<Damage>, StoreError> {
+                let tick = || {
+                    let now = done.fetch_add(1, Ordering::Relaxed) + 1;
+                    if now.is_multiple_of(64) {
+                        (control.progress)(now);
+                    }
+                    stop()
+                };
+                if !twin.fill(*tile, &tick)? {
+                    return Err(stopped());
+                }
+                Ok(self.differs(&twin, *tile, complete)?.map(|what| Damage { tile: *tile, what }))
+            };
+            chosen.par_iter().map(compare).collect::<Result<Vec<_>, StoreError>>()
+        })?;
+        damage.extend(compared.into_iter().flatten());
+        damage.sort_by_key(|damage| damage.tile);
+        Ok(Verified {
+            checked: grid.tiles() - with(State::Open).count() as u64,
+            recomputed: chosen.len() as u64,
+            open: with(State::Open).count() as u64,
+            damage,
+        })
+    }
+
+    /// What is wrong with the descriptions of arrays, and with the coordinates; as of tile 0.
+    fn descriptions(&self) -> Result<Vec<Damage>, StoreError> {
+        let mut damage = Vec::new();
+        for array in self.described() {
+            let key = array.description_key();
+            let reads =
+                self.get(&key)?.is_some_and(|bytes| serde_json::from_slice::<serde_json::Value>(&bytes).is_ok());
+            if !reads {
+                damage.push(Damage { tile: 0, what: format!("`{key}` is missing or does not read") });
+            }
+        }
+        for (array, values) in &self.layout.coordinates {
+            let whole = self.get(&array.key(&[0]))?.and_then(|bytes| array.decode(&[0], bytes).ok());
+            if whole.as_ref() != Some(values) {
+                damage.push(Damage { tile: 0, what: format!("the values of `{}` are damaged", array.name) });
+            }
+        }
+        Ok(damage)
+    }
+
+    /// How a tile here differs from the same tile there.
+    fn differs(&self, twin: &Self, tile: u64, complete: bool) -> Result<Option<String>, StoreError> {
+        for (field, array) in self.layout.arrays.iter().enumerate() {
+            let key = array.key(&self.layout.place(tile, field));
+            if self.get(&key)? == twin.get(&key)? {
+                continue;
+            }
+            // cycles that only this tile has met are numbered when all are there
+            let same = match (self.read(tile, field)?, twin.read(tile, field)?) {
+                (Some(Column::I32(here)), Some(Column::I32(there))) => {
+                    here.len() == there.len()
+                        && here.iter().zip(&there).all(|(a, b)| a == b || (complete && *b < -1 && *a >= 0))
+                }
+                _ => false,
+            };
+            if !same {
+                return Ok(Some(format!("`{key}` is not what the plan gives")));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Writes descriptions and coordinates anew where they are damaged.
+    pub(super) fn mend_descriptions(&self) -> Result<(), StoreError> {
+        if self.descriptions()?.is_empty() { Ok(()) } else { self.describe() }
+    }
+
+    /// Computes what is missing or damaged: [`Store::run`] of all tiles.
+    ///
+    /// # Errors
+    /// As for [`Store::run`].
+    pub fn resume(&self, control: &Control<'_>) -> Result<super::Ran, StoreError> {
+        self.run(Part::ALL, control)
+    }
+
+    /// The plan, as text for people.
+    #[must_use]
+    pub fn plan_text(&self) -> String {
+        let plan = serde_json::to_value(&self.plan).unwrap_or_default();
+        String::from_utf8(pretty(&plan)).unwrap_or_default()
+    }
+}
+
+/// Some of the tiles, spread at random by a seed.
+fn choose(whole: &[u64], sample: u64, seed: u64) -> Vec<u64> {
+    let key = |tile: u64| {
+        // SplitMix64
+        let z = (tile ^ seed.rotate_left(32)).wrapping_add(0x9E37_79B9_7F4A_7C15).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    };
+    let mut order = whole.to_vec();
+    order.sort_by_key(|tile| key(*tile));
+    order.truncate(usize::try_from(sample).unwrap_or(usize::MAX));
+    order.sort_unstable();
+    order
+}

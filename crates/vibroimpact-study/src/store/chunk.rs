@@ -1,0 +1,160 @@
+//! One array of a store: its description, and its chunks between numbers and bytes.
+//!
+//! Little-endian numbers, Zstandard, and a CRC-32C last, so that a chunk cut short or with a bit turned is told apart from a
+//! whole one. Not-a-number has one bit pattern.
+
+use crate::field::{Column, Kind};
+use crate::study::Cells;
+use serde_json::{Map, Value};
+use std::sync::Arc;
+use zarrs::array::codec::{Crc32cCodec, ZstdCodec};
+use zarrs::array::{
+    Array, ArrayBuilder, ArrayBytes, ArrayToBytesCodecTraits, CodecOptions, FillValue, FromArrayBytes, IntoArrayBytes,
+    data_type,
+};
+use zarrs::storage::store::MemoryStore;
+
+/// Compression level: higher ones cost more and gain little on these data.
+const LEVEL: i32 = 3;
+
+/// What an array holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Holds {
+    /// Numbers.
+    Numbers(Kind),
+    /// Words.
+    Text,
+}
+
+/// An array: name, shape, chunks, and how to encode them.
+pub(super) struct Chunked {
+    pub(super) name: String,
+    array: Array<MemoryStore>,
+    kind: Holds,
+}
+
+/// Something that should not go wrong, in words.
+pub(super) type Defect = String;
+
+/// What describes an array.
+pub(super) struct Description<'a> {
+    pub(super) name: &'a str,
+    pub(super) kind: Holds,
+    /// What stands where nothing was computed; for real numbers always not-a-number.
+    pub(super) fill: i32,
+    /// Name, length and length of a chunk of each dimension.
+    pub(super) dimensions: Vec<(String, usize, usize)>,
+    pub(super) attributes: Map<String, Value>,
+}
+
+impl Chunked {
+    pub(super) fn new(description: Description<'_>) -> Result<Self, Defect> {
+        let Description { name, kind, fill, dimensions, attributes } = description;
+        let (data, fill) = match kind {
+            Holds::Numbers(Kind::I8) => (data_type::int8(), FillValue::from(i8::try_from(fill).unwrap_or(i8::MIN))),
+            Holds::Numbers(Kind::I32) => (data_type::int32(), FillValue::from(fill)),
+            Holds::Numbers(Kind::F64) => (data_type::float64(), FillValue::from(f64::NAN)),
+            Holds::Text => (data_type::string(), FillValue::from("")),
+        };
+        let shape: Vec<u64> = dimensions.iter().map(|(_, count, _)| *count as u64).collect();
+        let chunks: Vec<u64> = dimensions.iter().map(|(_, _, chunk)| *chunk as u64).collect();
+        let mut builder = ArrayBuilder::new(shape, chunks, data, fill);
+        builder
+            .dimension_names(Some(dimensions.iter().map(|(name, _, _)| name.as_str())))
+            .attributes(attributes)
+            .bytes_to_bytes_codecs(vec![Arc::new(ZstdCodec::new(LEVEL, false)), Arc::new(Crc32cCodec::new())]);
+        let array = builder
+            .build(Arc::new(MemoryStore::new()), &format!("/{name}"))
+            .map_err(|error| format!("array {name}: {error}"))?;
+        Ok(Self { name: name.to_owned(), array, kind })
+    }
+
+    /// The key of its description.
+    pub(super) fn description_key(&self) -> String {
+        format!("{}/zarr.json", self.name)
+    }
+
+    /// Its description, as it stands in `zarr.json`.
+    pub(super) fn description(&self) -> Result<Value, Defect> {
+        let text = serde_json::to_value(self.array.metadata()).map_err(|error| error.to_string())?;
+        Ok(plain(text))
+    }
+
+    /// The key of a chunk.
+    pub(super) fn key(&self, place: &[u64]) -> String {
+        self.array.chunk_key(place).as_str().to_owned()
+    }
+
+    /// Whether a key is that of a chunk.
+    pub(super) fn chunk_prefix(&self) -> String {
+        format!("{}/c/", self.name)
+    }
+
+    fn options() -> CodecOptions {
+        CodecOptions::default().with_concurrent_target(1)
+    }
+
+    /// The bytes of a chunk.
+    pub(super) fn encode(&self, place: &[u64], values: &Cells) -> Result<Vec<u8>, Defect> {
+        let data = self.array.data_type();
+        let bytes = match values {
+            Cells::Numbers(Column::I8(v)) => v.clone().into_array_bytes(data),
+            Cells::Numbers(Column::I32(v)) => v.clone().into_array_bytes(data),
+            Cells::Numbers(Column::F64(v)) => {
+                let one_nan = |x: &f64| if x.is_nan() { f64::NAN } else { *x };
+                v.iter().map(one_nan).collect::<Vec<f64>>().into_array_bytes(data)
+            }
+            Cells::Text(words) => words.clone().into_array_bytes(data),
+        };
+        let bytes = bytes.map_err(|error| error.to_string())?.into_owned();
+        let shape = self.array.chunk_shape(place).map_err(|error| error.to_string())?;
+        let codecs = self.array.codecs();
+        let encoded = codecs.encode(bytes, &shape, data, self.array.fill_value(), &Self::options());
+        encoded.map(std::borrow::Cow::into_owned).map_err(|error| error.to_string())
+    }
+
+    /// The numbers of a chunk; what is wrong with it, if it is not whole.
+    pub(super) fn decode(&self, place: &[u64], bytes: Vec<u8>) -> Result<Cells, Defect> {
+        let shape = self.array.chunk_shape(place).map_err(|error| error.to_string())?;
+        let data = self.array.data_type();
+        let codecs = self.array.codecs();
+        let decoded: ArrayBytes<'_> = codecs
+            .decode(bytes.into(), &shape, data, self.array.fill_value(), &Self::options())
+            .map_err(|error| error.to_string())?;
+        let decoded = decoded.into_owned();
+        let lengths: Vec<u64> = shape.iter().map(|n| n.get()).collect();
+        let cells = match self.kind {
+            Holds::Numbers(Kind::I8) => {
+                Vec::from_array_bytes(decoded, &lengths, data).map(|v| Cells::Numbers(Column::I8(v)))
+            }
+            Holds::Numbers(Kind::I32) => {
+                Vec::from_array_bytes(decoded, &lengths, data).map(|v| Cells::Numbers(Column::I32(v)))
+            }
+            Holds::Numbers(Kind::F64) => {
+                Vec::from_array_bytes(decoded, &lengths, data).map(|v| Cells::Numbers(Column::F64(v)))
+            }
+            Holds::Text => Vec::from_array_bytes(decoded, &lengths, data).map(Cells::Text),
+        };
+        cells.map_err(|error| error.to_string())
+    }
+}
+
+/// Without the name of the library that wrote it, and every codec as an object: some readers know no other form.
+fn plain(mut description: Value) -> Value {
+    if let Some(attributes) = description.get_mut("attributes").and_then(Value::as_object_mut) {
+        attributes.remove("_zarrs");
+    }
+    for key in ["codecs", "storage_transformers"] {
+        for codec in description.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten() {
+            if let Value::String(name) = codec {
+                *codec = serde_json::json!({ "name": name });
+            }
+        }
+    }
+    for key in ["chunk_grid", "chunk_key_encoding"] {
+        if let Some(Value::String(name)) = description.get(key) {
+            description[key] = serde_json::json!({ "name": name });
+        }
+    }
+    description
+}

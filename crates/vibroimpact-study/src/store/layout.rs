@@ -1,0 +1,130 @@
+//! The arrays of a study in a store: one for each field, its coordinates, and the status of its tiles.
+
+use super::chunk::{Chunked, Defect, Description, Holds};
+use crate::field::{Column, Field, Kind};
+use crate::grid::Grid;
+use crate::study::{Cells, Study, Table};
+use serde_json::{Map, Value, json};
+
+/// The field that is written last: its chunk says that the tile is done.
+pub(super) const STATUS: &str = "status";
+/// What the status of a finished tile says.
+pub(super) const DONE: i8 = 1;
+
+/// The arrays of a study.
+pub(super) struct Layout {
+    pub(super) grid: Grid,
+    pub(super) fields: Vec<Field>,
+    /// One for each field, in their order.
+    pub(super) arrays: Vec<Chunked>,
+    pub(super) status: Chunked,
+    pub(super) coordinates: Vec<(Chunked, Cells)>,
+}
+
+fn text(value: &str) -> Value {
+    Value::String(value.to_owned())
+}
+
+/// CF's words for a variable: long name, unit, flags.
+fn attributes(long_name: &str, units: &str, comment: &str, flags: &[(i32, String)]) -> Map<String, Value> {
+    let mut map = Map::new();
+    map.insert("long_name".into(), text(long_name));
+    map.insert("units".into(), text(units));
+    if !comment.is_empty() {
+        map.insert("comment".into(), text(comment));
+    }
+    if !flags.is_empty() {
+        let meanings: Vec<&str> = flags.iter().map(|(_, meaning)| meaning.as_str()).collect();
+        map.insert("flag_values".into(), json!(flags.iter().map(|(value, _)| value).collect::<Vec<_>>()));
+        map.insert("flag_meanings".into(), text(&meanings.join(" ")));
+    }
+    map
+}
+
+/// The array of a field, with further flags.
+pub(super) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Result<Chunked, Defect> {
+    let mut dimensions: Vec<_> = grid.dimensions.iter().map(|d| (d.name.clone(), d.count, d.tile)).collect();
+    dimensions.extend(field.extra.iter().map(|extra| (extra.name.to_owned(), extra.count, extra.count)));
+    let own = field.flags.iter().map(|(value, meaning)| (*value, (*meaning).to_owned()));
+    let flags: Vec<(i32, String)> = own.chain(more.iter().cloned()).collect();
+    Chunked::new(Description {
+        name: field.name,
+        kind: Holds::Numbers(field.kind),
+        fill: field.fill,
+        dimensions,
+        attributes: attributes(field.long_name, field.units, field.comment, &flags),
+    })
+}
+
+/// The array of a table.
+pub(super) fn array_of_table(table: &Table) -> Result<Chunked, Defect> {
+    let kind = match &table.values {
+        Cells::Text(_) => Holds::Text,
+        Cells::Numbers(Column::I8(_)) => Holds::Numbers(Kind::I8),
+        Cells::Numbers(Column::I32(_)) => Holds::Numbers(Kind::I32),
+        Cells::Numbers(Column::F64(_)) => Holds::Numbers(Kind::F64),
+    };
+    Chunked::new(Description {
+        name: table.name,
+        kind,
+        fill: i32::MIN,
+        dimensions: table.dimensions.iter().map(|(name, count)| ((*name).to_owned(), *count, *count)).collect(),
+        attributes: attributes(table.long_name, table.units, "", &[]),
+    })
+}
+
+impl Layout {
+    pub(super) fn new(study: &Study) -> Result<Self, Defect> {
+        let (grid, fields) = (study.grid().clone(), study.fields());
+        let arrays = fields.iter().map(|field| array_of(field, &grid, &[])).collect::<Result<_, _>>()?;
+        let tiles = grid.dimensions.iter().zip(grid.tiles_along());
+        let flags = [(0, "not_computed".to_owned()), (i32::from(DONE), "done".to_owned())];
+        let status = Chunked::new(Description {
+            name: STATUS,
+            kind: Holds::Numbers(Kind::I8),
+            fill: 0,
+            dimensions: tiles.map(|(d, count)| (format!("tile_{}", d.name), count, 1)).collect(),
+            attributes: attributes("whether the tile is computed", "1", "", &flags),
+        })?;
+        let coordinate = |along: crate::study::Along| {
+            let count = along.values.len();
+            let array = Chunked::new(Description {
+                name: &along.dimension,
+                kind: Holds::Numbers(Kind::F64),
+                fill: 0,
+                dimensions: vec![(along.dimension.clone(), count, count)],
+                attributes: attributes(along.long_name, along.units, "", &[]),
+            })?;
+            Ok((array, Cells::Numbers(Column::F64(along.values))))
+        };
+        let coordinates = study.coordinates().into_iter().map(coordinate).collect::<Result<_, Defect>>()?;
+        Ok(Self { grid, fields, arrays, status, coordinates })
+    }
+
+    /// The place of a tile's chunk in the array of a field.
+    pub(super) fn place(&self, tile: u64, field: usize) -> Vec<u64> {
+        let place = self.grid.place(tile).into_iter().map(|i| i as u64);
+        place.chain(self.fields[field].extra.iter().map(|_| 0)).collect()
+    }
+
+    /// The place of a tile's status.
+    pub(super) fn status_place(&self, tile: u64) -> Vec<u64> {
+        self.grid.place(tile).into_iter().map(|i| i as u64).collect()
+    }
+
+    /// The chunk of a tile: its column, filled up where the tile is smaller than a chunk.
+    pub(super) fn padded(&self, tile: u64, field: usize, column: &Column) -> Column {
+        let (full, field) = (self.grid.full_tile(tile), &self.fields[field]);
+        let mut chunk = field.empty(full.points());
+        self.grid.tile(tile).rows(&full, field.width(), |at, from, len| chunk.copy(at, column, from, len));
+        chunk
+    }
+
+    /// The column of a tile, without what fills its chunk up.
+    pub(super) fn unpadded(&self, tile: u64, field: usize, chunk: &Column) -> Column {
+        let (full, field, block) = (self.grid.full_tile(tile), &self.fields[field], self.grid.tile(tile));
+        let mut column = field.empty(block.points());
+        block.rows(&full, field.width(), |at, from, len| column.copy(from, chunk, at, len));
+        column
+    }
+}

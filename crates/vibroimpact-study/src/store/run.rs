@@ -1,0 +1,161 @@
+//! Filling tiles, over threads, until all are there.
+
+use super::{Store, StoreError};
+use crate::{Control, Stopped};
+use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
+
+/// Part `index` of `of` of the tiles, counted from 1: every `of`-th of them, so that dear and cheap ones are spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    index: u64,
+    of: u64,
+}
+
+impl Part {
+    /// All tiles.
+    pub const ALL: Self = Self { index: 1, of: 1 };
+
+    /// Part `index` of `of`.
+    ///
+    /// # Errors
+    /// [`StoreError::Part`] unless 1 <= index <= of.
+    pub const fn new(index: u64, of: u64) -> Result<Self, StoreError> {
+        if index >= 1 && index <= of { Ok(Self { index, of }) } else { Err(StoreError::Part { index, of }) }
+    }
+
+    const fn has(self, tile: u64) -> bool {
+        tile % self.of == self.index - 1
+    }
+}
+
+/// What a run did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ran {
+    /// Tiles computed now.
+    pub computed: u64,
+    /// Tiles of this part that were done before, or by another process meanwhile.
+    pub found: u64,
+    /// Finished tiles that were damaged, and are computed anew.
+    pub mended: u64,
+    /// Tiles of the whole that are not done yet; they belong to other parts.
+    pub left: u64,
+}
+
+impl Store {
+    /// Computes the tiles of a part that are not done, and concludes when all are.
+    ///
+    /// `control.progress` is called with the points done of this part, those that were there included.
+    ///
+    /// # Errors
+    /// [`StoreError`] when stopped, or when something cannot be read or written; what is finished is kept.
+    pub fn run(&self, part: Part, control: &Control<'_>) -> Result<Ran, StoreError> {
+        self.mend_descriptions()?;
+        let grid = self.study.grid();
+        let mine: Vec<u64> = (0..grid.tiles()).filter(|tile| part.has(*tile)).collect();
+        let points = |tile: u64| grid.tile(tile).points() as u64;
+        let total: u64 = mine.iter().map(|tile| points(*tile)).sum();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(control.threads).build();
+        let pool = pool.map_err(|error| StoreError::Unreachable { place: "threads".into(), why: error.to_string() })?;
+
+        let stop = || control.stop.load(Ordering::Relaxed);
+        let states = pool.install(|| {
+            let state = |tile: &u64| if stop() { Ok(State::Open) } else { self.state(*tile) };
+            mine.par_iter().map(state).collect::<Result<Vec<State>, StoreError>>()
+        })?;
+        let mut open: Vec<u64> =
+            mine.iter().zip(&states).filter(|(_, state)| **state != State::Whole).map(|(tile, _)| *tile).collect();
+        let mended = states.iter().filter(|state| **state == State::Damaged).count() as u64;
+        let damaged = |tile: u64| mine.binary_search(&tile).is_ok_and(|at| states[at] == State::Damaged);
+        if !open.is_empty() {
+            self.same_version()?;
+            // two processes that begin at once begin at different ends
+            let turn = std::process::id() as usize * 7919 % open.len();
+            open.rotate_left(turn);
+        }
+        let done = AtomicU64::new(total - open.iter().map(|tile| points(*tile)).sum::<u64>());
+        (control.progress)(done.load(Ordering::Relaxed));
+
+        let failure: Mutex<Option<StoreError>> = Mutex::new(None);
+        let failed = AtomicBool::new(false);
+        let (computed, elsewhere) = (AtomicU64::new(0), AtomicU64::new(0));
+        let tick = || {
+            let now = done.fetch_add(1, Ordering::Relaxed) + 1;
+            if now.is_multiple_of(64) {
+                (control.progress)(now);
+            }
+            stop() || failed.load(Ordering::Relaxed)
+        };
+        let one = |tile: u64| -> Result<(), StoreError> {
+            if !damaged(tile) && self.done(tile)? {
+                elsewhere.fetch_add(1, Ordering::Relaxed);
+                done.fetch_add(points(tile), Ordering::Relaxed);
+                return Ok(());
+            }
+            if self.fill(tile, &tick)? {
+                computed.fetch_add(1, Ordering::Relaxed);
+            }
+            Ok(())
+        };
+        pool.install(|| {
+            // by ones, in this order: a run that is stopped leaves no holes larger than its threads
+            open.par_iter().with_max_len(1).for_each(|tile| {
+                if stop() || failed.load(Ordering::Relaxed) {
+                    return;
+                }
+                if let Err(error) = one(*tile) {
+                    failed.store(true, Ordering::Relaxed);
+                    failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+                }
+            });
+        });
+        if let Some(error) = failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            return Err(error);
+        }
+        let (computed, elsewhere) = (computed.into_inner(), elsewhere.into_inner());
+        if computed + elsewhere < open.len() as u64 {
+            return Err(StoreError::Stopped(Stopped { done: done.into_inner().min(total), total }));
+        }
+        (control.progress)(total);
+        let left = if part == Part::ALL { 0 } else { grid.tiles() - self.count_done()? };
+        if left == 0 {
+            self.conclude()?;
+        }
+        let found = mine.len() as u64 - open.len() as u64 + elsewhere;
+        Ok(Ran { computed, found, mended, left })
+    }
+
+    /// Whether a tile is there, and whole to its last bit.
+    pub(super) fn state(&self, tile: u64) -> Result<State, StoreError> {
+        if !self.done(tile)? {
+            // a status that is there but not whole is damage, too
+            let there = self.get(&self.layout.status.key(&self.layout.status_place(tile)))?.is_some();
+            return Ok(if there { State::Damaged } else { State::Open });
+        }
+        for field in 0..self.layout.fields.len() {
+            if self.read(tile, field)?.is_none() {
+                return Ok(State::Damaged);
+            }
+        }
+        Ok(State::Whole)
+    }
+
+    /// Tiles that are done.
+    pub(super) fn count_done(&self) -> Result<u64, StoreError> {
+        let prefix = self.layout.status.chunk_prefix();
+        let items = self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?;
+        Ok(items.len() as u64)
+    }
+}
+
+/// What there is of a tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum State {
+    /// Nothing that counts.
+    Open,
+    /// It was done, but a chunk of it is missing or not whole.
+    Damaged,
+    /// All of it.
+    Whole,
+}

@@ -1,0 +1,246 @@
+//! Where the objects of a store lie: a name, its bytes, written whole or not at all.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::SystemTime;
+
+/// An object and when it was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// Its name, parts separated by `/`.
+    pub key: String,
+    /// Its length in bytes.
+    pub size: u64,
+    /// When it was written, as the place tells.
+    pub modified: SystemTime,
+}
+
+/// A place for objects. A reader sees an object whole, as it was before or after a write, whatever happens to the writer.
+pub trait Shelf: Send + Sync {
+    /// The object, if there is one.
+    ///
+    /// # Errors
+    /// When the place cannot be read.
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>>;
+
+    /// Writes an object, in place of the one of that name if there is one.
+    ///
+    /// # Errors
+    /// When the place cannot be written; what was there before is still there.
+    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()>;
+
+    /// The objects whose names begin with `prefix`, in the order of their names.
+    ///
+    /// # Errors
+    /// When the place cannot be read.
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>>;
+
+    /// Clears away what writers that were killed left unfinished.
+    ///
+    /// # Errors
+    /// When the place cannot be read.
+    fn sweep(&self) -> io::Result<()>;
+
+    /// What to call the place.
+    fn name(&self) -> String;
+}
+
+/// A folder of a file system.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    written: AtomicU64,
+}
+
+/// The end of the names of files that are being written. They begin with a dot, and no reader of Zarr looks at them.
+const UNFINISHED: &str = ".tmp";
+
+impl Folder {
+    /// The folder at `path`, which need not exist.
+    #[must_use]
+    pub fn new(path: &Path) -> Self {
+        Self { path: path.to_owned(), written: AtomicU64::new(0) }
+    }
+
+    /// Where the folder is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn unfinished(name: &str) -> bool {
+        name.starts_with('.') && name.ends_with(UNFINISHED)
+    }
+
+    /// Calls `found` for each file below `from`.
+    fn walk(from: &Path, found: &mut dyn FnMut(&Path, &fs::DirEntry) -> io::Result<()>) -> io::Result<()> {
+        let entries = match fs::read_dir(from) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+            other => other?,
+        };
+        for entry in entries {
+            let entry = entry?;
+            let path = entry.path();
+            // one that has just been renamed or cleared away by another process is no failure
+            match entry.file_type() {
+                Ok(kind) if kind.is_dir() => Self::walk(&path, found)?,
+                Ok(_) => found(&path, &entry)?,
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
+    fn try_put(&self, beside: &Path, place: &Path, bytes: &[u8]) -> io::Result<()> {
+        let mut file = File::create(beside)?;
+        file.write_all(bytes)?;
+        drop(file);
+        fs::rename(beside, place)
+    }
+}
+
+impl fmt::Display for Folder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.display())
+    }
+}
+
+impl Shelf for Folder {
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        match fs::read(self.path.join(key)) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        let place = self.path.join(key);
+        let (Some(folder), Some(name)) = (place.parent(), place.file_name()) else {
+            return Err(io::ErrorKind::InvalidInput.into());
+        };
+        // two writers of one object never share the name of the unfinished file
+        let number = self.written.fetch_add(1, Ordering::Relaxed);
+        let own = format!(".{}.{}.{}{number}{UNFINISHED}", name.to_string_lossy(), std::process::id(), host());
+        let beside = folder.join(own);
+        let mut outcome = self.try_put(&beside, &place, bytes);
+        if outcome.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::NotFound) {
+            // the folder is not there yet, or another process that was done cleared the unfinished file away
+            outcome = fs::create_dir_all(folder).and_then(|()| self.try_put(&beside, &place, bytes));
+        }
+        if outcome.is_err() {
+            let _ = fs::remove_file(&beside);
+        }
+        outcome
+    }
+
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
+        let mut items = Vec::new();
+        // what begins with the prefix lies in the folder the prefix names up to its last slash
+        let from = prefix.rfind('/').map_or(self.path.clone(), |end| self.path.join(&prefix[..end]));
+        Self::walk(&from, &mut |path, entry| {
+            let Ok(relative) = path.strip_prefix(&self.path) else { return Ok(()) };
+            let parts: Vec<_> = relative.iter().map(|part| part.to_string_lossy()).collect();
+            let key = parts.join("/");
+            if key.starts_with(prefix) && !parts.last().is_some_and(|name| Self::unfinished(name)) {
+                match entry.metadata() {
+                    Ok(found) => items.push(Item { key, size: found.len(), modified: found.modified()? }),
+                    Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                    Err(error) => return Err(error),
+                }
+            }
+            Ok(())
+        })?;
+        items.sort_by(|a, b| a.key.cmp(&b.key));
+        Ok(items)
+    }
+
+    fn sweep(&self) -> io::Result<()> {
+        Self::walk(&self.path, &mut |path, _| {
+            if path.file_name().is_some_and(|name| Self::unfinished(&name.to_string_lossy())) {
+                // if another process is still writing it, that one writes it again
+                let _ = fs::remove_file(path);
+            }
+            Ok(())
+        })
+    }
+
+    fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+}
+
+/// Something that differs between machines that share a file system.
+fn host() -> String {
+    let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
+    let plain: String = name.trim().chars().filter(char::is_ascii_alphanumeric).take(20).collect();
+    if plain.is_empty() { plain } else { plain + "." }
+}
+
+/// A shelf in memory: to compute a tile again without touching the store.
+#[derive(Debug, Default)]
+pub(crate) struct Memory(std::sync::Mutex<std::collections::BTreeMap<String, Vec<u8>>>);
+
+impl Memory {
+    fn objects(&self) -> std::sync::MutexGuard<'_, std::collections::BTreeMap<String, Vec<u8>>> {
+        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+}
+
+impl Shelf for Memory {
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        Ok(self.objects().get(key).cloned())
+    }
+
+    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        self.objects().insert(key.to_owned(), bytes.to_vec());
+        Ok(())
+    }
+
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
+        let item = |(key, bytes): (&String, &Vec<u8>)| Item {
+            key: key.clone(),
+            size: bytes.len() as u64,
+            modified: SystemTime::UNIX_EPOCH,
+        };
+        Ok(self.objects().iter().filter(|(key, _)| key.starts_with(prefix)).map(item).collect())
+    }
+
+    fn sweep(&self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn name(&self) -> String {
+        "memory".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn objects_are_whole_and_leftovers_are_swept() {
+        let folder = tempfile::tempdir().unwrap();
+        let place = folder.path().join("new/store");
+        let shelf = Folder::new(&place);
+        assert_eq!((shelf.get("a/zarr.json").unwrap(), shelf.list("").unwrap()), (None, vec![]));
+        for bytes in [b"first".as_slice(), b"second"] {
+            shelf.put("a/zarr.json", bytes).unwrap();
+            assert_eq!(shelf.get("a/zarr.json").unwrap().as_deref(), Some(bytes));
+        }
+        shelf.put("a/c/1/0", b"chunk").unwrap();
+        shelf.put("ab", b"").unwrap();
+        fs::write(place.join("a/c/1/.0.123.7.tmp"), b"half").unwrap();
+        let keys = |prefix| shelf.list(prefix).unwrap().into_iter().map(|item| item.key).collect::<Vec<_>>();
+        assert_eq!(keys(""), ["a/c/1/0", "a/zarr.json", "ab"]);
+        assert_eq!(keys("a/"), ["a/c/1/0", "a/zarr.json"]);
+        assert_eq!(keys("a/c/"), ["a/c/1/0"]);
+        shelf.sweep().unwrap();
+        assert!(!place.join("a/c/1/.0.123.7.tmp").exists() && place.join("a/c/1/0").exists());
+    }
+}

@@ -1,0 +1,244 @@
+//! Stores: the same bytes whatever happens on the way, damage found and mended, and every refusal a sentence.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use vibroimpact_study::store::{Folder, Part, Store, StoreError};
+use vibroimpact_study::{
+    Axis, BasinPlan, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, StartPlan, SystemPlan, Task,
+};
+
+const S: SystemPlan =
+    SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, damping: 0.0, second_stop: None };
+
+fn basin() -> Plan {
+    let task = BasinPlan::plane("-4:0.75:45".parse().unwrap(), "-4:4:37".parse().unwrap(), 0.0);
+    Plan { tile: Some(10), ..Plan::new(S, Task::Basin(task)) }
+}
+
+fn map() -> Plan {
+    let task = MapPlan::plane("0.6:1.4:13".parse().unwrap(), "-0.5:2:9".parse().unwrap(), 4, 1);
+    let system = SystemPlan { inverse_beta: Some(0.6), gap: -0.5, ..S };
+    Plan { tile: Some(4), ..Plan::new(system, Task::Map(task)) }
+}
+
+fn open(folder: &Path, plan: &Plan) -> Store {
+    Store::create(Arc::new(Folder::new(folder)), plan).unwrap()
+}
+
+fn control(threads: usize) -> Control<'static> {
+    Control { threads, ..Control::default() }
+}
+
+/// All files of a folder.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    fn walk(from: &Path, root: &Path, into: &mut BTreeMap<String, Vec<u8>>) {
+        for entry in fs::read_dir(from).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                walk(&path, root, into);
+            } else {
+                into.insert(path.strip_prefix(root).unwrap().display().to_string(), fs::read(&path).unwrap());
+            }
+        }
+    }
+    let mut found = BTreeMap::new();
+    walk(folder, folder, &mut found);
+    found
+}
+
+/// The store of a plan computed by one thread without a break.
+fn whole(plan: &Plan) -> (tempfile::TempDir, BTreeMap<String, Vec<u8>>) {
+    let folder = tempfile::tempdir().unwrap();
+    let store = open(folder.path(), plan);
+    let ran = store.run(Part::ALL, &control(1)).unwrap();
+    assert_eq!((ran.computed, ran.left), (store.study().grid().tiles(), 0));
+    let files = files(folder.path());
+    (folder, files)
+}
+
+#[test]
+fn the_same_bytes_for_any_threads_and_parts() {
+    for plan in [basin(), map()] {
+        let (_kept, want) = whole(&plan);
+        for threads in [2, 3, 8] {
+            let folder = tempfile::tempdir().unwrap();
+            open(folder.path(), &plan).run(Part::ALL, &control(threads)).unwrap();
+            assert!(files(folder.path()) == want, "{threads} threads");
+        }
+        let folder = tempfile::tempdir().unwrap();
+        for index in [3, 1, 4, 2] {
+            let ran = open(folder.path(), &plan).run(Part::new(index, 4).unwrap(), &control(2)).unwrap();
+            assert_eq!(ran.left == 0, index == 2);
+        }
+        assert!(files(folder.path()) == want, "four parts");
+    }
+}
+
+#[test]
+fn every_kind_of_study_is_stored() {
+    let u = SystemPlan { inverse_beta: Some(1.11), gap: 3.0, ..S };
+    let gaps = || Axis::parameter(Parameter::Gap, "2:3:3".parse::<vibroimpact_study::Span>().unwrap());
+    let exponents = LyapunovPlan { axes: vec![gaps()], impacts: 1000, ..LyapunovPlan::default() };
+    let diagram: DiagramPlan =
+        serde_json::from_str(r#"{"vary":"gap","over":"0:2:20","transient":50,"keep":8}"#).unwrap();
+    let refined =
+        MapPlan { refine: Some(4), ..MapPlan::plane("0.6:1.4:13".parse().unwrap(), "0:2:9".parse().unwrap(), 2, 1) };
+    for (system, task, field) in [
+        (S, Task::Attractors { starts: 300, seed: 1 }, "cycle"),
+        (u, Task::Lyapunov(exponents), "exponent"),
+        (S, Task::Diagram(diagram), "velocity"),
+        (S, Task::Map(refined), "computed"),
+    ] {
+        let plan = Plan::new(system, task);
+        let (folder, _) = whole(&plan);
+        let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+        assert_eq!(store.plan(), &plan.canonical().unwrap());
+        let found = store.verify(1000, 0, &control(2)).unwrap();
+        assert_eq!((found.damage, found.open), (vec![], 0));
+        assert!(store.field(field).is_some());
+        let sheet =
+            vibroimpact_study::study::in_memory(vibroimpact_study::Study::new(&plan).unwrap(), &Control::default())
+                .unwrap();
+        for (k, column) in sheet.columns.iter().enumerate() {
+            assert!(store.column(k).unwrap() == *column, "{}", sheet.fields[k].name);
+        }
+        assert!(store.progress().unwrap().complete);
+    }
+}
+
+#[test]
+fn stopped_and_resumed_it_is_the_same() {
+    let plan = basin();
+    let (_kept, want) = whole(&plan);
+    let folder = tempfile::tempdir().unwrap();
+    let mut stops = 0;
+    // stopped after 300 more points each time
+    loop {
+        let (stop, seen) = (AtomicBool::new(false), AtomicU64::new(u64::MAX));
+        let progress = |now: u64| {
+            let first = seen.fetch_min(now, Ordering::Relaxed).min(now);
+            stop.fetch_or(now > first + 300, Ordering::Relaxed);
+        };
+        let control = Control { stop: &stop, progress: &progress, threads: 2 };
+        match open(folder.path(), &plan).run(Part::ALL, &control) {
+            Ok(_) => break,
+            Err(StoreError::Stopped(stopped)) => assert!(stopped.done < stopped.total),
+            Err(other) => panic!("{other}"),
+        }
+        stops += 1;
+        assert!(stops < 100);
+    }
+    assert!(stops > 1, "{stops}");
+    assert!(files(folder.path()) == want);
+}
+
+#[test]
+fn damage_is_found_and_mended() {
+    for plan in [basin(), map()] {
+        let (folder, want) = whole(&plan);
+        let chunks: Vec<&String> = want.keys().filter(|key| key.contains("/c/")).collect();
+        let open_again = || Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+        for (k, key) in chunks.iter().enumerate().step_by(7) {
+            let (path, bytes) = (folder.path().join(key), &want[*key]);
+            match k % 3 {
+                0 => fs::write(&path, &bytes[..bytes.len() / 2]).unwrap(),
+                1 => {
+                    let mut flipped = bytes.clone();
+                    flipped[k % bytes.len()] ^= 1 << (k % 8);
+                    fs::write(&path, flipped).unwrap();
+                }
+                _ => fs::remove_file(&path).unwrap(),
+            }
+            let found = open_again().verify(0, 0, &control(1)).unwrap();
+            // a status that is gone is a tile that was never computed
+            assert!(
+                !found.damage.is_empty() || (found.open == 1 && key.starts_with("status")) || key.starts_with("cycle_"),
+                "{key}"
+            );
+            open_again().resume(&control(2)).unwrap();
+            assert!(files(folder.path()) == want, "{key}");
+        }
+        for key in want.keys().filter(|key| key.ends_with("zarr.json")) {
+            fs::write(folder.path().join(key), "{").unwrap();
+            open(folder.path(), &plan).run(Part::ALL, &control(1)).unwrap();
+            assert!(files(folder.path()) == want, "{key}");
+        }
+    }
+}
+
+/// Whole by its check sum, but not what the plan gives: only computing it again can tell.
+#[test]
+fn a_wrong_tile_is_found_by_computing_it_again() {
+    let plan = basin();
+    let (folder, want) = whole(&plan);
+    let (_, other) =
+        want.iter().find(|(key, bytes)| key.starts_with("label/c/") && **bytes != want["label/c/0/0"]).unwrap();
+    fs::write(folder.path().join("label/c/0/0"), other).unwrap();
+    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    assert!(store.verify(0, 0, &control(1)).unwrap().damage.is_empty());
+    let found = store.verify(u64::MAX, 0, &control(2)).unwrap();
+    assert_eq!(found.recomputed, store.study().grid().tiles());
+    assert_eq!(found.damage.len(), 1);
+    assert_eq!(found.damage[0].tile, 0);
+    assert!(found.damage[0].what.contains("label/c/0/0"), "{:?}", found.damage);
+}
+
+#[test]
+fn two_at_once_do_no_harm() {
+    for plan in [basin(), map()] {
+        let (_kept, want) = whole(&plan);
+        for _ in 0..5 {
+            let folder = tempfile::tempdir().unwrap();
+            std::thread::scope(|scope| {
+                for _ in 0..3 {
+                    scope.spawn(|| open(folder.path(), &plan).run(Part::ALL, &control(2)).unwrap());
+                }
+            });
+            assert!(files(folder.path()) == want);
+        }
+    }
+}
+
+#[test]
+fn refusals() {
+    let (folder, want) = whole(&map());
+    let refused = |plan: &Plan, place: &Path| match Store::create(Arc::new(Folder::new(place)), plan) {
+        Err(error) => error.to_string(),
+        Ok(_) => panic!("not refused"),
+    };
+    // another plan
+    assert!(refused(&basin(), folder.path()).contains("holds another plan"));
+    // a question without a grid
+    let settle = Plan::new(S, Task::Settle { start: StartPlan::default() });
+    assert!(refused(&settle, folder.path()).contains("fills no grid"));
+    assert!(files(folder.path()) == want);
+    // something else
+    let other = tempfile::tempdir().unwrap();
+    fs::write(other.path().join("thesis.tex"), "years of work").unwrap();
+    assert!(refused(&map(), other.path()).contains("is not empty, and no store"));
+    fs::write(other.path().join("zarr.json"), r#"{"zarr_format":3,"node_type":"group"}"#).unwrap();
+    assert!(refused(&map(), other.path()).contains("is not empty, and no store"));
+    let file = other.path().join("thesis.tex");
+    assert!(refused(&map(), &file).contains("no store"), "{}", refused(&map(), &file));
+    // none
+    let none = Store::open(Arc::new(Folder::new(&other.path().join("none")))).err().unwrap().to_string();
+    assert!(none.starts_with("there is no store at"), "{none}");
+    // a later format, and another version
+    let root = folder.path().join("zarr.json");
+    let text = fs::read_to_string(&root).unwrap();
+    fs::write(&root, text.replace("\"vibroimpact_format\": 1", "\"vibroimpact_format\": 2")).unwrap();
+    let newer = Store::open(Arc::new(Folder::new(folder.path()))).err().unwrap().to_string();
+    assert!(newer.contains("has format 2; this program knows format 1"), "{newer}");
+    let version = format!("\"vibroimpact_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    fs::write(&root, text.replace(&version, "\"vibroimpact_version\": \"0.0.9\"")).unwrap();
+    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    // what is whole may be read and concluded; to add to it is refused
+    store.resume(&control(1)).unwrap();
+    fs::remove_file(folder.path().join("status/c/0/0")).unwrap();
+    let mixed = store.resume(&control(1)).err().unwrap().to_string();
+    assert!(mixed.contains("was begun by vibroimpact 0.0.9"), "{mixed}");
+    assert!(matches!(Part::new(0, 3), Err(StoreError::Part { .. })) && Part::new(4, 3).is_err());
+}
