@@ -1,5 +1,7 @@
 //! Stores: the same bytes whatever happens on the way, damage found and mended, and every refusal a sentence.
 
+#![allow(clippy::unwrap_used)]
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

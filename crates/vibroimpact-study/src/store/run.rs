@@ -52,8 +52,34 @@ impl Store {
     /// [`StoreError`] when stopped, or when something cannot be read or written; what is finished is kept.
     pub fn run(&self, part: Part, control: &Control<'_>) -> Result<Ran, StoreError> {
         self.mend_descriptions()?;
+        let tiles = self.study.grid().tiles();
+        let mine: Vec<u64> = (0..tiles).filter(|tile| part.has(*tile)).collect();
+        let ran = self.run_tiles(&mine, control)?;
+        let left = if part == Part::ALL { 0 } else { tiles - self.count_done()? };
+        if left == 0 {
+            self.conclude()?;
+        }
+        Ok(Ran { left, ..ran })
+    }
+
+    /// Concludes if all tiles are done; says whether they are. For those who hand tiles out one by one.
+    ///
+    /// # Errors
+    /// [`StoreError`] when something cannot be read or written, or a tile is damaged.
+    pub fn conclude_if_done(&self) -> Result<bool, StoreError> {
+        let done = self.count_done()? == self.study.grid().tiles();
+        if done {
+            self.conclude()?;
+        }
+        Ok(done)
+    }
+
+    /// Computes those of these tiles, given in rising order, that are not done or damaged; does not conclude.
+    ///
+    /// # Errors
+    /// As for [`Store::run`].
+    pub fn run_tiles(&self, mine: &[u64], control: &Control<'_>) -> Result<Ran, StoreError> {
         let grid = self.study.grid();
-        let mine: Vec<u64> = (0..grid.tiles()).filter(|tile| part.has(*tile)).collect();
         let points = |tile: u64| grid.tile(tile).points() as u64;
         let total: u64 = mine.iter().map(|tile| points(*tile)).sum();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(control.threads).build();
@@ -118,12 +144,8 @@ impl Store {
             return Err(StoreError::Stopped(Stopped { done: done.into_inner().min(total), total }));
         }
         (control.progress)(total);
-        let left = if part == Part::ALL { 0 } else { grid.tiles() - self.count_done()? };
-        if left == 0 {
-            self.conclude()?;
-        }
         let found = mine.len() as u64 - open.len() as u64 + elsewhere;
-        Ok(Ran { computed, found, mended, left })
+        Ok(Ran { computed, found, mended, left: grid.tiles() - mine.len() as u64 })
     }
 
     /// Whether a tile is there, and whole to its last bit.
