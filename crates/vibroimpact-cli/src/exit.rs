@@ -5,7 +5,7 @@ use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;
 use vibroimpact_plot::PlotError;
-use vibroimpact_study::{PlanError, RunError, Stopped};
+use vibroimpact_study::{PlanError, RunError, Stopped, StoreError};
 
 /// Why a command did not finish. The texts may carry a second line, `hint: ...`.
 #[derive(Debug, thiserror::Error)]
@@ -62,6 +62,19 @@ impl From<RunError> for Failure {
         match error {
             RunError::Plan(error) => error.into(),
             RunError::Stopped(error) => error.into(),
+        }
+    }
+}
+
+impl From<StoreError> for Failure {
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::Plan(error) => error.into(),
+            StoreError::Stopped(_) => Self::Stopped(format!("{error}; `vibro resume` goes on")),
+            StoreError::Read { .. } | StoreError::Write { .. } | StoreError::Damaged { .. } => {
+                Self::Failed(error.to_string())
+            }
+            _ => Self::bad(error),
         }
     }
 }

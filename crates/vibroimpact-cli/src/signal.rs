@@ -24,7 +24,7 @@ pub(crate) fn listen() {
         }
         std::thread::spawn(|| {
             std::thread::sleep(PATIENCE);
-            session::complain("stopped in the middle of a long motion; nothing was written");
+            session::complain("stopped in the middle of a long motion; nothing is left half-written");
             end();
         });
     });

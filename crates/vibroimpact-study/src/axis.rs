@@ -78,6 +78,17 @@ impl Serialize for Coordinate {
     }
 }
 
+impl schemars::JsonSchema for Coordinate {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Coordinate".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let names: Vec<&str> = Parameter::ALL.into_iter().map(Parameter::name).chain(["x", "v", "phase"]).collect();
+        schemars::json_schema!({ "description": "What varies.", "type": "string", "enum": names })
+    }
+}
+
 impl<'de> Deserialize<'de> for Coordinate {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let name = String::deserialize(from)?;
@@ -174,6 +185,17 @@ impl Serialize for Values {
     }
 }
 
+impl schemars::JsonSchema for Values {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Values".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let span = generator.subschema_for::<Span>();
+        schemars::json_schema!({ "anyOf": [span, { "type": "array", "items": { "type": "number" }, "minItems": 1 }] })
+    }
+}
+
 impl<'de> Deserialize<'de> for Values {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         struct Either;
@@ -201,7 +223,7 @@ impl<'de> Deserialize<'de> for Values {
 }
 
 /// What varies over which values.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Axis {
     /// What varies.

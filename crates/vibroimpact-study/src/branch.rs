@@ -19,13 +19,14 @@ const MOST_FOLLOWED: u32 = 100;
 const DIAGRAM_VALUES: u32 = 401;
 
 /// An orbit that is followed in one parameter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BranchPlan {
     /// m/n of the orbit at the system given.
     pub label: String,
     /// The parameter that varies, from its value in the system.
     #[serde(with = "crate::parameter")]
+    #[schemars(with = "crate::parameter::Name")]
     pub vary: Parameter,
     /// The other end of its range.
     pub to: f64,

@@ -10,7 +10,7 @@ use vibroimpact::continuation::{
 use vibroimpact::{Label, Oscillator};
 
 /// What holds along a curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EventKind {
     /// A multiplier is +1 and the parameters turn.
@@ -42,7 +42,7 @@ impl EventKind {
 }
 
 /// A curve through an event of the branch of an orbit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurvePlan {
     /// m/n of the orbit at the system given.

@@ -14,6 +14,9 @@ pub enum PlanError {
     /// The system or a start is impossible.
     #[error(transparent)]
     System(#[from] SystemError),
+    /// A text that is no plan.
+    #[error("the plan does not read: {0}\nhint: `vibro schema` prints what may be in a plan")]
+    Text(String),
     /// A range that is not `A:B:N`.
     #[error(
         "range `{given}` is not A:B:N with finite A and B and a whole N >= 1\nhint: 0.4:2:33 is 33 values from 0.4 to 2, both included"

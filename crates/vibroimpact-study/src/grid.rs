@@ -1,5 +1,6 @@
 //! A grid of points, cut into tiles of equal shape; those at the far edges may be smaller.
 
+use crate::field::Column;
 use core::ops::Range;
 
 /// One dimension of a grid.
@@ -108,6 +109,11 @@ impl Block {
             .collect();
         index.reverse();
         index
+    }
+
+    /// Copies the column of this block into that of a larger one, with `width` numbers a point.
+    pub fn put(&self, part: &Column, within: &Self, width: usize, whole: &mut Column) {
+        self.rows(within, width, |at, from, len| whole.copy(at, part, from, len));
     }
 
     /// The rows of this block as parts of a larger one that contains it, with `width` numbers a point: where each begins

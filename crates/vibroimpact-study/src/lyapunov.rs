@@ -9,7 +9,7 @@ use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions};
 pub const DEFAULT_POINTS: u64 = 5_000;
 
 /// The exponents of the motion from a start, or from each start of each system of a grid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LyapunovPlan {
     /// What varies, parameters and coordinates of the start; nothing when absent. The first runs fastest.

@@ -15,6 +15,19 @@ pub(crate) fn serialize<S: Serializer>(parameter: &Parameter, to: S) -> Result<S
     parameter.name().serialize(to)
 }
 
+/// Its name, for the schema of plans.
+pub(crate) struct Name;
+
+impl schemars::JsonSchema for Name {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Parameter".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "type": "string", "enum": Parameter::ALL.map(Parameter::name) })
+    }
+}
+
 pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Parameter, D::Error> {
     let name = String::deserialize(from)?;
     Parameter::ALL.into_iter().find(|parameter| parameter.name() == name).ok_or_else(|| {

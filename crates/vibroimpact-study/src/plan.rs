@@ -106,7 +106,7 @@ pub(crate) fn starts(n: u64) -> Result<(), PlanError> {
 }
 
 /// The oscillator: exactly one of `beta` and `inverse_beta`, one or two stops.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SystemPlan {
     /// Frequency ratio.
@@ -128,7 +128,7 @@ pub struct SystemPlan {
 }
 
 /// A stop at `x = -gap`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SecondStop {
     /// Its distance from the rest position.
@@ -158,7 +158,7 @@ impl SystemPlan {
 }
 
 /// Where to start; absent coordinates are 0, except `x` where the stops exclude 0: then it is on the nearest stop.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartPlan {
     /// Position.
@@ -184,7 +184,7 @@ impl StartPlan {
 }
 
 /// What is asked.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Task {
     /// The events of a motion.

@@ -12,7 +12,7 @@ pub const DEFAULT_GRID: u32 = 24;
 const MOST_GRID: u32 = 400;
 
 /// The regions of a motion in a plane.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RegionPlan {
     /// m/n.

@@ -140,6 +140,20 @@ impl FromStr for Span {
     }
 }
 
+impl schemars::JsonSchema for Span {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Span".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "A:B:N, N values from A to B, both included; A:B:N:log spaced evenly in their logarithms.",
+            "type": "string",
+            "pattern": "^[^:]+:[^:]+:[0-9]+(:log)?$",
+        })
+    }
+}
+
 impl TryFrom<String> for Span {
     type Error = PlanError;
 

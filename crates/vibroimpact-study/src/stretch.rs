@@ -6,11 +6,12 @@ use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::Frame;
 
 /// A parameter from one value to a larger one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stretch {
     /// The parameter.
     #[serde(with = "crate::parameter")]
+    #[schemars(with = "crate::parameter::Name")]
     pub parameter: Parameter,
     /// Its smallest value.
     pub from: f64,

@@ -2,30 +2,45 @@
 
 use crate::plan::{Plan, SecondStop, SystemPlan, Task};
 use crate::{Axis, Coordinate, Parameter, PlanError};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// The fields of [`Plan`], with gaps.
-#[derive(Deserialize)]
+/// What is asked, of which system. What varies on an axis need not be given in the system.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Written {
+    /// The version of the plan's fields: 1.
+    #[schemars(range(min = 1, max = 1))]
     version: u32,
+    /// The oscillator.
     #[serde(default)]
     system: System,
+    /// What is asked of it.
     task: Task,
+    /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
     #[serde(default)]
+    #[schemars(range(min = 1, max = 4096))]
     tile: Option<u32>,
 }
 
-/// The fields of [`SystemPlan`], any of them absent.
-#[derive(Default, Deserialize)]
+/// The oscillator: exactly one of beta and inverse_beta, one or two stops.
+#[derive(Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct System {
+    /// Frequency ratio omega / omega_n, positive.
     beta: Option<f64>,
+    /// Its inverse, the abscissa of the 1971 paper.
     inverse_beta: Option<f64>,
+    /// Gap, in units of F/k.
     gap: Option<f64>,
+    /// Restitution.
+    #[schemars(range(min = 0, max = 1))]
     restitution: Option<f64>,
+    /// Damping ratio.
     #[serde(default)]
+    #[schemars(range(min = 0))]
     damping: f64,
+    /// A stop on the other side.
     second_stop: Option<SecondStop>,
 }
 
@@ -50,6 +65,46 @@ impl Task {
 }
 
 impl Plan {
+    /// Reads a plan written as TOML or, where it begins with a brace, as JSON.
+    ///
+    /// ```
+    /// let plan = vibroimpact_study::Plan::from_text(r#"
+    ///     version = 1
+    ///     system = { restitution = 0.5 }
+    ///     [task.map]
+    ///     starts = 8
+    ///     axes = [{ vary = "inverse_beta", over = "0.4:2:33" }, { vary = "gap", over = "0:5:41" }]
+    /// "#)?;
+    /// assert_eq!(vibroimpact_study::Plan::from_text(&plan.to_toml())?, plan);
+    /// # Ok::<(), vibroimpact_study::PlanError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`PlanError::Text`] says where in the text it goes wrong, and what is expected there.
+    pub fn from_text(text: &str) -> Result<Self, PlanError> {
+        let sentence = |why: String| PlanError::Text(why.trim_end().to_owned());
+        if text.trim_start().starts_with('{') {
+            serde_json::from_str(text).map_err(|error| sentence(error.to_string()))
+        } else {
+            toml::from_str(text).map_err(|error| sentence(error.to_string()))
+        }
+    }
+
+    /// The plan as TOML.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        // numbers, texts and lists of them are always TOML
+        toml::to_string_pretty(self).unwrap_or_default()
+    }
+
+    /// The JSON schema of plans, for editors and other programs.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        let mut schema = schemars::schema_for!(Written).to_value();
+        schema["title"] = "a plan of vibroimpact".into();
+        schema
+    }
+
     /// The same question in the form in which it is stored: what varies has its first value in the system.
     ///
     /// # Errors

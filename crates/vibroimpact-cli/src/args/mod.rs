@@ -2,13 +2,17 @@
 
 mod output;
 mod plane;
+mod ranged;
 mod start;
+mod store;
 mod system;
 mod vary;
 
 pub(crate) use output::Globals;
 pub(crate) use plane::{Over, Place};
+pub(crate) use ranged::Ranged;
 pub(crate) use start::StartArgs;
+pub(crate) use store::{StoreArgs, Tiles};
 pub(crate) use system::{Asked, SystemArgs, Units};
 pub(crate) use vary::parameter;
 

@@ -1,6 +1,8 @@
 //! `vibro attractors`: the steady motions of a system and the share of starts that lead to each.
 
-use crate::args::SystemArgs;
+use crate::args::{StoreArgs, SystemArgs};
+use crate::commands::outputs::Outputs;
+use crate::commands::stored;
 use crate::exit::Failure;
 use crate::report::json::{Document, Motion, SharedMotion};
 use crate::report::text::{self, multipliers, percent};
@@ -8,6 +10,7 @@ use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
 use vibroimpact::verdict::{SettleOptions, StartBox};
+use vibroimpact_study::store::Part;
 use vibroimpact_study::{Plan, Task, attractors};
 
 /// The steady motions that many scattered starts lead to, and their shares
@@ -30,6 +33,9 @@ pub(crate) struct Attractors {
     /// Which sequence of starts
     #[arg(long, value_name = "S", default_value_t = 1, help_heading = "Starts")]
     seed: u64,
+
+    #[command(flatten)]
+    store: StoreArgs,
 
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
@@ -56,8 +62,11 @@ struct Area {
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed };
-    let plan = Plan::new(asked.system, task);
-    plan.check()?;
+    let plan = args.store.tiled(Plan::new(asked.system, task))?;
+    if let Some(place) = &args.store.store {
+        let outputs = Outputs::reserve(None, None, args.json, session)?;
+        return stored::run(&plan, place, Part::ALL, outputs, session);
+    }
     let osc = asked.system.oscillator()?;
     let area = StartBox::natural(&osc);
 

@@ -1,9 +1,11 @@
 //! `vibro basin`: which motion each start of a plane leads to.
 
-use crate::args::SystemArgs;
+use crate::args::{StoreArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
+use crate::commands::stored;
 use crate::exit::Failure;
 use crate::plot;
+use crate::plot::plane::{Plane, Side};
 use crate::report::csv::{self, Number};
 use crate::report::json::{Document, Motion, Range, SharedMotion};
 use crate::report::text::{self, percent};
@@ -12,6 +14,7 @@ use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
 use vibroimpact::verdict::SettleOptions;
+use vibroimpact_study::store::Part;
 use vibroimpact_study::{Basin as Computed, BasinPlan, Plan, Span, Task, basin};
 
 /// Which motion each start of a plane of positions and velocities leads to
@@ -40,6 +43,13 @@ pub(crate) struct Basin {
     #[arg(long, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "Starts")]
     phase: f64,
 
+    #[command(flatten)]
+    store: StoreArgs,
+
+    /// Compute every K-th start first, and those between only where neighbours differ; needs --store
+    #[arg(long, value_name = "K", requires = "store", help_heading = "Store")]
+    refine: Option<u32>,
+
     /// Write one row a start, columns x, v, label, to this file; - for stdout
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
@@ -65,13 +75,16 @@ struct Answer {
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let units = asked.units;
-    let task = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
-    let plan = Plan::new(asked.system, Task::Basin(task.clone()));
-    plan.check()?;
+    let plane = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
+    let task = BasinPlan { refine: args.refine, ..plane };
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task.clone())))?;
     let osc = asked.system.oscillator()?;
     let total = task.starts();
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    outputs.drawable(&args.x, &args.v)?;
+    outputs.drawable(&task.axes)?;
+    if let Some(place) = &args.store.store {
+        return stored::run(&plan, place, Part::ALL, outputs, session);
+    }
 
     let found =
         session.tiled(total, "starts", |control, _| basin(&asked.system, &task, &SettleOptions::default(), control))?;
@@ -83,7 +96,13 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
         || {
             let title = plot::title(&asked.system);
             let names = (units.named("*ξ*_0", "m"), units.named("*ξ*_0′", "m/s"));
-            plot::basin::figure(&found, (&args.x, &args.v), (&names.0, &names.1), title)
+            let plane = Plane { x: Side::new(names.0, &args.x.into())?, y: Side::new(names.1, &args.v.into())? };
+            let motion = |m: usize| plot::basin::Motion {
+                label: found.motions[m].verdict.label().into_owned(),
+                share: found.share(m),
+            };
+            let motions: Vec<_> = (0..found.motions.len()).map(motion).collect();
+            plot::basin::figure(&plane, &motions, found.cells.clone(), title)
         },
     )?;
     let mut order: Vec<usize> = (0..found.motions.len()).collect();

@@ -1,7 +1,8 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
-use crate::args::{SystemArgs, parameter};
+use crate::args::{StoreArgs, SystemArgs, parameter};
 use crate::commands::outputs::Outputs;
+use crate::commands::stored;
 use crate::exit::Failure;
 use crate::plot;
 use crate::report::csv;
@@ -13,6 +14,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::path::PathBuf;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
+use vibroimpact_study::store::Part;
 use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Task, diagram};
 
 /// The orbit diagram: impacts or states after the transient, at each value of one parameter
@@ -74,6 +76,9 @@ pub(crate) struct Diagram {
     /// Impacts or states to show at each value at most, 1 to 100000
     #[arg(long, value_name = "K", default_value_t = DEFAULT_KEEP, allow_hyphen_values = true, help_heading = "Sweep")]
     keep: u64,
+
+    #[command(flatten)]
+    store: StoreArgs,
 
     /// Write one row a point to this file; - for stdout. Columns: the parameter, sweep, kind, side, phase, velocity; for
     /// strobe the parameter, sweep, kind, x, v
@@ -145,9 +150,11 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         transient: args.transient,
         keep: args.keep,
     };
-    let plan = Plan::new(asked.system, Task::Diagram(task));
-    plan.check()?;
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    if let Some(place) = &args.store.store {
+        return stored::run(&plan, place, Part::ALL, outputs, session);
+    }
 
     let total = u64::from(task.over.count()) * task.runs();
     let found = session.tiled(total, "motions", |control, _| diagram(&asked.system, &task, control))?;

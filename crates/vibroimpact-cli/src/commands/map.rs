@@ -1,55 +1,44 @@
-//! `vibro map`: which motions there are at each point of the plane of inverse frequency and gap.
+//! `vibro map`: which motions there are at each point of a plane of parameters.
 
+use crate::args::{Ranged, StoreArgs};
 use crate::commands::outputs::Outputs;
+use crate::commands::stored;
 use crate::exit::Failure;
 use crate::plot;
 use crate::report::csv::{self, Number};
-use crate::report::json::{PROGRAM, Range, SecondStop as StopObject};
-use crate::report::text::{percent, short, table};
+use crate::report::json::{PROGRAM, Range};
+use crate::report::text::{percent, table};
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use vibroimpact::verdict::SettleOptions;
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::{MapPlan, Plan, RegionMap, SecondStop, Span, SystemPlan, Task, map};
+use vibroimpact_study::store::Part;
+use vibroimpact_study::{
+    Axis, Coordinate, MapPlan, MapPoint, Parameter, Plan, RegionMap, SecondStop, SystemPlan, Task, Values, map,
+};
 
-/// Which motions there are at each point of the plane of 1/beta and gap
+/// Which motions there are at each point of a plane of parameters
 ///
 /// At each point so many starts are settled: the first from rest, the second on the motion
 /// without stops if that clears them, the others scattered over a box around the motion.
-/// A:B:N is N values from A to B, both included. Without --csv, --plot or --json a summary is printed.
+/// One to four of the parameters take ranges, the others a value each: A:B:N is N values from A to B,
+/// both included, A:B:N:log the same in equal ratios, and A,B,C these. The first of them runs to the right.
+/// Without --csv, --plot or --json a summary is printed.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro map --inverse-beta A:B:N --gap A:B:N --restitution E --starts N [OPTIONS]",
-    after_help = "Example:\n  \
-        vibro map --inverse-beta 0.4:2:33 --gap 0:5:41 --restitution 0.5 --starts 20 --csv map.csv --plot map.png"
+    after_help = "Examples:\n  \
+        vibro map --inverse-beta 0.4:2:33 --gap 0:5:41 --restitution 0.5 --starts 20 --csv map.csv --plot map.png\n  \
+        vibro map --beta 0.1:10:60:log --restitution 0.2:0.9:40 --gap 1 --starts 8 --plot restitution.png\n  \
+        vibro map --inverse-beta 0.4:2:800 --gap 0:5:800 --restitution 0.5 --starts 8 --store map.zarr --refine 8"
 )]
 pub(crate) struct Map {
-    /// Values of 1/beta = omega_n/omega, all positive
-    #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Plane")]
-    inverse_beta: Span,
-
-    /// Values of the gap, in units of F/k
-    #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Plane")]
-    gap: Span,
-
-    /// Restitution: rebound speed over arrival speed, 0 to 1
-    #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "System")]
-    restitution: f64,
-
-    /// Damping ratio zeta, 0 or more
-    #[arg(long, value_name = "Z", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "System")]
-    damping: f64,
-
-    /// A second stop on the other side, at x = -D2 at every point
-    #[arg(long, value_name = "D2", allow_hyphen_values = true, help_heading = "System")]
-    second_gap: Option<f64>,
-
-    /// Restitution of the second stop [default: that of the first]
-    #[arg(long, value_name = "E2", allow_hyphen_values = true, requires = "second_gap", help_heading = "System")]
-    second_restitution: Option<f64>,
+    #[command(flatten)]
+    plane: PlaneArgs,
 
     /// Starts at each point, 1 to 1e9
     #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
@@ -59,7 +48,14 @@ pub(crate) struct Map {
     #[arg(long, value_name = "S", default_value_t = 1, help_heading = "Starts")]
     seed: u64,
 
-    /// Write one row a motion, columns inverse_beta, gap, label, share, to this file; - for stdout
+    #[command(flatten)]
+    store: StoreArgs,
+
+    /// Compute every K-th point first, and those between only where neighbours differ; needs --store
+    #[arg(long, value_name = "K", requires = "store", help_heading = "Store")]
+    refine: Option<u32>,
+
+    /// Write one row a motion to this file; - for stdout. Columns: what varies, then label, share
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -72,11 +68,85 @@ pub(crate) struct Map {
     json: bool,
 }
 
+/// The parameters of a map, values or ranges.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "System and plane")]
+struct PlaneArgs {
+    /// Frequency ratio omega/omega_n, positive
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true, conflicts_with = "inverse_beta")]
+    beta: Option<Ranged>,
+
+    /// Its inverse omega_n/omega instead, the abscissa of the 1971 paper; positive
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    inverse_beta: Option<Ranged>,
+
+    /// Gap, in units of F/k
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    gap: Ranged,
+
+    /// Restitution: rebound speed over arrival speed, 0 to 1
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    restitution: Ranged,
+
+    /// Damping ratio zeta, 0 or more [default: 0]
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    damping: Option<Ranged>,
+
+    /// A second stop on the other side, at x = -D2
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    second_gap: Option<Ranged>,
+
+    /// Restitution of the second stop [default: that of the first, if that is one value]
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true, requires = "second_gap")]
+    second_restitution: Option<Ranged>,
+}
+
+impl PlaneArgs {
+    /// The parameters that were given, in the order of the axes.
+    fn given(&self) -> impl Iterator<Item = (Parameter, &Ranged)> {
+        let all = [
+            (Parameter::Beta, self.beta.as_ref()),
+            (Parameter::InverseBeta, self.inverse_beta.as_ref()),
+            (Parameter::Gap, Some(&self.gap)),
+            (Parameter::Restitution, Some(&self.restitution)),
+            (Parameter::Damping, self.damping.as_ref()),
+            (Parameter::SecondGap, self.second_gap.as_ref()),
+            (Parameter::SecondRestitution, self.second_restitution.as_ref()),
+        ];
+        all.into_iter().filter_map(|(parameter, given)| Some((parameter, given?)))
+    }
+
+    fn system(&self) -> Result<SystemPlan, Failure> {
+        let first = |given: &Option<Ranged>| given.as_ref().map(Ranged::first);
+        let second_restitution = match (&self.second_restitution, &self.restitution) {
+            (None, Ranged::Over(_)) if self.second_gap.is_some() => {
+                return Err(Failure::bad(
+                    "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
+                ));
+            }
+            (None, one) => one.first(),
+            (Some(own), _) => own.first(),
+        };
+        Ok(SystemPlan {
+            beta: first(&self.beta),
+            inverse_beta: first(&self.inverse_beta),
+            gap: self.gap.first(),
+            restitution: self.restitution.first(),
+            damping: first(&self.damping).unwrap_or(0.0),
+            second_stop: first(&self.second_gap).map(|gap| SecondStop { gap, restitution: second_restitution }),
+        })
+    }
+
+    fn axes(&self) -> Vec<Axis> {
+        self.given().filter_map(|(parameter, given)| given.axis(parameter)).collect()
+    }
+}
+
 #[derive(Serialize)]
 struct Answer<'a> {
-    system: SystemObject,
-    inverse_beta: Range,
-    gap: Range,
+    system: serde_json::Map<String, Value>,
+    #[serde(flatten)]
+    axes: serde_json::Map<String, Value>,
     starts: u64,
     seed: u64,
     points: usize,
@@ -86,12 +156,28 @@ struct Answer<'a> {
     program: &'static str,
 }
 
-#[derive(Serialize)]
-struct SystemObject {
-    restitution: f64,
-    damping: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    second_stop: Option<StopObject>,
+/// What is the same at all points, and what varies.
+fn objects(system: &SystemPlan, axes: &[Axis]) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
+    let mut fixed = serde_json::Map::new();
+    for parameter in Parameter::ALL {
+        let given = match parameter {
+            Parameter::Beta => system.beta,
+            Parameter::InverseBeta => system.inverse_beta,
+            Parameter::SecondGap | Parameter::SecondRestitution => None,
+            _ => system.value(parameter).ok(),
+        };
+        if let Some(value) = given.filter(|_| !axes.iter().any(|axis| axis.vary == Coordinate::Parameter(parameter))) {
+            fixed.insert(parameter.name().to_owned(), value.into());
+        }
+    }
+    if let Some(stop) = system.second_stop {
+        fixed.insert("second_stop".into(), serde_json::json!({ "gap": stop.gap, "restitution": stop.restitution }));
+    }
+    let range = |axis: &Axis| match &axis.over {
+        Values::Span(span) => serde_json::to_value(Range::new(span)).unwrap_or_default(),
+        Values::Listed(values) => values.clone().into(),
+    };
+    (fixed, axes.iter().map(|axis| (axis.vary.name().to_owned(), range(axis))).collect())
 }
 
 /// How often a label occurs.
@@ -105,49 +191,43 @@ struct LabelCount {
 }
 
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
-    let system = SystemPlan {
-        beta: None,
-        inverse_beta: Some(args.inverse_beta.ends().0),
-        gap: args.gap.ends().0,
-        restitution: args.restitution,
-        damping: args.damping,
-        second_stop: args
-            .second_gap
-            .map(|gap| SecondStop { gap, restitution: args.second_restitution.unwrap_or(args.restitution) }),
-    };
-    let task = MapPlan::plane(args.inverse_beta, args.gap, args.starts, args.seed);
-    let plan = Plan::new(system, Task::Map(task.clone()));
-    plan.check()?;
-    let total = task.points();
+    let (system, axes) = (args.plane.system()?, args.plane.axes());
+    if axes.is_empty() {
+        return Err(Failure::bad(
+            "nothing varies\nhint: give one of the parameters a range, --gap 0:5:41; `vibro attractors` answers for one point",
+        ));
+    }
+    let task = MapPlan { axes, starts: args.starts, seed: args.seed, refine: args.refine };
+    let plan = args.store.tiled(Plan::new(system, Task::Map(task.clone())))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    outputs.drawable(&args.inverse_beta, &args.gap)?;
+    outputs.drawable(&task.axes)?;
+    if let Some(place) = &args.store.store {
+        return stored::run(&plan, place, Part::ALL, outputs, session);
+    }
 
+    let total = task.points();
     let found = session.tiled(total, "points", |control, _| map(&system, &task, &SettleOptions::default(), control))?;
 
     let silent = outputs.any();
+    let names: Vec<&str> = task.axes.iter().map(|axis| axis.vary.name()).collect();
     outputs.write(
         session,
-        |out| csv::write(out, "inverse_beta,gap,label,share", rows(&found)),
+        |out| csv::write(out, &format!("{},label,share", names.join(",")), rows(&found)),
         || {
-            let damping = if args.damping > 0.0 { format!(", *ζ* = {}", short(args.damping)) } else { String::new() };
-            plot::map::figure(
-                &found,
-                (&args.inverse_beta, &args.gap),
-                format!("*ε* = {}{damping}", short(args.restitution)),
-            )
+            let varied: Vec<Parameter> =
+                args.plane.given().filter(|(p, g)| g.axis(*p).is_some()).map(|(p, _)| p).collect();
+            let cell = |point: &MapPoint| plot::map::groups(point.motions.iter().map(|motion| motion.verdict.label()));
+            let cells: Vec<Vec<usize>> = found.points.iter().map(cell).collect();
+            plot::map::figure(&plot::stored::plane(&task.axes)?, &cells, plot::title_without(&system, &varied))
         },
     )?;
     let labels = counts(&found);
     let coexisting = found.points.iter().filter(|p| p.motions.len() > 1).count();
     if args.json {
+        let (system, axes) = objects(&system, &task.axes);
         return session.print_json(&Answer {
-            system: SystemObject {
-                restitution: args.restitution,
-                damping: args.damping,
-                second_stop: system.second_stop.map(|stop| StopObject { gap: stop.gap, restitution: stop.restitution }),
-            },
-            inverse_beta: Range::new(&args.inverse_beta),
-            gap: Range::new(&args.gap),
+            system,
+            axes,
             starts: args.starts,
             seed: args.seed,
             points: found.points.len(),
@@ -176,13 +256,8 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
 fn rows(found: &RegionMap) -> impl Iterator<Item = String> + '_ {
     found.points.iter().flat_map(|point| {
         point.motions.iter().map(|motion| {
-            format!(
-                "{},{},{},{}",
-                Number(point.at[0]),
-                Number(point.at[1]),
-                motion.verdict.label(),
-                Number(motion.share)
-            )
+            let place: Vec<String> = point.at.iter().map(|at| Number(*at).to_string()).collect();
+            format!("{},{},{}", place.join(","), motion.verdict.label(), Number(motion.share))
         })
     })
 }

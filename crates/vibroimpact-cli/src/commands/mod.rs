@@ -7,15 +7,24 @@ mod branch;
 mod completions;
 mod curve;
 mod diagram;
+mod export;
 mod lyapunov;
 mod man;
 mod map;
 mod orbit;
 mod outputs;
+mod plot;
 mod region;
 mod reproduce;
+mod resume;
+mod run;
+mod schema;
 mod settle;
 mod simulate;
+mod slurm;
+mod status;
+mod stored;
+mod verify;
 
 use crate::exit::Failure;
 use crate::session::Session;
@@ -34,6 +43,14 @@ pub(crate) enum Command {
     Map(map::Map),
     Diagram(diagram::Diagram),
     Lyapunov(lyapunov::Lyapunov),
+    Run(run::Run),
+    Resume(resume::Resume),
+    Status(status::Status),
+    Verify(verify::Verify),
+    Export(export::Export),
+    Plot(plot::Plot),
+    Slurm(slurm::Slurm),
+    Schema(schema::Schema),
     Bench(bench::Bench),
     Reproduce(reproduce::Reproduce),
     Completions(completions::Completions),
@@ -53,6 +70,14 @@ pub(crate) fn run(command: &Command, session: &Session) -> Result<(), Failure> {
         Command::Map(args) => map::run(args, session),
         Command::Diagram(args) => diagram::run(args, session),
         Command::Lyapunov(args) => lyapunov::run(args, session),
+        Command::Run(args) => run::run(args, session),
+        Command::Resume(args) => resume::run(args, session),
+        Command::Status(args) => status::run(args, session),
+        Command::Verify(args) => verify::run(args, session),
+        Command::Export(args) => export::run(args, session),
+        Command::Plot(args) => plot::run(args, session),
+        Command::Slurm(args) => slurm::run(args, session),
+        Command::Schema(_) => schema::run(session),
         Command::Bench(args) => bench::run(args, session),
         Command::Reproduce(args) => reproduce::run(args, session),
         Command::Completions(args) => completions::run(*args, session),

@@ -3,12 +3,10 @@
 use crate::exit::Failure;
 use crate::files::Target;
 use crate::plot::Picture;
+use crate::plot::stored::plane;
 use crate::session::Session;
 use std::path::Path;
-use vibroimpact_study::Span;
-
-/// Columns and rows a picture can show.
-const MOST_CELLS: u32 = 16_384;
+use vibroimpact_study::Axis;
 
 /// The outputs of a grid command.
 pub(super) struct Outputs {
@@ -44,15 +42,19 @@ impl Outputs {
         Ok(Self { csv, picture, json })
     }
 
-    /// Refuses a picture of more cells than it has room for.
-    pub(super) fn drawable(&self, columns: &Span, rows: &Span) -> Result<(), Failure> {
-        let most = columns.count().max(rows.count());
-        if self.picture.is_some() && most > MOST_CELLS {
-            return Err(Failure::bad(format!(
-                "a figure shows at most {MOST_CELLS} values on an axis, not {most}\nhint: --csv has no such limit"
-            )));
-        }
-        Ok(())
+    /// Refuses a picture of axes that none can be drawn over, before anything is computed.
+    pub(super) fn drawable(&self, axes: &[Axis]) -> Result<(), Failure> {
+        if self.picture.is_some() { plane(axes).map(|_| ()) } else { Ok(()) }
+    }
+
+    /// Whether a table or a picture was asked for.
+    pub(super) const fn any_file(&self) -> bool {
+        self.csv.is_some() || self.picture.is_some()
+    }
+
+    /// Whether JSON was asked for.
+    pub(super) const fn json(&self) -> bool {
+        self.json
     }
 
     /// Whether anything but text was asked for.

@@ -6,8 +6,9 @@
 use crate::args::Asked;
 use crate::exit::Failure;
 use crate::plot::{
-    basin::{axis, half_cell},
-    named, symbol, title_without,
+    named,
+    plane::{axis, half_cell},
+    symbol, title_without,
 };
 use std::collections::HashSet;
 use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Points, Raster, SERIES};

@@ -1,41 +1,45 @@
 //! The map: each point of the parameter plane in the colours of the motions that coexist there.
 
 use crate::exit::Failure;
-use crate::plot::basin::{axis, half_cell};
+use crate::plot::plane::Plane;
 use vibroimpact_plot::{
     ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_group, legend_text,
 };
-use vibroimpact_study::{MapPoint, RegionMap, Span};
 
 /// Above so many points coexisting motions could not be told apart, and a raster shows the most frequent one.
 const SPLIT: usize = 40_000;
 
-pub(crate) fn figure(map: &RegionMap, (x, y): (&Span, &Span), title: String) -> Result<Figure, Failure> {
+/// The group of a label in the legend.
+pub(crate) fn group(label: &str) -> usize {
+    let group = legend_group(label);
+    GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len() - 1)
+}
+
+/// `cells` holds the groups of the motions at each point, each once, the most frequent first.
+pub(crate) fn figure(plane: &Plane, cells: &[Vec<usize>], title: String) -> Result<Figure, Failure> {
     let mut present = [false; GROUPS.len()];
-    let classes: Vec<Vec<usize>> = map.points.iter().map(groups).collect();
-    let split = map.points.len() <= SPLIT;
-    for cell in &classes {
-        for class in cell.iter().take(if split { usize::MAX } else { 1 }) {
-            present[*class] = true;
-        }
+    let split = cells.len() <= SPLIT;
+    let shown = |cell: &Vec<usize>| cell.iter().take(if split { usize::MAX } else { 1 }).copied().collect::<Vec<_>>();
+    for class in cells.iter().flat_map(shown) {
+        present[class] = true;
     }
-    let panel = Panel::new(axis("1/*β*", x), axis("*δ*", y));
-    let panel = if split {
-        let mut cells = Rects::new(GROUPS.map(class_style).to_vec());
-        let (dx, dy) = (half_cell(x), half_cell(y));
-        for (point, classes) in map.points.iter().zip(&classes) {
-            let (px, py) = (point.at[0], point.at[1]);
-            cells.cell((px - dx, px + dx), (py - dy, py + dy), classes);
+    let panel = Panel::new(plane.x.axis(), plane.y.axis());
+    let columns = plane.x.count();
+    let panel = match (plane.x.even(), plane.y.even()) {
+        (Some(x), Some(y)) if !split => {
+            let class =
+                |cell: &Vec<usize>| cell.first().and_then(|class| u16::try_from(*class).ok()).unwrap_or(u16::MAX);
+            let palette = GROUPS.map(|group| class_style(group).colour).to_vec();
+            let first: Vec<u16> = cells.iter().map(class).collect();
+            panel.with(Raster::centred(x, y, (columns, plane.y.count()), first, palette)?)
         }
-        panel.with(cells)
-    } else {
-        let first: Vec<u16> = classes
-            .iter()
-            .map(|cell| cell.first().and_then(|class| u16::try_from(*class).ok()).unwrap_or(u16::MAX))
-            .collect();
-        let palette = GROUPS.map(|group| class_style(group).colour).to_vec();
-        let size = (x.count() as usize, y.count() as usize);
-        panel.with(Raster::centred(x.ends(), y.ends(), size, first, palette)?)
+        _ => {
+            let mut rects = Rects::new(GROUPS.map(class_style).to_vec());
+            for (k, cell) in cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
+                rects.cell(plane.x.cell(k % columns), plane.y.cell(k / columns), &shown(cell));
+            }
+            panel.with(rects)
+        }
     };
     let mut legend = Legend::below();
     for (group, _) in GROUPS.iter().zip(present).filter(|(_, present)| *present) {
@@ -46,12 +50,11 @@ pub(crate) fn figure(map: &RegionMap, (x, y): (&Span, &Span), title: String) -> 
     Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(legend))
 }
 
-/// The groups of the motions at a point, each once, in the order of the legend where all are shown.
-fn groups(point: &MapPoint) -> Vec<usize> {
+/// The groups of these labels, each once, in their order.
+pub(crate) fn groups<'a>(labels: impl Iterator<Item = std::borrow::Cow<'a, str>>) -> Vec<usize> {
     let mut groups: Vec<usize> = Vec::new();
-    for motion in &point.motions {
-        let group = legend_group(&motion.verdict.label());
-        let class = GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len() - 1);
+    for label in labels {
+        let class = group(&label);
         if !groups.contains(&class) {
             groups.push(class);
         }

@@ -5,8 +5,10 @@ pub(crate) mod branch;
 pub(crate) mod curve;
 pub(crate) mod diagram;
 pub(crate) mod map;
+pub(crate) mod plane;
 pub(crate) mod region;
 pub(crate) mod section;
+pub(crate) mod stored;
 pub(crate) mod tracks;
 pub(crate) mod waveform;
 

@@ -9,4 +9,5 @@ pub(crate) mod json;
 pub(crate) mod lyapunov;
 pub(crate) mod orbit;
 pub(crate) mod region;
+pub(crate) mod stored;
 pub(crate) mod text;

@@ -6,7 +6,7 @@ use crate::{PlanError, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 
 /// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BasinPlan {
     /// What varies; the first runs fastest and is drawn to the right, the second upwards.

@@ -10,11 +10,12 @@ pub const DEFAULT_TRANSIENT: u64 = 500;
 pub const DEFAULT_KEEP: u64 = 64;
 
 /// One parameter over a range, and what is shown of the motion at each value.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiagramPlan {
     /// The parameter that varies; its value in the system counts for nothing.
     #[serde(with = "crate::parameter")]
+    #[schemars(with = "crate::parameter::Name")]
     pub vary: Parameter,
     /// Its values.
     pub over: Span,
@@ -41,7 +42,7 @@ const fn keep() -> u64 {
 }
 
 /// What is shown of a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Show {
     /// Phase and speed of arrival of its impacts.
@@ -52,7 +53,7 @@ pub enum Show {
 }
 
 /// From which starts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Direction {
     /// Values rise, and the last state at one is the start at the next.

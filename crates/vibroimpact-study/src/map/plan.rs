@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 
 /// The points of a map: a grid over two parameters or more, several starts each.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapPlan {
     /// What varies; the first runs fastest and is drawn to the right, the second upwards.

@@ -1,7 +1,7 @@
 //! Filling tiles, over threads, until all are there.
 
 use super::{Store, StoreError};
-use crate::{Control, Stopped};
+use crate::{Control, Grid, Stopped};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -27,6 +27,12 @@ impl Part {
 
     const fn has(self, tile: u64) -> bool {
         tile % self.of == self.index - 1
+    }
+
+    /// Points of this part of a grid.
+    #[must_use]
+    pub fn points(self, grid: &Grid) -> u64 {
+        (0..grid.tiles()).filter(|tile| self.has(*tile)).map(|tile| grid.tile(tile).points() as u64).sum()
     }
 }
 

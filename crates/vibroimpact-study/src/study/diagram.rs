@@ -2,7 +2,7 @@
 
 use super::{Along, Fill};
 use crate::axis::Coordinate;
-use crate::diagram::{Direction, Kind as Motion, Point, Show, Step, Sweep, carried, step};
+use crate::diagram::{Diagram, Direction, Kind as Motion, Point, Show, Step, Sweep, carried, step};
 use crate::field::{Column, Extra, Field, Kind};
 use crate::grid::{Block, Dimension, Grid};
 use crate::{DiagramPlan, SystemPlan};
@@ -128,6 +128,54 @@ impl Fill for DiagramFill {
             Show::Strobe => vec![tile.kind, tile.first, tile.second].into_iter().map(Part::column).collect(),
         })
     }
+}
+
+/// The diagram that the columns of its study hold, motions in the order of [`crate::diagram()`].
+///
+/// Motions of tiles that are not done are left out.
+#[must_use]
+pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
+    let (count, keep) = (plan.over.count() as usize, usize::try_from(plan.keep).unwrap_or(usize::MAX));
+    let whole = |k: usize| if let Some(Column::I8(values)) = columns.get(k) { values.as_slice() } else { &[] };
+    let real = |k: usize| columns.get(k).map_or(&[][..], Column::real);
+    let (kinds, first, second, sides) = (whole(0), real(1), real(2), whole(3));
+    let motion = |row: usize, index: u32, sweep: Sweep| {
+        let at = row * count + index as usize;
+        let kind = match kinds.get(at)? {
+            0 => Motion::NoImpact,
+            1 => Motion::Impacts,
+            2 => Motion::Stuck,
+            3 => Motion::Undecided,
+            _ => return None,
+        };
+        let side = |sign: i8| if sign > 0 { Side::Upper } else { Side::Lower };
+        let point = |at: usize| {
+            let (a, b) = (*first.get(at)?, *second.get(at)?);
+            Some(match (plan.show, sides.get(at).copied().unwrap_or(0)) {
+                (Show::Strobe, _) if !a.is_nan() => Point::State { x: a, v: b },
+                (Show::Velocity, sign @ (1 | -1)) => Point::Impact { phase: b, velocity: a, side: side(sign) },
+                (Show::Velocity, sign @ (2 | -2)) => Point::Chatter { phase: b, side: side(sign) },
+                _ => return None,
+            })
+        };
+        let points = (at * keep..(at + 1) * keep).map_while(point).collect();
+        Some(Step { index, sweep, kind, points })
+    };
+    let values = 0..plan.over.count();
+    let steps = match plan.direction {
+        Direction::Scatter { starts, .. } => values
+            .flat_map(|index| (0..starts).map(move |start| (index, start)))
+            .filter_map(|(index, start)| motion(usize::try_from(start).ok()?, index, Sweep::Start(start)))
+            .collect(),
+        _ => (0..plan.runs())
+            .flat_map(|row| values.clone().map(move |j| (row, j)))
+            .filter_map(|(row, j)| {
+                let (index, sweep) = carried(plan, row, j);
+                motion(usize::try_from(row).ok()?, index, sweep)
+            })
+            .collect(),
+    };
+    Diagram { plan: *plan, steps }
 }
 
 enum Part {

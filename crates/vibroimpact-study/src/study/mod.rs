@@ -16,6 +16,7 @@ mod refine;
 mod tests;
 
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, STUCK, UNDECIDED, code, label_of};
+pub use diagram::diagram_of;
 pub use memory::{Sheet, in_memory};
 
 use crate::grid::Dimension;

@@ -162,6 +162,10 @@ fn a_diagram_is_that_of_its_steps() {
         };
         let found = sheet(S, Task::Diagram(plan), None, 2);
         let direct = crate::diagram(&S, &plan, &Control::default()).unwrap();
+        assert_eq!(diagram_of(&plan, &found.columns), direct);
+        let strobes = DiagramPlan { show: Show::Strobe, ..plan };
+        let held = sheet(S, Task::Diagram(strobes), None, 2);
+        assert_eq!(diagram_of(&strobes, &held.columns), crate::diagram(&S, &strobes, &Control::default()).unwrap());
         let speeds = columns(&found, "velocity").real();
         assert_eq!(speeds.len(), rows * 41 * 6);
         for step in &direct.steps {

@@ -1,0 +1,28 @@
+//! `vibro plot`: the figure of a store.
+
+use super::stored;
+use crate::exit::Failure;
+use crate::plot::{Picture, stored::figure};
+use crate::session::Session;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Draw what a store holds; of one that is not complete, what there is
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Plot {
+    /// The store
+    #[arg(value_name = "STORE")]
+    store: String,
+
+    /// The file, .svg or .png
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+}
+
+pub(super) fn run(args: &Plot, session: &Session) -> Result<(), Failure> {
+    let store = stored::open(&args.store)?;
+    let picture = Picture::reserve(&args.file, session.force)?;
+    picture.write(&figure(&store)?)?;
+    session.note(&format!("wrote {}", args.file.display()));
+    Ok(())
+}

@@ -1,0 +1,37 @@
+//! `vibro resume`: what a store lacks.
+
+use super::stored;
+use crate::args::Tiles;
+use crate::exit::Failure;
+use crate::report::stored as report;
+use crate::session::Session;
+use clap::Args;
+use vibroimpact_study::store::Part;
+
+/// Compute what a store lacks, and what in it is damaged
+///
+/// The check sums of all finished tiles are read; a tile that is missing, cut short or altered is computed anew. The
+/// result is, byte for byte, that of a run without interruption.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Resume {
+    /// The store
+    #[arg(value_name = "STORE")]
+    store: String,
+
+    /// Only part I of N of the tiles, for an array of jobs
+    #[arg(long, value_name = "I/N")]
+    tiles: Option<Tiles>,
+
+    /// Print one JSON object with what was done
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+pub(super) fn run(args: &Resume, session: &Session) -> Result<(), Failure> {
+    let store = stored::open(&args.store)?;
+    let filled = stored::fill(&store, args.tiles.map_or(Part::ALL, |tiles| tiles.0), session)?;
+    if args.json {
+        return session.print_json(&report::Answer::new(&store, Some(filled))?);
+    }
+    Ok(())
+}

@@ -1,0 +1,68 @@
+//! `vibro run`: a study from a plan in a file, into a store.
+
+use super::stored;
+use crate::args::Tiles;
+use crate::commands::outputs::Outputs;
+use crate::exit::Failure;
+use crate::session::Session;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use vibroimpact_study::Plan;
+use vibroimpact_study::store::Part;
+
+/// Run a study from a plan, into a store that can be resumed
+///
+/// The plan says what is asked, of which system, over which axes; `vibro schema` prints what may be in it, and any command
+/// with --json prints the plan of its question. The store is a Zarr group: xarray, zarr and napari open it as it is.
+/// What is there already is not computed again; several processes and machines may fill one store.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = "Examples:\n  \
+    vibro run map.toml --store map.zarr --plot map.png\n  \
+    vibro run map.toml --store /scratch/map.zarr --tiles 3/16     the third of sixteen jobs")]
+pub(crate) struct Run {
+    /// The plan, TOML or JSON
+    #[arg(value_name = "PLAN")]
+    pub(super) plan: PathBuf,
+
+    /// Where the store is [default: the name of the plan, with .zarr, in the current folder]
+    #[arg(long, value_name = "DIR", help_heading = "Store")]
+    pub(super) store: Option<String>,
+
+    /// Only part I of N of the tiles, for an array of jobs
+    #[arg(long, value_name = "I/N", help_heading = "Store")]
+    tiles: Option<Tiles>,
+
+    /// When all tiles are there: write the short table to this file; - for stdout
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// When all tiles are there: draw the figure into this file, .svg or .png
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    /// Print one JSON object with what was done
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+/// The plan in a file.
+pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
+    let name = path.display();
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| Failure::bad(format!("the plan `{name}` cannot be read: {error}")))?;
+    Plan::from_text(&text).map_err(|error| Failure::bad(format!("`{name}`: {error}")))
+}
+
+/// Where the store of a plan is when nobody says.
+pub(super) fn default_store(plan: &Path) -> String {
+    let stem = plan.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
+    format!("{stem}.zarr")
+}
+
+pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
+    let plan = read(&args.plan)?;
+    plan.check()?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
+    stored::run(&plan, &place, args.tiles.map_or(Part::ALL, |tiles| tiles.0), outputs, session)
+}

@@ -1,0 +1,106 @@
+//! `vibro slurm`: a job script for a cluster, that works as it stands.
+
+use super::run::{default_store, read};
+use crate::exit::Failure;
+use crate::session::Session;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use vibroimpact_study::Study;
+
+/// Print a Slurm script that runs a study as an array of jobs
+///
+/// Each job fills its part of the tiles of one store; the one that finishes last concludes it. A job that was killed may
+/// be submitted again as it is.
+#[derive(Clone, Debug, Args)]
+#[command(
+    after_help = "Example:\n  vibro slurm map.toml --store /scratch/map.zarr --jobs 32 > map.sh && sbatch map.sh"
+)]
+pub(crate) struct Slurm {
+    /// The plan, TOML or JSON
+    #[arg(value_name = "PLAN")]
+    plan: PathBuf,
+
+    /// Where the store is, on a file system all nodes see [default: the name of the plan, with .zarr]
+    #[arg(long, value_name = "DIR")]
+    store: Option<String>,
+
+    /// Jobs of the array
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    jobs: u64,
+
+    /// Processors of each job
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    cpus: u64,
+
+    /// Time limit of each job, as Slurm writes it
+    #[arg(long, value_name = "TIME", default_value = "04:00:00")]
+    time: String,
+
+    /// Partition to submit to
+    #[arg(long, value_name = "NAME")]
+    partition: Option<String>,
+}
+
+pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
+    let plan = read(&args.plan)?;
+    let tiles = Study::new(&plan)?.grid().tiles();
+    if args.time.is_empty() || !args.time.bytes().all(|b| b.is_ascii_digit() || b":-".contains(&b)) {
+        return Err(Failure::bad(format!(
+            "time `{}` is not as Slurm writes it, for example 04:00:00 or 2-12:00:00",
+            args.time
+        )));
+    }
+    let jobs = args.jobs.min(tiles);
+    if jobs < args.jobs {
+        session.note(&format!("the study has {tiles} tiles, so the array has {jobs} jobs"));
+    }
+    let program =
+        std::env::current_exe().map_err(|error| Failure::Failed(format!("where this program is: {error}")))?;
+    let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
+    // a bucket is where it is; a folder is told by its whole name
+    let place = if place.contains("://") { place } else { whole(Path::new(&place))? };
+    let partition = args.partition.as_ref().map_or_else(String::new, |name| format!("#SBATCH --partition={name}\n"));
+    session.print(&format!(
+        "#!/bin/bash\n\
+         #SBATCH --job-name=vibro-{hash}\n\
+         #SBATCH --array=1-{jobs}\n\
+         #SBATCH --ntasks=1\n\
+         #SBATCH --cpus-per-task={cpus}\n\
+         #SBATCH --time={time}\n\
+         {partition}\
+         #SBATCH --output=vibro-%A_%a.log\n\
+         # {title}: {tiles} tiles in {jobs} jobs. What is done is not done again.\n\
+         set -eu\n\
+         exec {program} run {plan} --store {place} \\\n  \
+         --tiles \"$SLURM_ARRAY_TASK_ID/{jobs}\" --threads \"${{SLURM_CPUS_PER_TASK:-{cpus}}}\" --quiet\n",
+        hash = plan.canonical()?.hash(),
+        cpus = args.cpus,
+        time = args.time,
+        title = plan.title(),
+        program = quoted(&program.display().to_string()),
+        plan = quoted(&whole(&args.plan)?),
+        place = quoted(&place),
+    ))
+}
+
+fn whole(path: &Path) -> Result<String, Failure> {
+    let whole = std::path::absolute(path);
+    whole.map(|path| path.display().to_string()).map_err(|error| Failure::bad(format!("`{}`: {error}", path.display())))
+}
+
+/// A word that a shell takes as it is.
+fn quoted(word: &str) -> String {
+    let plain = |b: u8| b.is_ascii_alphanumeric() || b"/._-+:=@%".contains(&b);
+    if word.bytes().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn a_shell_reads_the_word() {
+        assert_eq!(quoted("/a/b-c_1.zarr"), "/a/b-c_1.zarr");
+        assert_eq!(quoted("it's a plan.toml"), r"'it'\''s a plan.toml'");
+    }
+}

@@ -1,0 +1,139 @@
+//! `vibro status`: how far a store is.
+
+use super::stored;
+use crate::exit::Failure;
+use crate::session::Session;
+use clap::Args;
+use serde::Serialize;
+use std::time::{Duration, SystemTime};
+use vibroimpact_study::Plan;
+
+/// How far a store is: which tiles are done, how long the rest will take, and its plan
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Status {
+    /// The store
+    #[arg(value_name = "STORE")]
+    store: String,
+
+    /// Print one JSON object instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    store: String,
+    tiles: u64,
+    tiles_done: u64,
+    points: u64,
+    points_done: u64,
+    complete: bool,
+    /// Seconds the rest will take at the rate of the last tiles.
+    seconds_left: Option<f64>,
+    /// Seconds since the last tile was done.
+    seconds_since: Option<f64>,
+    /// The first tiles that are missing.
+    missing: Vec<u64>,
+    bytes: u64,
+    begun_by: &'a str,
+    plan: &'a Plan,
+    plan_hash: String,
+}
+
+pub(super) fn run(args: &Status, session: &Session) -> Result<(), Failure> {
+    let store = stored::open(&args.store)?;
+    let found = store.progress()?;
+    let since = found.last.and_then(|last| SystemTime::now().duration_since(last).ok());
+    if args.json {
+        return session.print_json(&Answer {
+            store: store.place(),
+            tiles: found.tiles,
+            tiles_done: found.done,
+            points: found.points,
+            points_done: found.points_done,
+            complete: found.complete,
+            seconds_left: found.left.map(|left| left.as_secs_f64()),
+            seconds_since: since.map(|since| since.as_secs_f64()),
+            missing: found.missing,
+            bytes: found.bytes,
+            begun_by: store.begun_by(),
+            plan: store.plan(),
+            plan_hash: store.plan().hash(),
+        });
+    }
+    let mut text = format!(
+        "{}\n{} of {} tiles, {} of {} points; {}\n",
+        store.plan().title(),
+        found.done,
+        found.tiles,
+        found.points_done,
+        found.points,
+        size(found.bytes)
+    );
+    if found.complete {
+        text.push_str("complete\n");
+    } else {
+        if let Some(left) = found.left {
+            text.push_str(&format!("about {} left at the rate of the last tiles", clock(left)));
+            text.push_str(&since.map_or_else(String::new, |since| format!(", the last {} ago", clock(since))));
+            text.push('\n');
+        }
+        text.push_str(&missing(&found.missing, found.tiles - found.done));
+    }
+    text.push_str(&format!(
+        "\nplan {}, begun by vibroimpact {}\n\n{}",
+        store.plan().hash(),
+        store.begun_by(),
+        store.plan().to_toml()
+    ));
+    session.print(&text)
+}
+
+/// The numbers of missing tiles, neighbours joined.
+fn missing(tiles: &[u64], count: u64) -> String {
+    const SHOWN: usize = 8;
+    if count == 0 {
+        return "all tiles are there, but the store was not concluded: `vibro resume` does that\n".into();
+    }
+    let runs: Vec<&[u64]> = tiles.chunk_by(|a, b| a + 1 == *b).collect();
+    let name = |run: &&[u64]| match run {
+        [one] => one.to_string(),
+        run => format!("{} to {}", run[0], run[run.len() - 1]),
+    };
+    let named: Vec<String> = runs.iter().take(SHOWN).map(name).collect();
+    let more = if runs.len() > SHOWN { ", ..." } else { "" };
+    format!("missing tiles: {}{more}\n", named.join(", "))
+}
+
+fn clock(time: Duration) -> String {
+    let s = time.as_secs();
+    match s {
+        0..=99 => format!("{s} s"),
+        100..=5999 => format!("{} min", s / 60),
+        _ => format!("{} h {} min", s / 3600, s / 60 % 60),
+    }
+}
+
+#[allow(clippy::cast_precision_loss)] // for people
+fn size(bytes: u64) -> String {
+    match bytes {
+        0..=9_999 => format!("{bytes} bytes"),
+        10_000..=9_999_999 => format!("{:.0} kB", bytes as f64 / 1e3),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_for_people() {
+        assert_eq!(missing(&[0, 1, 2, 7, 9, 10], 6), "missing tiles: 0 to 2, 7, 9 to 10\n");
+        assert!(missing(&[], 0).contains("not concluded"));
+        let odd: Vec<u64> = (0..40).map(|k| 2 * k).collect();
+        assert!(missing(&odd, 40).ends_with("14, ...\n"));
+        assert_eq!([50, 4000, 40_000].map(|s| clock(Duration::from_secs(s))), ["50 s", "66 min", "11 h 6 min"]);
+        assert_eq!([12, 20_000, 20_000_000].map(size), ["12 bytes", "20 kB", "20.0 MB"]);
+    }
+}

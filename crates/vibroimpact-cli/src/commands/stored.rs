@@ -1,0 +1,82 @@
+//! What the commands that fill a store share: run, say what was done, and write tables and figures from it.
+
+use crate::commands::outputs::Outputs;
+use crate::exit::Failure;
+use crate::plot;
+use crate::report::stored as report;
+use crate::session::Session;
+use serde::Serialize;
+use vibroimpact_study::store::{Part, Ran, Store, shelf};
+use vibroimpact_study::{Plan, StoreError};
+
+/// The part of an answer about a store.
+#[derive(Serialize)]
+pub(super) struct Filled {
+    store: String,
+    tiles: u64,
+    /// Tiles computed by this run.
+    computed: u64,
+    /// Tiles that were there.
+    found: u64,
+    /// Of those computed, the ones that were there but damaged.
+    mended: u64,
+    /// Tiles left to other parts.
+    left: u64,
+}
+
+/// Opens the store at a place.
+pub(super) fn open(place: &str) -> Result<Store, Failure> {
+    Ok(Store::open(shelf(place)?)?)
+}
+
+/// Opens the store of a plan at a place, or begins it.
+pub(super) fn begin(plan: &Plan, place: &str) -> Result<Store, Failure> {
+    Ok(Store::create(shelf(place)?, plan)?)
+}
+
+/// Computes what is missing of a part, and says so.
+pub(super) fn fill(store: &Store, part: Part, session: &Session) -> Result<Filled, Failure> {
+    let grid = store.study().grid();
+    let total = if part == Part::ALL { grid.points() } else { part.points(grid) };
+    let ran: Result<Ran, StoreError> = session.tiled(total, "points", |control, _| store.run(part, control));
+    let Ran { computed, found, mended, left } = ran?;
+    let filled = Filled { store: store.place(), tiles: grid.tiles(), computed, found, mended, left };
+    session.note(&filled.sentence());
+    Ok(filled)
+}
+
+impl Filled {
+    fn sentence(&self) -> String {
+        let mut text = format!("{}: {} of {} tiles computed", self.store, self.computed, self.tiles);
+        if self.mended > 0 {
+            text.push_str(&format!(", {} of them because they were damaged", self.mended));
+        }
+        if self.found > 0 {
+            text.push_str(&format!(", {} were there", self.found));
+        }
+        text.push_str(&match self.left {
+            0 => "; complete".to_owned(),
+            left => format!("; {left} left to other parts"),
+        });
+        text
+    }
+}
+
+/// Fills a store from the flags of a command, then writes what was asked for from it.
+pub(super) fn run(plan: &Plan, place: &str, part: Part, outputs: Outputs, session: &Session) -> Result<(), Failure> {
+    let store = begin(plan, place)?;
+    let filled = fill(&store, part, session)?;
+    if filled.left > 0 && outputs.any_file() {
+        session.note("hint: tables and figures are written when all tiles are there: `vibro export`, `vibro plot`");
+        return Ok(());
+    }
+    let (json, silent) = (outputs.json(), outputs.any());
+    outputs.write(session, |out| report::table(&store, false, out), || plot::stored::figure(&store))?;
+    if json {
+        return session.print_json(&report::Answer::new(&store, Some(filled))?);
+    }
+    if silent || filled.left > 0 {
+        return Ok(());
+    }
+    session.print(&report::summary(&store)?)
+}

@@ -1,0 +1,115 @@
+//! A plane of two axes with a cell around each point.
+
+use crate::exit::Failure;
+use crate::plot::symbol;
+use vibroimpact_plot::Axis;
+use vibroimpact_study::{Coordinate, Span, Values};
+
+/// One side of a plane: a name and values.
+pub(crate) struct Side {
+    name: String,
+    values: Values,
+}
+
+/// The two sides; the first runs to the right and fastest.
+pub(crate) struct Plane {
+    pub(crate) x: Side,
+    pub(crate) y: Side,
+}
+
+impl Side {
+    /// Values that rise or fall throughout.
+    pub(crate) fn new(name: impl Into<String>, values: &Values) -> Result<Self, Failure> {
+        let all = values.all();
+        if !(all.is_sorted() || all.is_sorted_by(|a, b| a >= b)) {
+            return Err(Failure::bad("a figure needs values in rising or falling order\nhint: --csv takes any order"));
+        }
+        Ok(Self { name: name.into(), values: values.clone() })
+    }
+
+    /// The axis of a plan.
+    pub(crate) fn of(axis: &vibroimpact_study::Axis) -> Result<Self, Failure> {
+        let name = match axis.vary {
+            Coordinate::Parameter(parameter) => symbol(parameter),
+            Coordinate::X => "*ξ*_0",
+            Coordinate::V => "*ξ*_0′",
+            Coordinate::Phase => "phase *φ*",
+        };
+        Self::new(name, &axis.over)
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.values.count()
+    }
+
+    /// Its first and last value, if they are evenly spaced.
+    pub(crate) fn even(&self) -> Option<(f64, f64)> {
+        match &self.values {
+            Values::Span(span) if !span.is_logarithmic() => Some(span.ends()),
+            _ => None,
+        }
+    }
+
+    fn logarithmic(&self) -> bool {
+        matches!(&self.values, Values::Span(span) if span.is_logarithmic())
+    }
+
+    /// The edges of the cell around value number `k`.
+    pub(crate) fn cell(&self, k: usize) -> (f64, f64) {
+        let at = |k: usize| self.values.at(k);
+        let (here, last) = (at(k), self.count() - 1);
+        let between = |a: f64, b: f64| if self.logarithmic() { (a * b).sqrt() } else { f64::midpoint(a, b) };
+        // the outermost cells are as wide beyond their value as within
+        let beyond = |inner: f64| {
+            if self.logarithmic() { here * (here / inner) } else { here + (here - inner) }
+        };
+        let (before, after) = match (k > 0, k < last) {
+            (true, true) => (between(at(k - 1), here), between(here, at(k + 1))),
+            (true, false) => (between(at(k - 1), here), beyond(between(at(k - 1), here))),
+            (false, true) => (beyond(between(here, at(k + 1))), between(here, at(k + 1))),
+            (false, false) => (here - 0.5, here + 0.5),
+        };
+        (before.min(after), before.max(after))
+    }
+
+    /// An axis that shows the outermost cells whole.
+    pub(crate) fn axis(&self) -> Axis {
+        let (first, last) = (self.cell(0), self.cell(self.count() - 1));
+        let axis = Axis::new(self.name.clone()).range(first.0.min(last.0), first.1.max(last.1));
+        if self.logarithmic() { axis.log10() } else { axis }
+    }
+}
+
+/// An axis that shows the cells around the first and last value whole.
+pub(crate) fn axis(name: &str, span: &Span) -> Axis {
+    let (a, b) = span.ends();
+    let half = half_cell(span);
+    Axis::new(name).range(a.min(b) - half, a.max(b) + half)
+}
+
+/// Half the distance of two values.
+pub(crate) fn half_cell(span: &Span) -> f64 {
+    let (a, b) = span.ends();
+    if span.count() > 1 { (b / 2.0 - a / 2.0).abs() / f64::from(span.count() - 1) } else { 0.5 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_meet_and_cover() {
+        for values in [
+            Values::Span("0:4:5".parse().unwrap()),
+            Values::Span("100:0.01:5:log".parse().unwrap()),
+            Values::Listed(vec![0.0, 1.0, 10.0]),
+        ] {
+            let side = Side::new("x", &values).unwrap();
+            let mut cells: Vec<_> = (0..side.count()).map(|k| side.cell(k)).collect();
+            cells.sort_by(|a, b| a.0.total_cmp(&b.0));
+            assert!(cells.windows(2).all(|pair| (pair[0].1 - pair[1].0).abs() < 1e-12 * pair[0].1.abs().max(1.0)));
+            assert!((0..side.count()).all(|k| side.cell(k).0 < values.at(k) && values.at(k) < side.cell(k).1));
+        }
+        assert!(Side::new("x", &Values::Listed(vec![0.0, 2.0, 1.0])).is_err());
+    }
+}

@@ -1,0 +1,121 @@
+//! The figure of a store: that of the command which asks the same.
+
+use crate::args::{Asked, Units};
+use crate::exit::Failure;
+use crate::plot::plane::{Plane, Side};
+use crate::plot::{basin, diagram, map, title_without};
+use std::collections::BTreeMap;
+use vibroimpact_plot::{Axis, Colour, Figure, Line, Panel, SERIES};
+use vibroimpact_study::study::{diagram_of, label_of};
+use vibroimpact_study::{Axis as Along, Coordinate, LyapunovPlan, Parameter, Store, SystemPlan, Task};
+
+/// Points a figure of a plane can show along one axis.
+const MOST: usize = 16_384;
+
+/// Draws what a store holds.
+pub(crate) fn figure(store: &Store) -> Result<Figure, Failure> {
+    let system = store.plan().system;
+    match &store.plan().task {
+        Task::Map(plan) => of_map(store, &plan.axes, title_without(&system, &varied(&plan.axes))),
+        Task::Basin(plan) => of_basin(store, &plan.axes, title_without(&system, &varied(&plan.axes))),
+        Task::Lyapunov(plan) => of_exponents(store, plan, &system),
+        Task::Diagram(plan) => {
+            let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>()?;
+            diagram::figure(&diagram_of(plan, &columns), &plan.over, &Asked { system, units: Units::default() })
+        }
+        _ => Err(Failure::bad("scattered starts have no figure\nhint: `vibro export --csv` has them all")),
+    }
+}
+
+fn varied(axes: &[Along]) -> Vec<Parameter> {
+    let parameter =
+        |axis: &Along| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None };
+    axes.iter().filter_map(parameter).collect()
+}
+
+/// The plane of a plan; what has another number of axes has no figure.
+pub(crate) fn plane(axes: &[Along]) -> Result<Plane, Failure> {
+    let [x, y] = axes else {
+        return Err(Failure::bad(format!(
+            "a figure needs two axes, not {}\nhint: --csv takes any number, and xarray opens a store",
+            axes.len()
+        )));
+    };
+    let plane = Plane { x: Side::of(x)?, y: Side::of(y)? };
+    let most = plane.x.count().max(plane.y.count());
+    if most > MOST {
+        return Err(Failure::bad(format!("a figure shows at most {MOST} values on an axis, not {most}")));
+    }
+    Ok(plane)
+}
+
+fn of_map(store: &Store, axes: &[Along], title: String) -> Result<Figure, Failure> {
+    let plane = plane(axes)?;
+    let Some(label) = store.field("label") else { return Err(Failure::bad("there are no labels")) };
+    let width = store.study().fields()[label].width();
+    let mut known: BTreeMap<i32, usize> = BTreeMap::new();
+    let mut group = |code: i32| *known.entry(code).or_insert_with(|| map::group(&label_of(code).unwrap_or_default()));
+    let column = store.column(label)?;
+    let cells: Vec<Vec<usize>> = (column.whole().chunks(width))
+        .map(|codes| {
+            let mut groups = Vec::new();
+            for group in codes.iter().filter(|code| label_of(**code).is_some()).map(|code| group(*code)) {
+                if !groups.contains(&group) {
+                    groups.push(group);
+                }
+            }
+            groups
+        })
+        .collect();
+    map::figure(&plane, &cells, title)
+}
+
+#[allow(clippy::cast_precision_loss)] // counts below 2^53
+fn of_basin(store: &Store, axes: &[Along], title: String) -> Result<Figure, Failure> {
+    let plane = plane(axes)?;
+    let Some(label) = store.field("label") else { return Err(Failure::bad("there are no labels")) };
+    let labels = store.column(label)?;
+    let cycles = store.field("cycle").map(|cycle| store.column(cycle)).transpose()?;
+    let key = |k: usize| (labels.whole()[k], cycles.as_ref().map_or(-1, |cycles| cycles.whole()[k]));
+    let mut motions: BTreeMap<(i32, i32), (u16, u64)> = BTreeMap::new();
+    let mut cells = Vec::with_capacity(labels.len());
+    for k in 0..labels.len() {
+        let next = u16::try_from(motions.len()).unwrap_or(u16::MAX);
+        if label_of(key(k).0).is_none() {
+            cells.push(u16::MAX);
+            continue;
+        }
+        let entry = motions.entry(key(k)).or_insert((next, 0));
+        entry.1 += 1;
+        cells.push(entry.0);
+    }
+    let total = labels.len() as f64;
+    let mut list: Vec<_> = motions.into_iter().collect();
+    list.sort_by_key(|(_, (number, _))| *number);
+    let motion = |((code, _), (_, count)): ((i32, i32), (u16, u64))| basin::Motion {
+        label: label_of(code).unwrap_or_default(),
+        share: count as f64 / total,
+    };
+    basin::figure(&plane, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)
+}
+
+/// Both exponents over one axis, and the line where they would be neither.
+fn of_exponents(store: &Store, plan: &LyapunovPlan, system: &SystemPlan) -> Result<Figure, Failure> {
+    let ([axis], Some(field)) = (plan.axes.as_slice(), store.field("exponent")) else {
+        return Err(Failure::bad("exponents are drawn over one axis\nhint: `vibro export --csv`, or xarray, for more"));
+    };
+    let column = store.column(field)?;
+    let side = Side::of(axis)?;
+    let values = axis.over.all();
+    let of = |which: usize, colour: Colour| {
+        let points = values.iter().zip(column.real().chunks(2)).map(|(x, both)| (*x, both[which]));
+        let (xs, ys): (Vec<f64>, Vec<f64>) = points.filter(|(_, y)| y.is_finite()).unzip();
+        Line::new(xs, ys, colour)
+    };
+    let zero = Line::new(vec![values[0], values[values.len() - 1]], vec![0.0, 0.0], Colour::hex(0x80_8080));
+    let panel = Panel::new(side.axis(), Axis::new("Lyapunov exponents per unit time"))
+        .with(zero)
+        .with(of(0, SERIES[0]))
+        .with(of(1, SERIES[1]));
+    Ok(Figure::new(panel).title(title_without(system, &varied(&plan.axes))))
+}

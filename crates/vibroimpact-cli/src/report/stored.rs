@@ -1,0 +1,197 @@
+//! What is in a store: a summary, and a table with a row for each point and motion.
+
+use crate::exit::Failure;
+use crate::report::csv::Number;
+use crate::report::json::PROGRAM;
+use crate::report::text::{percent, table as columns_of_text};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, diagram_of, label_of};
+use vibroimpact_study::{Block, Column, Field, Plan, Store, StoreError, Task};
+
+/// One JSON object about a store.
+#[derive(Serialize)]
+pub(crate) struct Answer<'a, Filled: Serialize> {
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    filled: Option<Filled>,
+    points: u64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    labels: Vec<LabelCount>,
+    plan: &'a Plan,
+    plan_hash: String,
+    program: &'static str,
+}
+
+impl<'a, Filled: Serialize> Answer<'a, Filled> {
+    pub(crate) fn new(store: &'a Store, filled: Option<Filled>) -> Result<Self, Failure> {
+        Ok(Self {
+            filled,
+            points: store.study().grid().points(),
+            labels: labels(store)?,
+            plan: store.plan(),
+            plan_hash: store.plan().hash(),
+            program: PROGRAM,
+        })
+    }
+}
+
+/// How often a label occurs.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct LabelCount {
+    label: String,
+    /// Points that have such a motion.
+    points: u64,
+    /// Its share of all starts.
+    share: f64,
+}
+
+/// The labels of all finished tiles, the most frequent first.
+fn labels(store: &Store) -> Result<Vec<LabelCount>, Failure> {
+    let (Some(label), share) = (store.field("label"), store.field("share")) else { return Ok(Vec::new()) };
+    let width = store.study().fields()[label].width();
+    let mut counts: BTreeMap<i32, (u64, f64)> = BTreeMap::new();
+    let mut total = 0_u64;
+    for tile in 0..store.study().grid().tiles() {
+        let (_, columns) = store.tile(tile)?;
+        let shares = share.map(|share| columns[share].real());
+        for (k, point) in columns[label].whole().chunks(width).enumerate() {
+            let mut seen = Vec::new();
+            for (i, code) in point.iter().enumerate().filter(|(_, code)| ![NO_MOTION, NOT_COMPUTED].contains(code)) {
+                let entry = counts.entry(*code).or_default();
+                entry.1 += shares.map_or(1.0, |shares| shares[k * width + i]);
+                if !seen.contains(code) {
+                    seen.push(*code);
+                    entry.0 += 1;
+                }
+            }
+            total += u64::from(!seen.is_empty());
+        }
+    }
+    #[allow(clippy::cast_precision_loss)] // counts below 2^53
+    let count = |(code, (points, share)): (i32, (u64, f64))| LabelCount {
+        label: label_of(code).unwrap_or_default(),
+        points,
+        share: share / total as f64,
+    };
+    let mut list: Vec<LabelCount> = counts.into_iter().map(count).collect();
+    list.sort_by(|a, b| b.share.total_cmp(&a.share));
+    Ok(list)
+}
+
+/// A summary for people.
+pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
+    let grid = store.study().grid();
+    let sides: Vec<String> = grid.dimensions.iter().rev().map(|d| format!("{} {}", d.count, d.name)).collect();
+    let mut text = format!("{}\n{} points: {}\n", store.plan().title(), grid.points(), sides.join(" x "));
+    let labels = labels(store)?;
+    if !labels.is_empty() {
+        let heads = ["<label", "points", "share of starts"].map(str::to_owned);
+        let row = |count: &LabelCount| vec![count.label.clone(), count.points.to_string(), percent(count.share)];
+        text.push('\n');
+        text.push_str(&columns_of_text(&heads, &labels.iter().map(row).collect::<Vec<_>>()));
+    }
+    Ok(text)
+}
+
+/// The fields of a short table: those that the command without a store writes.
+const SHORT: [&str; 2] = ["label", "share"];
+
+/// A row for each point and motion, or for each point; `long` with all fields.
+///
+/// Of an orbit diagram the table of `vibro diagram`.
+pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Result<()> {
+    if let Task::Diagram(plan) = &store.plan().task {
+        let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
+        let found = diagram_of(plan, &columns.map_err(io::Error::other)?);
+        writeln!(out, "{}", super::diagram::columns(&found).join(","))?;
+        for row in super::diagram::rows(&found, &plan.over, crate::args::Units::default()) {
+            writeln!(out, "{row}")?;
+        }
+        return Ok(());
+    }
+    let (study, all) = (store.study(), store.study().fields());
+    let shown: Vec<usize> =
+        (0..all.len()).filter(|k| long || !has_short(&all) || SHORT.contains(&all[*k].name)).collect();
+    // scattered starts are told by their coordinates
+    let along: Vec<Option<Vec<f64>>> = (study.grid().dimensions.iter())
+        .map(|d| study.coordinates().into_iter().find(|along| along.dimension == d.name).map(|along| along.values))
+        .collect();
+    let extra = all.iter().find_map(|field| field.extra.first());
+    let mut head: Vec<&str> = study.grid().dimensions.iter().rev().map(|d| d.name.as_str()).collect();
+    let numbered = extra.filter(|extra| extra.name == "direction");
+    head.extend(numbered.map(|extra| extra.name));
+    head.extend(shown.iter().map(|k| all[*k].name));
+    writeln!(out, "{}", head.join(","))?;
+    let width = extra.map_or(1, |extra| extra.count);
+    bands(store, |block, columns| {
+        for p in 0..block.points() {
+            let index = block.index(p);
+            let place = index.iter().zip(&along).rev().map(|(i, values)| match values {
+                Some(values) => Number(values[*i]).to_string(),
+                None => (i + 1).to_string(),
+            });
+            let place = place.collect::<Vec<_>>().join(",");
+            for i in 0..width {
+                let cell = |k: &usize| {
+                    text(&all[*k], &columns[*k], p * all[*k].width() + if all[*k].width() > 1 { i } else { 0 })
+                };
+                if i > 0 && all.iter().enumerate().all(|(k, f)| f.width() == 1 || cell(&k).is_empty()) {
+                    continue;
+                }
+                let cells: Vec<String> = shown.iter().map(cell).collect();
+                let number = numbered.map_or_else(String::new, |_| format!(",{}", i + 1));
+                writeln!(out, "{place}{number},{}", cells.join(","))?;
+            }
+        }
+        Ok(())
+    })
+}
+
+fn has_short(fields: &[Field]) -> bool {
+    fields.iter().any(|field| SHORT.contains(&field.name))
+}
+
+/// A number of a column as text: flags by name, what is not there as nothing.
+fn text(field: &Field, column: &Column, at: usize) -> String {
+    match column {
+        Column::F64(values) if values[at].is_nan() => String::new(),
+        Column::F64(values) => Number(values[at]).to_string(),
+        Column::I32(values) if field.name == "label" => match values[at] {
+            NOT_COMPUTED => "not_computed".to_owned(),
+            code => label_of(code).unwrap_or_default(),
+        },
+        Column::I32(values) => {
+            if values[at] < 0 {
+                String::new()
+            } else {
+                values[at].to_string()
+            }
+        }
+        Column::I8(values) => {
+            let flag = field.flags.iter().find(|(value, _)| *value == i32::from(values[at]));
+            flag.map_or_else(|| values[at].to_string(), |(_, name)| (*name).to_owned())
+        }
+    }
+}
+
+/// Calls `each` with bands of the grid, one tile high in its slowest dimension, in order: what is in memory at once does
+/// not grow with their number.
+fn bands(store: &Store, mut each: impl FnMut(&Block, &[Column]) -> io::Result<()>) -> io::Result<()> {
+    let (grid, fields) = (store.study().grid(), store.study().fields());
+    let per_band = grid.tiles() / grid.tiles_along().first().map_or(1, |n| *n as u64);
+    let failed = |error: StoreError| io::Error::other(error);
+    for first in (0..grid.tiles()).step_by(usize::try_from(per_band).unwrap_or(1)) {
+        let mut whole = grid.whole();
+        whole.ranges[0] = grid.tile(first).ranges[0].clone();
+        let mut columns: Vec<Column> = fields.iter().map(|field| field.empty(whole.points())).collect();
+        for tile in first..first + per_band {
+            let (block, parts) = store.tile(tile).map_err(failed)?;
+            for ((field, column), part) in fields.iter().zip(&mut columns).zip(&parts) {
+                block.put(part, &whole, field.width(), column);
+            }
+        }
+        each(&whole, &columns)?;
+    }
+    Ok(())
+}
