@@ -5,15 +5,16 @@
 //! there two curves of solutions cross and the equations are singular, so it is interpolated from beside it.
 
 use super::arc::correct;
-use super::branch::{Branch, Here, Reached, sign};
+use super::course::{Course, Here, sign};
 use super::interpolate;
 use super::point::BranchEvent;
 use super::root;
+use super::step::Reached;
 use super::switch::halved;
 use super::varied::Varied;
 use super::watch::{Place, Watch};
 
-impl Branch {
+impl Course {
     /// What happens on the step to `there`: how far along, and which watched function (`None`: the end of the range).
     pub(super) fn happenings(&self, there: &Here, h: f64) -> Option<Vec<(f64, Option<usize>)>> {
         let mut found = Vec::new();

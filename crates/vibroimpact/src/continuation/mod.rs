@@ -7,7 +7,9 @@
 //! | a zero in a bracket; a cubic through four points | `root`, `interpolate` |
 //! | what is watched for a change of sign along a branch | `watch` |
 //! | a point of a branch, and what happens there | [`Point`], [`BranchEvent`] |
-//! | the branch, step by step | [`Branch`], [`BranchOptions`] |
+//! | the branch | [`Branch`], [`BranchOptions`] |
+//! | by the equations of its impacts; one step of it | `course`, `step` |
+//! | by its release, where it rests on a stop; whether two motions are alike; what happens between | `resting`, `likeness`, `resting_event` |
 //! | the events on a step: where and what | `events` |
 //! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
 //! | the motion without impacts: to it and from it | `free` |
@@ -19,6 +21,7 @@
 
 mod arc;
 mod branch;
+mod course;
 mod curve;
 mod curve_end;
 mod curve_point;
@@ -27,13 +30,17 @@ mod frame;
 mod free;
 mod graze;
 mod interpolate;
+mod likeness;
 mod options;
 mod plane;
 mod point;
 mod polygon;
 mod region;
+mod resting;
+mod resting_event;
 mod root;
 mod round;
+mod step;
 mod switch;
 mod touch;
 mod varied;
@@ -45,6 +52,6 @@ pub use curve::Curve;
 pub use curve_point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
 pub use frame::Frame;
 pub use options::{BranchError, BranchOptions, Direction};
-pub use point::{BranchEvent, Change, Point};
+pub use point::{BranchEvent, Change, Point, Touch};
 pub use polygon::{Bound, Polygon, Region, Vertex};
 pub use region::{RegionKind, RegionOptions, region};

@@ -23,7 +23,7 @@ pub struct BranchOptions {
     pub shortest: f64,
     /// The most points.
     pub points: u32,
-    /// The most impacts a cycle may come to have; towards a complete chatter there is no end of them.
+    /// The most impacts a cycle may come to have, one with a rest excepted; towards a complete chatter there is no end of them.
     pub impacts: u32,
     /// Whether the signature is kept at grazing events, so that the branch goes on through solutions that are no motions.
     pub keep_signature: bool,
@@ -53,9 +53,9 @@ pub enum BranchError {
         /// Upper end.
         high: f64,
     },
-    /// A cycle with a rest: it is fixed by its release and has no equations to follow.
+    /// A cycle with a rest: it is fixed by its release and has no equations whose curves could be followed.
     #[error(
-        "a cycle that rests on a stop cannot be followed: it is determined by its release at each value anew\nhint: ask for it at single values, where it is found at once"
+        "a cycle that rests on a stop has no equations to be followed over two parameters: its release determines it at each value anew\nhint: in one parameter it has a branch"
     )]
     Rests,
     /// The motion without impacts of an oscillator without damping.

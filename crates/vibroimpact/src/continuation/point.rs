@@ -35,6 +35,17 @@ pub enum Change {
     Disappears,
 }
 
+/// A touch of a stop that comes or goes together with another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// The impact of the point's cycle that disappears, or the one after which a new one appears.
+    pub impact: usize,
+    /// Stop of the touch.
+    pub side: Side,
+    /// Phase of the touch.
+    pub phase: f64,
+}
+
 /// What happens at a point of a branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BranchEvent {
@@ -62,6 +73,8 @@ pub enum BranchEvent {
         after: Label,
         /// Whether the parameter turns back here (a nonsmooth fold); if not, it goes on (persistence).
         turns: bool,
+        /// What does the same at the same value: with two stops alike the touch of the other one.
+        also: Option<Touch>,
     },
     /// The only impact has speed zero: beyond, the mass never touches the stop. Only without damping, where orbits 1/n of
     /// every n end together in one of a continuum of motions without impacts, so that there is nothing to follow. With
@@ -77,6 +90,45 @@ pub enum BranchEvent {
     Stick {
         /// The impact of the point's cycle.
         impact: usize,
+    },
+    /// A cycle with a rest: all impacts that lead to it have speed zero. The mass comes to the stop without speed just as the
+    /// force begins to press it there. Without damping, where a flight is the same forwards and backwards in time, this
+    /// happens at single values of one parameter.
+    SoftLanding {
+        /// The first of these impacts in the point's cycle.
+        impact: usize,
+        /// Stop that is landed on.
+        side: Side,
+        /// Phase of the landing.
+        phase: f64,
+        /// Label before.
+        before: Label,
+        /// Label after.
+        after: Label,
+    },
+    /// A cycle with a rest: the rest is over the moment it begins, at the phase of the release. Beyond, the mass leaves the stop
+    /// before it has come to rest: after a chatter that is not complete, or, with restitution 0, where the force pulls it away.
+    /// The branch ends. For a complete chatter, cycles with ever more impacts end there too, from the other side.
+    EndOfRest {
+        /// Stop of the rest.
+        side: Side,
+        /// Phase of the release.
+        phase: f64,
+    },
+    /// A cycle with a rest: beyond, the force never pulls the mass off the stop.
+    RestForEver {
+        /// Which stop.
+        side: Side,
+    },
+    /// Impact after impact was added, and here their number is infinite: the limit, which is the cycle of this point, comes to
+    /// rest at the phase of the release, and beyond the branch is one of cycles with a rest.
+    Chatter {
+        /// Stop of the chatter.
+        side: Side,
+        /// Phase of the release.
+        phase: f64,
+        /// Label of the branch so far.
+        before: Label,
     },
     /// A branch that was followed through solutions that are no motions becomes one.
     BecomesPhysical,
@@ -106,6 +158,10 @@ impl BranchEvent {
             Self::Grazing { .. } => "grazing",
             Self::LossOfContact { .. } => "loss of contact",
             Self::Stick { .. } => "stick",
+            Self::SoftLanding { .. } => "soft landing",
+            Self::EndOfRest { .. } => "end of rest",
+            Self::RestForEver { .. } => "rest for ever",
+            Self::Chatter { .. } => "chatter",
             Self::BecomesPhysical => "becomes physical",
             Self::BecomesVirtual => "becomes virtual",
             Self::Closed => "closed",
@@ -125,6 +181,7 @@ impl BranchEvent {
                 | Self::BranchPoint
                 | Self::Flip
                 | Self::Grazing { .. }
+                | Self::SoftLanding { .. }
                 | Self::BecomesPhysical
                 | Self::BecomesVirtual
         )

@@ -2,6 +2,7 @@
 
 use super::arc::{Equations, correct};
 use super::branch::Branch;
+use super::course::Course;
 use super::options::{BranchError, BranchOptions};
 use super::point::{BranchEvent, Point};
 use super::varied::Varied;
@@ -131,10 +132,11 @@ fn leave(
     mut direction: Vec<f64>,
     options: BranchOptions,
 ) -> Result<Branch, BranchError> {
-    let equations = Branch::equations(osc, parameter, &range, value, ring)?;
+    let equations = Course::equations(osc, parameter, &range, value, ring)?;
     direction.push(0.0);
     let length = equations.length(&direction);
     direction.iter_mut().for_each(|d| *d /= length);
     let w = Varied::join(ring, value);
-    Branch::begin(equations, w, direction, (*range.start(), *range.end()), options).ok_or(BranchError::NoCycle)
+    let course = Course::begin(equations, w, direction, (*range.start(), *range.end()), options);
+    course.map(Branch::from).ok_or(BranchError::NoCycle)
 }

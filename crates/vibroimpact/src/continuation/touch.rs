@@ -1,6 +1,6 @@
 //! A branch at a grazing impact: what happens, and which cycle it goes on with.
 
-use super::branch::{Branch, Here, sign};
+use super::course::{Course, Here, sign};
 use super::free::{arriving, leaving};
 use super::graze::{Beyond, beyond};
 use super::point::{BranchEvent, Change};
@@ -9,7 +9,7 @@ use crate::orbit::{closest, crest};
 use crate::system::{Side, phase};
 use crate::verdict::Label;
 
-impl Branch {
+impl Course {
     /// Where in the list of the point's cycle impact `k` is.
     pub(super) fn listed(&self, at: &Here, k: usize) -> usize {
         let points = &at.orbit.cycle.points;
@@ -76,7 +76,7 @@ impl Branch {
         };
         let turns = self.equations.pace(&at.tangent) * equations.pace(&tangent) < 0.0;
         let impact = self.listed(at, k);
-        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns };
+        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also: None };
         let again = |(v, e): &(f64, BranchEvent)| (v - value).abs() < AGAIN * (1.0 + value.abs()) && alike(e, &event);
         if self.grazed.iter().any(again) {
             self.emit(at, BranchEvent::Closed);

@@ -51,6 +51,15 @@ pub(crate) fn closest(osc: &Oscillator, ring: &Ring, k: usize, side: Side) -> Op
     extrema.into_iter().min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
+/// Of the places within `time` where a flight turns back from the stop on `side`, or beyond it, the one nearest in time to `near`.
+pub(crate) fn turning_near(osc: &Oscillator, flight: &Flight, side: Side, time: f64, near: f64) -> Option<Closest> {
+    let sign = side.sign();
+    let room = osc.stop(side)?.gap - sign * flight.x;
+    let all = maxima(osc, flight, time, sign).into_iter();
+    let nearest = all.min_by(|a, b| (a.0 - near).abs().total_cmp(&(b.0 - near).abs()))?;
+    Some(Closest { time: nearest.0, distance: room - sign * nearest.1.displacement })
+}
+
 /// The extremum that belongs to a virtual impact lies beyond the stop, up to rounding.
 const BEYOND: f64 = 1e-12;
 

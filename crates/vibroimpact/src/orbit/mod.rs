@@ -36,11 +36,12 @@ pub use physical::{EarlierContact, earlier_contact};
 pub use release::{DEFAULT_EVENTS, from_release};
 pub use shooting::{ShootingError, shoot};
 
-pub(crate) use clearance::closest;
+pub(crate) use clearance::{closest, turning_near};
 pub(crate) use cycle::distance as cycle_distance;
 pub(crate) use cyclic::{Block, blocks, by_parameter, fill};
 pub(crate) use floquet::Floquet;
 pub(crate) use free::{crest, room};
 pub(crate) use newton::{cycle as ring_cycle, solve};
+pub(crate) use release::{Excursion, Stretch};
 pub(crate) use ring::Ring;
 pub(crate) use shooting::{Lap, flight_limits};

@@ -14,6 +14,119 @@ use crate::verdict::{Count, Label};
 /// Events followed before it counts as not coming back. A chatter takes some fifteen impacts at restitution 1/2.
 pub const DEFAULT_EVENTS: u32 = 4_000;
 
+/// An impact after a release.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Strike {
+    /// Time flown since the impact before, or since the release.
+    pub(crate) flown: f64,
+    pub(crate) state: ImpactState,
+}
+
+/// A rest that ends with a release.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rest {
+    pub(crate) span: RestSpan,
+    /// Time from the last strike to where it comes to rest.
+    pub(crate) settled: f64,
+    /// Time at rest.
+    pub(crate) held: f64,
+}
+
+/// What follows a release, up to the next one.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Stretch {
+    /// The stop that released the mass.
+    pub(crate) from: Side,
+    pub(crate) strikes: Vec<Strike>,
+    /// The rest that ends it, if it came to that.
+    pub(crate) rest: Option<Rest>,
+}
+
+/// The motion from a release to the next release from the same stop, as far as it was followed.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Excursion {
+    pub(crate) stretches: Vec<Stretch>,
+    /// Forcing periods it takes; `None` if it does not come back.
+    pub(crate) periods: Option<u32>,
+}
+
+impl Excursion {
+    /// From the release from the stop on `side`, for at most so many events and forcing periods; `None` if the stop never
+    /// releases the mass.
+    pub(crate) fn new(osc: &Oscillator, side: Side, events: u32, periods: f64) -> Option<Self> {
+        release_phase(osc, side)?;
+        let after = |from| Stretch { from, strikes: Vec::new(), rest: None };
+        let mut excursion = Self { stretches: vec![after(side)], periods: None };
+        let mut motion = Motion::released(osc, side);
+        let mut flown = 0.0;
+        for _ in 0..events {
+            let Some(event) = motion.next().filter(|event| event.time <= periods * osc.period()) else { break };
+            // legs, not differences of the total: the last hops of a chatter are short
+            flown += motion.leg().map_or(0.0, |leg| leg.duration);
+            let here = excursion.stretches.last_mut()?;
+            match event.kind {
+                EventKind::Impact { velocity_before, .. } => {
+                    let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
+                    here.strikes.push(Strike { flown, state });
+                }
+                EventKind::Stick { chatter, .. } => {
+                    let span = RestSpan { side: event.side, chatter, begin: event.phase, release: f64::NAN };
+                    here.rest = Some(Rest { span, settled: flown, held: f64::NAN });
+                }
+                EventKind::Release => {
+                    let rest = here.rest.as_mut()?;
+                    (rest.span.release, rest.held) = (event.phase, flown);
+                    if event.side == side {
+                        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a count, saturating
+                        let count = (event.time / osc.period()).round() as u32;
+                        excursion.periods = (count > 0).then_some(count);
+                        break;
+                    }
+                    excursion.stretches.push(after(event.side));
+                }
+                EventKind::Graze { .. } => continue,
+            }
+            flown = 0.0;
+        }
+        Some(excursion)
+    }
+
+    /// Its rests in order.
+    pub(crate) fn rests(&self) -> impl Iterator<Item = &Rest> {
+        self.stretches.iter().filter_map(|stretch| stretch.rest.as_ref())
+    }
+
+    /// Impacts listed before stretch `k`.
+    pub(crate) fn before(&self, k: usize) -> usize {
+        self.stretches.iter().take(k).map(|stretch| stretch.strikes.len()).sum()
+    }
+
+    /// The same as a cycle, if it comes back.
+    pub(crate) fn cycle(&self) -> Option<Cycle> {
+        let periods = self.periods?;
+        let mut points = Vec::new();
+        for stretch in &self.stretches {
+            let next = stretch.strikes.iter().skip(1).map(|strike| strike.flown);
+            let intervals = next.chain(stretch.rest.map(|rest| rest.settled));
+            points.extend(
+                stretch
+                    .strikes
+                    .iter()
+                    .zip(intervals)
+                    .map(|(strike, interval)| CyclePoint { state: strike.state, interval }),
+            );
+        }
+        let rests: Vec<RestSpan> = self.rests().map(|rest| rest.span).collect();
+        let impacts = if rests.iter().any(|rest| rest.chatter) {
+            Count::Infinite
+        } else {
+            Count::Finite(u32::try_from(points.len()).unwrap_or(u32::MAX))
+        };
+        let multipliers = [Multiplier::default(); 2];
+        Some(Cycle { label: Label { impacts, periods }, points, rests, multipliers, residual: 0.0 })
+    }
+}
+
 /// The cycle that the release from the stop on `side` leads back to, within `events` events; `None` if the stop never
 /// releases the mass or the motion does not stick to it again.
 ///
@@ -27,50 +140,7 @@ pub const DEFAULT_EVENTS: u32 = 4_000;
 /// ```
 #[must_use]
 pub fn from_release(osc: &Oscillator, side: Side, events: u32) -> Option<Cycle> {
-    release_phase(osc, side)?;
-    let mut points: Vec<CyclePoint> = Vec::new();
-    let mut rests: Vec<RestSpan> = Vec::new();
-    // time of the last impact, while its interval is open
-    let mut open: Option<f64> = None;
-    for event in Motion::released(osc, side).take(events as usize) {
-        if let (Some(since), EventKind::Impact { .. } | EventKind::Stick { .. }) = (open, event.kind)
-            && let Some(last) = points.last_mut()
-        {
-            last.interval = event.time - since;
-        }
-        match event.kind {
-            EventKind::Impact { velocity_before, .. } => {
-                let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
-                points.push(CyclePoint { state, interval: f64::INFINITY });
-                open = Some(event.time);
-            }
-            EventKind::Stick { chatter, .. } => {
-                rests.push(RestSpan { side: event.side, chatter, begin: event.phase, release: f64::NAN });
-                open = None;
-            }
-            EventKind::Release => {
-                rests.last_mut()?.release = event.phase;
-                if event.side == side {
-                    return cycle(osc, points, rests, event.time);
-                }
-            }
-            EventKind::Graze { .. } => {}
-        }
-    }
-    None
-}
-
-fn cycle(osc: &Oscillator, points: Vec<CyclePoint>, rests: Vec<RestSpan>, length: f64) -> Option<Cycle> {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a count of forcing periods, saturating
-    let periods = (length / osc.period()).round() as u32;
-    let impacts = if rests.iter().any(|rest| rest.chatter) {
-        Count::Infinite
-    } else {
-        Count::Finite(u32::try_from(points.len()).unwrap_or(u32::MAX))
-    };
-    let label = Label { impacts, periods };
-    let multipliers = [Multiplier::default(); 2];
-    (periods > 0).then_some(Cycle { label, points, rests, multipliers, residual: 0.0 })
+    Excursion::new(osc, side, events, f64::INFINITY)?.cycle()
 }
 
 #[cfg(test)]
