@@ -17,7 +17,7 @@ pub struct Chosen {
     pub count: u32,
 }
 
-/// A label that can be followed: with finitely many impacts.
+/// A label with equations that can be followed over a plane: with finitely many impacts.
 ///
 /// # Errors
 /// [`PlanError`] for what is no label, and for `inf/n`.

@@ -1,6 +1,6 @@
 //! Branches of periodic orbits in one parameter, and those that begin where one loses its stability.
 
-use crate::begin::{Chosen, choose, followable};
+use crate::begin::{Chosen, choose};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction as Sweep, Show};
 use crate::{DiagramPlan, Parameter, PlanError, Span, SystemPlan};
 use core::ops::RangeInclusive;
@@ -22,7 +22,7 @@ const DIAGRAM_VALUES: u32 = 401;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BranchPlan {
-    /// m/n of the orbit at the system given.
+    /// m/n of the orbit at the system given, `inf/n` for one with a complete chatter.
     pub label: String,
     /// The parameter that varies, from its value in the system.
     #[serde(with = "crate::parameter")]
@@ -51,7 +51,7 @@ impl BranchPlan {
     /// # Errors
     /// [`PlanError`] names the first value that makes no sense.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        followable(&self.label)?;
+        let _: Label = self.label.parse()?;
         let from = system.value(self.vary)?;
         system.with(self.vary, self.to)?.oscillator()?;
         if from == self.to {
@@ -119,7 +119,7 @@ pub fn branches(system: &SystemPlan, plan: &BranchPlan) -> Result<Branches, Plan
     plan.check(system)?;
     let osc = system.oscillator()?;
     let from = plan.vary.get(&osc).ok_or(PlanError::NoSecondStop(plan.vary.name()))?;
-    let chosen = choose(&osc, followable(&plan.label)?, plan.orbit)?;
+    let chosen = choose(&osc, plan.label.parse()?, plan.orbit)?;
     let range = from.min(plan.to)..=from.max(plan.to);
     let direction = if plan.to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
@@ -223,6 +223,20 @@ mod tests {
     }
 
     #[test]
+    fn an_orbit_that_rests() {
+        let system = SystemPlan { inverse_beta: Some(1.11), gap: -0.5, restitution: 0.5, ..SystemPlan::default() };
+        let plan = BranchPlan { label: "inf/1".into(), to: -0.2, ..plan().1 };
+        let found = branches(&system, &plan).unwrap();
+        let [branch] = found.followed.as_slice() else { panic!("{} branches", found.followed.len()) };
+        let last = branch.points.last().unwrap();
+        assert!(matches!(last.event, Some(BranchEvent::EndOfRest { .. })) && last.value < -0.36);
+        assert!(branch.points.iter().all(|point| point.stable() && point.cycle.rests.len() == 1));
+        // at 0 there is none
+        let nothing = branches(&SystemPlan { gap: 0.0, ..system }, &plan).unwrap_err().to_string();
+        assert!(nothing.starts_with("no orbit inf/1 was found"), "{nothing}");
+    }
+
+    #[test]
     fn a_plan_survives_json_and_nonsense_is_refused() {
         let (system, good) = plan();
         let whole = Plan::new(system, Task::Branch(good.clone()));
@@ -232,7 +246,7 @@ mod tests {
         let short: BranchPlan = serde_json::from_str(r#"{"label": "1/1", "vary": "gap", "to": 2.5}"#).unwrap();
         assert_eq!(short, good);
         for (branch, sentence) in [
-            (BranchPlan { label: "inf/1".into(), ..good.clone() }, "a cycle that rests on a stop cannot be followed"),
+            (BranchPlan { label: "1/0".into(), ..good.clone() }, "label `1/0` is not m/n"),
             (BranchPlan { to: 1.5, ..good.clone() }, "gap is to go from 1.5 to 1.5"),
             (BranchPlan { to: f64::NAN, ..good.clone() }, "gap delta = NaN"),
             (BranchPlan { vary: Parameter::SecondGap, ..good.clone() }, "second_gap is to vary"),

@@ -19,8 +19,12 @@ use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Task
 ///
 /// The orbit is looked for at the system given, as `vibro orbit` does, and followed from there by pseudo-arclength to the
 /// value of --to. Events are located to rounding: fold, flip (a multiplier is -1), branch point, grazing (an impact
-/// appears or disappears, and the branch goes on with the motion that takes over), loss of contact. In JSON a multiplier
-/// that is infinite, as at a grazing, is null; impacts are counted from 1.
+/// appears or disappears, and the branch goes on with the motion that takes over), loss of contact.
+///
+/// An orbit that rests on a stop, inf/n or one with restitution 0, is followed by its release instead, to where the rest ends.
+///
+/// In JSON a multiplier that is infinite, as at a grazing, is null; impacts are counted from 1, after a rest from the release
+/// on.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro branch --beta B --gap D --restitution E --label m/n --vary PARAMETER --to VALUE [OPTIONS]",
@@ -33,7 +37,7 @@ pub(crate) struct Branch {
     #[command(flatten)]
     system: SystemArgs,
 
-    /// m impacts in n forcing periods, for example 2/1: the orbit at the system given
+    /// m impacts in n forcing periods, for example 2/1, or inf/n: the orbit at the system given
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Branch")]
     label: String,
 

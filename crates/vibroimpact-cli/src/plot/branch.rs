@@ -142,7 +142,11 @@ fn mark(point: &Point, event: &BranchEvent) -> Option<(Shape, Vec<f64>)> {
         BranchEvent::Flip => (Shape::Diamond, all()),
         BranchEvent::BranchPoint => (Shape::Circle, all()),
         BranchEvent::Grazing { .. } => (Shape::TriangleUp, vec![0.0]),
+        BranchEvent::SoftLanding { .. } => (Shape::Plus, vec![0.0]),
         BranchEvent::LossOfContact { .. } => (Shape::TriangleDown, vec![0.0]),
+        BranchEvent::EndOfRest { .. } | BranchEvent::RestForEver { .. } | BranchEvent::Chatter { .. } => {
+            (Shape::Cross, vec![0.0])
+        }
         _ => return None,
     })
 }

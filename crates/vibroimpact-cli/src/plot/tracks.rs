@@ -2,7 +2,8 @@
 //! stability does.
 
 use std::collections::BTreeMap;
-use vibroimpact::continuation::Point;
+use vibroimpact::continuation::{BranchEvent, Point};
+use vibroimpact::orbit::{Cycle, RestSpan};
 use vibroimpact::system::phase;
 
 /// How a piece of a branch is drawn.
@@ -23,7 +24,13 @@ pub(crate) fn velocities(points: &[Point]) -> Curves {
     let mut rest = points;
     while let Some(first) = rest.first() {
         let label = first.cycle.label;
-        let end = rest.iter().position(|point| point.cycle.label != label).unwrap_or(rest.len());
+        let other = rest.iter().position(|point| point.cycle.label != label).unwrap_or(rest.len());
+        // a cycle that rests may have other impacts under the same label
+        let changes = |point: &Point| {
+            matches!(point.event, Some(BranchEvent::Grazing { .. } | BranchEvent::SoftLanding { .. }))
+                && !point.cycle.rests.is_empty()
+        };
+        let end = rest.iter().position(changes).map_or(other, |k| other.min(k + 1));
         let (run, others) = rest.split_at(end);
         for track in tracks(run) {
             add(&mut curves, &label.to_string(), run, &track);
@@ -33,30 +40,52 @@ pub(crate) fn velocities(points: &[Point]) -> Curves {
     curves
 }
 
-/// The velocity of each impact at all points of a run with one label.
+/// The velocity of each impact at all points of a run, `NaN` where it is not listed.
 fn tracks(run: &[Point]) -> Vec<Vec<f64>> {
-    let m = run.first().map_or(0, |point| point.cycle.points.len());
-    let mut tracks = vec![Vec::with_capacity(run.len()); m];
+    let mut tracks: BTreeMap<(usize, usize), Vec<f64>> = BTreeMap::new();
     let mut before: Option<Vec<(f64, f64)>> = None;
-    for point in run {
+    for (n, point) in run.iter().enumerate() {
         let mut here: Vec<(f64, f64)> = point.cycle.points.iter().map(|p| (p.state.phase, p.state.velocity)).collect();
-        // the list begins with the fastest impact, which may have become another one
-        let off = |shift: &usize| -> f64 {
-            let before = before.iter().flatten();
-            before
-                .zip(here.iter().cycle().skip(*shift))
-                .map(|(a, b)| phase::difference(a.0, b.0).powi(2) + (a.1 - b.1).powi(2))
-                .sum()
-        };
-        let shift = (0..here.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
-        here.rotate_left(shift);
-        for (track, impact) in tracks.iter_mut().zip(&here) {
-            track.push(impact.1);
+        if point.cycle.rests.is_empty() {
+            // the list begins with the fastest impact, which may have become another one
+            let off = |shift: &usize| -> f64 {
+                let before = before.iter().flatten();
+                before
+                    .zip(here.iter().cycle().skip(*shift))
+                    .map(|(a, b)| phase::difference(a.0, b.0).powi(2) + (a.1 - b.1).powi(2))
+                    .sum()
+            };
+            let shift = (0..here.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+            here.rotate_left(shift);
+        }
+        for (place, impact) in places(&point.cycle).into_iter().zip(&here) {
+            tracks.entry(place).or_insert_with(|| vec![f64::NAN; run.len()])[n] = impact.1;
         }
         before = Some(here);
     }
-    tracks
+    tracks.into_values().collect()
 }
+
+/// Which of its impacts is the same at another value: how many rests come before it in the list, and how many impacts since the
+/// last of these. (Of a chatter sometimes more and sometimes fewer impacts are listed.)
+fn places(cycle: &Cycle) -> Vec<(usize, usize)> {
+    let last = |rest: &RestSpan| {
+        let all = cycle.points.iter().enumerate().filter(|(_, point)| point.state.side == rest.side);
+        let ago = |at: f64| phase::wrap(rest.begin - at + NOTHING);
+        all.min_by(|a, b| ago(a.1.state.phase).total_cmp(&ago(b.1.state.phase))).map(|(k, _)| k)
+    };
+    let ends: Vec<usize> = cycle.rests.iter().filter_map(last).collect();
+    let mut place = (0, 0);
+    let step = |k| {
+        let here = place;
+        place = if ends.contains(&k) { (place.0 + 1, 0) } else { (place.0, place.1 + 1) };
+        here
+    };
+    (0..cycle.points.len()).map(step).collect()
+}
+
+/// Phases closer than this are one.
+const NOTHING: f64 = 1e-9;
 
 /// Cuts a track where its look changes; neighbours share the point between them.
 fn add(curves: &mut Curves, label: &str, run: &[Point], track: &[f64]) {
@@ -90,6 +119,23 @@ mod tests {
     use vibroimpact::continuation::{Branch, BranchOptions, Direction};
     use vibroimpact::orbit::{FindOptions, find};
     use vibroimpact::{Label, Oscillator, Parameter};
+
+    /// A cycle with a rest on either stop: of each chatter an impact is the same one whatever is listed before it.
+    #[test]
+    fn the_impacts_of_a_chatter_stay_apart() {
+        use vibroimpact::Side;
+        let osc = Oscillator::from_inverse_beta(2.5, 0.25, 0.5).unwrap().with_second_stop(0.25, 0.5).unwrap();
+        let cycle = vibroimpact::orbit::from_release(&osc, Side::Upper, 4000).unwrap();
+        let (range, options) = (0.0..=2.0, BranchOptions::default());
+        let branch = Branch::new(&osc, &cycle, Parameter::SecondGap, range, Direction::Up, options).unwrap();
+        let points: Vec<Point> = branch.collect();
+        let [one, two] = [points.first(), points.last()].map(|point| places(&point.unwrap().cycle));
+        assert!(one.len() != two.len() && one.iter().filter(|place| place.1 == 0).count() == 2, "{one:?}");
+        let curves = velocities(&points);
+        let (_, ys) = &curves[&("inf/1".to_owned(), Look::Stable)];
+        let steps: Vec<f64> = ys.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| !s.is_nan()).collect();
+        assert!(steps.len() > 500 && steps.iter().all(|step| *step < 0.05), "{:?}", steps.len());
+    }
 
     /// Of 2/1 the faster impact is another one after a while: the curves cross and do not jump.
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::args::Units;
 use crate::report::csv::Number;
-use crate::report::json::{CyclePoint, impacts, pairs, side};
+use crate::report::json::{CyclePoint, Rest, impacts, pairs, rests, side};
 use serde::Serialize;
 use vibroimpact::Parameter;
 use vibroimpact::continuation::{BranchEvent, Change, Point};
@@ -34,6 +34,8 @@ struct PointObject {
     parameter: f64,
     label: String,
     cycle: Vec<CyclePoint>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    rests: Vec<Rest>,
     multipliers: [[f64; 2]; 2],
     stable: bool,
     physical: bool,
@@ -58,6 +60,16 @@ struct EventObject {
     phase: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     turns: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<TouchObject>,
+}
+
+/// A touch together with that of the event.
+#[derive(Serialize)]
+struct TouchObject {
+    impact: usize,
+    side: &'static str,
+    phase: f64,
 }
 
 /// A further branch.
@@ -119,6 +131,7 @@ impl PointObject {
             parameter: point.value * unit,
             label: point.cycle.label.to_string(),
             cycle: impacts(&point.cycle, units),
+            rests: rests(&point.cycle),
             multipliers: pairs(point.cycle.multipliers),
             stable: point.stable(),
             physical: point.physical,
@@ -140,15 +153,16 @@ impl EventObject {
             point: place,
             ends: event.ends(),
             label_after: (!event.ends()).then(|| label.clone()),
-            label_before: label,
+            label_before: label.clone(),
             change: None,
             impact: None,
             side: None,
             phase: None,
             turns: None,
+            also: None,
         };
         match event {
-            BranchEvent::Grazing { change, impact, side: at, phase, before, after, turns } => Self {
+            BranchEvent::Grazing { change, impact, side: at, phase, before, after, turns, also } => Self {
                 label_before: before.to_string(),
                 label_after: Some(after.to_string()),
                 change: Some(changes(*change)),
@@ -156,11 +170,33 @@ impl EventObject {
                 side: Some(side(*at)),
                 phase: Some(*phase),
                 turns: Some(*turns),
+                also: also.map(|touch| TouchObject {
+                    impact: touch.impact + 1,
+                    side: side(touch.side),
+                    phase: touch.phase,
+                }),
                 ..bare
             },
             BranchEvent::LossOfContact { side: at, phase } => {
                 Self { side: Some(side(*at)), phase: Some(*phase), ..bare }
             }
+            BranchEvent::SoftLanding { impact, side: at, phase, before, after } => Self {
+                label_before: before.to_string(),
+                label_after: Some(after.to_string()),
+                impact: Some(impact + 1),
+                side: Some(side(*at)),
+                phase: Some(*phase),
+                ..bare
+            },
+            BranchEvent::EndOfRest { side: at, phase } => Self { side: Some(side(*at)), phase: Some(*phase), ..bare },
+            BranchEvent::RestForEver { side: at } => Self { side: Some(side(*at)), ..bare },
+            BranchEvent::Chatter { side: at, phase, before } => Self {
+                label_before: before.to_string(),
+                label_after: Some(label),
+                side: Some(side(*at)),
+                phase: Some(*phase),
+                ..bare
+            },
             BranchEvent::Stick { impact } => Self { impact: Some(impact + 1), ..bare },
             _ => bare,
         }

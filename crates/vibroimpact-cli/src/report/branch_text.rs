@@ -3,7 +3,8 @@
 use crate::args::Units;
 use crate::report::text::{precise, short, stop_name, table};
 use std::fmt::Write;
-use vibroimpact::continuation::{BranchEvent, Change, Point};
+use vibroimpact::continuation::{BranchEvent, Change, Point, Touch};
+use vibroimpact::orbit::Cycle;
 use vibroimpact::{Label, Parameter};
 use vibroimpact_study::{Branches, Chosen, Followed};
 
@@ -69,12 +70,14 @@ fn of(branch: &Followed, unit: f64, name: &str) -> String {
         .filter(|(.., event)| !event.ends())
         .map(|(k, point, event)| {
             let (before, after) = match event {
-                BranchEvent::Grazing { before, after, .. } => (before, after),
+                BranchEvent::Grazing { before, after, .. } | BranchEvent::SoftLanding { before, after, .. } => {
+                    (before, after)
+                }
                 _ => (point.cycle.label, point.cycle.label),
             };
             let before = beside(k.checked_sub(1).and_then(|k| points.get(k)), before);
             let after = beside(points.get(k + 1), after);
-            vec![event.name().into(), precise(point.value * unit), before, after, remark(&event)]
+            vec![event.name().into(), precise(point.value * unit), before, after, remark(point, &event)]
         })
         .collect();
     let mut text = if rows.is_empty() { "  no events on the way\n".to_owned() } else { table(&heads, &rows) };
@@ -82,7 +85,7 @@ fn of(branch: &Followed, unit: f64, name: &str) -> String {
     if let Some((point, event)) = end {
         let value = precise(point.value * unit);
         let before = points.iter().rev().find(|point| point.event.is_none()).map_or_else(String::new, state);
-        let why = remark(&event);
+        let why = remark(point, &event);
         let why = if why.is_empty() { why } else { format!(": {why}") };
         let _ = writeln!(text, "  ends at {name} {value}, {before}: {}{why}", event.name());
     }
@@ -105,27 +108,51 @@ fn state(point: &Point) -> String {
     format!("{} {stability}", point.cycle.label)
 }
 
-fn remark(event: &BranchEvent) -> String {
-    match event {
-        BranchEvent::Grazing { change, impact, side, phase, turns, .. } => {
-            let way = if *turns { "the parameter turns" } else { "the parameter goes on" };
-            let (impact, phase) = (impact + 1, short(*phase));
-            match change {
-                Change::Appears => {
-                    format!("an impact on the {} appears after impact {impact}, phase {phase}; {way}", stop_name(*side))
-                }
-                Change::Disappears => {
-                    format!("impact {impact} on the {} disappears, phase {phase}; {way}", stop_name(*side))
-                }
-            }
+/// What an impact at a grazing does.
+fn touch(cycle: &Cycle, change: Change, touch: &Touch) -> String {
+    let (impact, stop, phase) = (touch.impact + 1, stop_name(touch.side), short(touch.phase));
+    match change {
+        // the list of a cycle that rests begins at a release
+        Change::Appears if !cycle.rests.is_empty() && impact == cycle.points.len() => {
+            format!("an impact on the {stop} appears after the release, phase {phase}")
         }
+        Change::Appears => format!("an impact on the {stop} appears after impact {impact}, phase {phase}"),
+        Change::Disappears => format!("impact {impact} on the {stop} disappears, phase {phase}"),
+    }
+}
+
+fn remark(point: &Point, event: &BranchEvent) -> String {
+    match event {
+        BranchEvent::Grazing { change, impact, side, phase, turns, also, .. } => {
+            let way = match (point.cycle.rests.is_empty(), turns) {
+                (true, true) => "; the parameter turns",
+                (true, false) => "; the parameter goes on",
+                (false, _) => "",
+            };
+            let touches = [Some(Touch { impact: *impact, side: *side, phase: *phase }), *also];
+            let said: Vec<String> = touches.iter().flatten().map(|one| touch(&point.cycle, *change, one)).collect();
+            format!("{}{way}", said.join(", and "))
+        }
+        BranchEvent::SoftLanding { side, phase, .. } => {
+            format!("it lands on the {} without speed, phase {}", stop_name(*side), short(*phase))
+        }
+        BranchEvent::EndOfRest { side, phase } => {
+            format!("the rest on the {} is over as it begins, phase {}", stop_name(*side), short(*phase))
+        }
+        BranchEvent::RestForEver { side } => format!("the force no longer pulls the mass off the {}", stop_name(*side)),
+        BranchEvent::Chatter { side, phase, .. } => format!(
+            "impacts are added without end: a complete chatter on the {} and a rest begin, phase {}; beyond, {}",
+            stop_name(*side),
+            short(*phase),
+            point.cycle.label
+        ),
         BranchEvent::LossOfContact { side, phase } => {
             format!("the mass no longer reaches the {}, phase {}", stop_name(*side), short(*phase))
         }
         BranchEvent::Stick { impact } => format!("the mass stays on the stop after impact {}", impact + 1),
         BranchEvent::Halving => "it becomes an orbit of half the period".into(),
         BranchEvent::StepLimit => "--points allows more".into(),
-        BranchEvent::ImpactLimit => "a complete chatter is near".into(),
+        BranchEvent::ImpactLimit => "more impacts than are followed".into(),
         _ => String::new(),
     }
 }

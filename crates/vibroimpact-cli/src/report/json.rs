@@ -229,8 +229,9 @@ pub(crate) struct CyclePoint {
     side: &'static str,
 }
 
+/// A rest of a cycle.
 #[derive(Serialize)]
-struct Rest {
+pub(crate) struct Rest {
     side: &'static str,
     chatter: bool,
     begin: f64,
@@ -352,11 +353,7 @@ impl Motion {
     }
 
     fn periodic(cycle: &Cycle, bare: Self, units: &Units) -> Self {
-        let rests: Vec<Rest> = cycle
-            .rests
-            .iter()
-            .map(|rest| Rest { side: side(rest.side), chatter: rest.chatter, begin: rest.begin, release: rest.release })
-            .collect();
+        let rests = rests(cycle);
         // the list of impacts begins at the release that ends the last rest
         let last = cycle.rests.last();
         Self {
@@ -388,6 +385,14 @@ pub(crate) fn impacts(cycle: &Cycle, units: &Units) -> Vec<CyclePoint> {
             interval: point.interval * units.time(),
             side: side(point.state.side),
         })
+        .collect()
+}
+
+/// The rests of a cycle.
+pub(crate) fn rests(cycle: &Cycle) -> Vec<Rest> {
+    let rests = cycle.rests.iter();
+    rests
+        .map(|rest| Rest { side: side(rest.side), chatter: rest.chatter, begin: rest.begin, release: rest.release })
         .collect()
 }
 

@@ -51,22 +51,16 @@ pub(crate) fn text(orbit: Orbit, osc: &Oscillator, units: &Units) -> String {
     text.push_str(&impacts(cycle, osc, units));
     text.push_str(&format!("  multipliers {}\n", multipliers(cycle.multipliers)));
     if let Some(contact) = orbit.earlier {
-        let from = cycle.points.get(contact.flight).map_or(f64::NAN, |point| point.interval);
         let unit = if units.si { " s" } else { "" };
-        text.push_str(&if contact.time > 0.0 {
-            format!(
-                "  earlier contact: after impact {} it meets the {} at a time of {}{unit}, not {}{unit}\n",
-                contact.flight + 1,
-                stop_name(contact.side),
-                short(contact.time * units.time()),
-                short(from * units.time())
-            )
-        } else {
-            format!(
-                "  earlier contact: it does not leave the {} after impact {}\n",
-                stop_name(contact.side),
-                contact.flight + 1
-            )
+        let (stop, time) = (stop_name(contact.side), short(contact.time * units.time()));
+        let impact = contact.flight + 1;
+        text.push_str(&match cycle.points.get(contact.flight) {
+            None => format!("  it would swing through the {stop}, which it meets {time}{unit} after phase 0\n"),
+            Some(point) if contact.time > 0.0 => format!(
+                "  earlier contact: after impact {impact} it meets the {stop} at a time of {time}{unit}, not {}{unit}\n",
+                short(point.interval * units.time())
+            ),
+            Some(_) => format!("  earlier contact: it does not leave the {stop} after impact {impact}\n"),
         });
     }
     text

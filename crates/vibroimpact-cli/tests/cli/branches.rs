@@ -110,6 +110,112 @@ fn text_and_table() {
     assert!(rows.iter().any(|row| row[5] == "flip") && rows.iter().any(|row| row[0] == "2" && row[2] == "1/2"));
 }
 
+/// inf/n has no equations and is followed by its release; its rests are told at each point.
+#[test]
+fn a_cycle_that_rests() {
+    let line = "branch --inverse-beta 2.5 --gap 0.25 --restitution 0.5 --label inf/1 --vary gap --to 1";
+    let answer = json(line);
+    let soft = events(&answer, "soft landing")[0];
+    assert_eq!(
+        (&soft["label_before"], &soft["label_after"], &soft["impact"]),
+        (&"inf/1".into(), &"inf/1".into(), &1.into())
+    );
+    let end = answer["events"].as_array().unwrap().last().unwrap();
+    assert_eq!((&end["kind"], &end["side"], &end["ends"]), (&"end of rest".into(), &"upper".into(), &true.into()));
+    for point in answer["points"].as_array().unwrap() {
+        let (rest, gap) = (&point["rests"][0], number(&point["parameter"]));
+        assert_eq!(
+            (&point["label"], &point["stable"], &rest["chatter"]),
+            (&"inf/1".into(), &true.into(), &true.into())
+        );
+        assert!((number(&rest["release"]) - (std::f64::consts::PI - gap.asin())).abs() < 1e-12);
+        assert!(number(&rest["begin"]) < number(&rest["release"]));
+        assert_eq!(point["multipliers"], serde_json::json!([[0.0, 0.0], [0.0, 0.0]]));
+    }
+    // a motion settles on it before the end, and on something else beyond
+    let settled = |gap: f64| json(&format!("settle --inverse-beta 2.5 --gap {gap} --restitution 0.5"));
+    assert_eq!(settled(number(&end["parameter"]) - 1e-4)["motion"]["label"], "inf/1");
+    assert_ne!(settled(number(&end["parameter"]) + 1e-3)["motion"]["label"], "inf/1");
+    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    for sentence in [
+        "branch 1: inf/1 (stable there), gap from 0.25 to 1",
+        "it lands on the stop without speed",
+        "end of rest: the rest on the stop is over as it begins",
+    ] {
+        assert!(said(line).contains(sentence), "{sentence}: {}", said(line));
+    }
+    assert!(
+        said(&format!("{line} --csv -"))
+            .lines()
+            .skip(1)
+            .all(|row| row.split(',').count() == 12 && row.contains(",inf/1,true,true,"))
+    );
+    // with restitution 0 the label is m/n, and an impact comes after the release
+    let zero = "branch --inverse-beta 1.3 --gap 0.3 --restitution 0 --label 1/1 --vary gap --to 1";
+    assert!(
+        said(zero).contains("1/1 stable  2/1 stable  an impact on the stop appears after the release"),
+        "{}",
+        said(zero)
+    );
+}
+
+/// Between two stops alike: the symmetric 2/1 loses its symmetry to two orbits, mirror images of each other, which --follow follows.
+#[test]
+fn the_branches_at_a_branch_point() {
+    let system = "--gap 0.4 --restitution 0.8 --damping 0.02 --second-gap 0.4 --second-restitution 0.8";
+    let line = format!("branch --beta 2 {system} --label 2/1 --vary beta --to 1.5 --follow 2");
+    let answer = json(&line);
+    let point = events(&answer, "branch point")[0];
+    let branches = answer["branches"].as_array().unwrap();
+    assert_eq!(branches.len(), 2);
+    let unlike = |branch: &Value, k: usize| {
+        let cycle = branch["points"][k]["cycle"].as_array().unwrap();
+        let speed =
+            |side: &str| number(&cycle.iter().find(|impact| impact["side"] == side).unwrap()["velocity_before"]);
+        speed("upper") - speed("lower")
+    };
+    for branch in branches {
+        assert_eq!((&branch["from"]["kind"], &branch["from"]["branch"]), (&"branch point".into(), &1.into()));
+        assert_eq!(branch["from"]["parameter"], point["parameter"]);
+        assert!(branch["points"].as_array().unwrap().len() > 20 && unlike(branch, 10).abs() > 1e-4);
+    }
+    assert!((unlike(&branches[0], 10) + unlike(&branches[1], 10)).abs() < 1e-9);
+    // beyond the branch point the symmetric orbit is unstable, and a motion settles on one of the two
+    let (index, beyond) = branches[0]["points"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .enumerate()
+        .find(|(k, p)| *k > 5 && p["stable"] == true && p["label"] == "2/1")
+        .expect("they are stable at first");
+    let settled = json(&format!("settle --beta {} {system}", beyond["parameter"]));
+    let cycle = settled["motion"]["cycle"].as_array().unwrap();
+    let speed = |side: &str| number(&cycle.iter().find(|impact| impact["side"] == side).unwrap()["velocity_before"]);
+    assert!((speed("upper") - speed("lower")).abs() - unlike(&branches[0], index).abs() < 1e-6);
+    assert_eq!(settled["motion"]["label"], "2/1");
+    let text = String::from_utf8(vibro(&line).output().unwrap().stdout).unwrap();
+    for sentence in [
+        "branch point",
+        "branch 2: 2/1 from the branch point of branch 1 at beta",
+        "branch 3: 2/1 from the branch point of branch 1",
+    ] {
+        assert!(text.contains(sentence), "{sentence}: {text}");
+    }
+}
+
+/// Two touches at once, one on each of two stops alike, are both told.
+#[test]
+fn touches_of_both_stops() {
+    let line = "branch --beta 0.7 --gap 3 --restitution 0.6 --damping 0.1 --second-gap 3 --second-restitution 0.6 --label 0 --vary beta --to 1.2";
+    let grazing = &events(&json(line), "grazing")[0].clone();
+    assert_eq!((&grazing["label_before"], &grazing["label_after"]), (&"0".into(), &"2/1".into()));
+    assert_ne!(grazing["side"], grazing["also"]["side"]);
+    let apart = (number(&grazing["phase"]) - number(&grazing["also"]["phase"])).abs();
+    assert!((apart - std::f64::consts::PI).abs() < 1e-9);
+    let text = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    assert!(text.contains("an impact on the stop") && text.contains(", and an impact on the second stop"), "{text}");
+}
+
 /// In metres, of the same line in physical units: one unit of length is 5 mm, of velocity 0.1 m/s.
 #[test]
 fn a_machine_in_physical_units() {

@@ -163,10 +163,19 @@ impl Course {
         self.count += 1;
     }
 
-    /// Ends the branch where it is.
+    /// Ends the branch where it is, or, if it gets no further because impacts are added without end, where that leads.
     pub(super) fn finish(&mut self, event: BranchEvent) {
-        let here = self.here.clone();
-        self.emit(&here, event);
+        let stuck = matches!(event, BranchEvent::NoConvergence | BranchEvent::ImpactLimit);
+        match self.accumulation().filter(|_| stuck) {
+            Some(limit) => {
+                self.pending.push_back(limit);
+                self.count += 1;
+            }
+            None => {
+                let here = self.here.clone();
+                self.emit(&here, event);
+            }
+        }
         self.over = true;
     }
 

@@ -12,6 +12,7 @@
 //! | by its release, where it rests on a stop; whether two motions are alike; what happens between | `resting`, `likeness`, `resting_event` |
 //! | the events on a step: where and what | `events` |
 //! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
+//! | impact after impact: the chatter at the end | `accumulation` |
 //! | the motion without impacts: to it and from it | `free` |
 //! | the equations with two parameters free and a condition, and walks along their curves | `plane`, `walk` |
 //! | curves of folds, flips and grazing impacts; a point of one; why one ends | [`Curve`], [`CurvePoint`], `curve_end` |
@@ -19,6 +20,7 @@
 //! | where a motion exists or is stable, as polygons along these curves | [`region`], [`Region`], `round` |
 //! | branches that begin at a flip or a branch point | `switch` |
 
+mod accumulation;
 mod arc;
 mod branch;
 mod course;

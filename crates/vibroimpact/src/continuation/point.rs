@@ -140,7 +140,7 @@ pub enum BranchEvent {
     EndOfRange,
     /// The most points were reached.
     StepLimit,
-    /// The cycle would have more impacts than allowed: a complete chatter is near.
+    /// The cycle would have more impacts than allowed.
     ImpactLimit,
     /// The branch was lost: no smaller step converged.
     NoConvergence,

@@ -3,7 +3,7 @@
 use super::course::{Course, Here, sign};
 use super::free::{arriving, leaving};
 use super::graze::{Beyond, beyond};
-use super::point::{BranchEvent, Change};
+use super::point::{BranchEvent, Change, Touch};
 use super::watch::Watch;
 use crate::orbit::{closest, crest};
 use crate::system::{Side, phase};
@@ -44,7 +44,7 @@ impl Course {
             (None, None, Some(&side)) => (Change::Appears, 0, side),
             (None, None, None) => return self.finish(BranchEvent::NoConvergence),
         };
-        let phase = match change {
+        let phase_of = |k: usize, side: Side| match change {
             Change::Appears if ring.len() == 0 => crest(&osc, side),
             Change::Appears => {
                 let time = closest(&osc, &ring, k, side).map_or(0.0, |closest| closest.time);
@@ -52,6 +52,14 @@ impl Course {
             }
             Change::Disappears => phase::wrap(ring.theta(k)),
         };
+        let phase = phase_of(k, side);
+        let second = match (touches.get(1), gone.get(1), rooms.get(1)) {
+            (Some(&second), ..) => Some(second),
+            (None, Some(&k), _) => Some((k, ring.side(k))),
+            (None, None, Some(&side)) => Some((0, side)),
+            (None, None, None) => None,
+        };
+        let also = second.map(|(k, side)| Touch { impact: self.listed(at, k), side, phase: phase_of(k, side) });
         let value = self.value(at);
         let next = if ring.len() == 0 {
             arriving(&self.equations, &osc, value, &rooms)
@@ -76,7 +84,7 @@ impl Course {
         };
         let turns = self.equations.pace(&at.tangent) * equations.pace(&tangent) < 0.0;
         let impact = self.listed(at, k);
-        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also: None };
+        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also };
         let again = |(v, e): &(f64, BranchEvent)| (v - value).abs() < AGAIN * (1.0 + value.abs()) && alike(e, &event);
         if self.grazed.iter().any(again) {
             self.emit(at, BranchEvent::Closed);

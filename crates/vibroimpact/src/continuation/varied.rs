@@ -63,6 +63,13 @@ impl Varied {
         Some((osc, Ring { sides: self.sides.clone(), unknowns: unknowns.to_vec(), periods: self.periods }))
     }
 
+    /// The same at another value of the parameter.
+    pub(super) fn split_at(&self, w: &[f64], value: f64) -> Option<(Oscillator, Ring)> {
+        let mut w = w.to_vec();
+        *w.last_mut()? = value;
+        self.split(&w)
+    }
+
     /// The flights that unknowns stand for.
     pub(super) fn flights(&self, w: &[f64]) -> Option<(Oscillator, Ring, Vec<Block>)> {
         let (osc, ring) = self.split(w)?;

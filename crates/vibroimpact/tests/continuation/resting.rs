@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Change, Curve, CurveOptions};
 use vibroimpact::continuation::{Direction, Frame, Point};
-use vibroimpact::orbit::{Cycle, DEFAULT_EVENTS, from_release};
+use vibroimpact::orbit::{Cycle, DEFAULT_EVENTS, FindOptions, find, from_release};
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, settle};
 use vibroimpact::{Label, Oscillator, Parameter, Side, Start};
 
@@ -84,6 +84,48 @@ fn a_chatter_that_only_just_completes() {
     }
     let times = |k: usize| up.last().unwrap().cycle.points[k].interval;
     assert!((times(30) / times(29) - l).abs() < 1e-5, "{} {l}", times(30) / times(29));
+}
+
+/// 1/1 gains impact after impact below delta = 0.24, at values that come closer together; the limit is where the rest of inf/1 ends.
+#[test]
+fn ever_more_impacts_tend_to_a_chatter() {
+    let at = |gap: f64| Oscillator::from_inverse_beta(1.11, gap, 0.5).unwrap();
+    let orbits = find(&at(1.0), Label::new(1, 1), FindOptions::default());
+    let begin = &orbits.iter().find(|o| o.physical).unwrap().cycle;
+    for impacts in [12, 32] {
+        let options = BranchOptions { impacts, ..BranchOptions::default() };
+        let branch = Branch::new(&at(1.0), begin, Parameter::Gap, -1.0..=2.0, Direction::Down, options).unwrap();
+        let points: Vec<Point> = branch.collect();
+        let last = points.last().unwrap();
+        let Some(BranchEvent::Chatter { side: Side::Upper, phase, before }) = last.event else {
+            panic!("{:?} at {}", last.event, last.value)
+        };
+        let rest = branch_end();
+        assert!((last.value - rest).abs() < 1e-12, "{} {rest}", last.value);
+        assert!((phase - (PI - rest.asin())).abs() < 1e-12 && before.periods == 1);
+        assert_eq!(last.cycle.label.to_string(), "inf/1");
+        // the touches at which m/1 gains an impact, and their factor: lambda^5/eps^2 with (2 + lambda) lambda^2 = eps (1 + 2 lambda)
+        let added: Vec<f64> = points
+            .iter()
+            .filter(|p| matches!(p.event, Some(BranchEvent::Grazing { change: Change::Appears, .. })))
+            .map(|p| p.value)
+            .collect();
+        assert!(added.len() >= 10, "{added:?}");
+        let ratios: Vec<f64> = added.windows(3).map(|v| (v[2] - v[1]) / (v[1] - v[0])).collect();
+        let l: f64 = 0.660_442_249_723_743;
+        assert!(((2.0 + l) * l * l - 0.5 * (1.0 + 2.0 * l)).abs() < 1e-14);
+        let factor = l.powi(5) / 0.25;
+        assert!((ratios[9] - factor).abs() < 1e-3 * factor, "{ratios:?} {factor}");
+        let (a, b) = (added[10], added[11]);
+        let limit = b + (b - a) * factor / (1.0 - factor);
+        assert!((limit - rest).abs() < 1e-2 * (b - a).abs(), "{limit} {rest}");
+    }
+}
+
+/// Where the rest of inf/1 ends on that line.
+fn branch_end() -> f64 {
+    let osc = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();
+    branch(&osc, Side::Upper, Parameter::Gap, (-1.2, 0.5), Direction::Up).last().unwrap().value
 }
 
 /// Restitution 0 without damping: one impact and a rest a period, whose flight is a closed form.

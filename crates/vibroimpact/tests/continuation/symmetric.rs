@@ -104,6 +104,34 @@ fn symmetry_is_lost_at_a_branch_point() {
     assert!(one.iter().skip(1).all(|p| p.physical));
 }
 
+/// Between two stops alike a symmetric motion touches both, half a turn apart, and both touches are told: where the motion without
+/// impacts comes to the stops and where the impacts of a symmetric orbit lose their speed.
+#[test]
+fn both_touches_of_a_symmetric_orbit() {
+    let at = |gap: f64| {
+        let osc = Oscillator::new(0.7, gap, 0.6).unwrap().with_damping(0.1).unwrap();
+        osc.with_second_stop(gap, 0.6).unwrap()
+    };
+    let free = find(&at(3.0), Label::new(0, 1), FindOptions::default()).pop().unwrap();
+    // both gaps vary only with the force's frequency: towards resonance the motion grows
+    let options = BranchOptions::default();
+    let branch = Branch::new(&at(3.0), &free.cycle, Parameter::Beta, 0.7..=1.2, Direction::Up, options).unwrap();
+    let points: Vec<Point> = branch.collect();
+    let touches: Vec<&Point> = points.iter().filter(|p| matches!(p.event, Some(BranchEvent::Grazing { .. }))).collect();
+    assert!(!touches.is_empty());
+    for point in touches {
+        let Some(BranchEvent::Grazing { side, phase, also: Some(also), .. }) = point.event else {
+            panic!("{:?}", point.event)
+        };
+        assert!(also.side != side && ((also.phase - phase).abs() - PI).abs() < 1e-9, "{:?}", point.event);
+    }
+    // with stops unlike it is the nearer one alone
+    let unlike = at(3.0).with_second_stop(3.1, 0.6).unwrap();
+    let branch = Branch::new(&unlike, &free.cycle, Parameter::Beta, 0.7..=1.2, Direction::Up, options).unwrap();
+    let first = branch.into_iter().find_map(|p| p.event).unwrap();
+    assert!(matches!(first, BranchEvent::Grazing { side: Side::Upper, also: None, .. }), "{first:?}");
+}
+
 /// Restitution 0: the mass leaves the stop at once while the force pulls it away at the impact, and stays where it presses.
 #[test]
 fn a_branch_ends_where_the_mass_sticks() {
