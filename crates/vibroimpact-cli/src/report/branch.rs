@@ -67,7 +67,8 @@ struct EventObject {
 /// A touch together with that of the event.
 #[derive(Serialize)]
 struct TouchObject {
-    impact: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impact: Option<usize>,
     side: &'static str,
     phase: f64,
 }
@@ -147,6 +148,8 @@ fn events(branch: &Followed, unit: f64) -> Vec<EventObject> {
 impl EventObject {
     fn new(place: usize, point: &Point, event: &BranchEvent, unit: f64) -> Self {
         let label = point.cycle.label.to_string();
+        // where there are none, none is counted
+        let place_of = |impact: usize| (!point.cycle.points.is_empty()).then_some(impact + 1);
         let bare = Self {
             kind: event.name(),
             parameter: point.value * unit,
@@ -166,12 +169,12 @@ impl EventObject {
                 label_before: before.to_string(),
                 label_after: Some(after.to_string()),
                 change: Some(changes(*change)),
-                impact: Some(impact + 1),
+                impact: place_of(*impact),
                 side: Some(side(*at)),
                 phase: Some(*phase),
                 turns: Some(*turns),
                 also: also.map(|touch| TouchObject {
-                    impact: touch.impact + 1,
+                    impact: place_of(touch.impact),
                     side: side(touch.side),
                     phase: touch.phase,
                 }),

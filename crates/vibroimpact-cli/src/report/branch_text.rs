@@ -112,6 +112,7 @@ fn state(point: &Point) -> String {
 fn touch(cycle: &Cycle, change: Change, touch: &Touch) -> String {
     let (impact, stop, phase) = (touch.impact + 1, stop_name(touch.side), short(touch.phase));
     match change {
+        Change::Appears if cycle.points.is_empty() => format!("an impact on the {stop} appears, phase {phase}"),
         // the list of a cycle that rests begins at a release
         Change::Appears if !cycle.rests.is_empty() && impact == cycle.points.len() => {
             format!("an impact on the {stop} appears after the release, phase {phase}")
@@ -141,7 +142,7 @@ fn remark(point: &Point, event: &BranchEvent) -> String {
         }
         BranchEvent::RestForEver { side } => format!("the force no longer pulls the mass off the {}", stop_name(*side)),
         BranchEvent::Chatter { side, phase, .. } => format!(
-            "impacts are added without end: a complete chatter on the {} and a rest begin, phase {}; beyond, {}",
+            "impacts are added without end, towards a rest on the {} at phase {}; beyond, {}",
             stop_name(*side),
             short(*phase),
             point.cycle.label

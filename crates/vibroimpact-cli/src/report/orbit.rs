@@ -19,17 +19,17 @@ pub(crate) struct OrbitObject {
 
 #[derive(Serialize)]
 struct ContactObject {
-    /// Counted from 1.
-    after_impact: usize,
+    /// Counted from 1; none where the motion has no impacts.
+    after_impact: Option<usize>,
     side: &'static str,
-    /// Since that impact.
+    /// Since that impact, or since phase 0.
     time: f64,
 }
 
 impl OrbitObject {
     pub(crate) fn new(orbit: Orbit, osc: &Oscillator, units: &Units) -> Self {
         let earlier = |contact: EarlierContact| ContactObject {
-            after_impact: contact.flight + 1,
+            after_impact: (!orbit.cycle.points.is_empty()).then_some(contact.flight + 1),
             side: side(contact.side),
             time: contact.time * units.time(),
         };

@@ -138,6 +138,15 @@ fn solutions_that_are_no_motions() {
     assert!((number(&flown["events"][0]["time"]) - time).abs() < 1e-9 && time < number(&at["interval"]));
     let text = String::from_utf8(vibro(&format!("orbit {system} --label 1/1")).output().unwrap().stdout).unwrap();
     assert!(text.contains("earlier contact: after impact 1 it meets the stop at a time of 3.93216, not"), "{text}");
+    // the steady motion, which a stop is in the way of, at sin(phase - lag) = gap/amplitude for the first time
+    let damped = "orbit --beta 1.2 --gap 0.5 --restitution 0.5 --damping 0.05 --label 0";
+    let contact = json(damped)["orbits"][0]["earlier_contact"].clone();
+    assert_eq!((&contact["after_impact"], &contact["side"]), (&Value::Null, &"upper".into()));
+    let (a, b) = (1.0 - 1.2_f64 * 1.2, 2.0 * 0.05 * 1.2_f64);
+    let phase = 1.2 * number(&contact["time"]);
+    assert!(((a * phase.sin() - b * phase.cos()) / (a * a + b * b) - 0.5).abs() < 1e-12, "{phase}");
+    let text = String::from_utf8(vibro(damped).output().unwrap().stdout).unwrap();
+    assert!(text.contains("it would swing through the stop, which it meets 2.58783 after phase 0"), "{text}");
 }
 
 #[test]
