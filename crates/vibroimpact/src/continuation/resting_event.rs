@@ -8,7 +8,7 @@
 //! the mass comes to rest is decided to the last digit.
 
 use super::likeness::{Likeness, likeness, shape, stretch};
-use super::point::{BranchEvent, Change};
+use super::point::{BranchEvent, Change, Touch};
 use super::resting::Resting;
 use super::root;
 use crate::contact::sticking::release_phase;
@@ -45,9 +45,13 @@ impl Resting {
                 if let Some(found) = places.iter().find_map(|&place| self.landing(place, to, there)) {
                     return Some(found);
                 }
-                let touched = places.iter().filter_map(|&place| self.touch(place, to, there));
                 let off = |touched: &Touched| (touched.value - self.value).abs();
-                self.graze(&touched.min_by(|a, b| off(a).total_cmp(&off(b)))?, there)
+                let mut touched: Vec<Touched> =
+                    places.iter().filter_map(|&place| self.touch(place, to, there)).collect();
+                touched.sort_by(|a, b| off(a).total_cmp(&off(b)));
+                let first = touched.first()?.value;
+                touched.retain(|touched| (touched.value - first).abs() <= TOGETHER * (1.0 + first.abs()));
+                self.graze(&touched, there)
             }
             (Likeness::Rests, _) => self.other_rests(to),
             _ => None,
@@ -97,41 +101,47 @@ impl Resting {
         Some(Touched { value, change, place: (s, k), flown, side, phase })
     }
 
-    fn graze(&self, touched: &Touched, there: &Excursion) -> Option<Found> {
-        let Touched { value, change, place: (s, k), side, phase, .. } = *touched;
+    /// Touches that happen together: one, or with two stops alike one on each.
+    fn graze(&self, touched: &[Touched], there: &Excursion) -> Option<Found> {
+        let first = touched.first()?;
         if !self.explained(touched, there) {
             return None;
         }
         let (before, after) = (self.excursion.cycle()?.label, there.cycle()?.label);
-        let listed = self.excursion.before(s) + k;
-        let cycle = self.short_of(touched)?;
-        let impact = match change {
-            Change::Disappears => listed,
-            // after the release that begins the list: the last of the turn before
-            Change::Appears => listed.checked_sub(1).unwrap_or(cycle.points.len().saturating_sub(1)),
+        let excursion = self.short_of(touched)?;
+        let cycle = excursion.cycle()?;
+        let told = |touched: &Touched| {
+            let (s, k) = touched.place;
+            let listed = excursion.before(s) + k;
+            let impact = match touched.change {
+                Change::Disappears => listed,
+                // after the release that begins the list: the last of the turn before
+                Change::Appears => listed.checked_sub(1).unwrap_or(cycle.points.len().saturating_sub(1)),
+            };
+            Touch { impact, side: touched.side, phase: touched.phase }
         };
-        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns: false, also: None };
-        Some(Found { value, event, cycle })
+        let (Touch { impact, side, phase }, change) = (told(first), first.change);
+        let also = touched.get(1).filter(|second| second.change == change).map(told);
+        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns: false, also };
+        Some(Found { value: first.value, event, cycle })
     }
 
-    /// Whether this impact is all that has changed.
-    fn explained(&self, touched: &Touched, there: &Excursion) -> bool {
-        let (s, k) = touched.place;
-        let without = |excursion: &Excursion| {
+    /// Whether these impacts are all that has changed.
+    fn explained(&self, touched: &[Touched], there: &Excursion) -> bool {
+        let without = |excursion: &Excursion, change: Change| {
             let mut excursion = excursion.clone();
-            if let Some(stretch) = excursion.stretches.get_mut(s).filter(|stretch| k < stretch.strikes.len()) {
-                let gone = stretch.strikes.remove(k);
-                if let Some(next) = stretch.strikes.get_mut(k) {
-                    next.flown += gone.flown;
+            for (s, k) in touched.iter().filter(|touched| touched.change == change).map(|touched| touched.place) {
+                if let Some(stretch) = excursion.stretches.get_mut(s).filter(|stretch| k < stretch.strikes.len()) {
+                    let gone = stretch.strikes.remove(k);
+                    if let Some(next) = stretch.strikes.get_mut(k) {
+                        next.flown += gone.flown;
+                    }
                 }
             }
             excursion
         };
-        let alike = match touched.change {
-            Change::Appears => likeness(&self.excursion, &without(there)),
-            Change::Disappears => likeness(&without(&self.excursion), there),
-        };
-        matches!(alike, Likeness::Alike(_))
+        let (here, there) = (without(&self.excursion, Change::Disappears), without(there, Change::Appears));
+        matches!(likeness(&here, &there), Likeness::Alike(_))
     }
 
     /// Whether up to where impacts are slow the motion at another value is the one here.
@@ -142,22 +152,24 @@ impl Resting {
     }
 
     /// The cycle of the branch so far at a touch; a little before it where rounding has made it the other one.
-    fn short_of(&self, touched: &Touched) -> Option<Cycle> {
-        let (s, k) = touched.place;
+    fn short_of(&self, touched: &[Touched]) -> Option<Excursion> {
         let so_far = |excursion: &Excursion| {
-            let strike = excursion.stretches.get(s)?.strikes.get(k);
-            let like = match (strike.map(|strike| strike.flown), touched.flown) {
-                (Some(flown), [Some(here), Some(beyond)]) => (flown - here).abs() < (flown - beyond).abs(),
-                (flown, [here, _]) => flown.is_some() == here.is_some(),
-            };
-            excursion.cycle().filter(|_| like)
+            touched.iter().all(|touched| {
+                let (s, k) = touched.place;
+                let strike = excursion.stretches.get(s).and_then(|stretch| stretch.strikes.get(k));
+                match (strike.map(|strike| strike.flown), touched.flown) {
+                    (Some(flown), [Some(here), Some(beyond)]) => (flown - here).abs() < (flown - beyond).abs(),
+                    (flown, [here, _]) => flown.is_some() == here.is_some(),
+                }
+            })
         };
-        let width = (touched.value - self.value).abs();
+        let value = touched.first()?.value;
+        let width = (value - self.value).abs();
         let mut back = RESOLUTION * width;
-        let mut at = touched.value;
+        let mut at = value;
         for _ in 0..MAX_BACK {
-            if let Some(cycle) = self.excursion_at(at).as_ref().and_then(so_far) {
-                return Some(cycle);
+            if let Some(excursion) = self.excursion_at(at).filter(so_far) {
+                return Some(excursion);
             }
             back *= 10.0;
             if back >= width {
@@ -165,7 +177,7 @@ impl Resting {
             }
             at = self.ahead(width - back);
         }
-        self.excursion.cycle()
+        Some(self.excursion.clone())
     }
 
     /// Where the mass lands without speed, if the impacts up to `k` of stretch `s` have next to none here and at `to`: there it is
@@ -197,10 +209,11 @@ impl Resting {
         if speed.abs() > SOFT {
             return None;
         }
-        let cycle =
-            self.excursion_at(value).and_then(|excursion| excursion.cycle()).or_else(|| self.excursion.cycle())?;
+        let excursion = self.excursion_at(value).filter(|excursion| excursion.periods.is_some());
+        let excursion = excursion.unwrap_or_else(|| self.excursion.clone());
+        let cycle = excursion.cycle()?;
         let (before, after) = (self.excursion.cycle()?.label, there.cycle()?.label);
-        let impact = self.excursion.before(s) + first;
+        let impact = excursion.before(s) + first;
         Some(Found { value, event: BranchEvent::SoftLanding { impact, side, phase, before, after }, cycle })
     }
 
@@ -261,6 +274,8 @@ const SLOW: f64 = 0.02;
 const UNSEEN: f64 = 1e-4;
 /// A speed this small at a landing is zero.
 const SOFT: f64 = 1e-6;
+/// Touches at values closer than this, relative, are one event.
+const TOGETHER: f64 = 1e-11;
 /// Halvings down to neighbouring numbers, at most.
 const MAX_HALVINGS: u32 = 100;
 /// Powers of ten to go back from a touch, at most.

@@ -234,6 +234,40 @@ fn impacts_on_the_way_accumulate() {
     assert!((extrapolated - limit).abs() < 1e-2 * gaps[gaps.len() - 1], "{extrapolated} {limit}");
 }
 
+/// Two stops alike, restitution 0: what happens on one happens on the other half a turn later, and both are told. Without damping the
+/// flight from a release to the phase at which the force begins to press at the other stop, which is 2 asin(delta) = pi/3 later, ends on that
+/// stop if it takes an odd number of half natural periods, (pi/3)/beta = pi or 3 pi.
+#[test]
+fn two_stops_alike() {
+    let at =
+        |inverse: f64| Oscillator::from_inverse_beta(inverse, 0.5, 0.0).unwrap().with_second_stop(0.5, 0.0).unwrap();
+    let mut seen = 0;
+    for (vary, direction) in [
+        (Parameter::InverseBeta, Direction::Up),
+        (Parameter::InverseBeta, Direction::Down),
+        (Parameter::Damping, Direction::Up),
+    ] {
+        let range = if vary == Parameter::Damping { (0.0, 2.0) } else { (0.3, 12.0) };
+        for point in branch(&at(4.0), Side::Upper, vary, range, direction) {
+            let Some(BranchEvent::Grazing { change, impact, side, phase, also: Some(also), .. }) = point.event else {
+                assert!(!matches!(point.event, Some(BranchEvent::Grazing { .. })), "{:?}", point.event);
+                continue;
+            };
+            assert!(also.side != side && ((also.phase - phase).abs() - PI).abs() < 1e-9);
+            let (one, other) = (point.cycle.points[impact].state, point.cycle.points[also.impact].state);
+            if change == Change::Disappears {
+                assert_eq!((one.side, other.side), (side, also.side));
+                assert!(one.velocity < 1e-4 && other.velocity < 1e-4);
+            }
+            if vary == Parameter::InverseBeta {
+                assert!((point.value - 3.0).abs().min((point.value - 9.0).abs()) < 1e-12, "{}", point.value);
+            }
+            seen += 1;
+        }
+    }
+    assert!(seen >= 3, "{seen}");
+}
+
 /// Every parameter, with and without damping, one and two stops: a branch ends where something happens.
 #[test]
 fn every_end_has_a_name() {
