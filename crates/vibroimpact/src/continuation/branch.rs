@@ -8,7 +8,7 @@ use crate::orbit::Cycle;
 use crate::system::{Oscillator, Parameter};
 use core::ops::RangeInclusive;
 
-/// A branch: an iterator over its points, events among them, that ends with an event that [ends](BranchEvent::ends) it.
+/// A branch: an iterator over its points, events among them, that ends with an event that [ends](super::BranchEvent::ends) it.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Parameter, Label, orbit::{FindOptions, find}};
