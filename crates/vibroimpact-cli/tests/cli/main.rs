@@ -8,6 +8,7 @@ mod files;
 mod lyapunov;
 mod planes;
 mod refusals;
+mod studies;
 
 use assert_cmd::Command;
 use serde_json::Value;

@@ -1,0 +1,337 @@
+//! Studies from outside: killed, resumed, damaged, run twice at once, and refused.
+
+use crate::{json, vibro};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+const PLAN: &str = r#"
+version = 1
+tile = 4
+system = { restitution = 0.5 }
+
+[task.map]
+starts = 6
+seed = 1
+axes = [
+  { vary = "inverse_beta", over = "0.6:1.9:40" },
+  { vary = "gap", over = "0:3:40" },
+]
+"#;
+
+fn plan(folder: &Path, text: &str) {
+    fs::write(folder.join("study.toml"), text).unwrap();
+}
+
+/// `vibro` in a folder, in the background.
+fn begin(folder: &Path, line: &str) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_vibro"))
+        .args(line.split_whitespace())
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+/// Exit code and stderr of `vibro` in a folder.
+fn said(folder: &Path, line: &str) -> (Option<i32>, String) {
+    let output = vibro(line).current_dir(folder).output().unwrap();
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+fn done(folder: &Path, line: &str) {
+    let (code, complaint) = said(folder, line);
+    assert_eq!(code, Some(0), "{line}: {complaint}");
+}
+
+/// All files below a folder.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                found.insert(path.strip_prefix(folder).unwrap().display().to_string(), fs::read(&path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+/// Killed without warning at twenty moments of one study: what is resumed in the end is, byte for byte, what a run without
+/// interruption leaves.
+#[test]
+#[cfg(unix)]
+fn killed_at_twenty_moments() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), PLAN);
+    let begun = Instant::now();
+    done(folder.path(), "run study.toml --store whole.zarr --threads 2");
+    let time = begun.elapsed();
+    let want = files(&folder.path().join("whole.zarr"));
+    let (mut killed, mut moment) = (0, 0_u64);
+    let mut store = 0;
+    while killed < 20 {
+        // a fixed sequence of moments, spread over a third of the time of the whole
+        moment = moment.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let share = (moment >> 33) as f64 / (1_u64 << 31) as f64;
+        let verb = if folder.path().join(format!("{store}.zarr/zarr.json")).exists() {
+            format!("resume {store}.zarr --threads 2")
+        } else {
+            format!("run study.toml --store {store}.zarr --threads 2")
+        };
+        let mut run = begin(folder.path(), &verb);
+        std::thread::sleep(time.mul_f64(0.33 * share));
+        if run.try_wait().unwrap().is_some() {
+            // it was done before its moment came: the next one begins anew
+            assert!(files(&folder.path().join(format!("{store}.zarr"))) == want, "{killed} kills");
+            store += 1;
+            continue;
+        }
+        run.kill().unwrap();
+        run.wait().unwrap();
+        killed += 1;
+    }
+    let place = folder.path().join(format!("{store}.zarr"));
+    if place.join("zarr.json").exists() {
+        done(folder.path(), &format!("resume {store}.zarr"));
+        assert!(files(&place) == want);
+    }
+}
+
+/// Ctrl-C leaves the tiles that are finished, and says how to go on.
+#[test]
+#[cfg(unix)]
+fn stopped_it_can_be_resumed() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":40\"", ":120\""));
+    let run = Command::new(env!("CARGO_BIN_EXE_vibro"))
+        .args(["run", "study.toml", "--store", "s.zarr"])
+        .current_dir(folder.path())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let status = || folder.path().join("s.zarr/status/c");
+    let begun = Instant::now();
+    while !status().exists() && begun.elapsed() < Duration::from_secs(30) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
+    let output = run.wait_with_output().unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{complaint}");
+    assert!(complaint.contains("`vibro resume` goes on"), "{complaint}");
+    let answer = json(&format!("status {}", folder.path().join("s.zarr").display()));
+    assert!(answer["tiles_done"].as_u64().unwrap() > 0 && answer["complete"] == false, "{answer}");
+    assert_eq!(answer["tiles"], 900);
+}
+
+#[test]
+fn two_at_once_parts_in_any_order_and_flags_make_the_same_store() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), PLAN);
+    done(folder.path(), "run study.toml --store whole.zarr --threads 1");
+    let want = files(&folder.path().join("whole.zarr"));
+    let mut both = [1, 2].map(|_| begin(folder.path(), "run study.toml --store both.zarr --threads 2"));
+    for run in &mut both {
+        assert!(run.wait().unwrap().success());
+    }
+    assert!(files(&folder.path().join("both.zarr")) == want);
+    for part in [2, 3, 1] {
+        done(folder.path(), &format!("run study.toml --store parts.zarr --tiles {part}/3"));
+    }
+    assert!(files(&folder.path().join("parts.zarr")) == want);
+    done(
+        folder.path(),
+        "map --inverse-beta 0.6:1.9:40 --gap 0:3:40 --restitution 0.5 --starts 6 --store flags.zarr --tile 4 --csv a.csv",
+    );
+    assert!(files(&folder.path().join("flags.zarr")) == want);
+    done(folder.path(), "map --inverse-beta 0.6:1.9:40 --gap 0:3:40 --restitution 0.5 --starts 6 --csv b.csv");
+    assert!(fs::read(folder.path().join("a.csv")).unwrap() == fs::read(folder.path().join("b.csv")).unwrap());
+    // the plan in a store is a plan
+    let answer = json(&format!("status {}", folder.path().join("whole.zarr").display()));
+    fs::write(folder.path().join("again.json"), answer["plan"].to_string()).unwrap();
+    done(folder.path(), "run again.json --store again.zarr");
+    assert!(files(&folder.path().join("again.zarr")) == want);
+}
+
+#[test]
+fn damage_is_found_by_verify_and_mended_by_resume() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":40\"", ":12\""));
+    done(folder.path(), "run study.toml");
+    let store = folder.path().join("study.zarr");
+    let want = files(&store);
+    done(folder.path(), "verify study.zarr --sample 9");
+    let chunk = store.join("label/c/1/2/0");
+    let bytes = fs::read(&chunk).unwrap();
+    let mut flipped = bytes.clone();
+    flipped[bytes.len() / 2] ^= 4;
+    for damaged in [flipped.as_slice(), &bytes[..bytes.len() - 1], b""] {
+        fs::write(&chunk, damaged).unwrap();
+        let output = vibro("verify study.zarr").current_dir(folder.path()).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains("tile 5: a chunk is missing, cut short or has a wrong check sum"), "{text}");
+        let (code, note) = said(folder.path(), "resume study.zarr");
+        assert!(code == Some(0) && note.contains("1 of 9 tiles computed, 1 of them because they were damaged"), "{note}");
+        assert!(files(&store) == want);
+    }
+}
+
+#[test]
+fn tables_and_figures_of_every_kind_of_store() {
+    let folder = tempfile::tempdir().unwrap();
+    let system = "--inverse-beta 1.3 --gap 0.75 --restitution 0.5";
+    let free = "--inverse-beta 1.3 --restitution 0.5";
+    for (line, fast) in [
+        (format!("basin {system} --x -4:0.75:30 --v -4:4:20"), true),
+        (format!("diagram {free} --vary gap --over 0:2:21"), true),
+        (format!("diagram {free} --vary gap --over 0:2:9 --direction scatter --starts 3 --show strobe"), true),
+        ("map --beta 0.5:2:8:log --gap 0.5,1,2 --restitution 0.5 --starts 3".to_owned(), true),
+        ("map --beta 0.8 --gap 0:2:3 --restitution 0.3,0.6 --damping 0:0.1:2 --starts 2".to_owned(), false),
+    ] {
+        let file = |name: &str| folder.path().join(name);
+        let figure = if fast { "--plot a.svg" } else { "" };
+        done(folder.path(), &format!("{line} --csv a.csv {figure} --force"));
+        let store = "s.zarr";
+        let _ = fs::remove_dir_all(file(store));
+        let figure = if fast { "--plot b.svg" } else { "" };
+        done(folder.path(), &format!("{line} --csv b.csv {figure} --store {store} --force"));
+        assert!(fs::read(file("a.csv")).unwrap() == fs::read(file("b.csv")).unwrap(), "{line}");
+        if fast {
+            assert!(fs::read(file("a.svg")).unwrap() == fs::read(file("b.svg")).unwrap(), "{line}");
+            done(folder.path(), &format!("plot {store} c.svg --force"));
+            assert!(fs::read(file("a.svg")).unwrap() == fs::read(file("c.svg")).unwrap(), "{line}");
+        }
+        done(folder.path(), &format!("export {store} --csv c.csv --force"));
+        let table = fs::read_to_string(file("c.csv")).unwrap();
+        let columns = table.lines().next().unwrap().split(',').count();
+        assert!(table.lines().all(|row| row.split(',').count() == columns), "{line}");
+    }
+    plan(
+        folder.path(),
+        r#"{"version":1,"system":{"inverse_beta":1.11,"restitution":0.5},
+            "task":{"lyapunov":{"impacts":1000,"axes":[{"vary":"gap","over":"2:3:3"}]}}}"#,
+    );
+    done(folder.path(), "run study.toml --store l.zarr --csv l.csv --plot l.svg");
+    let table = fs::read_to_string(folder.path().join("l.csv")).unwrap();
+    assert!(table.starts_with("gap,direction,exponent,exponent_error,impacts_per_period"), "{table}");
+    assert_eq!(table.lines().count(), 7);
+    done(folder.path(), "attractors --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --starts 100 --store a.zarr");
+    done(folder.path(), "export a.zarr --csv a.csv --force");
+    let table = fs::read_to_string(folder.path().join("a.csv")).unwrap();
+    assert!(table.starts_with("start,label,cycle,x,v,phase\n1,") && table.lines().count() == 101, "{table}");
+    let (code, refusal) = said(folder.path(), "plot a.zarr a.png");
+    assert!(code == Some(2) && refusal.contains("no figure"), "{refusal}");
+}
+
+#[test]
+fn refusals_are_one_sentence_and_lose_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    plan(at, &PLAN.replace(":40\"", ":8\""));
+    done(at, "run study.toml --store s.zarr");
+    let want = files(&at.join("s.zarr"));
+    fs::create_dir(at.join("thesis")).unwrap();
+    fs::write(at.join("thesis/text.tex"), "years").unwrap();
+    for (name, text) in [
+        ("misspelt.toml", PLAN.replace("starts", "start")),
+        ("later.toml", PLAN.replace("version = 1", "version = 2")),
+        ("beyond.toml", PLAN.replace("restitution = 0.5", "restitution = 1.5")),
+        ("nothing.toml", String::new()),
+        ("other.toml", PLAN.to_owned()),
+        ("settle.json", r#"{"version":1,"system":{"beta":1,"gap":1,"restitution":0.5},"task":{"settle":{"start":{}}}}"#.into()),
+    ] {
+        fs::write(at.join(name), text).unwrap();
+    }
+    for (line, word) in [
+        ("run none.toml", "cannot be read"),
+        ("run misspelt.toml", "unknown field `start`"),
+        ("run later.toml", "version 2"),
+        ("run beyond.toml", "restitution eps = 1.5"),
+        ("run nothing.toml", "missing field"),
+        ("run settle.json", "fills no grid"),
+        ("run other.toml --store s.zarr", "holds another plan"),
+        ("run study.toml --store thesis", "is not empty, and no store"),
+        ("run study.toml --store thesis/text.tex", "no store"),
+        ("run study.toml --store /proc/s.zarr", "cannot write"),
+        ("run study.toml --tiles 4/3", "1 <= I <= N"),
+        ("resume none.zarr", "there is no store"),
+        ("status thesis", "there is no store"),
+        ("export s.zarr", "--csv"),
+        ("slurm study.toml --time soon", "as Slurm writes it"),
+        ("map --beta 1 --gap 1 --restitution 0.5 --starts 2", "nothing varies"),
+    ] {
+        let (code, complaint) = said(at, line);
+        assert!(matches!(code, Some(1 | 2)), "{line}: {code:?}");
+        assert!(complaint.contains(word) && complaint.len() < 900, "{line}: {complaint}");
+        assert!(!complaint.contains("panicked") && !complaint.contains("defect"), "{line}: {complaint}");
+    }
+    assert!(files(&at.join("s.zarr")) == want);
+    assert_eq!(fs::read(at.join("thesis/text.tex")).unwrap(), b"years");
+    assert!(!at.join("study.zarr").exists());
+}
+
+/// A disk that is full: what is finished is kept, and goes on when there is room.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk() {
+    let folder = tempfile::tempdir().unwrap();
+    let disk = folder.path().join("disk");
+    fs::create_dir(&disk).unwrap();
+    let mount = |options: &str| Command::new("mount").args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(&disk).status();
+    if !mount("size=160k").is_ok_and(|status| status.success()) {
+        println!("skipped: this user may not mount a small disk");
+        return;
+    }
+    plan(folder.path(), PLAN);
+    let (code, complaint) = said(folder.path(), "run study.toml --store disk/s.zarr");
+    let remounted = mount("remount,size=8m").is_ok_and(|status| status.success());
+    let outcome = if remounted { Some(said(folder.path(), "resume disk/s.zarr")) } else { None };
+    let read_only = mount("remount,ro").is_ok_and(|status| status.success());
+    let refused = read_only.then(|| said(folder.path(), "run study.toml --store disk/other.zarr"));
+    let stored = files(&disk.join("s.zarr"));
+    Command::new("umount").arg(&disk).status().unwrap();
+    assert!(code == Some(1) && complaint.contains("No space left on device"), "{code:?} {complaint}");
+    assert!(complaint.contains("hint: the tiles that are finished are kept"), "{complaint}");
+    let (code, note) = outcome.unwrap();
+    assert_eq!(code, Some(0), "{note}");
+    done(folder.path(), "run study.toml --store whole.zarr");
+    assert!(stored == files(&folder.path().join("whole.zarr")));
+    if let Some((code, complaint)) = refused {
+        assert!(code == Some(1) && complaint.contains("Read-only file system"), "{code:?} {complaint}");
+    }
+}
+
+#[test]
+fn the_script_for_a_cluster_and_the_schema() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":40\"", ":8\""));
+    let output = vibro("slurm study.toml --jobs 3 --cpus 1 --partition debug").current_dir(folder.path()).output().unwrap();
+    let script = String::from_utf8(output.stdout).unwrap();
+    assert!(script.contains("#SBATCH --array=1-3\n") && script.contains("#SBATCH --partition=debug\n"), "{script}");
+    // the script without a cluster: its jobs one after another
+    fs::write(folder.path().join("job.sh"), &script).unwrap();
+    for task in ["2", "1", "3"] {
+        let job = Command::new("bash")
+            .arg("job.sh")
+            .env("SLURM_ARRAY_TASK_ID", task)
+            .env("SLURM_CPUS_PER_TASK", "1")
+            .current_dir(folder.path())
+            .status();
+        assert!(job.unwrap().success());
+    }
+    assert_eq!(json(&format!("status {}", folder.path().join("study.zarr").display()))["complete"], true);
+
+    let output = vibro("schema").output().unwrap();
+    let schema: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(schema["properties"]["version"]["maximum"], 1);
+    assert!(schema.to_string().contains("\"inverse_beta\"") && schema["additionalProperties"] == false);
+}
