@@ -17,7 +17,7 @@
 //! | the equations with two parameters free and a condition, and walks along their curves | `plane`, `walk` |
 //! | curves of folds, flips and grazing impacts; a point of one; why one ends | [`Curve`], [`CurvePoint`], `curve_end` |
 //! | the box that is looked at | [`Frame`] |
-//! | where a motion exists or is stable, as polygons along these curves | [`region`], [`Region`], `round` |
+//! | where a motion exists or is stable, as polygons along these curves | [`region`], [`Region`], `search`, `round`, `inside`, `singular` |
 //! | branches that begin at a flip or a branch point | `switch` |
 
 mod accumulation;
@@ -31,6 +31,7 @@ mod events;
 mod frame;
 mod free;
 mod graze;
+mod inside;
 mod interpolate;
 mod likeness;
 mod options;
@@ -42,6 +43,8 @@ mod resting;
 mod resting_event;
 mod root;
 mod round;
+mod search;
+mod singular;
 mod step;
 mod switch;
 mod touch;
@@ -56,4 +59,4 @@ pub use frame::Frame;
 pub use options::{BranchError, BranchOptions, Direction};
 pub use point::{BranchEvent, Change, Point, Touch};
 pub use polygon::{Bound, Polygon, Region, Vertex};
-pub use region::{RegionKind, RegionOptions, region};
+pub use region::{RegionKind, RegionOptions, region, region_while};

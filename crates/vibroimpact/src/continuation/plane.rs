@@ -75,10 +75,19 @@ impl Plane {
         (p / self.scales.0, q / self.scales.1)
     }
 
+    /// Back from units of the scales.
+    pub(super) const fn unscaled(&self, (x, y): (f64, f64)) -> (f64, f64) {
+        (x * self.scales.0, y * self.scales.1)
+    }
+
+    /// The oscillator at a point; `None` for impossible values.
+    pub(super) fn oscillator(&self, (p, q): (f64, f64)) -> Option<Oscillator> {
+        self.parameters.1.set(&self.parameters.0.set(&self.osc, p).ok()?, q).ok()
+    }
+
     /// The oscillator and the ring that unknowns stand for; `None` for impossible values.
     pub(super) fn split(&self, w: &[f64]) -> Option<(Oscillator, Ring)> {
-        let (p, q) = Self::values(w);
-        let osc = self.parameters.1.set(&self.parameters.0.set(&self.osc, p).ok()?, q).ok()?;
+        let osc = self.oscillator(Self::values(w))?;
         let unknowns = w[..w.len() - 2].to_vec();
         Some((osc, Ring { sides: self.sides.clone(), unknowns, periods: self.periods }))
     }

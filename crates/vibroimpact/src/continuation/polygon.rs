@@ -64,7 +64,7 @@ impl Polygon {
     }
 
     /// How many times it goes round a point counterclockwise.
-    fn winding(&self, (x, y): (f64, f64)) -> i32 {
+    pub(super) fn winding(&self, (x, y): (f64, f64)) -> i32 {
         // edges that a ray from the point to the right meets, upwards or downwards
         let meets = |((x0, y0), (x1, y1)): ((f64, f64), (f64, f64))| {
             let across = (y0 > y) != (y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0);
@@ -79,8 +79,8 @@ impl Polygon {
         self.edges().map(meets).sum()
     }
 
-    /// Distance of a point from it, lengths over `scales`.
-    pub(super) fn distance(&self, (x, y): (f64, f64), scales: (f64, f64)) -> f64 {
+    /// Distance of a point from it, lengths over `scales`, and the edge it is nearest to.
+    pub(super) fn nearest(&self, (x, y): (f64, f64), scales: (f64, f64)) -> (f64, usize) {
         let scaled = |(u, v): (f64, f64)| ((u - x) / scales.0, (v - y) / scales.1);
         let to_edge = |(a, b): ((f64, f64), (f64, f64))| {
             let ((ax, ay), (bx, by)) = (scaled(a), scaled(b));
@@ -89,7 +89,8 @@ impl Polygon {
             let t = if square > 0.0 { (-(ax * dx + ay * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
             crate::math::hypot(ax + t * dx, ay + t * dy)
         };
-        self.edges().map(to_edge).fold(f64::INFINITY, f64::min)
+        let edges = self.edges().map(to_edge).enumerate();
+        edges.fold((f64::INFINITY, 0), |least, (k, distance)| if distance < least.0 { (distance, k) } else { least })
     }
 }
 
@@ -106,12 +107,13 @@ impl Region {
     /// Whether a point lies in it.
     #[must_use]
     pub fn contains(&self, point: (f64, f64)) -> bool {
-        [true, false].into_iter().any(|below| self.on_sheet(point, below))
+        [true, false].into_iter().any(|below| self.sheets(point, below) > 0)
     }
 
-    /// Whether it lies on some sheet of that kind: polygons of several may overlap.
-    pub(super) fn on_sheet(&self, point: (f64, f64), below: bool) -> bool {
-        self.polygons.iter().filter(|p| p.below == below).map(|p| p.winding(point)).sum::<i32>() > 0
+    /// On how many sheets of that kind it lies: polygons of several may overlap.
+    pub(super) fn sheets(&self, point: (f64, f64), below: bool) -> usize {
+        let windings = self.polygons.iter().filter(|p| p.below == below).map(|p| p.winding(point));
+        usize::try_from(windings.sum::<i32>()).unwrap_or(0)
     }
 }
 
@@ -139,7 +141,7 @@ mod tests {
         let region = Region { polygons: vec![square(2.0, false), square(1.0, true)], unresolved: Vec::new() };
         assert!(region.contains((1.5, 0.3)) && !region.contains((0.2, 0.3)) && !region.contains((2.5, 0.3)));
         assert_eq!((region.polygons[0].area(), region.polygons[1].area()), (32.0, -8.0));
-        assert!((region.polygons[0].distance((3.0, 1.0), (1.0, 2.0)) - 1.0).abs() < 1e-15);
-        assert!((region.polygons[0].distance((0.0, 3.0), (1.0, 2.0)) - 0.5).abs() < 1e-15);
+        assert!((region.polygons[0].nearest((3.0, 1.0), (1.0, 2.0)).0 - 1.0).abs() < 1e-15);
+        assert!((region.polygons[0].nearest((0.0, 3.0), (1.0, 2.0)).0 - 0.5).abs() < 1e-15);
     }
 }

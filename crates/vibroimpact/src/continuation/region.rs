@@ -8,9 +8,8 @@
 //! another bound would be passed and goes on along that, the way on which the former holds, until it is back.
 
 use super::frame::Frame;
-use super::polygon::{Polygon, Region};
-use super::round::Round;
-use crate::orbit::{Cycle, FindOptions, Orbit, Ring, find};
+use super::polygon::Region;
+use super::search::Search;
 use crate::system::Oscillator;
 use crate::verdict::Label;
 
@@ -48,147 +47,30 @@ impl Default for RegionOptions {
 
 /// The region of the orbits of `osc` that are called `label` in a frame of two parameters.
 ///
-/// Orbits are looked for on a grid, and from each that lies in no polygon yet a walk goes round the part of the region
-/// it lies in; from grid points inside a polygon without an orbit, round the hole. Where a walk is lost, the points of the
-/// grid that it would have gone round are [unresolved](Region::unresolved). Not looked for are the regions of orbits that
+/// Orbits are looked for on a grid, and from each on a sheet that is not known yet a walk goes round the part of the region
+/// it lies in; from the folds of that one on to the sheet on their other side; and from grid points inside a polygon without
+/// an orbit, which none can be followed to from the edge, round the hole. Where a walk is lost, the points of the grid that
+/// it would have gone round are [unresolved](Region::unresolved). Not looked for are the regions of orbits that
 /// rest on a stop (`inf/n`), and that of the motion without impacts: it is where $`|f|`$ exceeds no gap.
 #[must_use]
 pub fn region(osc: &Oscillator, label: Label, kind: RegionKind, frame: &Frame, options: RegionOptions) -> Region {
-    let mut search =
-        Search { osc, frame, kind, options, region: Region { polygons: Vec::new(), unresolved: Vec::new() } };
-    if frame.sensible() {
-        search.run(label);
-    }
+    let mut search = Search::new(osc, frame, kind, options, &|| true);
+    search.run(label);
     search.region
 }
 
-/// An orbit at a point of the grid.
-pub(super) struct Seed {
-    pub(super) ring: Ring,
-    pub(super) osc: Oscillator,
-    pub(super) below: bool,
-}
-
-struct Search<'a> {
-    osc: &'a Oscillator,
-    frame: &'a Frame,
+/// The same as [`region`], as long as `go_on` says yes when asked, which it is at every point of the grid and every step;
+/// `None` once it said no.
+#[must_use]
+pub fn region_while(
+    osc: &Oscillator,
+    label: Label,
     kind: RegionKind,
+    frame: &Frame,
     options: RegionOptions,
-    region: Region,
+    go_on: &dyn Fn() -> bool,
+) -> Option<Region> {
+    let mut search = Search::new(osc, frame, kind, options, go_on);
+    search.run(label);
+    go_on().then_some(search.region)
 }
-
-impl Search<'_> {
-    /// The point `(i, j)` of the grid, not on the frame itself.
-    fn node(&self, i: u32, j: u32) -> (f64, f64) {
-        let at = |range: &core::ops::RangeInclusive<f64>, k: u32, count: u32| {
-            range.start() + (range.end() - range.start()) * (f64::from(k) + 0.5) / f64::from(count)
-        };
-        let (p, q) = &self.frame.ranges;
-        (at(p, i, self.options.grid.0), at(q, j, self.options.grid.1))
-    }
-
-    fn oscillator(&self, (p, q): (f64, f64)) -> Option<Oscillator> {
-        let (first, second) = self.frame.parameters;
-        second.set(&first.set(self.osc, p).ok()?, q).ok()
-    }
-
-    fn run(&mut self, label: Label) {
-        let (columns, rows) = self.options.grid;
-        let mut seeds: Vec<Vec<Seed>> = Vec::new();
-        for j in 0..rows {
-            for i in 0..columns {
-                seeds.push(self.seeds(label, self.node(i, j)));
-            }
-        }
-        let index = |i: u32, j: u32| (j * columns + i) as usize;
-        for j in 0..rows {
-            for i in 0..columns {
-                let at = self.node(i, j);
-                for seed in &seeds[index(i, j)] {
-                    if !self.region.on_sheet(at, seed.below) {
-                        self.around(seed, at);
-                    }
-                }
-            }
-        }
-        for j in 0..rows {
-            for i in 0..columns {
-                for below in [true, false] {
-                    let at = self.node(i, j);
-                    let has = seeds[index(i, j)].iter().any(|seed| seed.below == below);
-                    if has || !self.region.on_sheet(at, below) {
-                        continue;
-                    }
-                    // a hole: towards it from beside it
-                    let beside = [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)];
-                    for (k, l) in beside.into_iter().filter(|&(k, l)| k < columns && l < rows) {
-                        if let Some(seed) = seeds[index(k, l)].iter().find(|seed| seed.below == below) {
-                            let from = self.node(k, l);
-                            self.add(seed, from, (at.0 - from.0, at.1 - from.1));
-                            if !self.region.on_sheet(at, below) {
-                                break;
-                            }
-                        }
-                    }
-                }
-            }
-        }
-        for j in 0..rows {
-            for i in 0..columns {
-                let at = self.node(i, j);
-                if self.region.contains(at) == seeds[index(i, j)].is_empty() {
-                    self.region.unresolved.push(at);
-                }
-            }
-        }
-    }
-
-    /// The orbits at a point that belong to the region.
-    fn seeds(&self, label: Label, at: (f64, f64)) -> Vec<Seed> {
-        let Some(osc) = self.oscillator(at) else { return Vec::new() };
-        let orbits = find(&osc, label, FindOptions { seeds: self.options.seeds, ..FindOptions::default() });
-        let wanted = |o: &Orbit| o.physical && (self.kind == RegionKind::Existence || o.cycle.stable());
-        let seed = |cycle: &Cycle| {
-            let ring = Ring::of(&osc, cycle).filter(|ring| ring.len() > 0)?;
-            let [one, two] = cycle.multipliers;
-            // (1 - one)(1 - two): positive below +1
-            let product = (1.0 - one.re) * (1.0 - two.re) - one.im * two.im;
-            Some(Seed { ring, osc, below: product > 0.0 })
-        };
-        orbits.iter().filter(|o| wanted(o)).filter_map(|o| seed(&o.cycle)).collect()
-    }
-
-    /// Walks round the part of the region that a seed lies in, and round holes that are met on the way out.
-    fn around(&mut self, seed: &Seed, at: (f64, f64)) {
-        let (p, q) = self.frame.scales();
-        for towards in [(p, 0.0), (-p, 0.0), (0.0, q), (0.0, -q)] {
-            self.add(seed, at, towards);
-            if self.region.on_sheet(at, seed.below) {
-                return;
-            }
-        }
-    }
-
-    /// Adds the polygon that is met from a seed in a direction, unless it is known.
-    fn add(&mut self, seed: &Seed, at: (f64, f64), towards: (f64, f64)) {
-        let known = &self.region.polygons;
-        let scales = self.frame.scales();
-        let is_known = |point: (f64, f64)| -> bool {
-            known.iter().any(|p| p.below == seed.below && p.distance(point, scales) < 0.1 * self.options.longest)
-        };
-        // an edge of the frame where the equations are singular (whole natural periods without damping) is kept off
-        let found = [0.0, INWARDS].into_iter().find_map(|inwards| {
-            let frame = self.frame.shrunk(inwards);
-            Round::new(&frame, self.kind, self.options, seed, at)?.go(towards, is_known)
-        });
-        if let Some(vertices) = found {
-            let mut polygon = Polygon { vertices, hole: false, below: seed.below };
-            polygon.hole = polygon.area() < 0.0;
-            self.region.polygons.push(polygon);
-        }
-    }
-}
-
-/// Share of its ranges by which a frame is shrunk where a walk along its edge is lost, and by which singular frequencies are
-/// kept off.
-pub(super) const INWARDS: f64 = 1e-5;

@@ -4,27 +4,49 @@ use super::arc::Equations;
 use super::frame::Frame;
 use super::plane::{Condition, Plane};
 use super::polygon::{Bound, Vertex};
-use super::region::{INWARDS, RegionKind, RegionOptions, Seed};
+use super::region::{RegionKind, RegionOptions};
+use super::search::Seed;
+use super::singular::{ASIDE, Partner, partner, walls};
 use super::walk::{Spot, Stride, Walk};
 use crate::orbit::{Floquet, blocks};
-use crate::system::Side;
 
 /// A walk round the edge of a sheet.
-pub(super) struct Round {
-    plane: Plane,
+pub(super) struct Round<'a> {
+    pub(super) plane: Plane,
     /// What must stay positive, up to the sign given.
-    bounds: Vec<(Condition, f64, Bound)>,
+    pub(super) bounds: Vec<(Condition, f64, Bound)>,
     w: Vec<f64>,
+    /// The sign of the test function of a multiplier +1 on the sheet.
+    pub(super) sheet: f64,
     options: RegionOptions,
+    /// Asked at every step.
+    pub(super) go_on: &'a dyn Fn() -> bool,
 }
 
-impl Round {
+/// The edge of a sheet, or a part of it.
+#[derive(Default)]
+pub(super) struct Edge {
+    pub(super) vertices: Vec<Vertex>,
+    /// The cycle and the parameters at each.
+    pub(super) trail: Vec<Vec<f64>>,
+    pub(super) closed: bool,
+}
+
+impl Edge {
+    fn push(&mut self, w: &[f64], bound: Bound) {
+        self.vertices.push(Vertex { values: Plane::values(w), bound });
+        self.trail.push(w.to_vec());
+    }
+}
+
+impl<'a> Round<'a> {
+    /// From a seed; with `walled`, frequencies with whole natural periods in those of the force are kept off.
     pub(super) fn new(
-        frame: &Frame,
-        kind: RegionKind,
-        options: RegionOptions,
+        (frame, kind, options): (&Frame, RegionKind, RegionOptions),
         seed: &Seed,
         at: (f64, f64),
+        walled: bool,
+        go_on: &'a dyn Fn() -> bool,
     ) -> Option<Self> {
         let plane =
             Plane::new(&seed.osc, frame.parameters, frame.scales(), &seed.ring, Condition::Line(0.0, 1.0, at.1));
@@ -55,8 +77,11 @@ impl Round {
                 bounds.push((Condition::Pull(k), 1.0, Bound::Touch));
             }
         }
-        bounds.extend(walls(frame, seed, at).into_iter().map(|wall| (wall, 1.0, Bound::NoSpeed)));
-        Some(Self { plane, bounds, w, options })
+        // one impact never gets across
+        if walled || seed.ring.len() == 1 {
+            bounds.extend(walls(frame, seed, at).into_iter().map(|wall| (wall, 1.0, Bound::NoSpeed)));
+        }
+        Some(Self { plane, bounds, w, sheet, options, go_on })
     }
 
     fn watched(&self) -> Vec<Condition> {
@@ -64,7 +89,7 @@ impl Round {
     }
 
     /// A walk along the zero of a condition from `w`, on the side that `row` is positive on.
-    fn along(&self, condition: Condition, w: &[f64], row: &[f64]) -> Option<Walk> {
+    pub(super) fn along(&self, condition: Condition, w: &[f64], row: &[f64]) -> Option<Walk> {
         let mut plane = self.plane.clone();
         plane.condition = condition;
         let mut walk = Walk::new(plane, self.watched(), w.to_vec(), row, self.options.longest)?;
@@ -75,40 +100,63 @@ impl Round {
         Some(walk)
     }
 
-    /// Out to the edge in a direction and round it. `None` if the edge is known or the walk is lost.
-    pub(super) fn go(&self, (dp, dq): (f64, f64), known: impl Fn((f64, f64)) -> bool) -> Option<Vec<Vertex>> {
+    /// To the first bound in a direction: which, where, and the walk that led there.
+    pub(super) fn out(&self, (dp, dq): (f64, f64)) -> Option<(usize, Vec<f64>, Walk)> {
         let (p, q) = Plane::values(&self.w);
         let line = Condition::Line(dq, -dp, dq * p - dp * q);
         let mut row = vec![0.0; self.w.len()];
         let width = row.len();
         (row[width - 2], row[width - 1]) = (dp, dq);
         let mut out = self.along(line, &self.w, &row)?;
-        let (first, start) = loop {
+        while (self.go_on)() {
             let Stride { there, length, crossed } = out.stride()?;
             if let Some(&(s, j)) = crossed.first() {
-                break (j, out.between(&there, s, length)?);
+                return Some((j, out.between(&there, s, length)?, out));
             }
             out.settle(there);
-        };
-        if known(Plane::values(&start)) {
-            return None;
         }
+        None
+    }
+
+    /// Round the edge from `start` on `bound`, where `out` led; where the walk is lost, round it the other way to the same
+    /// place. Not closed if that is another.
+    pub(super) fn edge(&self, bound: usize, start: &[f64], out: &Walk) -> Edge {
         // with the inside, where the walk came from, to the left
-        let condition = self.bounds[first].0;
         let inside = {
-            let (x, y) = out.plane.scaled(&start);
+            let (x, y) = out.plane.scaled(start);
             let (u, v) = out.plane.scaled(&out.here.w);
             (u - x, v - y)
         };
-        let walk = self.ways(condition, &start)?.into_iter().find(|walk| {
+        let left = |walk: &Walk| {
             let (x, y) = walk.plane.scaled(&walk.here.tangent);
             x * inside.1 - y * inside.0 > 0.0
-        })?;
-        self.circle(first, walk)
+        };
+        let Some([one, two]) = self.ways(self.bounds[bound].0, start) else { return Edge::default() };
+        let (forth, back) = if left(&one) { (one, two) } else { (two, one) };
+        let forth = self.circle(bound, forth);
+        if forth.closed { forth } else { self.joined(forth, self.circle(bound, back)) }
+    }
+
+    /// Two walks from one point to where each is lost as one edge; closed, if that is the same place: a point where more
+    /// vanishes than two bounds.
+    fn joined(&self, mut edge: Edge, mut back: Edge) -> Edge {
+        let place = |edge: &Edge| {
+            let (p, q) = edge.vertices.last().map_or((f64::NAN, f64::NAN), |vertex| vertex.values);
+            self.plane.scaled(&[p, q])
+        };
+        let ((x, y), (u, v)) = (place(&edge), place(&back));
+        // a bound belongs to the edge that leaves a vertex, and backwards that is the one that arrived
+        for k in (1..back.vertices.len()).rev() {
+            back.vertices[k].bound = back.vertices[k - 1].bound;
+        }
+        edge.vertices.extend(back.vertices.into_iter().skip(1).rev());
+        edge.trail.extend(back.trail.into_iter().skip(1).rev());
+        edge.closed = crate::math::hypot(x - u, y - v) < JOIN && edge.vertices.len() > 4;
+        edge
     }
 
     /// The two ways along a bound from a point on it.
-    fn ways(&self, condition: Condition, w: &[f64]) -> Option<[Walk; 2]> {
+    pub(super) fn ways(&self, condition: Condition, w: &[f64]) -> Option<[Walk; 2]> {
         let mut plane = self.plane.clone();
         plane.condition = condition;
         let width = w.len();
@@ -128,28 +176,45 @@ impl Round {
         None
     }
 
-    /// Round the edge from where `walk` begins, on bound `first`.
-    fn circle(&self, first: usize, mut walk: Walk) -> Option<Vec<Vertex>> {
+    /// Round the edge from where `walk` begins, on bound `first`, as far as it gets.
+    fn circle(&self, first: usize, mut walk: Walk) -> Edge {
         let begin = walk.here.clone();
         let mut active = first;
-        let mut vertices = vec![Vertex { values: Plane::values(&begin.w), bound: self.bounds[active].2 }];
-        while vertices.len() < self.options.vertices as usize {
-            let Stride { there, length, crossed } = walk.stride()?;
+        let mut edge = Edge::default();
+        // corners that are one place, and how each was come to
+        let mut corners: Vec<(usize, Spot)> = Vec::new();
+        let mut small = 0;
+        edge.push(&begin.w, self.bounds[active].2);
+        while edge.vertices.len() < self.options.vertices as usize && (self.go_on)() {
+            let Some(Stride { there, length, crossed }) = walk.stride() else { break };
+            // onto an orbit that is gone round several times
+            small = if length < CREEP { small + 1 } else { 0 };
+            if small > MOST_SMALL || self.repeats(&there.w) {
+                break;
+            }
             let bound = self.bounds[active].2;
             if let Some(&(s, j)) = crossed.first() {
                 // the beginning may lie before the corner
-                let corner = walk.spot(walk.between(&there, s, length)?)?;
+                let Some(corner) = walk.between(&there, s, length).and_then(|w| walk.spot(w)) else { break };
                 if active == first && self.passes(&begin, &walk.here, &corner, &walk.plane) {
-                    return Some(vertices);
+                    edge.closed = true;
+                    break;
                 }
-                (active, walk) = self.turn(active, j, &corner)?;
-                vertices.push(Vertex { values: Plane::values(&corner.w), bound: self.bounds[active].2 });
+                corners.retain(|(_, other)| apart(&walk.plane, other, &corner) < MEET);
+                corners.push((active, corner.clone()));
+                if corners.len() > MOST_CORNERS {
+                    break;
+                }
+                let Some(next) = self.turn(&corners, j) else { break };
+                (active, walk) = next;
+                edge.push(&corner.w, self.bounds[active].2);
                 continue;
             }
             if active == first && self.passes(&begin, &walk.here, &there, &walk.plane) {
-                return Some(vertices);
+                edge.closed = true;
+                break;
             }
-            vertices.push(Vertex { values: Plane::values(&there.w), bound });
+            edge.push(&there.w, bound);
             let off = sagitta(&walk.plane, &walk.here, &there);
             if off > self.options.accuracy {
                 walk.step *= (0.5 * self.options.accuracy / off).sqrt();
@@ -158,7 +223,13 @@ impl Round {
             }
             walk.settle(there);
         }
-        None
+        edge
+    }
+
+    /// Whether a cycle is a shorter one gone round several times.
+    fn repeats(&self, w: &[f64]) -> bool {
+        let ring = self.plane.split(w).map(|(_, ring)| ring).filter(|ring| ring.len() > 1);
+        ring.is_some_and(|ring| ring.len() > ring.smallest(REPEATED).len())
     }
 
     /// Whether the beginning lies between two points of a walk.
@@ -174,15 +245,22 @@ impl Round {
         before < 0.0 && after >= 0.0 && away < 2.0 * self.options.longest
     }
 
-    /// At a corner: the bound to go on along and the way on which all others hold.
-    fn turn(&self, active: usize, crossed: usize, corner: &Spot) -> Option<(usize, Walk)> {
-        let zero = |j: usize| j != active && corner.values[j].abs() < MEET;
+    /// At a corner, the last of those that are one place: the bound to go on along and the way on which all others hold, but
+    /// not back along one that was come on.
+    fn turn(&self, corners: &[(usize, Spot)], crossed: usize) -> Option<(usize, Walk)> {
+        let (active, corner) = corners.last()?;
+        let zero = |j: usize| j != *active && corner.values[j].abs() < MEET;
         let mut candidates = vec![crossed];
         candidates.extend((0..self.bounds.len()).filter(|&j| j != crossed && zero(j)));
-        for j in candidates {
+        for (trial, j) in TRIALS.into_iter().flat_map(|trial| candidates.iter().map(move |&j| (trial, j))) {
             let Some(ways) = self.ways(self.bounds[j].0, &corner.w) else { continue };
             for mut walk in ways {
-                walk.step = TRIAL;
+                let along = walk.here.tangent.clone();
+                let back = |(on, spot): &(usize, Spot)| *on == j && walk.plane.dot(&along, &spot.tangent) < BACK;
+                if corners.iter().any(back) {
+                    continue;
+                }
+                walk.step = trial;
                 // without a sign nothing is crossed
                 walk.signs.iter_mut().for_each(|sign| *sign = None);
                 let Some(Stride { there, .. }) = walk.stride() else { continue };
@@ -197,6 +275,12 @@ impl Round {
     }
 }
 
+/// How far two solutions are from each other.
+fn apart(plane: &Plane, one: &Spot, other: &Spot) -> f64 {
+    let off: Vec<f64> = one.w.iter().zip(&other.w).map(|(a, b)| a - b).collect();
+    plane.length(&off)
+}
+
 /// About how far the curve between two points of it lies off the straight line, parameters over their scales.
 fn sagitta(plane: &Plane, here: &Spot, there: &Spot) -> f64 {
     let ((x, y), (u, v)) = (plane.scaled(&here.w), plane.scaled(&there.w));
@@ -205,82 +289,21 @@ fn sagitta(plane: &Plane, here: &Spot, there: &Spot) -> f64 {
     crate::math::hypot(u - x, v - y) * turn / 8.0
 }
 
-/// What a cycle becomes when half of it is shifted onto the other half, on the same stops or mirrored.
-enum Partner {
-    /// The same: it is symmetric.
-    Itself,
-    /// Another, which it may merge with; the impacts that differ most in speed, the faster one first.
-    Other(usize, usize),
-}
-
-/// The partner of a seed, if it can have one.
-fn partner(frame: &Frame, seed: &Seed) -> Option<Partner> {
-    use crate::system::Parameter::{Gap, Restitution, SecondGap, SecondRestitution};
-    let (ring, m) = (&seed.ring, seed.ring.len());
-    if !m.is_multiple_of(2) {
-        return None;
-    }
-    let half = m / 2;
-    let shifted = ring.periods.is_multiple_of(2) && (0..m).all(|k| ring.side(k) == ring.side(k + half));
-    let unequal = |p| matches!(p, Gap | Restitution | SecondGap | SecondRestitution);
-    let alike = seed.osc.stop(Side::Lower).is_some_and(|lower| Some(lower) == seed.osc.stop(Side::Upper))
-        && !unequal(frame.parameters.0)
-        && !unequal(frame.parameters.1);
-    let mirrored = alike && !ring.periods.is_multiple_of(2) && (0..m).all(|k| ring.side(k) != ring.side(k + half));
-    if !(shifted || mirrored) {
-        return None;
-    }
-    let more = |k: usize| ring.speed(k) - ring.speed(k + half);
-    let k = (0..m).max_by(|&a, &b| more(a).total_cmp(&more(b)))?;
-    if more(k) < 1e-6 {
-        return Some(Partner::Itself);
-    }
-    // one that is nearer to merging than the bound lies on no side of it
-    (more(k) > ASIDE).then_some(Partner::Other(k, (k + half) % m))
-}
-
-/// How far from merging, in speed, a walk stays; the parameters are off by about its square.
-const ASIDE: f64 = 1e-3;
-
-/// Frequencies beyond which a cycle does not go, each positive on the side of a seed at `at`.
-///
-/// Where, without damping, one impact in n periods leaves exactly whole natural periods for its flight, the mass is back
-/// on the stop whatever its speed was, and at resonance only has the force done work: as such a frequency is
-/// approached every orbit loses its speed, at all gaps at once. There the equations are singular.
-fn walls(frame: &Frame, seed: &Seed, at: (f64, f64)) -> Vec<Condition> {
-    use crate::system::Parameter::{Beta, Damping, InverseBeta};
-    let (first, second) = frame.parameters;
-    if seed.ring.len() != 1 || seed.osc.damping() != 0.0 || first == Damping || second == Damping {
-        return Vec::new();
-    }
-    let n = f64::from(seed.ring.periods);
-    let turns = n / seed.osc.beta();
-    let whole = |step: f64, from: f64| {
-        let k = if from == n { from + step } else { from };
-        (k >= 1.0).then_some(k)
-    };
-    let near = [whole(-1.0, turns.floor()), whole(1.0, turns.floor() + 1.0)];
-    let mut walls = Vec::new();
-    for (is_first, parameter, value, scale) in
-        [(true, first, at.0, frame.scales().0), (false, second, at.1, frame.scales().1)]
-    {
-        for k in near.into_iter().flatten() {
-            let wall = match parameter {
-                InverseBeta => k / n,
-                Beta => n / k,
-                _ => continue,
-            };
-            let side = (value - wall).signum();
-            let edge = side * wall + INWARDS * scale;
-            walls.push(if is_first { Condition::Line(side, 0.0, edge) } else { Condition::Line(0.0, side, edge) });
-        }
-    }
-    walls
-}
-
 /// Bounds closer to zero than this at a corner meet there.
 const MEET: f64 = 1e-6;
-/// How far beyond a corner the way on is tried.
-const TRIAL: f64 = 1e-3;
+/// As many corners in one place as this are a walk that gets nowhere.
+const MOST_CORNERS: usize = 8;
+/// Cosine of the angle to the course of arrival beyond which a way leads back.
+const BACK: f64 = -0.9;
+/// How far beyond a corner the way on is tried; the shorter one where two corners are close.
+const TRIALS: [f64; 2] = [1e-3, 1e-6];
 /// A bound that is this little violated there is held, by rounding.
 const SLACK: f64 = 1e-9;
+/// Ends of two walks nearer than this, parameters in quarters of the frame, are one place.
+const JOIN: f64 = 5e-3;
+/// More steps than this one after the other that are shorter than [`CREEP`] lead nowhere.
+const MOST_SMALL: u32 = 40;
+/// See [`MOST_SMALL`].
+const CREEP: f64 = 1e-6;
+/// Parts of a cycle that differ by less are the same.
+pub(super) const REPEATED: f64 = 1e-7;
