@@ -3,8 +3,9 @@
 use crate::begin::followable;
 use crate::stretch::check_plane;
 use crate::{Control, PlanError, RunError, Stretch, SystemPlan, tiles};
+use core::sync::atomic::Ordering;
 use serde::{Deserialize, Serialize};
-use vibroimpact::continuation::{Region, RegionKind, RegionOptions, region};
+use vibroimpact::continuation::{Region, RegionKind, RegionOptions, region_while};
 
 /// Points of the grid at which orbits are looked for, in each direction, where no number is given.
 pub const DEFAULT_GRID: u32 = 24;
@@ -56,7 +57,7 @@ pub struct Regions {
 /// Finds both regions, each on a thread of its own.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense, or when stopped before the second is begun.
+/// [`RunError`] for a plan that makes no sense, or when stopped, which is asked for at every point of the grid and every step.
 pub fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
     plan.check(system)?;
     let (p, q) = (&plan.across, &plan.up);
@@ -65,11 +66,12 @@ pub fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) ->
     let (frame, options) = (p.frame(q), RegionOptions { grid: (plan.grid, plan.grid), ..RegionOptions::default() });
     let found = tiles(2, 1, control, |range, tick| {
         let kind = if range.start == 0 { RegionKind::Existence } else { RegionKind::Stability };
-        let found = region(&osc, label, kind, &frame, options);
+        let go_on = || !control.stop.load(Ordering::Relaxed);
+        let found = region_while(&osc, label, kind, &frame, options, &go_on);
         tick();
         found
     })?;
-    let mut found = found.into_iter();
+    let mut found = found.into_iter().flatten();
     let mut next = || found.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
     Ok(Regions { existence: next(), stability: next() })
 }
@@ -96,6 +98,25 @@ mod tests {
             assert_eq!(found.stability.contains((1.11, gap)), stable, "{gap}");
         }
         assert_eq!(regions(&system, &plan, &Control { threads: 2, ..Control::default() }).unwrap(), found);
+    }
+
+    #[test]
+    fn stopped_in_the_middle() {
+        use core::sync::atomic::AtomicBool;
+        let (system, plan) = plan();
+        let stop = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                std::thread::sleep(std::time::Duration::from_millis(60));
+                stop.store(true, Ordering::Relaxed);
+            });
+            // some minutes of work
+            let plan = RegionPlan { label: "2/3".into(), grid: 300, ..plan };
+            let begun = std::time::Instant::now();
+            let stopped = regions(&system, &plan, &Control { stop: &stop, ..Control::default() });
+            assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
+            assert!(begun.elapsed().as_secs() < 5, "{:?}", begun.elapsed());
+        });
     }
 
     #[test]

@@ -47,7 +47,7 @@ pub(crate) struct SystemArgs {
 /// The oscillator as a machine: all of these (damping may be left out) with --restitution, instead of --beta, --gap and --damping.
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "System in physical units (instead of beta, gap and damping)")]
-struct MachineArgs {
+pub(crate) struct MachineArgs {
     /// Mass in kg, positive
     #[arg(long, value_name = "M", allow_hyphen_values = true)]
     mass_kg: Option<f64>,
@@ -83,7 +83,7 @@ struct MachineArgs {
 
 /// What lengths, velocities and times are measured in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Convention {
+pub(crate) enum Convention {
     /// F/k, and 1/omega_n
     Nondimensional,
     /// Metres and seconds; needs the system in physical units
@@ -190,6 +190,28 @@ impl SystemArgs {
     }
 }
 
+/// What a plane needs, whose values may be ranges.
+impl SystemArgs {
+    /// The system of these values.
+    pub(crate) fn of(values: &[(Parameter, Option<f64>)], machine: MachineArgs, units: Convention) -> Self {
+        let mut args = Self {
+            beta: None,
+            inverse_beta: None,
+            gap: None,
+            restitution: None,
+            damping: None,
+            second_gap: None,
+            second_restitution: None,
+            machine,
+            units,
+        };
+        for (parameter, value) in values {
+            *args.slot(*parameter) = *value;
+        }
+        args
+    }
+}
+
 /// What a parameter that varies needs to know and to set.
 impl SystemArgs {
     pub(super) const fn slot(&mut self, parameter: Parameter) -> &mut Option<f64> {
@@ -210,7 +232,7 @@ impl SystemArgs {
     }
 
     /// Whether it is given in physical units.
-    pub(super) const fn is_machine(&self) -> bool {
+    pub(crate) const fn is_machine(&self) -> bool {
         self.machine.mass_kg.is_some()
     }
 }

@@ -1,21 +1,22 @@
 //! `vibro region`: where in a plane of two parameters a motion exists, and where it is stable.
 
-use crate::args::Place;
+use crate::args::{Asked, Convention, MachineArgs, Place, SystemArgs, Units};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::plot;
 use crate::report::csv;
-use crate::report::json::PROGRAM;
+use crate::report::json::{self, PROGRAM, Scales};
 use crate::report::region::{Answer, columns, rows, text};
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
-use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, SecondStop, Stretch, SystemPlan, Task, regions};
+use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task, regions};
 
 /// Where in a plane of two parameters the motion m/n exists, and where it is stable: closed polygons
 ///
-/// Two parameters are given as ranges A:B, the others as values. Orbits are looked for on a grid, and from each a walk goes
+/// Two parameters are given as ranges A:B, the others as values; ranges replace values of a machine in physical units.
+/// Orbits are looked for on a grid, and from each a walk goes
 /// round the part of the region it lies in, along the curves that bound it: fold (two orbits meet), flip (a multiplier
 /// is -1), no speed (an impact has speed zero), touch (a flight touches a stop), merging (with an orbit of half the
 /// period), frame. The surface of orbits folds, so polygons of different sheets may overlap.
@@ -41,7 +42,7 @@ pub(crate) struct Region {
 
     /// Distance of the stop from the rest position in units of F/k
     #[arg(long, value_name = "D", allow_hyphen_values = true, help_heading = "Plane")]
-    gap: Place,
+    gap: Option<Place>,
 
     /// Restitution: rebound speed over arrival speed, 0 to 1
     #[arg(long, value_name = "E", allow_hyphen_values = true, help_heading = "Plane")]
@@ -58,6 +59,13 @@ pub(crate) struct Region {
     /// Restitution of the second stop [default: that of the first]
     #[arg(long, value_name = "E2", allow_hyphen_values = true, requires = "second_gap", help_heading = "Plane")]
     second_restitution: Option<Place>,
+
+    #[command(flatten)]
+    machine: MachineArgs,
+
+    /// Units of ranges and results
+    #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional, help_heading = "Plane")]
+    units: Convention,
 
     /// Points of the grid at which orbits are looked for, in each direction, 2 to 400: smaller parts may be missed
     #[arg(long, value_name = "N", default_value_t = DEFAULT_GRID, allow_hyphen_values = true, help_heading = "Plane")]
@@ -99,37 +107,53 @@ struct SystemObject {
     second_gap: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     second_restitution: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scales: Option<Scales>,
 }
 
 impl Region {
-    fn system(&self) -> SystemPlan {
-        let first = |place: Option<Place>| place.map(Place::first);
-        SystemPlan {
-            beta: first(self.beta),
-            inverse_beta: first(self.inverse_beta),
-            gap: self.gap.first(),
-            restitution: self.restitution.first(),
-            damping: first(self.damping).unwrap_or(0.0),
-            second_stop: first(self.second_gap).map(|gap| SecondStop {
-                gap,
-                restitution: self.second_restitution.unwrap_or(self.restitution).first(),
-            }),
-        }
-    }
-
-    /// The two parameters that are ranges, the abscissa first.
-    fn plane(&self) -> Result<(Stretch, Stretch), Failure> {
-        let places = [
+    fn places(&self) -> [(Parameter, Option<Place>); 7] {
+        [
             (Parameter::Beta, self.beta),
             (Parameter::InverseBeta, self.inverse_beta),
-            (Parameter::Gap, Some(self.gap)),
+            (Parameter::Gap, self.gap),
             (Parameter::Restitution, Some(self.restitution)),
             (Parameter::Damping, self.damping),
             (Parameter::SecondGap, self.second_gap),
             (Parameter::SecondRestitution, self.second_restitution),
-        ];
-        let over: Vec<Stretch> = places.into_iter().filter_map(|(parameter, place)| place?.over(parameter)).collect();
-        if self.second_gap.is_some()
+        ]
+    }
+
+    /// The system, with the smallest value of what varies. A machine in physical units is given whole, because its units
+    /// need all of it; ranges replace its values.
+    fn asked(&self) -> Result<Asked, Failure> {
+        let restitution = |p: Parameter| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
+        let machine = SystemArgs::of(&[], self.machine, self.units).is_machine();
+        let own = |(parameter, place): (Parameter, Option<Place>)| {
+            let replaces =
+                machine && !restitution(parameter) && place.is_some_and(|place| place.over(parameter).is_some());
+            (parameter, place.filter(|_| !replaces).map(Place::first))
+        };
+        let mut asked = SystemArgs::of(&self.places().map(own), self.machine, self.units).asked()?;
+        let Asked { system, units } = &mut asked;
+        for stretch in self.over(units).iter().filter(|_| machine) {
+            *system = system.with(stretch.parameter, stretch.from)?;
+        }
+        Ok(asked)
+    }
+
+    /// What is given as a range.
+    fn over(&self, units: &Units) -> Vec<Stretch> {
+        let over = |(parameter, place): (Parameter, Option<Place>)| {
+            let (stretch, unit) = (place?.over(parameter)?, units.of(parameter));
+            Some(Stretch { from: stretch.from / unit, to: stretch.to / unit, ..stretch })
+        };
+        self.places().into_iter().filter_map(over).collect()
+    }
+
+    /// The two parameters that are ranges, the abscissa first.
+    fn plane(&self, asked: &Asked) -> Result<(Stretch, Stretch), Failure> {
+        if asked.system.second_stop.is_some()
             && self.second_restitution.is_none()
             && self.restitution.over(Parameter::Gap).is_some()
         {
@@ -137,6 +161,7 @@ impl Region {
                 "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
             ));
         }
+        let over = self.over(&asked.units);
         match over.as_slice() {
             [across, up] => Ok((*across, *up)),
             _ => Err(Failure::bad(format!(
@@ -148,8 +173,9 @@ impl Region {
 }
 
 pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
-    let (across, up) = args.plane()?;
-    let system = args.system();
+    let asked = args.asked()?;
+    let (across, up) = args.plane(&asked)?;
+    let (system, units) = (asked.system, asked.units);
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
     let plan = Plan::new(system, Task::Region(task.clone()));
     plan.check()?;
@@ -160,10 +186,10 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
 
     outputs.write(
         session,
-        |out| csv::write(out, &columns(&task), rows(&found)),
+        |out| csv::write(out, &columns(&task), rows(&found, &task, &units)),
         || {
             let title = plot::title_without(&system, &[across.parameter, up.parameter]);
-            Ok(plot::region::figure(&found, &task, title))
+            Ok(plot::region::figure(&found, &task, &units, title))
         },
     )?;
     if args.json {
@@ -180,9 +206,10 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
                 damping: fixed(Parameter::Damping, Some(system.damping)),
                 second_gap: fixed(Parameter::SecondGap, second.map(|stop| stop.gap)),
                 second_restitution: fixed(Parameter::SecondRestitution, second.map(|stop| stop.restitution)),
+                scales: Scales::new(&units),
             },
-            answer: Answer::new(&found, &task),
-            units: "nondimensional",
+            answer: Answer::new(&found, &task, &units),
+            units: json::units(&units),
             plan: &plan,
             program: PROGRAM,
         });
@@ -190,5 +217,5 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     if to_stdout {
         return Ok(());
     }
-    session.print(&text(&found, &task))
+    session.print(&text(&found, &task, &units))
 }

@@ -1,6 +1,7 @@
 //! Where a motion exists and where it is stable, in a plane of two parameters: the edges in the colour of what bounds them.
 
-use crate::plot::{label, symbol};
+use crate::args::Units;
+use crate::plot::{label, named};
 use vibroimpact::continuation::{Bound, Polygon, Region};
 use vibroimpact_plot::{
     Axis, ClassStyle, Colour, Dash, Figure, Legend, Line, Panel, Region as Area, SERIES, Stroke, class_style,
@@ -15,8 +16,19 @@ const THIN: f64 = 1.5;
 /// Every bound that is drawn, in the order of the legend. The frame is the edge of the figure.
 const BOUNDS: [Bound; 5] = [Bound::Fold, Bound::Flip, Bound::NoSpeed, Bound::Touch, Bound::Merging];
 
-pub(crate) fn figure(found: &Regions, plan: &RegionPlan, title: String) -> Figure {
-    let axis = |stretch: &Stretch| Axis::new(symbol(stretch.parameter)).range(stretch.from, stretch.to);
+pub(crate) fn figure(found: &Regions, plan: &RegionPlan, units: &Units, title: String) -> Figure {
+    let axis = |stretch: &Stretch| {
+        let unit = units.of(stretch.parameter);
+        Axis::new(named(stretch.parameter, units)).range(stretch.from * unit, stretch.to * unit)
+    };
+    let scaled = |region: &Region| {
+        let (x, y) = (units.of(plan.across.parameter), units.of(plan.up.parameter));
+        let mut region = region.clone();
+        let vertices = region.polygons.iter_mut().flat_map(|polygon| &mut polygon.vertices);
+        vertices.for_each(|vertex| vertex.values = (vertex.values.0 * x, vertex.values.1 * y));
+        region
+    };
+    let found = &Regions { existence: scaled(&found.existence), stability: scaled(&found.stability) };
     let mut panel = Panel::new(axis(&plan.across), axis(&plan.up));
     let stable = class_style(plan.label.trim()).colour;
     let mut legend = Legend::below();

@@ -47,7 +47,7 @@ impl<'a, T: Serialize> Document<'a, T> {
 /// Which program made it.
 pub(crate) const PROGRAM: &str = concat!("vibro ", env!("CARGO_PKG_VERSION"));
 
-fn units(units: &Units) -> &'static str {
+pub(crate) fn units(units: &Units) -> &'static str {
     if units.si { "si" } else { "nondimensional" }
 }
 
@@ -71,7 +71,7 @@ pub(crate) struct SecondStop {
 }
 
 #[derive(Serialize)]
-struct Scales {
+pub(crate) struct Scales {
     length_m: f64,
     time_s: f64,
     velocity_m_per_s: f64,
@@ -94,12 +94,16 @@ impl System {
             restitution: osc.restitution(),
             damping: osc.damping(),
             second_stop: osc.stop(Side::Lower).map(|stop| SecondStop { gap: stop.gap, restitution: stop.restitution }),
-            scales: asked.units.scales.map(|s| Scales {
-                length_m: s.length_m,
-                time_s: s.time_s,
-                velocity_m_per_s: s.velocity_m_per_s(),
-            }),
+            scales: Scales::new(&asked.units),
         }
+    }
+}
+
+impl Scales {
+    /// Of the machine, where one was given.
+    pub(crate) fn new(units: &Units) -> Option<Self> {
+        let scales = units.scales?;
+        Some(Self { length_m: scales.length_m, time_s: scales.time_s, velocity_m_per_s: scales.velocity_m_per_s() })
     }
 }
 

@@ -1,10 +1,12 @@
 //! Regions of existence and stability as tables, text and JSON.
 
+use crate::args::Units;
+use crate::report::branch_text::named;
 use crate::report::csv::Number;
 use crate::report::text::{short, table};
 use serde::Serialize;
 use std::fmt::Write;
-use vibroimpact::continuation::{Polygon, Region};
+use vibroimpact::continuation::{Polygon, Region, Vertex};
 use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
 /// The command's part of the object. Pairs of values are in the order of `parameters`.
@@ -33,29 +35,35 @@ struct PolygonObject {
 }
 
 impl Answer {
-    pub(crate) fn new(found: &Regions, plan: &RegionPlan) -> Self {
+    pub(crate) fn new(found: &Regions, plan: &RegionPlan, units: &Units) -> Self {
+        let unit = unit(plan, units);
         Self {
             label: plan.label.trim().to_owned(),
             parameters: [plan.across.parameter.name(), plan.up.parameter.name()],
-            existence: RegionObject::new(&found.existence),
-            stability: RegionObject::new(&found.stability),
+            existence: RegionObject::new(&found.existence, unit),
+            stability: RegionObject::new(&found.stability, unit),
         }
     }
 }
 
 impl RegionObject {
-    fn new(region: &Region) -> Self {
+    fn new(region: &Region, (x, y): (f64, f64)) -> Self {
         let polygon = |polygon: &Polygon| PolygonObject {
             hole: polygon.hole,
             sheet: sheet(polygon),
-            vertices: polygon.vertices.iter().map(|vertex| vertex.values.into()).collect(),
+            vertices: polygon.vertices.iter().map(|Vertex { values: (p, q), .. }| [p * x, q * y]).collect(),
             bounds: polygon.vertices.iter().map(|vertex| vertex.bound.name()).collect(),
         };
         Self {
             polygons: region.polygons.iter().map(polygon).collect(),
-            unresolved: region.unresolved.iter().map(|point| (*point).into()).collect(),
+            unresolved: region.unresolved.iter().map(|(p, q)| [p * x, q * y]).collect(),
         }
     }
+}
+
+/// The units of both parameters.
+fn unit(plan: &RegionPlan, units: &Units) -> (f64, f64) {
+    (units.of(plan.across.parameter), units.of(plan.up.parameter))
 }
 
 /// Which sheet of the surface of orbits: their multipliers below +1, or one above.
@@ -74,28 +82,31 @@ pub(crate) fn columns(plan: &RegionPlan) -> String {
 }
 
 /// One row a vertex.
-pub(crate) fn rows(found: &Regions) -> impl Iterator<Item = String> + '_ {
-    both(found).into_iter().flat_map(|(name, region)| {
+pub(crate) fn rows<'a>(found: &'a Regions, plan: &RegionPlan, units: &Units) -> impl Iterator<Item = String> + 'a {
+    let (x, y) = unit(plan, units);
+    both(found).into_iter().flat_map(move |(name, region)| {
         region.polygons.iter().enumerate().flat_map(move |(k, polygon)| {
             let head = format!("{name},{},{},{}", k + 1, polygon.hole, sheet(polygon));
             polygon.vertices.iter().map(move |vertex| {
                 let (p, q) = vertex.values;
-                format!("{head},{},{},{}", Number(p), Number(q), vertex.bound.name())
+                format!("{head},{},{},{}", Number(p * x), Number(q * y), vertex.bound.name())
             })
         })
     })
 }
 
 /// A parameter's range in words.
-fn over(stretch: &Stretch) -> String {
-    let name = stretch.parameter.name().replace('_', " ");
-    format!("{name} from {} to {}", short(stretch.from), short(stretch.to))
+fn over(stretch: &Stretch, units: &Units) -> String {
+    let (name, unit) = (named(stretch.parameter, units), units.of(stretch.parameter));
+    format!("{name} from {} to {}", short(stretch.from * unit), short(stretch.to * unit))
 }
 
 /// Each polygon with its extent and what bounds it.
-pub(crate) fn text(found: &Regions, plan: &RegionPlan) -> String {
-    let mut text = format!("{} over {}, {}\n", plan.label.trim(), over(&plan.across), over(&plan.up));
-    let names = [plan.across.parameter, plan.up.parameter].map(|parameter| parameter.name().replace('_', " "));
+pub(crate) fn text(found: &Regions, plan: &RegionPlan, units: &Units) -> String {
+    let (across, up) = (over(&plan.across, units), over(&plan.up, units));
+    let mut text = format!("{} over {across}, {up}\n", plan.label.trim());
+    let names = [plan.across.parameter, plan.up.parameter].map(|parameter| named(parameter, units));
+    let unit = unit(plan, units);
     for (name, region) in both(found) {
         let _ = writeln!(text, "\n{name}{}", if region.polygons.is_empty() { ": none found" } else { "" });
         let heads = [
@@ -105,7 +116,8 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan) -> String {
             format!("<{}", names[1]),
             "<bounded by".into(),
         ];
-        let rows: Vec<Vec<String>> = region.polygons.iter().enumerate().map(|(k, polygon)| row(k, polygon)).collect();
+        let rows: Vec<Vec<String>> =
+            region.polygons.iter().enumerate().map(|(k, polygon)| row(k, polygon, unit)).collect();
         if !rows.is_empty() {
             text.push_str(&table(&heads, &rows));
         }
@@ -121,7 +133,7 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan) -> String {
     text
 }
 
-fn row(k: usize, polygon: &Polygon) -> Vec<String> {
+fn row(k: usize, polygon: &Polygon, (x, y): (f64, f64)) -> Vec<String> {
     let range = |of: &dyn Fn((f64, f64)) -> f64| {
         let values = polygon.vertices.iter().map(|vertex| of(vertex.values));
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
@@ -138,8 +150,8 @@ fn row(k: usize, polygon: &Polygon) -> Vec<String> {
     vec![
         (k + 1).to_string(),
         polygon.vertices.len().to_string(),
-        range(&|(p, _)| p),
-        range(&|(_, q)| q),
+        range(&|(p, _)| p * x),
+        range(&|(_, q)| q * y),
         bounds.join(", ") + hole,
     ]
 }

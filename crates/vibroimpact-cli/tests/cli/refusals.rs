@@ -123,6 +123,14 @@ fn bad_questions_are_named() {
         (format!("curve {S} --label 1/1 --kind torus --vary gap=0:1 --and beta=1:2"), "invalid value 'torus'"),
         ("region --label 1/1 --inverse-beta 1:2 --gap 1 --restitution 0.5".into(), "and 1 are given as a range"),
         ("region --label 1/1 --inverse-beta 1:2 --gap 1:2 --restitution 0.5:0.6".into(), "and 3 are given as a range"),
+        (
+            "region --label 1/1 --mass-kg 1 --stiffness-n-per-m 1 --force-n 1 --frequency-hz 1 --gap-m 1 --gap 1 \
+             --inverse-beta 1:2 --restitution 0.5:0.6"
+                .into(),
+            "--gap cannot go together with a system in physical units",
+        ),
+        ("region --label 1/1 --inverse-beta 1:2 --gap 1:2 --restitution 0.5 --units si".into(), "--units si needs"),
+        ("region --label 1/1 --inverse-beta 1:2 --restitution 0.5:0.6".into(), "the gap is not given"),
         ("region --label 1/1 --inverse-beta 0:2 --gap 1:2 --restitution 0.5".into(), "1/beta = 0"),
         ("region --label 1/1 --inverse-beta 2:1 --gap 1:2 --restitution 0.5".into(), "A < B"),
         ("region --label 1/1 --inverse-beta 1 --gap 1:2 --restitution 0.5:1.5".into(), "eps = 1.5"),
