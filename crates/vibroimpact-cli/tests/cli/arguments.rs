@@ -113,6 +113,74 @@ fn branch() -> impl Strategy<Value = Vec<String>> {
         .prop_map(|((a, b), c, d, e)| [a, b, c, d, e].concat())
 }
 
+/// A parameter and a range of it that make sense more often than not.
+fn stretch() -> impl Strategy<Value = (&'static str, String)> {
+    let sensible = prop_oneof![
+        3 => (0.3..1.6_f64, 0.02..0.6_f64).prop_map(|(a, w)| ("inverse-beta", format!("{a}:{}", a + w))),
+        2 => (0.4..1.6_f64, 0.02..0.6_f64).prop_map(|(a, w)| ("beta", format!("{a}:{}", a + w))),
+        4 => (-0.9..2.0_f64, 0.05..2.0_f64).prop_map(|(a, w)| ("gap", format!("{a}:{}", a + w))),
+        2 => (0.0..0.7_f64, 0.05..0.3_f64).prop_map(|(a, w)| ("restitution", format!("{a}:{}", a + w))),
+        2 => (0.0..0.2_f64, 0.01..0.2_f64).prop_map(|(a, w)| ("damping", format!("{a}:{}", a + w))),
+        1 => (0.1..1.0_f64, 0.05..0.3_f64).prop_map(|(a, w)| ("second-gap", format!("{a}:{}", a + w))),
+    ];
+    let names = prop::sample::select(vec!["gap", "inverse-beta", "second-restitution", "mass", ""]);
+    let odd = prop_oneof![
+        (number(), number()).prop_map(|(a, b)| format!("{a}:{b}")),
+        prop::sample::select(vec!["", ":", "1:1", "2:1", "1:2:3", "a:b", "0:1e-300"]).prop_map(str::to_owned),
+    ];
+    prop_oneof![9 => sensible, 1 => (names, odd)]
+}
+
+/// The other parameters, with values that make sense.
+fn values() -> impl Strategy<Value = Vec<(&'static str, String)>> {
+    (0.4..1.9_f64, -0.5..1.5_f64, 0.0..=1.0_f64, prop::option::weighted(0.3, 0.0..0.3_f64), number()).prop_map(
+        |(inverse, gap, eps, damping, odd)| {
+            let all = [("inverse-beta", inverse), ("gap", gap), ("restitution", eps)];
+            let mut all: Vec<_> = all.into_iter().map(|(name, value)| (name, value.to_string())).collect();
+            all.extend(damping.map(|zeta| ("damping", zeta.to_string())));
+            // one in a few has something odd among it
+            if odd.len() % 5 == 0 {
+                all[1].1 = odd;
+            }
+            all
+        },
+    )
+}
+
+fn region() -> impl Strategy<Value = Vec<String>> {
+    (stretch(), stretch(), values(), label(), prop::sample::select(vec!["2", "3", "4", "1", "x"])).prop_map(
+        |(across, up, values, label, grid)| {
+            let ranges = [across, up];
+            let frequency = |name: &str| matches!(name, "beta" | "inverse-beta");
+            let taken = |name: &str| ranges.iter().any(|(n, _)| *n == name || frequency(n) && frequency(name));
+            let given: Vec<_> = values.into_iter().filter(|(name, _)| !taken(name)).collect();
+            let line = ["region".to_owned(), format!("--label={label}"), format!("--grid={grid}")].into_iter();
+            line.chain(ranges.iter().cloned().chain(given).map(|(name, value)| format!("--{name}={value}"))).collect()
+        },
+    )
+}
+
+fn curve() -> impl Strategy<Value = Vec<String>> {
+    let kind = prop::sample::select(vec!["fold", "flip", "grazing", "cusp"]);
+    (stretch(), stretch(), values(), (label(), kind), option("--event", 0.2, count())).prop_map(
+        |((vary, over), (and, up), values, (label, kind), event)| {
+            let line = ["curve".to_owned(), format!("--label={label}"), format!("--kind={kind}")].into_iter();
+            let ranges = [format!("--vary={vary}={over}"), format!("--and={and}={up}")];
+            let middle = |name: &str| {
+                // the orbit is looked for at a value within both ranges
+                let range = [(vary, &over), (and, &up)].into_iter().find(|(n, _)| *n == name)?.1;
+                let (a, b) = range.split_once(':')?;
+                Some((0.5 * (a.parse::<f64>().ok()? + b.parse::<f64>().ok()?)).to_string())
+            };
+            let given = values.into_iter().map(|(name, value)| {
+                let value = middle(name).unwrap_or(value);
+                format!("--{name}={value}")
+            });
+            line.chain(ranges).chain(given).chain(event).collect()
+        },
+    )
+}
+
 fn command() -> impl Strategy<Value = Vec<String>> {
     let named = |name: &str| Just(vec![name.to_owned()]);
     let joined = |(a, b, c): (Vec<String>, Vec<String>, Vec<String>)| [a, b, c].concat();
@@ -141,6 +209,8 @@ fn command() -> impl Strategy<Value = Vec<String>> {
         1 => diagram(),
         2 => (named("branch"), system(), (always("--label", label()), branch(), Just(Vec::new())).prop_map(joined))
             .prop_map(joined),
+        1 => region(),
+        2 => curve(),
         1 => (
             named("lyapunov"),
             system(),
