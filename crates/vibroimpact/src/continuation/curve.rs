@@ -149,8 +149,9 @@ impl Curve {
         let (osc, ring, flights) = self.walk.plane.flights(&spot.w)?;
         let cycle = ring_cycle(&osc, &ring, &flights);
         let physical = match self.grazing {
-            None => Orbit::judged(&osc, cycle.clone()).physical,
-            Some(_) => grazes(&self.walk.watched, spot),
+            // where an impact has no speed, or a flight just touches, a motion may be the limit of motions
+            None if event.is_none() => Orbit::judged(&osc, cycle.clone()).physical,
+            _ => grazes(&self.walk.watched, spot),
         };
         Some(CurvePoint { values: Plane::values(&spot.w), cycle, physical, event })
     }
@@ -263,7 +264,7 @@ impl Curve {
     }
 }
 
-/// Whether nothing but the impact of speed zero is wrong with the cycle at a point of a grazing curve.
+/// Whether nothing but impacts of speed zero and touches is wrong with the cycle at a point of a curve.
 fn grazes(watched: &[Condition], spot: &Spot) -> bool {
     watched.iter().zip(&spot.values).all(|(condition, &value)| match condition {
         Condition::Speed(_) | Condition::Pull(_) => value > -1e-9,

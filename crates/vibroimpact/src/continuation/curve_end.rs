@@ -23,6 +23,8 @@ const NEARER: f64 = 0.85;
 const FAR: f64 = 0.2;
 /// Where steps become too short speeds are below this, and halves of the period this near to whole ones.
 const NEAR: f64 = 1e-6;
+/// The same on a curve of folds or flips, whose test functions are products of what vanishes.
+const STILL: f64 = 1e-5;
 
 impl Trail {
     /// Takes note of where a walk is.
@@ -92,11 +94,12 @@ pub(super) fn reason(walk: &Walk, kind: CurveKind, trail: &Trail) -> Option<(Spo
     let m = ring.len();
     let onward = |step: f64| here.w.iter().zip(&here.tangent).map(|(w, t)| w + step * t).collect::<Vec<f64>>();
     let spot = |w: Vec<f64>| Spot { w, ..here.clone() };
-    if kind == CurveKind::Grazing && m > 1 && (0..m).all(|k| ring.speed(k).abs() < NEAR) {
+    let still = if kind == CurveKind::Grazing { NEAR } else { STILL };
+    if m > 1 && (0..m).all(|k| ring.speed(k).abs() < still) {
         // on by what the fastest one still has
         let fastest = (0..m).max_by(|&a, &b| ring.speed(a).abs().total_cmp(&ring.speed(b).abs()))?;
         let step = -ring.speed(fastest) / here.tangent[2 * fastest + 1];
-        return (step.abs() < 1e3 * NEAR).then(|| (spot(onward(step)), CurveEvent::LossOfContact));
+        return (step.abs() < 1e3 * still).then(|| (spot(onward(step)), CurveEvent::LossOfContact));
     }
     if kind == CurveKind::Fold
         && let Some(w) = trail.merged(plane)

@@ -20,7 +20,7 @@ pub struct CurvePoint {
     pub values: (f64, f64),
     /// The cycle; on a grazing curve with the impact of speed zero in it.
     pub cycle: Cycle,
-    /// Whether it is a possible motion (on a grazing curve: apart from that impact).
+    /// Whether it is a possible motion (on a grazing curve, apart from that impact; at an event, the limit of motions).
     pub physical: bool,
     /// What happens here; `None` for an ordinary point.
     pub event: Option<CurveEvent>,
@@ -43,7 +43,8 @@ pub enum CurveEvent {
     /// A fold curve ends on the curve of flips of the cycle of half the period: on one side of this point the doubled
     /// cycle is born there, on the other it ends. Extrapolated, right to about 1e-7.
     DegenerateFlip,
-    /// A grazing curve of a longer cycle ends on that of the motion without impacts: all speeds vanish.
+    /// All speeds vanish: a grazing curve of a longer cycle ends on that of the motion without impacts, or the impacts of a
+    /// fold curve come together where two natural periods go into one of the force (right to about 1e-6 there).
     LossOfContact,
     /// One impact, no damping, and whole natural periods in the periods of the force: the mass is back on the stop whatever
     /// its speed, and the equations are singular. The curve goes no further; the frequency is exact, the other parameter

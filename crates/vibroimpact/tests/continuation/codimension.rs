@@ -114,3 +114,35 @@ fn curves_end_for_a_reason() {
     assert!((end.values.1 - there.free_amplitude()).abs() < 1e-9, "{:?}", end.values);
     assert!(end.cycle.points.iter().all(|p| p.state.velocity.abs() < 1e-9), "{:?}", end.cycle);
 }
+
+/// The last point of a curve of folds is the limit of those before it, and a motion if they are.
+#[test]
+fn a_limit_of_motions_is_one() {
+    // 3/1: at one end an impact has no speed, where another multiplier would be infinite
+    let osc = Oscillator::from_inverse_beta(1.9, 0.6, 0.8).unwrap();
+    let start = find(&osc, Label::new(3, 1), FindOptions::default()).into_iter().find(|o| o.physical).unwrap().cycle;
+    let options = BranchOptions::default();
+    let mut branch = Branch::new(&osc, &start, Parameter::Gap, -3.0..=6.0, UP, options).unwrap();
+    let fold = branch.find(|p| p.event == Some(BranchEvent::Fold)).unwrap();
+    let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (-3.0..=6.0, 0.0..=1.0) };
+    let ways = Curve::through(&osc, &fold, Parameter::Gap, &frame, CurveOptions::default()).unwrap();
+    let mut found = 0;
+    for way in ways {
+        let points: Vec<CurvePoint> = way.collect();
+        let (last, before) = (points.last().unwrap(), &points[points.len() - 2]);
+        if last.event == Some(CurveEvent::ResonantGrazing) {
+            assert!(last.cycle.points.iter().any(|p| p.state.velocity.abs() < 1e-12));
+            assert!(before.physical && last.physical);
+            found += 1;
+        }
+    }
+    assert_eq!(found, 1);
+    // over the frequency, with restitution 0.5, all three impacts end as one touch: 1/beta = 1/2, delta = -1/3 = f, and no motions
+    let osc = Oscillator::from_inverse_beta(0.5, -0.53, 0.5).unwrap();
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (0.4..=2.0, -3.0..=6.0) };
+    let points = curve(&osc, Label::new(3, 1), DOWN, "fold", &frame);
+    let lost = at(&points, CurveEvent::LossOfContact);
+    let [end] = lost[..] else { panic!("{:?}", points.iter().filter_map(|p| p.event).collect::<Vec<_>>()) };
+    assert!((end.values.0 - 0.5).abs() < 1e-6 && (end.values.1 + 1.0 / 3.0).abs() < 1e-6, "{:?}", end.values);
+    assert!(!end.physical);
+}
