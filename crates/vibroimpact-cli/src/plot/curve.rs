@@ -85,7 +85,7 @@ const fn shape(event: CurveEvent) -> Option<Shape> {
         CurveEvent::DegenerateGrazing => Shape::TriangleUp,
         CurveEvent::Touch | CurveEvent::OneToTwo => Shape::Circle,
         CurveEvent::DegenerateFlip => Shape::Cross,
-        CurveEvent::LossOfContact | CurveEvent::WholePeriods => Shape::Plus,
+        CurveEvent::LossOfContact | CurveEvent::WholePeriods | CurveEvent::Unbounded => Shape::Plus,
         CurveEvent::Closed | CurveEvent::EndOfBox | CurveEvent::StepLimit | CurveEvent::NoConvergence => return None,
     })
 }

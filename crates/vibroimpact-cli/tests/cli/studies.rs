@@ -180,7 +180,10 @@ fn damage_is_found_by_verify_and_mended_by_resume() {
         assert_eq!(output.status.code(), Some(1), "{text}");
         assert!(text.contains("tile 5: a chunk is missing, cut short or has a wrong check sum"), "{text}");
         let (code, note) = said(folder.path(), "resume study.zarr");
-        assert!(code == Some(0) && note.contains("1 of 9 tiles computed, 1 of them because they were damaged"), "{note}");
+        assert!(
+            code == Some(0) && note.contains("1 of 9 tiles computed, 1 of them because they were damaged"),
+            "{note}"
+        );
         assert!(files(&store) == want);
     }
 }
@@ -247,7 +250,10 @@ fn refusals_are_one_sentence_and_lose_nothing() {
         ("beyond.toml", PLAN.replace("restitution = 0.5", "restitution = 1.5")),
         ("nothing.toml", String::new()),
         ("other.toml", PLAN.to_owned()),
-        ("settle.json", r#"{"version":1,"system":{"beta":1,"gap":1,"restitution":0.5},"task":{"settle":{"start":{}}}}"#.into()),
+        (
+            "settle.json",
+            r#"{"version":1,"system":{"beta":1,"gap":1,"restitution":0.5},"task":{"settle":{"start":{}}}}"#.into(),
+        ),
     ] {
         fs::write(at.join(name), text).unwrap();
     }
@@ -314,7 +320,8 @@ fn a_full_disk() {
 fn the_script_for_a_cluster_and_the_schema() {
     let folder = tempfile::tempdir().unwrap();
     plan(folder.path(), &PLAN.replace(":40\"", ":8\""));
-    let output = vibro("slurm study.toml --jobs 3 --cpus 1 --partition debug").current_dir(folder.path()).output().unwrap();
+    let output =
+        vibro("slurm study.toml --jobs 3 --cpus 1 --partition debug").current_dir(folder.path()).output().unwrap();
     let script = String::from_utf8(output.stdout).unwrap();
     assert!(script.contains("#SBATCH --array=1-3\n") && script.contains("#SBATCH --partition=debug\n"), "{script}");
     // the script without a cluster: its jobs one after another

@@ -107,6 +107,11 @@ pub(super) fn reason(walk: &Walk, kind: CurveKind, trail: &Trail) -> Option<(Spo
         let off: Vec<f64> = w.iter().zip(&here.w).map(|(a, b)| a - b).collect();
         return (plane.length(&off) < FAR).then(|| (spot(w), CurveEvent::DegenerateFlip));
     }
+    if kind != CurveKind::Grazing
+        && let Some(w) = unbounded(walk, &ring)
+    {
+        return Some((spot(w), CurveEvent::Unbounded));
+    }
     let turns = f64::from(ring.periods) / osc.beta();
     let whole = turns.round();
     if m == 1 && osc.damping() == 0.0 && (turns - whole).abs() < NEAR {
@@ -129,3 +134,29 @@ pub(super) fn reason(walk: &Walk, kind: CurveKind, trail: &Trail) -> Option<(Spo
     }
     None
 }
+
+/// The parameters at which speeds that grow along a walk have no bound, restitution 1 being one of them; `None` where they do
+/// not. The other one differs from its limit by as much as the inverse of the speeds.
+fn unbounded(walk: &Walk, ring: &Ring) -> Option<Vec<f64>> {
+    let (w, along) = (&walk.here.w, &walk.here.tangent);
+    let (p, q) = (w.len() - 2, w.len() - 1);
+    let (eps, other) = match walk.plane.parameters {
+        (Parameter::Restitution, _) => (p, q),
+        (_, Parameter::Restitution) => (q, p),
+        _ => return None,
+    };
+    let (osc, _) = walk.plane.split(w)?;
+    let fast = (0..ring.len()).all(|k| ring.speed(k) > FAST && along[2 * k + 1] > 0.0);
+    if osc.damping() > 0.0 || 1.0 - w[eps] > LOSSLESS || !fast {
+        return None;
+    }
+    let mut limit = w.clone();
+    limit[eps] = 1.0;
+    limit[other] += ring.speed(0) * along[other] / along[1];
+    Some(limit)
+}
+
+/// Speeds above this that grow, with a restitution as near to 1 as [`LOSSLESS`], grow without bound.
+const FAST: f64 = 50.0;
+/// See [`FAST`].
+const LOSSLESS: f64 = 1e-5;

@@ -36,7 +36,9 @@ pub enum CurveEvent {
     ResonantGrazing,
     /// A second impact has speed zero, or another flight touches a stop.
     DoubleGrazing,
-    /// The mass touches with no acceleration.
+    /// The mass touches with no acceleration: $`\sin\theta = \delta`$. No motion does, for its path goes on like
+    /// $`\beta\cos\theta\,t^3/6`$, beyond the stop on one side of the touch; that needs $`\cos\theta = 0`$ and $`\delta = 1`$. Such
+    /// points lie on the curves of solutions that are no motions.
     DegenerateGrazing,
     /// A flight of a cycle at a fold or a flip touches a stop: beyond, the curve is not one of motions.
     Touch,
@@ -50,6 +52,10 @@ pub enum CurveEvent {
     /// its speed, and the equations are singular. The curve goes no further; the frequency is exact, the other parameter
     /// right to about 1e-7.
     WholePeriods,
+    /// Nothing is lost any more at impacts, restitution having come to 1 without damping, and speeds grow beyond all bounds.
+    /// The restitution is exact, the other parameter extrapolated to speeds without end, right to about 1e-4 of its range;
+    /// the phases and speeds are those of the last cycle found.
+    Unbounded,
     /// Both multipliers are -1, which takes a determinant of 1: restitution 1 and no damping.
     OneToTwo,
     /// The curve closed.
@@ -58,7 +64,7 @@ pub enum CurveEvent {
     EndOfBox,
     /// The most points were reached.
     StepLimit,
-    /// The curve was lost, for no reason known here; speeds that grow beyond all bounds are one.
+    /// The curve was lost, for no reason known here.
     NoConvergence,
 }
 
@@ -75,6 +81,7 @@ impl CurveEvent {
             Self::DegenerateFlip => "degenerate flip",
             Self::LossOfContact => "loss of contact",
             Self::WholePeriods => "whole periods",
+            Self::Unbounded => "speeds without bound",
             Self::OneToTwo => "1:2",
             Self::Closed => "closed",
             Self::EndOfBox => "end of box",

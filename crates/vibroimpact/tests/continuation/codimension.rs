@@ -146,3 +146,25 @@ fn a_limit_of_motions_is_one() {
     assert!((end.values.0 - 0.5).abs() < 1e-6 && (end.values.1 + 1.0 / 3.0).abs() < 1e-6, "{:?}", end.values);
     assert!(!end.physical);
 }
+
+/// Towards restitution 1 the folds of 3/1 run to 1/beta = 3/2: three equal flights of half a natural period each, at any speed.
+#[test]
+fn speeds_without_bound() {
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Restitution), ranges: (0.4..=2.6, 0.0..=1.0) };
+    for (inverse, gap, eps) in [(1.6, 0.25, 0.5), (1.9, 0.6, 0.8)] {
+        let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap();
+        let points = [UP, DOWN].into_iter().find_map(|direction| {
+            let orbits = find(&osc, Label::new(3, 1), FindOptions::default());
+            let begin = &orbits.iter().find(|o| o.physical).unwrap().cycle;
+            let options = BranchOptions::default();
+            let mut branch = Branch::new(&osc, begin, Parameter::Gap, -3.0..=6.0, direction, options).unwrap();
+            let fold = branch.find(|p| p.event == Some(BranchEvent::Fold))?;
+            let ways = Curve::through(&osc, &fold, Parameter::Gap, &frame, CurveOptions::default()).unwrap();
+            Some(ways.into_iter().flatten().collect::<Vec<CurvePoint>>())
+        });
+        let points = points.unwrap();
+        let found = at(&points, CurveEvent::Unbounded);
+        let [end] = found[..] else { panic!("{:?}", points.iter().filter_map(|p| p.event).collect::<Vec<_>>()) };
+        assert!((end.values.0 - 1.5).abs() < 2e-4 && (end.values.1 - 1.0).abs() < 1e-15, "{:?}", end.values);
+    }
+}
