@@ -68,7 +68,9 @@ pub fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) ->
         let kind = if range.start == 0 { RegionKind::Existence } else { RegionKind::Stability };
         let go_on = || !control.stop.load(Ordering::Relaxed);
         let found = region_while(&osc, label, kind, &frame, options, &go_on);
-        tick();
+        if found.is_some() {
+            tick();
+        }
         found
     })?;
     let mut found = found.into_iter().flatten();
