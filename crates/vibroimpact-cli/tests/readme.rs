@@ -67,3 +67,25 @@ fn every_command_line_runs() {
         assert!(folder.path().join(file).exists(), "{file}");
     }
 }
+
+/// The page on studies: its plan, then every command line, in one folder.
+#[test]
+fn the_page_on_studies_runs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let text = fs::read_to_string(root.join("docs/studies.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    // the same plan with fewer points
+    let plan = blocks(&text, "toml").remove(0).replace(":33\"", ":7\"").replace(":41\"", ":9\"");
+    fs::write(folder.path().join("map.toml"), plan).unwrap();
+    let mut ran = 0;
+    for line in blocks(&text, "sh").iter().flat_map(|block| block.lines()).filter(|line| line.starts_with("vibro ")) {
+        let output = vibro(line, folder.path());
+        assert!(output.status.success(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
+        ran += 1;
+    }
+    assert!(ran >= 9);
+    assert_eq!(fs::read(folder.path().join("map.png")).unwrap(), fs::read(folder.path().join("again.png")).unwrap());
+    let example = fs::read_to_string(root.join("examples/map-1971-fine.toml")).unwrap();
+    let plan = vibroimpact_study::Plan::from_text(&example).unwrap();
+    assert_eq!(vibroimpact_study::Study::new(&plan).unwrap().grid().points(), 3201 * 4001);
+}

@@ -13,11 +13,11 @@ tile = 4
 system = { restitution = 0.5 }
 
 [task.map]
-starts = 6
+starts = 4
 seed = 1
 axes = [
-  { vary = "inverse_beta", over = "0.6:1.9:40" },
-  { vary = "gap", over = "0:3:40" },
+  { vary = "inverse_beta", over = "0.6:1.9:28" },
+  { vary = "gap", over = "0:3:28" },
 ]
 "#;
 
@@ -110,7 +110,7 @@ fn killed_at_twenty_moments() {
 #[cfg(unix)]
 fn stopped_it_can_be_resumed() {
     let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":40\"", ":120\""));
+    plan(folder.path(), &PLAN.replace(":28\"", ":120\""));
     let run = Command::new(env!("CARGO_BIN_EXE_vibro"))
         .args(["run", "study.toml", "--store", "s.zarr"])
         .current_dir(folder.path())
@@ -149,10 +149,10 @@ fn two_at_once_parts_in_any_order_and_flags_make_the_same_store() {
     assert!(files(&folder.path().join("parts.zarr")) == want);
     done(
         folder.path(),
-        "map --inverse-beta 0.6:1.9:40 --gap 0:3:40 --restitution 0.5 --starts 6 --store flags.zarr --tile 4 --csv a.csv",
+        "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --store flags.zarr --tile 4 --csv a.csv",
     );
     assert!(files(&folder.path().join("flags.zarr")) == want);
-    done(folder.path(), "map --inverse-beta 0.6:1.9:40 --gap 0:3:40 --restitution 0.5 --starts 6 --csv b.csv");
+    done(folder.path(), "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --csv b.csv");
     assert!(fs::read(folder.path().join("a.csv")).unwrap() == fs::read(folder.path().join("b.csv")).unwrap());
     // the plan in a store is a plan
     let answer = json(&format!("status {}", folder.path().join("whole.zarr").display()));
@@ -164,7 +164,7 @@ fn two_at_once_parts_in_any_order_and_flags_make_the_same_store() {
 #[test]
 fn damage_is_found_by_verify_and_mended_by_resume() {
     let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":40\"", ":12\""));
+    plan(folder.path(), &PLAN.replace(":28\"", ":12\""));
     done(folder.path(), "run study.toml");
     let store = folder.path().join("study.zarr");
     let want = files(&store);
@@ -239,7 +239,7 @@ fn tables_and_figures_of_every_kind_of_store() {
 fn refusals_are_one_sentence_and_lose_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    plan(at, &PLAN.replace(":40\"", ":8\""));
+    plan(at, &PLAN.replace(":28\"", ":8\""));
     done(at, "run study.toml --store s.zarr");
     let want = files(&at.join("s.zarr"));
     fs::create_dir(at.join("thesis")).unwrap();
@@ -293,7 +293,7 @@ fn a_full_disk() {
     let disk = folder.path().join("disk");
     fs::create_dir(&disk).unwrap();
     let mount = |options: &str| Command::new("mount").args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(&disk).status();
-    if !mount("size=160k").is_ok_and(|status| status.success()) {
+    if !mount("size=96k").is_ok_and(|status| status.success()) {
         println!("skipped: this user may not mount a small disk");
         return;
     }
@@ -319,7 +319,7 @@ fn a_full_disk() {
 #[test]
 fn the_script_for_a_cluster_and_the_schema() {
     let folder = tempfile::tempdir().unwrap();
-    plan(folder.path(), &PLAN.replace(":40\"", ":8\""));
+    plan(folder.path(), &PLAN.replace(":28\"", ":8\""));
     let output =
         vibro("slurm study.toml --jobs 3 --cpus 1 --partition debug").current_dir(folder.path()).output().unwrap();
     let script = String::from_utf8(output.stdout).unwrap();

@@ -13,7 +13,7 @@ use vibroimpact::verdict::{Atlas, Census, Found, SettleOptions, StartBox, Verdic
 use vibroimpact::{Oscillator, Start};
 
 /// Points of a tile along each of two axes where no number is given; a tenth of a second of work.
-const TILE: u32 = 256;
+const TILE: usize = 256;
 /// Starts settled beforehand, spread over the grid, to know its cycles.
 const SURVEY: u64 = 96;
 /// Of these the ones whose cycles' traps are used.
@@ -49,7 +49,7 @@ type Leads = (i32, i32);
 impl BasinFill {
     pub(super) fn plane(system: &SystemPlan, plan: &BasinPlan, tile: Option<u32>) -> Result<Self, PlanError> {
         let starts = Starts::Grid { axes: plan.axes.clone(), start: plan.start };
-        let grid = grid_of(&plan.axes, side(tile, TILE, plan.axes.len()));
+        let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
         let osc = if plan.one_system() { Some(system.oscillator()?) } else { None };
         Ok(Self { system: *system, one: None, starts, grid, refine: plan.refine }.surveyed(osc))
     }
@@ -61,7 +61,8 @@ impl BasinFill {
     ) -> Result<Self, PlanError> {
         let osc = system.oscillator()?;
         let count = usize::try_from(starts).map_err(|_| PlanError::Starts(starts))?;
-        let dimension = Dimension { name: "start".into(), count, tile: side(tile, TILE, 1).min(count) };
+        let tile = tile.map_or(side(TILE, 1), |tile| tile as usize).min(count);
+        let dimension = Dimension { name: "start".into(), count, tile };
         let grid = Grid { dimensions: vec![dimension] };
         let starts = Starts::Scattered { area: StartBox::natural(&osc), seed };
         Ok(Self { system: *system, one: None, starts, grid, refine: None }.surveyed(Some(osc)))

@@ -8,7 +8,7 @@ use crate::{Block, Grid, LyapunovPlan, SystemPlan};
 use vibroimpact::chaos::{Grounds, Measured, exponents};
 
 /// Points of a tile along each of two axes where no number is given; some seconds of work.
-const TILE: u32 = 8;
+const TILE: usize = 8;
 
 pub(super) struct LyapunovFill {
     system: SystemPlan,
@@ -18,7 +18,7 @@ pub(super) struct LyapunovFill {
 
 impl LyapunovFill {
     pub(super) fn new(system: &SystemPlan, plan: &LyapunovPlan, tile: Option<u32>) -> Self {
-        let grid = grid_of(&plan.axes, side(tile, TILE, plan.axes.len()));
+        let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
         Self { system: *system, plan: plan.clone(), grid }
     }
 }

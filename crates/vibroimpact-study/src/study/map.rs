@@ -11,7 +11,7 @@ use vibroimpact::verdict::{SettleOptions, Verdict};
 /// Motions kept at a point, at most: more than have been seen to coexist in practice.
 const MOST_MOTIONS: usize = 8;
 /// Points of a tile along each of two axes where no number is given; some seconds of work.
-const TILE: u32 = 64;
+const TILE: usize = 64;
 
 pub(super) struct MapFill {
     system: SystemPlan,
@@ -30,21 +30,20 @@ struct Row {
 }
 
 /// Points of a tile along each axis, so that tiles are of a like size for any number of axes.
-pub(super) fn side(tile: Option<u32>, plane: u32, axes: usize) -> usize {
+pub(super) const fn side(plane: usize, axes: usize) -> usize {
     let points = plane * plane;
-    let side = match axes {
+    match axes {
         1 => points,
         2 => plane,
-        3 => 1 << ((points.ilog2() + 1) / 3),
+        3 => 1 << points.ilog2().div_ceil(3),
         _ => 1 << (points.ilog2() / 4),
-    };
-    tile.unwrap_or(side) as usize
+    }
 }
 
 impl MapFill {
     pub(super) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
         let kept = usize::try_from(plan.starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
-        let grid = grid_of(&plan.axes, side(tile, TILE, plan.axes.len()));
+        let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
         Self { system: *system, plan: plan.clone(), grid, kept }
     }
 

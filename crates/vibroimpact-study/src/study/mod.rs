@@ -166,11 +166,17 @@ impl Study {
     }
 }
 
-/// The grid of some axes: the first axis runs fastest.
-fn grid_of(axes: &[Axis], tile: usize) -> Grid {
+/// Tiles along an axis there are at least, so that all processors have something to do and little is lost in a break.
+const FEWEST: usize = 16;
+
+/// The grid of some axes, the first running fastest. Tiles have the side asked for; where nobody asks, `side` or, on short axes,
+/// less, but no less than a quarter of it.
+fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
     let dimension = |axis: &Axis| {
         let count = axis.over.count();
-        Dimension { name: axis.vary.name().to_owned(), count, tile: tile.min(count) }
+        let fair = || (count / FEWEST).next_power_of_two().clamp(side.div_ceil(4), side);
+        let tile = asked.map_or_else(fair, |tile| tile as usize).min(count);
+        Dimension { name: axis.vary.name().to_owned(), count, tile }
     };
     Grid { dimensions: axes.iter().rev().map(dimension).collect() }
 }
