@@ -52,17 +52,22 @@ pub trait Shelf: Send + Sync {
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    written: AtomicU64,
 }
+
+/// Files begun by this process: no two of its writers share the name of an unfinished file.
+static BEGUN: AtomicU64 = AtomicU64::new(0);
 
 /// The end of the names of files that are being written. They begin with a dot, and no reader of Zarr looks at them.
 const UNFINISHED: &str = ".tmp";
+
+/// How often a write is begun again when its unfinished file was cleared away.
+const ATTEMPTS: u32 = 8;
 
 impl Folder {
     /// The folder at `path`, which need not exist.
     #[must_use]
     pub fn new(path: &Path) -> Self {
-        Self { path: path.to_owned(), written: AtomicU64::new(0) }
+        Self { path: path.to_owned() }
     }
 
     /// Where the folder is.
@@ -95,7 +100,7 @@ impl Folder {
         Ok(())
     }
 
-    fn try_put(&self, beside: &Path, place: &Path, bytes: &[u8]) -> io::Result<()> {
+    fn try_put(beside: &Path, place: &Path, bytes: &[u8]) -> io::Result<()> {
         let mut file = File::create(beside)?;
         file.write_all(bytes)?;
         drop(file);
@@ -123,14 +128,16 @@ impl Shelf for Folder {
         let (Some(folder), Some(name)) = (place.parent(), place.file_name()) else {
             return Err(io::ErrorKind::InvalidInput.into());
         };
-        // two writers of one object never share the name of the unfinished file
-        let number = self.written.fetch_add(1, Ordering::Relaxed);
+        let number = BEGUN.fetch_add(1, Ordering::Relaxed);
         let own = format!(".{}.{}.{}{number}{UNFINISHED}", name.to_string_lossy(), std::process::id(), host());
         let beside = folder.join(own);
-        let mut outcome = self.try_put(&beside, &place, bytes);
-        if outcome.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::NotFound) {
-            // the folder is not there yet, or another process that was done cleared the unfinished file away
-            outcome = fs::create_dir_all(folder).and_then(|()| self.try_put(&beside, &place, bytes));
+        let mut outcome = Self::try_put(&beside, &place, bytes);
+        // the folder is not there yet, or another process that was done cleared the unfinished file away, which it does once
+        for _ in 0..ATTEMPTS {
+            if !outcome.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::NotFound) {
+                break;
+            }
+            outcome = fs::create_dir_all(folder).and_then(|()| Self::try_put(&beside, &place, bytes));
         }
         if outcome.is_err() {
             let _ = fs::remove_file(&beside);
