@@ -226,14 +226,22 @@ impl Store {
     /// Computes a tile and writes it, its status last; nothing is written if stopped.
     fn fill(&self, tile: u64, tick: &(dyn Fn() -> bool + Sync)) -> Result<bool, StoreError> {
         let Some(columns) = self.study.tile(tile, tick) else { return Ok(false) };
+        self.write_tile(tile, &columns)?;
+        Ok(true)
+    }
+
+    /// Writes the columns of a tile, as [`Study::tile`] gives them, and then its status.
+    ///
+    /// # Errors
+    /// [`StoreError`] when the place cannot be written.
+    pub fn write_tile(&self, tile: u64, columns: &[Column]) -> Result<(), StoreError> {
         for (field, column) in columns.iter().enumerate() {
             self.write(tile, field, column)?;
         }
         let (array, place) = (&self.layout.status, self.layout.status_place(tile));
         let done = Cells::Numbers(Column::I8(vec![DONE]));
         let bytes = array.encode(&place, &done).map_err(|why| self.defect(&array.name, why))?;
-        self.put(&array.key(&place), &bytes)?;
-        Ok(true)
+        self.put(&array.key(&place), &bytes)
     }
 
     fn write(&self, tile: u64, field: usize, column: &Column) -> Result<(), StoreError> {
