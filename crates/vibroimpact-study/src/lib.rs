@@ -9,6 +9,7 @@
 //! | the question, checked | [`Plan`], [`SystemPlan`], [`StartPlan`], [`Task`] |
 //! | `A:B:N`, N values from A to B | [`Span`] |
 //! | tiles over threads, with a stop flag and progress | [`Control`], [`tiles`] |
+//! | the events of one motion | [`simulate`](simulate()) |
 //! | which motion each start of a plane leads to | [`basin`] |
 //! | which motions there are at each point of a parameter plane | [`map`] |
 //! | the motions of one system from many starts | [`attractors`] |
@@ -37,6 +38,7 @@ mod map;
 mod parameter;
 mod plan;
 mod region;
+mod simulate;
 mod span;
 pub mod store;
 mod stretch;
@@ -59,6 +61,7 @@ pub use map::{MapPlan, MapPoint, RegionMap, Share, map};
 pub use parameter::{Parameter, is_length};
 pub use plan::{PLAN_VERSION, Plan, SecondStop, StartPlan, SystemPlan, Task};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, regions};
+pub use simulate::{Simulated, most_impacts, simulate};
 pub use span::Span;
 pub use store::{Store, StoreError};
 pub use stretch::Stretch;

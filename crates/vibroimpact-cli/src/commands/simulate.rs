@@ -11,12 +11,9 @@ use crate::session::Session;
 use crate::signal;
 use clap::Args;
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
-use vibroimpact::flight::SearchLimits;
-use vibroimpact::motion::{End, Event, EventKind, Motion, sample};
-use vibroimpact::verdict::NoImpact;
+use vibroimpact::motion::{EventKind, sample};
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_study::{Plan, Task};
+use vibroimpact_study::{Control, Plan, Simulated, Task, most_impacts, simulate};
 
 /// Follow a motion event by event: impacts, grazes, sticking, release
 ///
@@ -63,20 +60,10 @@ pub(crate) struct Simulate {
 
 /// Points of a waveform at most.
 const MOST_POINTS: f64 = 1e7;
-/// Grazes, sticks and releases without an impact in between before nothing new is expected.
-const IDLE: u32 = 1000;
-
-/// What happened and why it ended there.
-struct Followed {
-    events: Vec<Event>,
-    reason: &'static str,
-    time: f64,
-    horizon: Option<NoImpact>,
-}
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
-    let impacts = args.impacts.unwrap_or(if args.periods.is_some() { 1_000_000 } else { 100 });
+    let impacts = most_impacts(args.impacts, args.periods);
     let task = Task::Simulate { start: args.start.plan(&asked.units), impacts: Some(impacts), periods: args.periods };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
@@ -89,8 +76,11 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     let csv = args.csv.as_deref().map(|path| Target::reserve(path, session.force)).transpose()?;
     let picture = args.plot.as_deref().map(|path| Picture::reserve(path, session.force)).transpose()?;
 
-    let followed = follow(&osc, start, impacts, args.periods)?;
-    let until = shown_until(&osc, &followed);
+    let control = Control { stop: signal::flag(), ..Control::default() };
+    let followed = simulate(&osc, start, impacts, args.periods, &control).map_err(|stopped| {
+        Failure::Stopped(format!("after {} of {} impacts; nothing was written", stopped.done, stopped.total))
+    })?;
+    let until = followed.shown_until(&osc);
     if let Some(target) = csv {
         waveform_csv(target, &osc, start, (until, step), &asked)?;
     }
@@ -106,66 +96,6 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     } else {
         let head = text::system(&asked, &osc) + &text::start(&start, &asked.units);
         session.print(&(head + &report(&followed, &asked)))
-    }
-}
-
-fn follow(osc: &Oscillator, start: Start, impacts: u64, periods: Option<f64>) -> Result<Followed, Failure> {
-    let limits = SearchLimits::default();
-    let limits = SearchLimits { periods: limits.periods.max(periods.unwrap_or(0.0)), ..limits };
-    let until = periods.map_or(f64::INFINITY, |n| n * osc.period());
-    let mut motion = Motion::with_limits(osc, start, limits);
-    let mut events: Vec<Event> = Vec::new();
-    let (mut struck, mut idle) = (0, 0);
-    let (reason, time, horizon) = loop {
-        let last = events.last().map_or(0.0, |event| event.time);
-        if signal::flag().load(Ordering::Relaxed) {
-            let done = format!("after {struck} of {impacts} impacts; nothing was written");
-            return Err(Failure::Stopped(done));
-        }
-        let Some(event) = motion.next() else {
-            break ended(motion.end(), last, until, osc.period());
-        };
-        if event.time > until {
-            break ("time_limit", until, None);
-        }
-        events.push(event);
-        if let EventKind::Impact { .. } = event.kind {
-            (struck, idle) = (struck + 1, 0);
-            if struck >= impacts {
-                break ("impact_limit", event.time, None);
-            }
-        } else {
-            idle += 1;
-            if idle >= IDLE {
-                let phase = event.phase;
-                break ("no_more_impacts", event.time, Some(NoImpact::Grazing { phase }));
-            }
-        }
-    };
-    Ok(Followed { events, reason, time, horizon })
-}
-
-/// Why no further event came, `last` being the time of the last one.
-fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> (&'static str, f64, Option<NoImpact>) {
-    match end {
-        Some(End::Never(why)) => ("no_more_impacts", last, Some(NoImpact::Flight(why))),
-        Some(End::Stuck(_)) => ("stuck", last, None),
-        Some(End::NoneFor(time)) if last + time >= until => ("time_limit", until, None),
-        Some(End::NoneFor(time)) => {
-            let periods = (time / period).floor();
-            let horizon = Some(NoImpact::ForPeriods(periods));
-            // a search that reached its horizon, or one that ran out of steps before
-            if periods >= 999.0 { ("no_more_impacts", last, horizon) } else { ("search_limit", last, horizon) }
-        }
-        None => ("search_limit", last, None),
-    }
-}
-
-/// How long a waveform is worth looking at: a little beyond the last event when nothing follows it.
-fn shown_until(osc: &Oscillator, followed: &Followed) -> f64 {
-    match followed.reason {
-        "impact_limit" | "time_limit" => followed.time,
-        _ => followed.time + 5.0 * osc.period(),
     }
 }
 
@@ -198,7 +128,7 @@ fn waveform_csv(
     target.write(|out| csv::write(out, "t,x,v", rows))
 }
 
-fn report(followed: &Followed, asked: &Asked) -> String {
+fn report(followed: &Simulated, asked: &Asked) -> String {
     let units = &asked.units;
     let heads = [
         units.named("time", "s"),

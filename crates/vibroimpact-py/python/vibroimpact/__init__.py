@@ -1,0 +1,80 @@
+"""Vibro-impact dynamics: oscillators that strike stops.
+
+A mass on a spring, driven harmonically, strikes a rigid stop:
+
+    x'' + 2 zeta x' + x = sin(beta t + phase),   x <= gap,   u+ = -eps u-
+
+Lengths are in units of the static deflection F/k, times in units of 1/omega_n, phases in radians;
+`Oscillator.from_units` takes kg, N/m, N, Hz and m, and its `units` lead back.
+
+>>> import vibroimpact as vi
+>>> osc = vi.Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5)
+>>> vi.settle(osc).label                    # what does it settle into?
+'4/1'
+>>> other = osc.replace(inverse_beta=1.3, gap=0.75)
+>>> [(m.label, m.share) for m in vi.attractors(other, starts=200)]     # what else could it do, and how often?
+[('2/1', 0.64), ('1/1', 0.36)]
+
+| you want | call |
+|---|---|
+| every impact of a motion | `simulate` |
+| what a motion settles into, from one start or from many | `settle`, `settle_many` |
+| the motions there are, and their shares | `attractors` |
+| periodic orbits, stable or not | `orbits` |
+| an orbit over a parameter, through its events | `branch` |
+| a fold, flip or grazing over two parameters | `curve` |
+| where a motion exists and where it is stable | `region` |
+| Lyapunov exponents and the dimension | `lyapunov` |
+| the motion after its transient over a parameter | `orbit_diagram` |
+
+Results have arrays, `plot()` for a figure and `to_dict()` with the fields of the command's JSON.
+"""
+
+from vibroimpact._attractors import Attractor, Attractors, attractors
+from vibroimpact._branch import Branch, BranchEvent, Origin, branch
+from vibroimpact._core import Oscillator, QuestionError, StoppedError, Units, __version__
+from vibroimpact._curve import Curve, CurveEvent, curve
+from vibroimpact._cycle import Cycle
+from vibroimpact._diagram import orbit_diagram
+from vibroimpact._lyapunov import Lyapunov, Measured, lyapunov
+from vibroimpact._motion import Motion
+from vibroimpact._orbits import EarlierContact, Orbit, orbits
+from vibroimpact._region import Part, Polygon, Region, region
+from vibroimpact._settle import Settlement, settle, settle_many
+from vibroimpact._simulate import Simulation, simulate
+
+__all__ = [
+    "Attractor",
+    "Attractors",
+    "Branch",
+    "BranchEvent",
+    "Curve",
+    "CurveEvent",
+    "Cycle",
+    "EarlierContact",
+    "Lyapunov",
+    "Measured",
+    "Motion",
+    "Orbit",
+    "Origin",
+    "Oscillator",
+    "Part",
+    "Polygon",
+    "QuestionError",
+    "Region",
+    "Settlement",
+    "Simulation",
+    "StoppedError",
+    "Units",
+    "__version__",
+    "attractors",
+    "branch",
+    "curve",
+    "lyapunov",
+    "orbit_diagram",
+    "orbits",
+    "region",
+    "settle",
+    "settle_many",
+    "simulate",
+]

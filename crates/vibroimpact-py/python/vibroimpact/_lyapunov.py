@@ -1,0 +1,183 @@
+"""How chaotic a motion is."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact import _core
+from vibroimpact._core import Oscillator
+from vibroimpact._cycle import finite
+from vibroimpact._motion import Motion, fields_of, horizon_object
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class Measured(NamedTuple):
+    """A number and three standard errors of it; an error of 0 where it is exact."""
+
+    value: float
+    error: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """As the command's JSON has it: a number that is none says why."""
+        if np.isfinite(self.value):
+            return {"value": self.value, "error": finite(self.error)}
+        why = "undefined" if np.isnan(self.value) else "infinity" if self.value > 0 else "minus_infinity"
+        return {"value": None, "error": None, "why": why}
+
+
+class Impacts(NamedTuple):
+    """The section of the impact map."""
+
+    phase: NDArray[np.float64]
+    velocity_before: NDArray[np.float64]
+    side: NDArray[np.int8]
+
+
+class Strobes(NamedTuple):
+    """The stroboscopic section: states at phase 0 of the force."""
+
+    x: NDArray[np.float64]
+    v: NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class Lyapunov:
+    """Both exponents of a motion with error bars, and its attractor.
+
+    Attributes
+    ----------
+    osc : Oscillator
+        The system.
+    motion : Motion
+        What it settles into.
+    exponents, exponents_per_period : tuple of Measured
+        The larger first, per unit of time and per forcing period.
+    sum : Measured
+        Of both, measured.
+    identity : float
+        What the sum must be, 2 ln(eps) times the rate of impacts less 2 zeta.
+    impacts_per_period : Measured
+        Rate of impacts.
+    dimension : Measured or None
+        Kaplan-Yorke dimension of the stroboscopic section; None where the larger exponent is not known to differ from 0.
+    flow_dimension : Measured or None
+        The same of the flow in the space of position, velocity and phase.
+    grounds : dict
+        Where all this comes from: "kind" is "measured", "no_impact", "sticks", "stuck", "touches" or "undecided".
+    impacts, strobes : named tuples of ndarray
+        Points of both sections; empty unless asked for.
+    plan : str
+        The question as JSON.
+    """
+
+    osc: Oscillator
+    motion: Motion
+    exponents: tuple[Measured, Measured]
+    exponents_per_period: tuple[Measured, Measured]
+    sum: Measured
+    identity: float
+    impacts_per_period: Measured
+    dimension: Measured | None
+    flow_dimension: Measured | None
+    grounds: dict[str, Any]
+    impacts: Impacts
+    strobes: Strobes
+    plan: str
+
+    def __repr__(self) -> str:
+        one, two = self.exponents
+        return f"<Lyapunov {one.value:.5g} +- {one.error:.1g}, {two.value:.5g} +- {two.error:.1g}, {self.motion.label}>"
+
+    def plot(self, axes: "tuple[Axes, Axes] | None" = None) -> "tuple[Axes, Axes]":
+        """Both sections of the attractor: phase and speed of its impacts, and its states at phase 0."""
+        from vibroimpact import _figure
+
+        if not len(self.impacts.phase) and not len(self.strobes.x):
+            raise _core.QuestionError("there are no points of the sections\nhint: lyapunov(..., points=5000)")
+        return _figure.sections(self.osc, self.impacts, self.strobes, axes)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of the command's JSON, a number that is not finite as None."""
+        motion = self.motion.to_dict()
+        motion.pop("lyapunov", None)
+        motion.get("tried", {}).pop("lyapunov", None)
+        some = {name: value for name, value in self.grounds.items() if value is not None}
+        if "horizon" in some:
+            some["horizon"] = horizon_object(some["horizon"])
+        return {
+            "motion": motion,
+            "exponents": [of.to_dict() for of in self.exponents],
+            "exponents_per_period": [of.to_dict() for of in self.exponents_per_period],
+            "sum": self.sum.to_dict(),
+            "identity": finite(self.identity),
+            "impacts_per_period": self.impacts_per_period.to_dict(),
+            "dimension": {
+                "section": self.dimension and self.dimension.to_dict(),
+                "flow": self.flow_dimension and self.flow_dimension.to_dict(),
+            },
+            "grounds": some,
+        }
+
+
+def lyapunov(
+    osc: Oscillator,
+    *,
+    x: float | None = None,
+    v: float = 0.0,
+    phase: float = 0.0,
+    impacts: int = 100_000,
+    transient: int = 1000,
+    points: int | None = None,
+) -> Lyapunov:
+    """Measure both Lyapunov exponents of a motion, with error bars, and the dimension of its attractor.
+
+    Parameters
+    ----------
+    osc : Oscillator
+        The system.
+    x, v, phase : float
+        Start: position in units of F/k (at rest, or on the stop, unless given), velocity, phase of the force in radians.
+    impacts : int
+        Impacts to measure over, 1000 to 1e7; the error bar shrinks with the square root.
+    transient : int
+        Impacts to pass before; for the stroboscopic section forcing periods.
+    points : int
+        Points of both sections of the attractor, 1 to 100000; none unless given.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, lyapunov
+    >>> found = lyapunov(Oscillator(inverse_beta=1.11, gap=3, restitution=0.5), impacts=10_000)
+    >>> found.motion.label, found.exponents[0].value > found.exponents[0].error
+    ('chaotic', True)
+    >>> abs(found.sum.value - found.identity) < 1e-9
+    True
+    """
+    fields = _core.lyapunov(osc, (x, v, phase), impacts, transient, points)
+
+    def measured(name: str) -> Measured | None:
+        return None if fields[name] is None else Measured(*fields[name])
+
+    def both(name: str) -> tuple[Measured, Measured]:
+        one, two = fields[name]
+        return Measured(*one), Measured(*two)
+
+    return Lyapunov(
+        osc=osc,
+        motion=Motion(**fields_of(osc, fields["motion"])),
+        exponents=both("exponents"),
+        exponents_per_period=both("exponents_per_period"),
+        sum=Measured(*fields["sum"]),
+        identity=fields["identity"],
+        impacts_per_period=Measured(*fields["impacts_per_period"]),
+        dimension=measured("section_dimension"),
+        flow_dimension=measured("flow_dimension"),
+        grounds=fields["grounds"],
+        impacts=Impacts(*fields["impacts"]),
+        strobes=Strobes(*fields["strobes"]),
+        plan=fields["plan"],
+    )

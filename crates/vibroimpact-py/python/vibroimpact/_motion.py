@@ -1,0 +1,186 @@
+"""A steady motion: what it is, its impacts, how stable it is."""
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact import _core
+from vibroimpact._core import Oscillator
+from vibroimpact._cycle import Cycle, finite, pairs
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Forcing periods shown of a steady motion, at least.
+_SHOWN = 6
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class Motion:
+    """What a motion settles into.
+
+    Attributes
+    ----------
+    osc : Oscillator
+        The system.
+    kind : str
+        "periodic", "no_impact", "chaotic", "stuck" or "undecided". None of these is an error.
+    label : str
+        m/n, m impacts in n forcing periods: "4/1"; "inf/1" with a complete chatter; "0", "chaotic", "stuck", "undecided".
+    impacts, periods : int or None
+        m and n.
+    sticks : int or None
+        Rests on a stop in each turn.
+    stable : bool or None
+        Whether it attracts its neighbourhood; None where that is open.
+    multipliers : ndarray of complex128 or None
+        Floquet multipliers, the larger first.
+    cycle : Cycle
+        The impacts of one turn; empty unless it is periodic.
+    rests : list of dict
+        Rests on a stop: side, chatter (whether one leads there), phases begin and release.
+    residual : float or None
+        What the cycle misses by after one turn.
+    lyapunov : (float, float) or None
+        The larger exponent per unit of time and its error, of a chaotic motion.
+    horizon : dict or None
+        On what grounds there are no more impacts, and for how many periods (None: for ever).
+    side : str or None
+        On which stop it is stuck, "upper" or "lower".
+    tried : dict or None
+        What was tried of an undecided one.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, settle
+    >>> motion = settle(Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5))
+    >>> motion
+    <Motion 4/1, stable>
+    >>> motion.cycle.velocity_before.round(4).tolist()
+    [1.5131, 1.0992, 0.5139, 0.1792]
+    """
+
+    osc: Oscillator
+    kind: str
+    label: str
+    impacts: int | None
+    periods: int | None
+    sticks: int | None
+    stable: bool | None
+    multipliers: NDArray[np.complex128] | None
+    cycle: Cycle
+    rests: list[dict[str, Any]]
+    residual: float | None
+    lyapunov: tuple[float, float] | None
+    horizon: dict[str, Any] | None
+    side: str | None
+    tried: dict[str, Any] | None
+
+    def __repr__(self) -> str:
+        words = {True: ", stable", False: ", unstable", None: ""}
+        stable = "" if self.kind in ("chaotic", "stuck") else words[self.stable]
+        return f"<{type(self).__name__} {self.label}{stable}{self._remark()}>"
+
+    def _remark(self) -> str:
+        return ""
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Motion):
+            return NotImplemented
+        return self.osc == other.osc and self.to_dict() == other.to_dict()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of the command's JSON, a number that is not finite as None."""
+        fields: dict[str, Any] = {
+            "kind": self.kind,
+            "label": self.label,
+            "impacts": self.impacts,
+            "periods": self.periods,
+            "sticks": self.sticks,
+            "stable": self.stable,
+            "multipliers": None if self.multipliers is None else pairs(self.multipliers),
+            "cycle": self.cycle.to_list(),
+        }
+        if self.rests:
+            last = self.rests[-1]
+            if last["chatter"]:
+                fields["chatter_end"] = last["begin"]
+            fields |= {"release": last["release"], "rests": self.rests}
+        if self.lyapunov is not None:
+            fields["lyapunov"] = _estimate(self.lyapunov)
+        if self.horizon is not None:
+            fields["horizon"] = horizon_object(self.horizon)
+        if self.residual is not None:
+            fields["residual"] = finite(self.residual)
+        if self.side is not None:
+            fields["side"] = self.side
+        if self.tried is not None:
+            tried = {name: value for name, value in self.tried.items() if value is not None}
+            if "lyapunov" in tried:
+                tried["lyapunov"] = _estimate(tried["lyapunov"])
+            fields["tried"] = tried
+        return fields
+
+    def start(self) -> tuple[float, float, float]:
+        """Position, velocity and phase just after the first impact of its cycle: a start on the motion."""
+        if not len(self.cycle):
+            raise _core.QuestionError(f"the motion {self.label} has no impacts to start from\nhint: simulate it from its start")
+        first = (array[0] for array in (self.cycle.phase, self.cycle.velocity_before, self.cycle.side))
+        phase, speed, sign = (float(number) for number in first)
+        gap, restitution = self.osc.gap, self.osc.restitution
+        if sign < 0:
+            gap, restitution = self.osc.second_gap or 0.0, self.osc.second_restitution or 0.0
+        return sign * gap, -sign * restitution * speed, phase
+
+    def waveform(
+        self, points_per_period: float = 200, periods: float | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Times, positions and velocities along the periodic motion, from just after its first impact.
+
+        Parameters
+        ----------
+        points_per_period : float
+            Points in each forcing period; every impact has one before and one after it.
+        periods : float
+            Forcing periods; those of one turn unless given.
+        """
+        start = self.start()
+        turns = self.periods or 1
+        return _core.waveform(self.osc, start, (periods or turns) * self.osc.period, points_per_period)
+
+    def plot(self, ax: "Axes | None" = None, *, si: bool = False) -> "Axes":
+        """Position over time along the periodic motion, with the stops. `si` for metres and seconds."""
+        from vibroimpact import _figure
+
+        turns = self.periods or 1
+        periods = turns * max(2, math.ceil(_SHOWN / turns))
+        t, x, _ = self.waveform(periods=periods)
+        ends = np.concatenate([[0.0], np.cumsum(np.tile(self.cycle.interval, periods // turns))])
+        count = len(self.cycle)
+        sides = np.concatenate([np.tile(self.cycle.side, periods // turns), self.cycle.side[:1]])
+        if self.rests or count == 0:
+            ends, sides = ends[:0], sides[:0]
+        return _figure.waveform(self.osc, (t, x), (ends, sides), self.label, ax, si)
+
+
+def _estimate(of: tuple[float, float]) -> dict[str, Any]:
+    return {"value": finite(of[0]), "error": finite(of[1])}
+
+
+def horizon_object(horizon: dict[str, Any]) -> dict[str, Any]:
+    """As the command's JSON has it."""
+    fields = {name: horizon[name] for name in ("kind", "periods", "why")}
+    if horizon["common_period"] is not None:
+        forcing, natural = horizon["common_period"]
+        fields["common_period"] = {"forcing_periods": forcing, "natural_periods": natural}
+    return fields
+
+
+def fields_of(osc: Oscillator, fields: dict[str, Any]) -> dict[str, Any]:
+    """The keywords of a Motion, from the fields of the compiled part."""
+    return {**fields, "osc": osc, "cycle": Cycle(**fields["cycle"])}

@@ -1,0 +1,55 @@
+"""Colours: those of the command's figures (crates/vibroimpact-plot/src/palette.rs).
+
+The series are the set of M. Okabe and K. Ito, "Color Universal Design" (2002, 2008), https://jfly.uni-koeln.de/color/.
+Motions follow their kin: m/1 light to dark blue, 1/n yellow to red-brown, other periodic ones green, chatter pink.
+"""
+
+SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#f0e442")
+
+CLASSES = {
+    "0": "#e9e9e9",
+    "1/1": "#9ad6ee",
+    "2/1": "#3fa0d0",
+    "3/1": "#1a6fb0",
+    "4/1": "#173f86",
+    "m/1": "#2b1b57",
+    "1/2": "#f2a71b",
+    "1/3": "#d9601a",
+    "1/n": "#9a2f0e",
+    "k/k": "#d3e27a",
+    "3/2": "#0b8f62",
+    "m/n": "#7fd0a0",
+    "inf/n": "#f29bc1",
+    "chaotic": "#101010",
+    "stuck": "#5e4636",
+    "undecided": "#ffffff",
+    "other": "#9a9a9a",
+}
+
+
+def legend_group(label: str) -> str:
+    """The key of `CLASSES` that a motion's label belongs to."""
+    if label in ("0", "chaotic", "stuck", "undecided"):
+        return label
+    impacts, slash, periods = label.partition("/")
+    if not slash or not periods.isdigit() or int(periods) == 0:
+        return "other"
+    if impacts == "inf":
+        return "inf/n"
+    if not impacts.isdigit():
+        return "other"
+    m, n = int(impacts), int(periods)
+    if m == 0:
+        return "0"
+    if n == 1:
+        return f"{m}/1" if m <= 4 else "m/1"
+    if m == 1:
+        return f"1/{n}" if n <= 3 else "1/n"
+    if m == n:
+        return "k/k"
+    return "3/2" if (m, n) == (3, 2) else "m/n"
+
+
+def class_colour(label: str) -> str:
+    """The colour of a motion's label, the same in every figure."""
+    return CLASSES[legend_group(label)]

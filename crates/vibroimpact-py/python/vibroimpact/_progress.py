@@ -1,0 +1,35 @@
+"""Who is told how much is done: nobody, a function, or a bar of tqdm."""
+
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeAlias
+
+#: `None`, `True` for a bar, or a function of what is done and what there is to do; one that returns False stops the work.
+Progress: TypeAlias = "bool | Callable[[int, int], object] | None"
+
+
+@contextmanager
+def watched(progress: Progress, what: str) -> Iterator[Callable[[int, int], object] | None]:
+    """The function to call, and the bar cleared away afterwards."""
+    if progress is None or progress is False:
+        yield None
+        return
+    if progress is not True:
+        if not callable(progress):
+            raise TypeError("progress is True, or a function of what is done and what there is to do")
+        yield progress
+        return
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        warnings.warn("progress=True needs tqdm: pip install tqdm", stacklevel=3)
+        yield None
+        return
+    with tqdm(desc=what, unit_scale=True) as bar:
+
+        def advance(done: int, total: int) -> None:
+            bar.total = total
+            bar.update(done - bar.n)
+
+        yield advance

@@ -1,0 +1,155 @@
+"""A motion event by event."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact import _core
+from vibroimpact._core import Oscillator
+from vibroimpact._cycle import SIDES, finite
+from vibroimpact._motion import horizon_object
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Kinds of events by their code.
+_KINDS = np.array(["impact", "graze", "stick", "release"])
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class Simulation:
+    """The events of a motion as columns, and why there are no more.
+
+    Attributes
+    ----------
+    osc : Oscillator
+        The system.
+    start : (float or None, float, float)
+        Position (None: at rest, or on the stop), velocity and phase it began with.
+    time, phase : ndarray
+        Of each event; phases in radians in [0, 2 pi).
+    side : ndarray of int8
+        +1 for the first stop, -1 for the second.
+    velocity_before, velocity_after : ndarray
+        Of an impact, towards the stop positive; else nan.
+    depth : ndarray
+        Of a graze: the distance left, within rounding of 0.
+    chatter : ndarray of bool
+        Of a stick: whether infinitely many impacts led to it.
+    error : ndarray
+        Of a stick: the bound on the error of its time.
+    end : str
+        "impact_limit", "time_limit", "no_more_impacts", "stuck" or "search_limit".
+    end_time : float
+        When.
+    horizon : dict or None
+        On what grounds there are no more impacts.
+    plan : str
+        The question as JSON.
+    """
+
+    osc: Oscillator
+    start: tuple[float | None, float, float]
+    code: NDArray[np.uint8]
+    time: NDArray[np.float64]
+    phase: NDArray[np.float64]
+    side: NDArray[np.int8]
+    velocity_before: NDArray[np.float64]
+    velocity_after: NDArray[np.float64]
+    depth: NDArray[np.float64]
+    chatter: NDArray[np.bool_]
+    error: NDArray[np.float64]
+    end: str
+    end_time: float
+    horizon: dict[str, Any] | None
+    shown_until: float
+    plan: str
+
+    def __repr__(self) -> str:
+        return f"<Simulation of {len(self)} events, ends with {self.end} at time {self.end_time:.6g}>"
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def kind(self) -> NDArray[np.str_]:
+        """Of each event: "impact", "graze", "stick" or "release"."""
+        return _KINDS[self.code]
+
+    def waveform(
+        self, points_per_period: float = 100
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Times, positions and velocities from the start to the end, with a point on each side of every event."""
+        return _core.waveform(self.osc, self.start, self.shown_until, points_per_period)
+
+    def plot(self, ax: "Axes | None" = None, *, si: bool = False) -> "Axes":
+        """Position over time, with the stops and the impacts. `si` for metres and seconds."""
+        from vibroimpact import _figure
+
+        fine = max(240.0, 240.0 * self.osc.beta**-1) if self.osc.beta < 1 else 240.0
+        points = min(fine, 400_000 * self.osc.period / max(self.shown_until, 1e-300))
+        t, x, _ = self.waveform(max(points, 1.0))
+        struck = self.code == 0
+        return _figure.waveform(self.osc, (t, x), (self.time[struck], self.side[struck]), None, ax, si)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields "events" and "end" of the command's JSON."""
+        end: dict[str, Any] = {"reason": self.end, "time": finite(self.end_time)}
+        if self.horizon is not None:
+            end["horizon"] = horizon_object(self.horizon)
+        return {"events": [self._event(k) for k in range(len(self))], "end": end}
+
+    def _event(self, k: int) -> dict[str, Any]:
+        event: dict[str, Any] = {"kind": str(self.kind[k]), "time": float(self.time[k]), "phase": float(self.phase[k])}
+        match event["kind"]:
+            case "impact":
+                event["velocity_before"] = float(self.velocity_before[k])
+                event["velocity_after"] = float(self.velocity_after[k])
+            case "graze":
+                event["depth"] = float(self.depth[k])
+            case "stick":
+                event |= {"chatter": bool(self.chatter[k]), "error": float(self.error[k])}
+        return {**event, "side": SIDES[int(self.side[k])]}
+
+
+def simulate(
+    osc: Oscillator,
+    *,
+    x: float | None = None,
+    v: float = 0.0,
+    phase: float = 0.0,
+    impacts: int | None = None,
+    periods: float | None = None,
+) -> Simulation:
+    """Follow a motion event by event: impacts, grazes, sticking, release.
+
+    Parameters
+    ----------
+    osc : Oscillator
+        The system.
+    x : float
+        Position at the start, in units of F/k, not beyond a stop; at rest, or on the stop, unless given.
+    v : float
+        Velocity at the start.
+    phase : float
+        Phase of the force at the start, radians.
+    impacts : int
+        Stop after so many impacts, 1 to 1e7; 100 unless given, 1e6 with `periods`.
+    periods : float
+        Stop after so many forcing periods, up to 1e9.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, simulate
+    >>> sim = simulate(Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5), impacts=20)
+    >>> sim.kind[:3].tolist(), sim.time[:3].round(4).tolist()
+    (['impact', 'impact', 'impact'], [1.4598, 2.2409, 2.6025])
+    >>> t, position, velocity = sim.waveform()
+    >>> bool(position.max() <= 0.25 + 1e-12)
+    True
+    """
+    start = (x, v, phase)
+    fields = _core.simulate(osc, start, impacts, periods)
+    return Simulation(osc=osc, start=start, end=fields.pop("reason"), **fields)

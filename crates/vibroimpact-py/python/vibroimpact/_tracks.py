@@ -1,0 +1,148 @@
+"""The bifurcation diagram of a branch: each impact is followed from point to point."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact._figure import ARRIVAL, Scale, legend, named, new_axes, title
+from vibroimpact._palette import SERIES
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from vibroimpact._branch import Branch
+    from vibroimpact._cycle import Cycle
+
+#: Values of the orbit diagram behind a branch.
+_VALUES = 401
+#: Labels with a colour of their own.
+_NAMED = 12
+#: Marks of events.
+_MARKS = {"fold": "s", "flip": "D", "branch point": "o", "grazing": "^", "loss of contact": "v"}
+_LOOKS = {"stable": "-", "unstable": "--", "no motion": ":"}
+
+
+def plot(branch: "Branch", ax: "Axes | None", diagram: bool, virtual: bool, si: bool) -> "Axes":
+    """Speeds of arrival over the parameter, stable solid, unstable dashed."""
+    scale = Scale(branch.osc, si)
+    unit, speed = scale.of(branch.vary), scale.velocity
+    ax = new_axes(ax, (7.6, 4.8))
+    if diagram:
+        _behind(branch, ax, unit, speed)
+    branches = [branch, *branch.followed]
+    colours: dict[str, tuple[str, float]] = {}
+    looks: list[str] = []
+    for one in branches:
+        for label, look, xs, ys in pieces(one):
+            if look == "no motion" and not virtual:
+                continue
+            colour, alpha = colours.setdefault(label, _colour(len(colours)))
+            if look not in looks:
+                looks.append(look)
+            width = 1.0 if look == "no motion" else 1.8
+            ax.plot(xs * unit, ys * speed, _LOOKS[look], color=colour, alpha=alpha, linewidth=width)
+    for label, (colour, alpha) in list(colours.items())[:_NAMED]:
+        ax.plot([], [], color=colour, alpha=alpha, linewidth=1.8, label=named(label))
+    for look in (look for look in _LOOKS if look in looks):
+        ax.plot([], [], _LOOKS[look], color="black", label=look)
+    _events(branches, ax, virtual, unit, speed)
+    low, high = sorted(branch.ends)
+    ax.set_xlim(low * unit, high * unit)
+    ax.set_xlabel(scale.axis(branch.vary))
+    ax.set_ylabel(scale.named(ARRIVAL, "m/s"))
+    ax.set_title(title(branch.osc, (branch.vary,)))
+    legend(ax)
+    return ax
+
+
+def _colour(k: int) -> tuple[str, float]:
+    # without black, the colour of marks, and yellow, which is too light for a thin line
+    return (SERIES[k % 6], 1.0 if k < 6 else 0.55) if k < _NAMED else ("0.3", 1.0)
+
+
+def _behind(branch: "Branch", ax: "Axes", unit: float, speed: float) -> None:
+    """What simulation finds, in grey."""
+    from vibroimpact._diagram import orbit_diagram
+
+    ds = orbit_diagram(branch.osc, branch.vary, (*branch.ends, _VALUES))
+    for sweep in ds["sweep"].values:
+        one = ds.sel(sweep=sweep)
+        xs = np.broadcast_to(one[branch.vary].values[:, None], one["velocity"].shape)
+        repeats = one["count"].values < ds.sizes["point"]
+        # dots of motions that repeat themselves are wider than a curve
+        for rows, size in ((repeats, 4.5), (~repeats, 1.6)):
+            ys = one["velocity"].values[rows].ravel()
+            ax.plot(xs[rows].ravel() * unit, ys * speed, "o", color="0.72", markersize=size, markeredgewidth=0, zorder=0)
+    ax.plot([], [], "o", color="0.72", markersize=4, label="simulation")
+
+
+def _events(branches: "list[Branch]", ax: "Axes", virtual: bool, unit: float, speed: float) -> None:
+    places: dict[str, list[tuple[float, float]]] = {}
+    for one in branches:
+        for event in one.events:
+            if event.kind not in _MARKS or not (virtual or one.physical[event.point]):
+                continue
+            comes_or_goes = event.kind in ("grazing", "loss of contact")
+            speeds = [0.0] if comes_or_goes else one.cycles[event.point].velocity_before.tolist()
+            places.setdefault(event.kind, []).extend((event.parameter, u) for u in speeds)
+    for kind in sorted(places):
+        xs, ys = np.array(places[kind]).reshape(-1, 2).T
+        ax.plot(xs * unit, ys * speed, _MARKS[kind], color="white", markeredgecolor="black", markersize=6, label=kind,
+                zorder=4, clip_on=False)
+
+
+def pieces(branch: "Branch") -> Iterator[tuple[str, str, NDArray[np.float64], NDArray[np.float64]]]:
+    """Curves of one impact, one label and one look; neighbours share the point between them."""
+    begin = 0
+    while begin < len(branch):
+        label = branch.label[begin]
+        end = next((k for k in range(begin, len(branch)) if branch.label[k] != label), len(branch))
+        for track in _tracks([branch.cycles[k] for k in range(begin, end)]):
+            for look, at in _runs(branch, begin, end):
+                yield label, look, branch.parameter[at], track[at.start - begin : at.stop - begin]
+        begin = end
+
+
+def _runs(branch: "Branch", begin: int, end: int) -> Iterator[tuple[str, slice]]:
+    """Stretches of one look between points; an event lies on the edge of two and counts for neither."""
+    events = {event.point for event in branch.events}
+    before, first = None, begin
+    for k in range(begin, end - 1):
+        at = k if k + 1 in events and k not in events else k + 1
+        inside = bool(np.all(np.abs(branch.multipliers[at]) < 1))
+        look = "no motion" if not branch.physical[at] else "stable" if inside else "unstable"
+        if before is not None and look != before:
+            yield before, slice(first, k + 1)
+            first = k
+        before = look
+    if before is not None:
+        yield before, slice(first, end)
+
+
+def _tracks(run: "list[Cycle]") -> NDArray[np.float64]:
+    """The speed of each impact at all points of a run with one label, one row an impact."""
+    count = len(run[0])
+    rows = np.zeros((len(run), max(count, 1)))
+    before: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
+    for k, cycle in enumerate(run):
+        if count == 0:
+            continue
+        phases, speeds = cycle.phase, cycle.velocity_before
+        if before is not None:
+            # the list begins with the fastest impact, which may have become another one
+            off = [
+                np.sum(_apart(np.roll(phases, -s), before[0]) ** 2 + (np.roll(speeds, -s) - before[1]) ** 2)
+                for s in range(count)
+            ]
+            shift = -int(np.argmin(off))
+            phases, speeds = np.roll(phases, shift), np.roll(speeds, shift)
+        rows[k] = speeds
+        before = phases, speeds
+    return rows.T
+
+
+def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Angles from b to a by the shorter way."""
+    return (a - b + np.pi) % (2 * np.pi) - np.pi

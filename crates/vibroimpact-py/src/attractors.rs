@@ -1,0 +1,47 @@
+//! The steady motions of a system and the share of starts that lead to each.
+
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::motion::Fields;
+use crate::oscillator::Oscillator;
+use crate::simulate::text;
+use pyo3::prelude::*;
+use vibroimpact::verdict::{SettleOptions, StartBox};
+use vibroimpact_study::{Plan, Task};
+
+/// The fields of `Attractors`.
+#[derive(IntoPyObject)]
+pub(crate) struct Found<'py> {
+    /// Each motion with its share and the number of starts that led to it.
+    motions: Vec<(Fields<'py>, f64, u64)>,
+    x: (f64, f64),
+    v: (f64, f64),
+    phase: (f64, f64),
+    plan: String,
+}
+
+/// Settles scattered starts and counts the distinct motions.
+#[pyfunction]
+pub(crate) fn attractors(
+    py: Python<'_>,
+    osc: Oscillator,
+    starts: u64,
+    seed: u64,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<Found<'_>, Trouble> {
+    let plan = Plan::new(osc.plan, Task::Attractors { starts, seed });
+    plan.check()?;
+    let osc = osc.osc;
+    let area = StartBox::natural(&osc);
+    let watch = Watch { what: "looking for attractors", total: starts, progress, threads };
+    let census = door::run(py, watch, move |control| {
+        Ok(vibroimpact_study::attractors(&osc, area, (starts, seed), &SettleOptions::default(), control)?)
+    })?;
+    let motions = census
+        .by_share()
+        .into_iter()
+        .map(|found| (Fields::new(py, &found.verdict, &osc), census.share(found), found.count))
+        .collect();
+    Ok(Found { motions, x: area.x, v: area.v, phase: area.phase, plan: text(&plan)? })
+}

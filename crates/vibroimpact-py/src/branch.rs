@@ -1,0 +1,164 @@
+//! A branch of periodic orbits in one parameter, and those that begin on it.
+
+use crate::axis::parameter;
+use crate::columns::{Impacts, column, complex, named, pairs};
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::oscillator::Oscillator;
+use crate::simulate::text;
+use numpy::{Complex64, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use vibroimpact::continuation::{BranchEvent, Change, Point};
+use vibroimpact::orbit::Cycle;
+use vibroimpact_study::{BranchPlan, Followed, Plan, Task, branches};
+
+/// Cycles one after another, and where each begins.
+#[derive(IntoPyObject)]
+pub(crate) struct Cycles<'py> {
+    /// One more than there are cycles.
+    offsets: Bound<'py, PyArray1<i64>>,
+    impacts: Impacts<'py>,
+    multipliers: Bound<'py, PyArray2<Complex64>>,
+}
+
+impl<'py> Cycles<'py> {
+    pub(crate) fn new<'a>(py: Python<'py>, cycles: impl Iterator<Item = &'a Cycle> + Clone) -> PyResult<Self> {
+        let mut end = 0;
+        let ends = cycles.clone().map(|cycle| {
+            end += i64::try_from(cycle.points.len()).unwrap_or(0);
+            end
+        });
+        Ok(Self {
+            offsets: column(py, core::iter::once(0).chain(ends)),
+            multipliers: pairs(py, cycles.clone().map(|cycle| complex(cycle.multipliers)))?,
+            impacts: Impacts::new(py, cycles),
+        })
+    }
+}
+
+/// The fields of a `Branch`.
+#[derive(IntoPyObject)]
+pub(crate) struct Fields<'py> {
+    parameter: Bound<'py, PyArray1<f64>>,
+    label: Vec<String>,
+    stable: Bound<'py, PyArray1<bool>>,
+    physical: Bound<'py, PyArray1<bool>>,
+    cycles: Cycles<'py>,
+    events: Vec<Event>,
+    /// Kind, value and branch it leaves, counted from 1.
+    origin: Option<(&'static str, f64, usize)>,
+}
+
+#[derive(IntoPyObject)]
+struct Event {
+    kind: &'static str,
+    parameter: f64,
+    point: usize,
+    ends: bool,
+    label_before: String,
+    label_after: Option<String>,
+    change: Option<&'static str>,
+    impact: Option<usize>,
+    side: Option<&'static str>,
+    phase: Option<f64>,
+    turns: Option<bool>,
+}
+
+impl Event {
+    fn new(place: usize, point: &Point, event: &BranchEvent) -> Self {
+        let label = point.cycle.label.to_string();
+        let bare = Self {
+            kind: event.name(),
+            parameter: point.value,
+            point: place,
+            ends: event.ends(),
+            label_after: (!event.ends()).then(|| label.clone()),
+            label_before: label,
+            change: None,
+            impact: None,
+            side: None,
+            phase: None,
+            turns: None,
+        };
+        match event {
+            BranchEvent::Grazing { change, impact, side, phase, before, after, turns } => Self {
+                label_before: before.to_string(),
+                label_after: Some(after.to_string()),
+                change: Some(match change {
+                    Change::Appears => "appears",
+                    Change::Disappears => "disappears",
+                }),
+                impact: Some(impact + 1),
+                side: Some(named(*side)),
+                phase: Some(*phase),
+                turns: Some(*turns),
+                ..bare
+            },
+            BranchEvent::LossOfContact { side, phase } => {
+                Self { side: Some(named(*side)), phase: Some(*phase), ..bare }
+            }
+            BranchEvent::Stick { impact } => Self { impact: Some(impact + 1), ..bare },
+            _ => bare,
+        }
+    }
+}
+
+impl<'py> Fields<'py> {
+    fn new(py: Python<'py>, branch: &Followed) -> PyResult<Self> {
+        let points = || branch.points.iter();
+        Ok(Self {
+            parameter: column(py, points().map(|point| point.value)),
+            label: points().map(|point| point.cycle.label.to_string()).collect(),
+            stable: column(py, points().map(Point::stable)),
+            physical: column(py, points().map(|point| point.physical)),
+            cycles: Cycles::new(py, points().map(|point| &point.cycle))?,
+            events: points()
+                .enumerate()
+                .filter_map(|(k, point)| Some(Event::new(k, point, point.event.as_ref()?)))
+                .collect(),
+            origin: branch.origin.as_ref().map(|origin| {
+                let kind = origin.point.event.map_or("", |event| event.name());
+                (kind, origin.point.value, origin.branch + 1)
+            }),
+        })
+    }
+}
+
+/// The fields of all branches.
+#[derive(IntoPyObject)]
+pub(crate) struct Found<'py> {
+    branches: Vec<Fields<'py>>,
+    /// Number of the orbit it began with, and how many there are.
+    orbit: (u32, u32),
+    from: f64,
+    label: String,
+    plan: String,
+}
+
+/// Follows an orbit, and the branches that begin on its way.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)] // keywords
+pub(crate) fn branch<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    label: String,
+    vary: &str,
+    to: f64,
+    orbit: Option<u32>,
+    follow: u32,
+    points: u32,
+) -> Result<Found<'py>, Trouble> {
+    let task = BranchPlan { label, vary: parameter(vary)?, to, orbit, follow, points };
+    let plan = Plan::new(osc.plan, Task::Branch(task.clone()));
+    plan.check()?;
+    let from = osc.plan.value(task.vary)?;
+    let system = osc.plan;
+    let found = door::run(py, Watch::alone("following a branch"), move |_| Ok(branches(&system, &task)?))?;
+    Ok(Found {
+        branches: found.followed.iter().map(|branch| Fields::new(py, branch)).collect::<PyResult<_>>()?,
+        orbit: (found.chosen.number, found.chosen.count),
+        from,
+        label: found.chosen.orbit.cycle.label.to_string(),
+        plan: text(&plan)?,
+    })
+}

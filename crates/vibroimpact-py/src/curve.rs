@@ -1,0 +1,68 @@
+//! A curve of folds, flips or grazing impacts in a plane of two parameters.
+
+use crate::axis::stretch;
+use crate::branch::Cycles;
+use crate::columns::{column, pairs};
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::oscillator::Oscillator;
+use crate::simulate::text;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use vibroimpact_study::{CurvePlan, EventKind, Plan, Task};
+
+/// The fields of a `Curve`.
+#[derive(IntoPyObject)]
+pub(crate) struct Fields<'py> {
+    values: Bound<'py, PyArray2<f64>>,
+    physical: Bound<'py, PyArray1<bool>>,
+    cycles: Cycles<'py>,
+    /// Kind and place among the points.
+    events: Vec<(&'static str, usize)>,
+    /// Number of the orbit it began with, and how many there are.
+    orbit: (u32, u32),
+    found_at: Vec<f64>,
+    /// Which of these, counted from 1, and its place among the points.
+    through: (usize, usize),
+    plan: String,
+}
+
+fn kind(name: &str) -> Result<EventKind, Trouble> {
+    let all = [EventKind::Fold, EventKind::Flip, EventKind::Grazing];
+    all.into_iter()
+        .find(|kind| kind.name() == name)
+        .ok_or_else(|| Trouble::question(format!("`{name}` is no kind of curve; there are fold, flip, grazing")))
+}
+
+/// Follows an orbit to an event, and the event over the plane.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)] // keywords
+pub(crate) fn curve<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    label: String,
+    kind: &str,
+    vary: (String, f64, f64),
+    and_: (String, f64, f64),
+    orbit: Option<u32>,
+    event: Option<u32>,
+) -> Result<Fields<'py>, Trouble> {
+    let kind = self::kind(kind)?;
+    let task = CurvePlan { label, kind, vary: stretch(vary)?, and: stretch(and_)?, orbit, event };
+    let plan = Plan::new(osc.plan, Task::Curve(task.clone()));
+    plan.check()?;
+    let system = osc.plan;
+    let watch = Watch::alone("following a curve");
+    let found = door::run(py, watch, move |_| Ok(vibroimpact_study::curve(&system, &task)?))?;
+    let points = || found.points.iter();
+    Ok(Fields {
+        values: pairs(py, points().map(|point| point.values.into()))?,
+        physical: column(py, points().map(|point| point.physical)),
+        cycles: Cycles::new(py, points().map(|point| &point.cycle))?,
+        events: points().enumerate().filter_map(|(k, point)| Some((point.event?.name(), k))).collect(),
+        orbit: (found.chosen.number, found.chosen.count),
+        found_at: found.events.iter().map(|event| event.value).collect(),
+        through: (found.through + 1, found.begin),
+        plan: text(&plan)?,
+    })
+}

@@ -1,0 +1,113 @@
+//! The one door for work that takes time: off the interpreter's lock, on a thread of its own, with a stop flag.
+//!
+//! The calling thread meanwhile looks every 50 ms whether Ctrl-C was pressed and tells the progress callback how much is
+//! done. Work that looks at its stop flag has ended when the exception is raised; a search that knows no flag is left behind.
+
+use crate::error::Trouble;
+use pyo3::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+use vibroimpact_study::{Control, Stopped};
+
+/// Between two looks.
+const BEAT: Duration = Duration::from_millis(50);
+
+/// How a question is watched: what it is, how much there is to do, who wants to know, and over how many threads.
+pub(crate) struct Watch {
+    pub(crate) what: &'static str,
+    pub(crate) total: u64,
+    /// Called with what is done and what there is to do; `False` stops the work.
+    pub(crate) progress: Option<Py<PyAny>>,
+    pub(crate) threads: usize,
+}
+
+impl Watch {
+    /// Of a question that is answered in one piece.
+    pub(crate) const fn alone(what: &'static str) -> Self {
+        Self { what, total: 1, progress: None, threads: 1 }
+    }
+}
+
+/// What worker and watcher share.
+#[derive(Default)]
+struct Shared {
+    stop: AtomicBool,
+    done: AtomicU64,
+}
+
+impl Shared {
+    fn working<T>(&self, threads: usize, work: impl FnOnce(&Control<'_>) -> T) -> T {
+        let tell = |done| {
+            self.done.fetch_max(done, Ordering::Relaxed);
+        };
+        work(&Control { stop: &self.stop, progress: &tell, threads })
+    }
+}
+
+/// Does work that owns all it needs. Stopped, it is left behind.
+pub(crate) fn run<T: Send + 'static>(
+    py: Python<'_>,
+    watch: Watch,
+    work: impl FnOnce(&Control<'_>) -> Result<T, Trouble> + Send + 'static,
+) -> Result<T, Trouble> {
+    py.detach(move || {
+        let shared = Arc::new(Shared::default());
+        let (sender, receiver) = channel();
+        let (theirs, threads) = (Arc::clone(&shared), watch.threads);
+        // if the receiver is gone, so is the wish for the result
+        let worker = move || drop(sender.send(theirs.working(threads, work)));
+        thread::Builder::new().spawn(worker).map_err(|_| Trouble::Defect("starting a thread"))?;
+        wait(&receiver, &shared, &watch)
+    })
+}
+
+/// Does work on borrowed arrays, which looks at its stop flag: it has ended when this returns.
+pub(crate) fn run_borrowing<T: Send>(
+    py: Python<'_>,
+    watch: Watch,
+    work: impl FnOnce(&Control<'_>) -> Result<T, Trouble> + Send,
+) -> Result<T, Trouble> {
+    py.detach(move || {
+        let shared = Shared::default();
+        let (sender, receiver) = channel();
+        thread::scope(|scope| {
+            let (theirs, threads) = (&shared, watch.threads);
+            scope.spawn(move || drop(sender.send(theirs.working(threads, work))));
+            wait(&receiver, &shared, &watch)
+        })
+    })
+}
+
+/// Waits for the result, detached from the interpreter but for its looks.
+fn wait<T>(receiver: &Receiver<Result<T, Trouble>>, shared: &Shared, watch: &Watch) -> Result<T, Trouble> {
+    loop {
+        match receiver.recv_timeout(BEAT) {
+            Ok(Ok(result)) => {
+                look(watch, watch.total)?;
+                return Ok(result);
+            }
+            Ok(Err(trouble)) => return Err(trouble),
+            Err(RecvTimeoutError::Disconnected) => return Err(Trouble::Defect(watch.what)),
+            Err(RecvTimeoutError::Timeout) => {
+                if let Err(trouble) = look(watch, shared.done.load(Ordering::Relaxed)) {
+                    shared.stop.store(true, Ordering::Relaxed);
+                    return Err(trouble);
+                }
+            }
+        }
+    }
+}
+
+/// Listens for Ctrl-C and tells how much is done.
+fn look(watch: &Watch, done: u64) -> Result<(), Trouble> {
+    Python::attach(|py| {
+        py.check_signals()?;
+        let Some(progress) = &watch.progress else { return Ok(()) };
+        let answer = progress.bind(py).call1((done, watch.total))?;
+        let stop = done < watch.total && answer.is_instance_of::<pyo3::types::PyBool>() && !answer.is_truthy()?;
+        if stop { Err(Stopped { done, total: watch.total }.into()) } else { Ok(()) }
+    })
+}

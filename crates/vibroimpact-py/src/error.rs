@@ -1,0 +1,93 @@
+//! One table from the errors of Rust to the exceptions of Python.
+//!
+//! | what happened | exception |
+//! |---|---|
+//! | the question makes no sense | `QuestionError`, a `ValueError`, with the sentence the command prints |
+//! | the progress callback asked to stop | `StoppedError` |
+//! | Ctrl-C, or an exception in the progress callback | that exception |
+//! | a defect of ours | `RuntimeError` |
+
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::{PyErr, create_exception};
+use vibroimpact::SystemError;
+use vibroimpact::verdict::LabelError;
+use vibroimpact_study::{PlanError, RunError, Stopped};
+
+create_exception!(
+    vibroimpact,
+    QuestionError,
+    PyValueError,
+    "The question makes no sense; the text names the value, the allowed range and often a hint."
+);
+create_exception!(vibroimpact, StoppedError, pyo3::exceptions::PyException, "The progress callback asked to stop.");
+
+/// Why there is no answer.
+#[derive(Debug)]
+pub(crate) enum Trouble {
+    /// The question makes no sense.
+    Question(String),
+    /// It was stopped on the way.
+    Stopped(Stopped),
+    /// An exception of Python.
+    Raised(PyErr),
+    /// A defect of ours.
+    Defect(&'static str),
+}
+
+impl Trouble {
+    pub(crate) fn question(sentence: impl Into<String>) -> Self {
+        Self::Question(sentence.into())
+    }
+}
+
+impl From<Trouble> for PyErr {
+    fn from(trouble: Trouble) -> Self {
+        match trouble {
+            Trouble::Question(sentence) => QuestionError::new_err(sentence),
+            Trouble::Stopped(stopped) => StoppedError::new_err(stopped.to_string()),
+            Trouble::Raised(error) => error,
+            Trouble::Defect(what) => PyRuntimeError::new_err(format!(
+                "{what} ended without a result: this is a defect of vibroimpact, not of your question\nhint: please report it with the call"
+            )),
+        }
+    }
+}
+
+impl From<PlanError> for Trouble {
+    fn from(error: PlanError) -> Self {
+        Self::Question(error.to_string())
+    }
+}
+
+impl From<SystemError> for Trouble {
+    fn from(error: SystemError) -> Self {
+        Self::Question(error.to_string())
+    }
+}
+
+impl From<LabelError> for Trouble {
+    fn from(error: LabelError) -> Self {
+        Self::Question(error.to_string())
+    }
+}
+
+impl From<Stopped> for Trouble {
+    fn from(stopped: Stopped) -> Self {
+        Self::Stopped(stopped)
+    }
+}
+
+impl From<RunError> for Trouble {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Plan(error) => error.into(),
+            RunError::Stopped(stopped) => stopped.into(),
+        }
+    }
+}
+
+impl From<PyErr> for Trouble {
+    fn from(error: PyErr) -> Self {
+        Self::Raised(error)
+    }
+}

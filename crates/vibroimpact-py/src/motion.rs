@@ -1,0 +1,136 @@
+//! A verdict as the fields of `Motion`: those of the command's JSON, its lists as arrays.
+
+use crate::columns::{Impacts, column, complex, named};
+use numpy::{Complex64, PyArray1};
+use pyo3::prelude::*;
+use vibroimpact::Oscillator;
+use vibroimpact::chaos::Measured;
+use vibroimpact::flight::Horizon;
+use vibroimpact::orbit::Cycle;
+use vibroimpact::verdict::{Count, NoImpact, Undecided, Verdict};
+
+/// The fields of a motion.
+#[derive(IntoPyObject)]
+pub(crate) struct Fields<'py> {
+    kind: &'static str,
+    label: String,
+    impacts: Option<u32>,
+    periods: Option<u32>,
+    sticks: Option<usize>,
+    stable: Option<bool>,
+    multipliers: Option<Bound<'py, PyArray1<Complex64>>>,
+    cycle: Impacts<'py>,
+    rests: Vec<Rest>,
+    residual: Option<f64>,
+    /// Value and error.
+    lyapunov: Option<(f64, f64)>,
+    horizon: Option<HorizonFields>,
+    side: Option<&'static str>,
+    tried: Option<Tried>,
+}
+
+#[derive(IntoPyObject)]
+struct Rest {
+    side: &'static str,
+    chatter: bool,
+    begin: f64,
+    release: f64,
+}
+
+#[derive(IntoPyObject)]
+struct Tried {
+    impacts: Option<u64>,
+    periods: Option<f64>,
+    lyapunov: Option<(f64, f64)>,
+}
+
+/// How far "no more impacts" reaches and why.
+#[derive(IntoPyObject)]
+pub(crate) struct HorizonFields {
+    kind: &'static str,
+    periods: Option<f64>,
+    why: &'static str,
+    /// In forcing and in natural periods.
+    common_period: Option<(u32, u32)>,
+}
+
+impl HorizonFields {
+    pub(crate) const fn new(no_impact: &NoImpact) -> Self {
+        let (why, common_period) = match no_impact {
+            NoImpact::Flight(Horizon::Amplitude) => ("amplitude", None),
+            NoImpact::Flight(Horizon::CommonPeriod { p, q }) => ("common_period", Some((*p, *q))),
+            NoImpact::GrazeLimit { .. } => ("graze_limit", None),
+            NoImpact::Grazing { .. } => ("grazing", None),
+            NoImpact::ForPeriods(n) => {
+                return Self { kind: "periods", periods: Some(*n), why: "search", common_period: None };
+            }
+        };
+        Self { kind: "forever", periods: None, why, common_period }
+    }
+}
+
+const fn pair(of: Measured) -> (f64, f64) {
+    (of.value, of.error)
+}
+
+impl<'py> Fields<'py> {
+    pub(crate) fn new(py: Python<'py>, verdict: &Verdict, osc: &Oscillator) -> Self {
+        let bare = Self {
+            kind: "undecided",
+            label: verdict.label().into_owned(),
+            impacts: None,
+            periods: None,
+            sticks: None,
+            stable: verdict.stable(osc),
+            multipliers: verdict.multipliers(osc).map(|both| column(py, complex(both).into_iter())),
+            cycle: Impacts::new(py, core::iter::empty()),
+            rests: Vec::new(),
+            residual: None,
+            lyapunov: None,
+            horizon: None,
+            side: None,
+            tried: None,
+        };
+        let tried = |impacts, periods, lyapunov| Some(Tried { impacts, periods, lyapunov });
+        match verdict {
+            Verdict::Periodic(cycle) => Self::periodic(py, cycle, bare),
+            Verdict::NoImpact(no_impact) => {
+                Self { kind: "no_impact", horizon: Some(HorizonFields::new(no_impact)), ..bare.of_one_period(0) }
+            }
+            Verdict::Chaotic(spectrum) => Self { kind: "chaotic", lyapunov: Some(pair(spectrum.exponents[0])), ..bare },
+            Verdict::Stuck(at) => Self { kind: "stuck", side: Some(named(*at)), ..bare.of_one_period(1) },
+            Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => {
+                Self { tried: tried(Some(*impacts), None, spectrum.map(|s| pair(s.exponents[0]))), ..bare }
+            }
+            Verdict::Undecided(Undecided::Search { periods }) => {
+                Self { tried: tried(None, Some(*periods), None), ..bare }
+            }
+        }
+    }
+
+    fn of_one_period(self, sticks: usize) -> Self {
+        Self { impacts: Some(0), periods: Some(1), sticks: Some(sticks), ..self }
+    }
+
+    fn periodic(py: Python<'py>, cycle: &Cycle, bare: Self) -> Self {
+        let rest = |rest: &vibroimpact::orbit::RestSpan| Rest {
+            side: named(rest.side),
+            chatter: rest.chatter,
+            begin: rest.begin,
+            release: rest.release,
+        };
+        Self {
+            kind: "periodic",
+            impacts: match cycle.label.impacts {
+                Count::Finite(m) => Some(m),
+                Count::Infinite => None,
+            },
+            periods: Some(cycle.label.periods),
+            sticks: Some(cycle.rests.len()),
+            cycle: Impacts::new(py, core::iter::once(cycle)),
+            rests: cycle.rests.iter().map(rest).collect(),
+            residual: Some(cycle.residual),
+            ..bare
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! The periodic orbits of a label, stable or not.
+
+use crate::columns::named;
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::motion::Fields;
+use crate::oscillator::Oscillator;
+use pyo3::prelude::*;
+use vibroimpact::Label;
+use vibroimpact::orbit::{FindOptions, find};
+use vibroimpact::verdict::Verdict;
+use vibroimpact_study::{Plan, Task};
+
+/// After which impact, counted from 1, it meets which stop, and how long after.
+type Earlier = (usize, &'static str, f64);
+
+/// Each orbit, whether it is a possible motion, and where it meets a stop too early.
+#[pyfunction]
+pub(crate) fn orbits(
+    py: Python<'_>,
+    osc: Oscillator,
+    label: String,
+) -> Result<Vec<(Fields<'_>, bool, Option<Earlier>)>, Trouble> {
+    let plan = Plan::new(osc.plan, Task::Orbit { label: label.clone() });
+    plan.check()?;
+    let (osc, label): (_, Label) = (osc.osc, label.parse()?);
+    let watch = Watch::alone("looking for orbits");
+    let found = door::run(py, watch, move |_| Ok(find(&osc, label, FindOptions::default())))?;
+    Ok(found
+        .into_iter()
+        .map(|orbit| {
+            let earlier = orbit.earlier.map(|contact| (contact.flight + 1, named(contact.side), contact.time));
+            (Fields::new(py, &Verdict::Periodic(orbit.cycle), &osc), orbit.physical, earlier)
+        })
+        .collect())
+}

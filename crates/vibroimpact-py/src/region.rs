@@ -1,0 +1,73 @@
+//! Where in a plane of two parameters a motion exists, and where it is stable, as polygons.
+
+use crate::axis::stretch;
+use crate::columns::{column, pairs};
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::oscillator::Oscillator;
+use crate::simulate::text;
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use vibroimpact::continuation::{Bound as Edge, Polygon, Region, Vertex};
+use vibroimpact_study::{Plan, RegionPlan, Task, regions};
+
+/// Vertices, what bounds the region from each to the next, whether it is a hole, whether multipliers are below +1.
+type PolygonFields<'py> = (Bound<'py, PyArray2<f64>>, Vec<&'static str>, bool, bool);
+
+/// Polygons, and points where they do not agree with the search for orbits.
+type Part<'py> = (Vec<PolygonFields<'py>>, Bound<'py, PyArray2<f64>>);
+
+fn part<'py>(py: Python<'py>, region: &Region) -> PyResult<Part<'py>> {
+    let polygon = |polygon: &Polygon| {
+        let vertices = pairs(py, polygon.vertices.iter().map(|vertex| vertex.values.into()))?;
+        let bounds = polygon.vertices.iter().map(|vertex| vertex.bound.name()).collect();
+        Ok((vertices, bounds, polygon.hole, polygon.below))
+    };
+    let polygons = region.polygons.iter().map(polygon).collect::<PyResult<_>>()?;
+    Ok((polygons, pairs(py, region.unresolved.iter().map(|point| (*point).into()))?))
+}
+
+/// The regions of existence and of stability, and the plan.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)] // keywords
+pub(crate) fn region<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    label: String,
+    across: (String, f64, f64),
+    up: (String, f64, f64),
+    grid: u32,
+    threads: usize,
+) -> Result<(Part<'py>, Part<'py>, String), Trouble> {
+    let task = RegionPlan { label, across: stretch(across)?, up: stretch(up)?, grid };
+    let plan = Plan::new(osc.plan, Task::Region(task.clone()));
+    plan.check()?;
+    let system = osc.plan;
+    let watch = Watch { what: "looking for regions", total: 2, progress: None, threads };
+    let found = door::run(py, watch, move |control| Ok(regions(&system, &task, control)?))?;
+    Ok((part(py, &found.existence)?, part(py, &found.stability)?, text(&plan)?))
+}
+
+/// Which points lie in a region, its polygons given by their vertices and whether multipliers are below +1.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // what Python hands over
+pub(crate) fn contains<'py>(
+    py: Python<'py>,
+    polygons: Vec<(PyReadonlyArray2<'py, f64>, bool)>,
+    p: PyReadonlyArray1<'py, f64>,
+    q: PyReadonlyArray1<'py, f64>,
+) -> Bound<'py, PyArray1<bool>> {
+    let polygon = |(vertices, below): &(PyReadonlyArray2<'py, f64>, bool)| Polygon {
+        vertices: vertices
+            .as_array()
+            .rows()
+            .into_iter()
+            .map(|row| Vertex { values: (row[0], row[1]), bound: Edge::Frame })
+            .collect(),
+        hole: false,
+        below: *below,
+    };
+    let region = Region { polygons: polygons.iter().map(polygon).collect(), unresolved: Vec::new() };
+    let points = p.as_array().to_vec().into_iter().zip(q.as_array().to_vec());
+    column(py, points.map(|point| region.contains(point)))
+}

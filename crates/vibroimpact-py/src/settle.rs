@@ -1,0 +1,121 @@
+//! What a motion settles into; what many do, their starts given as arrays.
+
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::motion::Fields;
+use crate::oscillator::Oscillator;
+use crate::simulate::{StartArgument, start_plan, text};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use vibroimpact::Start;
+use vibroimpact::lanes::Width;
+use vibroimpact::system::phase;
+use vibroimpact::verdict::{Atlas, Census, SettleOptions, settle_many as settle_range};
+use vibroimpact_study::{Control, Plan, Task, tiles};
+
+/// The fields of the motion, and the plan.
+#[pyfunction]
+pub(crate) fn settle<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    start: StartArgument,
+) -> Result<(Fields<'py>, String), Trouble> {
+    let start = start_plan(start);
+    let plan = Plan::new(osc.plan, Task::Settle { start });
+    plan.check()?;
+    let osc = osc.osc;
+    let start = start.start(&osc)?;
+    let settled = door::run(py, Watch::alone("settling a motion"), move |_| {
+        Ok(vibroimpact::verdict::settle(&osc, start, &SettleOptions::default()))
+    })?;
+    Ok((Fields::new(py, &settled.verdict, &osc), text(&plan)?))
+}
+
+/// Starts of a tile.
+const TILE: u64 = 4096;
+/// Starts settled beforehand, spread over all, to know the cycles and their traps.
+const SURVEY: u64 = 24;
+
+/// Starts as columns; one of length 1 is the same for all.
+struct Starts<'a> {
+    x: &'a [f64],
+    v: &'a [f64],
+    phase: &'a [f64],
+}
+
+impl Starts<'_> {
+    /// Start number `k`, its phase wrapped.
+    fn at(&self, k: u64) -> Start {
+        let of = |column: &[f64]| {
+            let k = usize::try_from(k).unwrap_or(usize::MAX);
+            column.get(k).or(column.first()).copied().unwrap_or(0.0)
+        };
+        Start { x: of(self.x), v: of(self.v), phase: phase::wrap(of(self.phase)) }
+    }
+
+    /// The first that is not allowed, in the words of a single one.
+    fn check(&self, osc: &vibroimpact::Oscillator, total: u64) -> Result<(), Trouble> {
+        (0..total).try_for_each(|k| {
+            let Start { x, v, phase } = self.at(k);
+            Start::new(osc, x, v, phase).map(|_| ()).map_err(|error| Trouble::question(format!("{error} (start {k})")))
+        })
+    }
+}
+
+fn settle_all(
+    osc: &vibroimpact::Oscillator,
+    starts: &Starts<'_>,
+    total: u64,
+    control: &Control<'_>,
+) -> Result<(Census, Vec<u32>), Trouble> {
+    starts.check(osc, total)?;
+    let options = SettleOptions::default();
+    let surveyed = SURVEY.min(total);
+    let atlas = Atlas::survey(osc, (0..surveyed).map(|k| starts.at(total / surveyed * k)), &options);
+    let parts = tiles(total, TILE, control, |range, tick| {
+        settle_range(osc, range, |k| starts.at(k), &atlas, &options, Width::best(), tick)
+    })?;
+    let mut merged = Census::default();
+    let mut cells = Vec::with_capacity(usize::try_from(total).unwrap_or(0));
+    for part in parts {
+        let numbers: Vec<u32> =
+            part.motions.iter().map(|found| u32::try_from(merged.add_found(found)).unwrap_or(u32::MAX)).collect();
+        cells.extend(part.cells.into_iter().map(|local| numbers[local as usize]));
+    }
+    Ok((merged, cells))
+}
+
+/// Motions in order of first appearance with the number of starts that led to each, and the motion of each start.
+pub(crate) type Many<'py> = (Vec<(Fields<'py>, u64)>, Bound<'py, PyArray1<u32>>);
+
+/// Settles starts given as columns, each as long as the longest or of length 1.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // what Python hands over
+pub(crate) fn settle_many<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    x: PyReadonlyArray1<'py, f64>,
+    v: PyReadonlyArray1<'py, f64>,
+    phase: PyReadonlyArray1<'py, f64>,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<Many<'py>, Trouble> {
+    let osc = osc.osc;
+    let (Ok(x), Ok(v), Ok(phase)) = (x.as_slice(), v.as_slice(), phase.as_slice()) else {
+        return Err(Trouble::question("the starts are not contiguous arrays of doubles"));
+    };
+    let starts = Starts { x, v, phase };
+    let lengths = [x.len(), v.len(), phase.len()];
+    let longest = if lengths.contains(&0) { 0 } else { lengths.into_iter().max().unwrap_or(0) };
+    if lengths.iter().any(|length| *length != longest && *length != 1) {
+        return Err(Trouble::question(format!(
+            "the starts have {} positions, {} velocities and {} phases\nhint: as many of each, or one for all",
+            lengths[0], lengths[1], lengths[2]
+        )));
+    }
+    let total = longest as u64;
+    let watch = Watch { what: "settling motions", total, progress, threads };
+    let (census, cells) = door::run_borrowing(py, watch, |control| settle_all(&osc, &starts, total, control))?;
+    let motions = census.motions().iter().map(|found| (Fields::new(py, &found.verdict, &osc), found.count)).collect();
+    Ok((motions, cells.into_pyarray(py)))
+}

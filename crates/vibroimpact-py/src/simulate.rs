@@ -1,0 +1,140 @@
+//! The events of a motion, and its waveform.
+
+use crate::columns::{column, sign};
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::motion::HorizonFields;
+use crate::oscillator::Oscillator;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use vibroimpact::motion::{EventKind, sample};
+use vibroimpact_study::{Plan, StartPlan, Task, most_impacts};
+
+/// The fields of `Simulation`.
+#[derive(IntoPyObject)]
+pub(crate) struct Fields<'py> {
+    /// 0 impact, 1 graze, 2 stick, 3 release.
+    code: Bound<'py, PyArray1<u8>>,
+    time: Bound<'py, PyArray1<f64>>,
+    phase: Bound<'py, PyArray1<f64>>,
+    side: Bound<'py, PyArray1<i8>>,
+    velocity_before: Bound<'py, PyArray1<f64>>,
+    velocity_after: Bound<'py, PyArray1<f64>>,
+    depth: Bound<'py, PyArray1<f64>>,
+    chatter: Bound<'py, PyArray1<bool>>,
+    error: Bound<'py, PyArray1<f64>>,
+    reason: &'static str,
+    end_time: f64,
+    horizon: Option<HorizonFields>,
+    shown_until: f64,
+    plan: String,
+}
+
+/// Position, velocity, phase.
+pub(crate) type StartArgument = (Option<f64>, f64, f64);
+
+pub(crate) const fn start_plan((x, v, phase): StartArgument) -> StartPlan {
+    StartPlan { x, v, phase }
+}
+
+/// The plan as JSON.
+pub(crate) fn text(plan: &Plan) -> Result<String, Trouble> {
+    serde_json::to_string(plan).map_err(|_| Trouble::Defect("writing the plan"))
+}
+
+/// Follows a motion event by event.
+#[pyfunction]
+pub(crate) fn simulate<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    start: StartArgument,
+    impacts: Option<u64>,
+    periods: Option<f64>,
+) -> Result<Fields<'py>, Trouble> {
+    let most = most_impacts(impacts, periods);
+    let plan = Plan::new(osc.plan, Task::Simulate { start: start_plan(start), impacts: Some(most), periods });
+    plan.check()?;
+    let osc = osc.osc;
+    let start = start_plan(start).start(&osc)?;
+    let found = door::run(py, Watch::alone("following a motion"), move |control| {
+        Ok(vibroimpact_study::simulate(&osc, start, most, periods, control)?)
+    })?;
+    let events = || found.events.iter();
+    let velocities = |which: fn(f64, f64) -> f64| {
+        let of = move |kind| match kind {
+            EventKind::Impact { velocity_before, velocity_after } => which(velocity_before, velocity_after),
+            _ => f64::NAN,
+        };
+        column(py, events().map(move |event| of(event.kind)))
+    };
+    Ok(Fields {
+        code: column(
+            py,
+            events().map(|event| match event.kind {
+                EventKind::Impact { .. } => 0,
+                EventKind::Graze { .. } => 1,
+                EventKind::Stick { .. } => 2,
+                EventKind::Release => 3,
+            }),
+        ),
+        time: column(py, events().map(|event| event.time)),
+        phase: column(py, events().map(|event| event.phase)),
+        side: column(py, events().map(|event| sign(event.side))),
+        velocity_before: velocities(|before, _| before),
+        velocity_after: velocities(|_, after| after),
+        depth: column(
+            py,
+            events().map(|event| if let EventKind::Graze { depth } = event.kind { depth } else { f64::NAN }),
+        ),
+        chatter: column(py, events().map(|event| matches!(event.kind, EventKind::Stick { chatter: true, .. }))),
+        error: column(
+            py,
+            events().map(|event| if let EventKind::Stick { error, .. } = event.kind { error } else { f64::NAN }),
+        ),
+        reason: found.reason,
+        end_time: found.time,
+        horizon: found.horizon.as_ref().map(HorizonFields::new),
+        shown_until: found.shown_until(&osc),
+        plan: text(&plan)?,
+    })
+}
+
+/// Points of a waveform at most.
+const MOST_POINTS: f64 = 1e7;
+
+/// Times, positions and velocities.
+type Waveform<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+
+/// The waveform from a start up to a time.
+#[pyfunction]
+pub(crate) fn waveform<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    start: StartArgument,
+    until: f64,
+    points_per_period: f64,
+) -> Result<Waveform<'py>, Trouble> {
+    let osc = osc.osc;
+    let start = start_plan(start).start(&osc)?;
+    if !(points_per_period >= 1.0 && points_per_period.is_finite()) {
+        return Err(Trouble::question(format!(
+            "points_per_period = {points_per_period} lies outside 1 <= points_per_period < infinity"
+        )));
+    }
+    let step = osc.period() / points_per_period;
+    let points = until / step;
+    if !(until >= 0.0 && points <= MOST_POINTS) {
+        return Err(Trouble::question(format!(
+            "points_per_period = {points_per_period} gives {points} points over a time of {until}; at most {MOST_POINTS} are allowed\nhint: fewer points, or a shorter time"
+        )));
+    }
+    let wave = door::run(py, Watch::alone("drawing a waveform"), move |_| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1e7
+        Ok(sample(&osc, start, until, step, 3 * MOST_POINTS as usize))
+    })?;
+    Ok((
+        column(py, wave.iter().map(|point| point.time)),
+        column(py, wave.iter().map(|point| point.x)),
+        column(py, wave.iter().map(|point| point.v)),
+    ))
+}
