@@ -11,6 +11,7 @@ mod figures;
 mod licences;
 mod line;
 mod links;
+mod python;
 mod spdx;
 mod test;
 mod tools;
@@ -30,6 +31,7 @@ usage: cargo xtask COMMAND
   bench-peers [--rounds N] [--seconds S] [--quick]
                           vibroimpact beside other programs, into docs/performance.md
                           --quick  a look, into target/peers/performance.md
+  python                  the Python package, into an environment under target/
   licences                the licence of every dependency against the allow-list
   links                   every relative link in the Markdown files
 ";
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
             Ok(options) => finish(bench_peers::run(&root, options)),
             Err(sentence) => bad_question(&sentence),
         },
+        ["python"] => finish(python::install(&root)),
         ["licences"] => finish(licences::check(&root)),
         ["links"] => finish(links::check(&root)),
         ["help" | "--help" | "-h"] => {

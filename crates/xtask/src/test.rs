@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use crate::totals::{self, Totals};
-use crate::{command, docs, licences, links, tools};
+use crate::{command, docs, licences, links, python, tools};
 
 /// What was asked for on the command line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,13 +79,13 @@ impl Step {
 
 /// All steps, the quickest to fail first. A test program of another language is one more line:
 /// what it prints last must be known to [`totals`].
-fn steps(nextest: bool) -> Vec<Step> {
+fn steps(nextest: bool, python: bool) -> Vec<Step> {
     let tests = if nextest {
         "cargo nextest run --workspace --no-fail-fast"
     } else {
         "cargo test --workspace --lib --bins --tests --examples --no-fail-fast"
     };
-    vec![
+    let mut steps = vec![
         Step::check("tools", "rustup component add rustfmt clippy", tools::ensure).fast(),
         Step::command("format", "cargo fmt --all --check").fast(),
         Step::check("licences", "cargo xtask licences", licences::check),
@@ -94,12 +94,17 @@ fn steps(nextest: bool) -> Vec<Step> {
         Step::tests("tests", tests).fast(),
         Step::tests("doc tests", "cargo test --workspace --doc --no-fail-fast"),
         Step::check("documentation", "cargo xtask docs", docs::build),
-    ]
+        Step::check("Python package", "cargo xtask python", python::install),
+    ];
+    if python {
+        steps.push(Step::tests("Python tests", python::TESTS));
+    }
+    steps
 }
 
 /// Runs the steps, prints their outcome and the totals.
 pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
-    let mut steps = steps(tools::has_nextest(root));
+    let mut steps = steps(tools::has_nextest(root), python::found(root).is_some());
     steps.retain(|step| step.fast || !options.fast);
     let mut totals = Totals::default();
     let mut failed = Vec::new();
@@ -207,7 +212,7 @@ mod tests {
     #[test]
     fn the_fast_steps_are_format_lints_and_tests() {
         for nextest in [true, false] {
-            let fast: Vec<_> = steps(nextest).iter().filter(|step| step.fast).map(|step| step.name).collect();
+            let fast: Vec<_> = steps(nextest, true).iter().filter(|step| step.fast).map(|step| step.name).collect();
             assert_eq!(fast, ["tools", "format", "lints", "tests"]);
         }
     }

@@ -106,7 +106,7 @@ def orbit_diagram(
             "kind": (flat, found["kind"], _accessor.flags("what the motion is", kinds)),
         },
         coords={
-            "sweep": np.array(found["sweeps"]),
+            "sweep": np.array(found["sweeps"], dtype=object),
             vary: (vary, found["values"], {"long_name": LONG_NAMES[vary], "units": "1"}),
         },
         attrs={

@@ -1,0 +1,62 @@
+"""Branches: events confirmed by closed forms and by simulation just beside them."""
+
+import math
+import pickle
+
+import numpy as np
+
+import vibroimpact as vi
+
+
+def flip_of_1_1(inverse: float, eps: float) -> float:
+    """The gap at which 1/1 doubles, without damping: trace = -(1 + eps^2)."""
+    beta = 1 / inverse
+    t = 2 * math.pi * inverse
+    c, m12 = math.cos(t), math.sin(t)
+    f, den = 1 / (1 - beta**2), 2 * c - 2
+    a, b = (1 + eps) * m12 / den, 1 - (1 + eps) * (c - 1) / den
+    q = (-(1 + eps**2) + 2 * eps * c) / ((1 + eps) * m12)
+    rho = -(q + (1 - beta**2) * a) / beta**2
+    return rho * abs(f) / math.sqrt((rho - a) ** 2 + (b / beta) ** 2)
+
+
+def test_the_flip_is_where_the_closed_form_has_it() -> None:
+    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
+    found = vi.branch(osc, "1/1", "gap", 2.5, follow=3)
+    flip = next(event for event in found.events if event.kind == "flip")
+    assert abs(flip.parameter - flip_of_1_1(1.11, 0.5)) < 1e-11
+    assert abs(found.multipliers[flip.point] + 1).min() < 1e-9
+    # every point is an orbit, found independently at its value
+    for k in (0, len(found) // 2, len(found) - 1):
+        orbits = vi.orbits(osc.replace(gap=found.parameter[k]), "1/1")
+        assert min(abs(orbit.cycle.velocity_before[0] - found.speed[k]) for orbit in orbits) < 1e-10
+    assert found.stable[0] and not found.stable[-1] and found.parameter[-1] == 2.5
+    doubled = found.followed[0]
+    assert doubled.origin is not None and doubled.origin.kind == "flip" and doubled.label[1] == "2/2"
+    assert doubled.origin.parameter == flip.parameter and doubled.origin.branch == 1
+    # just beyond the flip simulation settles into the doubled motion
+    beside = vi.settle(osc.replace(gap=flip.parameter + 1e-3), x=0.5)
+    assert beside.label in ("2/2", "1/2")
+
+
+def test_arrays_belong_together() -> None:
+    found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), "1/1", "gap", 2.5, follow=1)
+    for branch in (found, *found.followed):
+        count = len(branch)
+        assert branch.multipliers.shape == (count, 2) and len(branch.label) == len(branch.cycles) == count
+        for k, cycle in enumerate(branch.cycles):
+            assert branch.label[k] == f"{len(cycle)}/{branch.label[k].split('/')[1]}"
+            assert branch.speed[k] == cycle.velocity_before.max()
+        inside = np.all(np.abs(branch.multipliers) < 1, axis=1)
+        assert np.array_equal(branch.stable, inside & branch.physical)
+        assert branch.cycles[-1] == branch.cycles[count - 1]
+    assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
+
+
+def test_a_branch_may_reach_the_motion_without_impacts() -> None:
+    osc = vi.Oscillator(beta=1, gap=2, restitution=0.8, damping=0.05)
+    found = vi.branch(osc, "1/1", "gap", 12)
+    graze = [event for event in found.events if event.kind == "grazing"]
+    assert graze and graze[-1].label_after == "0" and found.label[-1] == "0" and found.speed[-1] == 0
+    # the steady motion just reaches the stop: gap = |f| = 1/(2 zeta)
+    assert abs(graze[-1].parameter - 10) < 1e-9

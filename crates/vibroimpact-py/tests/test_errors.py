@@ -1,0 +1,103 @@
+"""What makes no sense is refused: a QuestionError with the command's sentence, or a TypeError."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+GOOD = {"inverse_beta": 1.3, "gap": 0.75, "restitution": 0.5}
+MACHINE = {"mass": 2, "stiffness": 800, "force": 4, "omega": 25, "gap": 0.01, "restitution": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("change", "flags"),
+    [
+        ({"restitution": 1.4}, ["--restitution", 1.4]),
+        ({"inverse_beta": 0.0}, ["--inverse-beta", 0]),
+        ({"inverse_beta": math.nan}, ["--inverse-beta", "nan"]),
+        ({"inverse_beta": None, "beta": -2.0}, ["--beta", -2]),
+        ({"gap": math.inf}, ["--gap", "inf"]),
+        ({"damping": -0.1}, ["--damping", -0.1]),
+        ({"second_gap": -0.75}, ["--second-gap", -0.75]),
+        ({"inverse_beta": None}, []),
+    ],
+)
+def test_oscillators_in_the_words_of_the_command(
+    vibro: Callable[..., Any], change: dict[str, Any], flags: list[Any]
+) -> None:
+    with pytest.raises(vi.QuestionError) as refusal:
+        vi.Oscillator(**{**GOOD, **change})
+    given = {**{f"--{name.replace('_', '-')}": value for name, value in {**GOOD, **change}.items()}}
+    words = [word for flag, value in given.items() if value is not None and flag not in flags for word in (flag, value)]
+    said = vibro("settle", *words, *flags)
+    assert said.returncode == 2 and said.stderr == f"error: {refusal.value}\n"
+
+
+@pytest.mark.parametrize(
+    ("ask", "sentence"),
+    [
+        (lambda osc: vi.Oscillator(beta=1, inverse_beta=1, gap=0, restitution=0.5), "the frequency is given twice"),
+        (lambda osc: vi.Oscillator(**GOOD, second_restitution=0.5), "the second stop has a restitution but no gap"),
+        (lambda osc: vi.Units(length_m=0, time_s=1), "length_m = 0 lies outside"),
+        (lambda osc: vi.Oscillator.from_units(**{**MACHINE, "mass": -1}), "mass m = -1 kg lies outside"),
+        (lambda osc: vi.Oscillator.from_units(**MACHINE, frequency=3), "the frequency is given twice"),
+        (lambda osc: vi.Oscillator.from_units(**{**MACHINE, "omega": None}), "the frequency is given nowhere"),
+        (lambda osc: vi.settle(osc, x=3), "start x = 3 lies beyond the stop"),
+        (lambda osc: vi.settle(osc, v=math.nan), "start v = NaN is not a finite number"),
+        (lambda osc: vi.simulate(osc, impacts=0), "impacts = 0 lies outside"),
+        (lambda osc: vi.simulate(osc, periods=-1), "periods = -1 lies outside"),
+        (lambda osc: vi.simulate(osc).waveform(0), "points_per_period = 0 lies outside"),
+        (lambda osc: vi.simulate(osc).waveform(1e9), "at most 10000000 are allowed"),
+        (lambda osc: vi.settle_many(osc, [0.0, 3.0]), r"start x = 3 lies beyond the stop.*\(start 1\)"),
+        (lambda osc: vi.attractors(osc, starts=0), "starts = 0 lies outside"),
+        (lambda osc: vi.orbits(osc, "1/0"), "label `1/0` is not m/n"),
+        (lambda osc: vi.branch(osc, "1/1", "gup", 1), "`gup` is no parameter; there are beta, inverse_beta, gap"),
+        (lambda osc: vi.branch(osc, "1/1", "gap", 0.75), "gap is to go from 0.75 to 0.75"),
+        (lambda osc: vi.branch(osc, "9/7", "gap", 1), "no orbit 9/7 was found"),
+        (lambda osc: vi.branch(osc, "inf/1", "gap", 1), "a cycle that rests on a stop cannot be followed"),
+        (lambda osc: vi.curve(osc, "1/1", "fald", {"gap": (0, 1), "beta": (0.5, 1)}), "`fald` is no kind of curve"),
+        (lambda osc: vi.curve(osc, "1/1", "fold", {"gap": (0, 1)}), "a plane has two parameters, and 1 are given"),
+        (lambda osc: vi.region(osc, "1/1", {"gap": "0-1", "beta": (0.5, 1)}), "`0-1` is not a range"),
+        (lambda osc: vi.region(osc, "1/1", {"gap": (1, 0), "beta": (0.5, 1)}), "gap from 1 to 0 is no range"),
+        (lambda osc: vi.lyapunov(osc, impacts=10), "impacts = 10 lies outside"),
+        (lambda osc: vi.lyapunov(osc, impacts=1000).plot(), "there are no points of the sections"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", "0:1"), "range `0:1` is not A:B:N"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", (0, 1, 2.5)), "the number is not whole"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", np.array([0, 1, 3])), "not evenly spaced"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", np.zeros((2, 2))), "an axis of shape"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", "0:1:3", direction="left"), "`left` is no direction"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", "0:1:3", show="all"), "`all` cannot be shown"),
+        (lambda osc: vi.orbit_diagram(osc, "gap", "0:1:3", seed=1), "starts and seed belong to"),
+        (lambda osc: vi.simulate(osc).plot(si=True), "si=True needs the system in physical units"),
+        (lambda osc: vi.settle(vi.Oscillator(beta=0.5, gap=9, restitution=0.5)).plot(), "has no impacts to start from"),
+    ],
+)
+def test_questions_that_make_no_sense(s: vi.Oscillator, ask: Callable[[vi.Oscillator], Any], sentence: str) -> None:
+    with pytest.raises(vi.QuestionError, match=sentence):
+        ask(s)
+    assert issubclass(vi.QuestionError, ValueError)
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda osc: vi.Oscillator(**GOOD, gup=1),
+        lambda osc: vi.Oscillator(1.3, 0.75, 0.5),
+        lambda osc: vi.Oscillator(inverse_beta=1.3, gap="0.75", restitution=0.5),
+        lambda osc: vi.Oscillator(inverse_beta=1.3, gap=0.75),
+        lambda osc: vi.settle("osc"),
+        lambda osc: vi.settle(osc, 0.5),
+        lambda osc: vi.settle_many(osc, ["a"]),
+        lambda osc: vi.settle_many(osc, [1j]),
+        lambda osc: vi.attractors(osc, starts=2.5),
+        lambda osc: vi.attractors(osc, progress=3),
+        lambda osc: vi.region(osc, "1/1", [("gap", 0, 1)]),
+    ],
+)
+def test_wrong_types_and_keywords(s: vi.Oscillator, ask: Callable[[vi.Oscillator], Any]) -> None:
+    with pytest.raises(TypeError):
+        ask(s)

@@ -1,0 +1,78 @@
+"""The package as a whole: quick to import, typed, its examples true."""
+
+import doctest
+import importlib
+import pkgutil
+import re
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import vibroimpact as vi
+
+
+def test_importing_takes_no_time_and_drags_nothing_in() -> None:
+    program = """
+import sys, time
+begin = time.perf_counter()
+import vibroimpact
+print(time.perf_counter() - begin)
+print(*sorted({"xarray", "matplotlib", "pandas", "zarr", "tqdm", "dask"} & set(sys.modules)))
+"""
+    runs = [subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True) for _ in range(5)]
+    seconds = statistics.median(float(run.stdout.splitlines()[0]) for run in runs)
+    assert seconds < 0.3, f"{seconds} s"
+    assert {run.stdout.splitlines()[1] for run in runs} == {""}
+
+
+def test_every_name_is_documented() -> None:
+    for name in vi.__all__:
+        of = getattr(vi, name)
+        assert name == "__version__" or (of.__doc__ and len(of.__doc__) > 20), name
+    calls = [name for name in vi.__all__ if name.islower() and name != "__version__"]
+    assert len(calls) >= 10 and all(">>> " in getattr(vi, name).__doc__ for name in calls)
+
+
+def test_examples_in_the_documentation_are_true() -> None:
+    finder, runner = doctest.DocTestFinder(), doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
+    modules = [vi, *(importlib.import_module(f"vibroimpact.{of.name}") for of in pkgutil.iter_modules(vi.__path__))]
+    tested = set()
+    for module in modules:
+        for test in finder.find(module):
+            runner.run(test)
+            tested.add(test.name)
+    assert runner.summarize(verbose=False).failed == 0
+    assert {"vibroimpact.Oscillator", "vibroimpact.Oscillator.from_units", "vibroimpact"} <= tested
+
+
+def listings(path: Path) -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```$", path.read_text(), re.S | re.M)
+
+
+def test_listings_run_as_typed(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    pages = [root / "README.md", root / "docs/python.md"]
+    found = {page.name: listings(page) for page in pages}
+    assert all(found.values()), found.keys()
+    for page, texts in found.items():
+        # a page is one session
+        names: dict[str, object] = {}
+        for text in texts:
+            if ">>> " in text:
+                examples = doctest.DocTestParser().get_doctest(text, names, page, page, 0)
+                runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
+                runner.run(examples, clear_globs=False)
+                names = examples.globs
+                assert runner.summarize(verbose=False).failed == 0
+            else:
+                exec(compile(text, page, "exec"), names)
+
+
+@pytest.mark.parametrize("tool", [["mypy.stubtest", "vibroimpact._core"], ["mypy"]], ids=["stubs", "types"])
+def test_types_are_true(root: Path, tool: list[str]) -> None:
+    pytest.importorskip("mypy")
+    done = subprocess.run([sys.executable, "-m", *tool], cwd=root, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr

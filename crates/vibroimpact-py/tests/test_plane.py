@@ -1,0 +1,45 @@
+"""Curves and regions against closed forms and against each other."""
+
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+
+def fold_of_1_1(inverse: float, eps: float) -> float:
+    """The gap at which 1/1 folds, without damping: |gap| = f sqrt(1 + (beta a/b)^2)."""
+    beta, t = 1 / inverse, 2 * math.pi * inverse
+    den = 2 * math.cos(t) - 2
+    a, b = (1 + eps) * math.sin(t) / den, 1 - (1 + eps) * (math.cos(t) - 1) / den
+    return abs(1 / (1 - beta**2)) * math.sqrt(1 + (beta * a / b) ** 2)
+
+
+def test_the_fold_curve_is_the_closed_form() -> None:
+    osc = vi.Oscillator(inverse_beta=0.7, gap=2, restitution=0.5)
+    found = vi.curve(osc, "1/1", "fold", {"gap": "0:5", "inverse_beta": (0.45, 0.9)})
+    gaps, inverses = found.values.T
+    ordinary = inverses > 0.5 + 1e-6
+    expected = [fold_of_1_1(inverse, 0.5) for inverse in inverses[ordinary]]
+    np.testing.assert_allclose(gaps[ordinary], expected, rtol=1e-9)
+    assert found.events[-1].kind == "end of box" and gaps[-1] == 5
+    begin = found.through[1]
+    assert gaps[begin] == pytest.approx(found.found_at[0], rel=1e-9) and inverses[begin] == 0.7
+    assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
+
+
+def test_points_inside_a_region_are_orbits() -> None:
+    osc = vi.Oscillator(beta=1, gap=0, restitution=0.5)
+    found = vi.region(osc, "1/1", {"inverse_beta": (0.6, 0.95), "gap": (0.5, 3)}, grid=8)
+    rng = np.random.default_rng(3)
+    inverses, gaps = rng.uniform(0.6, 0.95, 40), rng.uniform(0.5, 3, 40)
+    exists, stable = found.existence.contains(inverses, gaps), found.stability.contains(inverses, gaps)
+    assert exists.any() and not exists.all()
+    for inverse, gap, here, firm in zip(inverses, gaps, exists, stable):
+        orbits = [orbit for orbit in vi.orbits(osc.replace(inverse_beta=inverse, gap=gap), "1/1") if orbit.physical]
+        assert here == bool(orbits) and firm == any(orbit.stable for orbit in orbits)
+    assert found.existence.contains(inverses[:, None], gaps[None, :]).shape == (40, 40)
+    assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
+    assert vi.region(osc, "1/1", {"inverse_beta": "0.6:0.95", "gap": (0.5, 3)}, grid=8, threads=1).to_dict() == found.to_dict()

@@ -1,0 +1,90 @@
+"""Verdicts of one motion and of many."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact._axis import numbers
+
+
+def test_the_motion_at_s_is_the_published_cycle(s: vi.Oscillator) -> None:
+    motion = vi.settle(s)
+    assert (motion.kind, motion.label, motion.impacts, motion.periods, motion.stable) == ("periodic", "2/1", 2, 1, True)
+    # 40-digit arithmetic, rounded
+    np.testing.assert_allclose(motion.cycle.phase, [0.82998967146192075, 3.19459089385777344], rtol=1e-14)
+    np.testing.assert_allclose(motion.cycle.velocity_before, [2.64401858778543508, 0.77762665463488177], rtol=1e-14)
+    assert motion.multipliers is not None and motion.multipliers.dtype == np.complex128
+    np.testing.assert_allclose(motion.multipliers, [0.443795500242, 0.140830630247], rtol=1e-10)
+    np.testing.assert_allclose(motion.cycle.interval.sum(), s.period, rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("osc", "kind", "label"),
+    [
+        (vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5), "chaotic", "chaotic"),
+        (vi.Oscillator(beta=0.9, gap=-1.5, restitution=0.5), "stuck", "stuck"),
+        (vi.Oscillator(beta=0.5, gap=40, restitution=0.5), "no_impact", "0"),
+        (vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5), "periodic", "inf/1"),
+    ],
+)
+def test_every_verdict_is_a_result(osc: vi.Oscillator, kind: str, label: str) -> None:
+    motion = vi.settle(osc)
+    assert (motion.kind, motion.label) == (kind, label)
+    again = pickle.loads(pickle.dumps(motion))
+    assert again == motion and again.to_dict() == motion.to_dict() and motion != vi.settle(osc.replace(damping=0.3))
+
+
+def test_a_motion_closes_on_itself(n: vi.Oscillator) -> None:
+    motion = vi.settle(n)
+    x, v, phase = motion.start()
+    sim = vi.simulate(n, x=x, v=v, phase=phase, impacts=4)
+    # 4/1: the fourth impact from just after the first is the first again
+    assert abs(sim.phase[3] - motion.cycle.phase[0]) < 1e-12
+    assert abs(sim.velocity_before[3] - motion.cycle.velocity_before[0]) < 1e-12
+    t, xs, vs = motion.waveform()
+    assert t[-1] == n.period and abs(xs[-1] - xs[0]) < 1e-12
+
+
+def test_many_starts_are_settled_like_each_alone(s: vi.Oscillator) -> None:
+    x, v = np.meshgrid(np.linspace(-4, 0.75, 9), np.linspace(-4, 4, 7))
+    found = vi.settle_many(s, x, v, 0.5)
+    alone = [[vi.settle(s, x=a, v=b, phase=0.5).label for a, b in zip(*row)] for row in zip(x, v)]
+    assert found.labels.tolist() == alone and found.cells.shape == x.shape and found.cells.dtype == np.uint32
+    assert sum(motion.count for motion in found.motions) == x.size
+    for k, motion in enumerate(found.motions):
+        assert motion.share == np.mean(found.cells == k)
+
+
+def test_the_number_of_threads_does_not_matter(s: vi.Oscillator) -> None:
+    rng = np.random.default_rng(1)
+    x, v, phase = rng.uniform(-4, 0.75, 20_000), rng.uniform(-4, 4, 20_000), rng.uniform(0, 7, 20_000)
+    one = vi.settle_many(s, x, v, phase, threads=1)
+    for threads in (2, 3):
+        other = vi.settle_many(s, x, v, phase, threads=threads)
+        assert other.cells.tobytes() == one.cells.tobytes() and other.motions == one.motions
+
+
+def test_shapes_and_types_of_starts(s: vi.Oscillator) -> None:
+    x = np.linspace(-4, 0.75, 12)
+    plain = vi.settle_many(s, x).labels.tolist()
+    assert vi.settle_many(s, x.reshape(3, 4)).labels.shape == (3, 4)
+    for other in (x.tolist(), np.repeat(x, 2)[::2], x.astype(">f8"), x.reshape(3, 4).T.copy().T.reshape(-1)):
+        assert vi.settle_many(s, other).labels.tolist() == plain
+    single = x.astype(np.float32)
+    assert vi.settle_many(s, single).cells.tolist() == vi.settle_many(s, single.astype(float)).cells.tolist()
+    table = vi.settle_many(s, x[None, :], np.array([0.0, 1.0])[:, None])
+    assert table.labels.shape == (2, 12) and table.labels[0].tolist() == plain
+    assert vi.settle_many(s, 0.0, x).cells.shape == (12,)
+    assert vi.settle_many(s, 0.25, 0.0).labels.shape == ()
+    assert vi.settle_many(s, np.empty(0)).cells.shape == (0,)
+    assert vi.settle_many(s, x[0], phase=np.array([0.0, 2 * np.pi])).labels.tolist() == [plain[0]] * 2
+
+
+def test_doubles_are_read_where_they_are_and_results_are_handed_over(s: vi.Oscillator) -> None:
+    x = np.linspace(-4, 0.75, 1000)
+    assert np.shares_memory(numbers("x", x), x)
+    cells = vi.settle_many(s, x).cells
+    # the memory belongs to the list of Rust behind it
+    assert not cells.flags.owndata and cells.flags.writeable

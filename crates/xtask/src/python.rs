@@ -1,0 +1,83 @@
+//! The Python package, built and installed into an environment of its own under `target/`, ready for its tests.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use crate::command;
+
+/// The environment, from the root of the repository.
+const ENVIRONMENT: &str = "target/python";
+/// The oldest Python that every dependency of the package supports.
+const OLDEST: (u32, u32) = (3, 11);
+/// Why the tests are not run.
+pub(crate) const SKIPPED: &str = "skipped: there is no Python 3.11 or later here with venv";
+
+/// The command that runs the tests; typed alone it needs what [`install`] has done.
+pub(crate) const TESTS: &str = "target/python/bin/python -m pytest -q";
+
+/// A Python that can make environments, by its name.
+pub(crate) fn found(root: &Path) -> Option<&'static str> {
+    let (major, minor) = OLDEST;
+    let can = format!("import sys, venv, ensurepip; sys.exit(sys.version_info < ({major}, {minor}))");
+    ["python3", "python"].into_iter().find(|python| {
+        let mut ask = command::words(root, python);
+        ask.args(["-c", &can]).stdout(Stdio::null()).stderr(Stdio::null());
+        ask.status().is_ok_and(|status| status.success())
+    })
+}
+
+/// Builds the package and installs it with what its tests need.
+///
+/// # Errors
+/// The sentence that says which step failed; pip has printed its reasons by then.
+pub(crate) fn install(root: &Path) -> Result<String, String> {
+    let Some(python) = found(root) else { return Ok(SKIPPED.to_owned()) };
+    let here = root.join(ENVIRONMENT);
+    if !here.join("bin/python").is_file() {
+        command::run(command::words(root, &format!("{python} -m venv {ENVIRONMENT}")))?;
+    }
+    // an environment for the build alone would be another Python each time, and all that depends on it built anew
+    pip(root, &["maturin>=1.9.4,<2"])?;
+    pip(root, &["--no-build-isolation", ".[test]"])?;
+    Ok(format!("vibroimpact is installed in {ENVIRONMENT}"))
+}
+
+fn pip(root: &Path, words: &[&str]) -> Result<(), String> {
+    let mut command = command::words(root, &format!("{ENVIRONMENT}/bin/python -m pip install --quiet"));
+    command.args(["--disable-pip-version-check", "--no-input"]).args(words);
+    with_programs(&mut command, &root.join(ENVIRONMENT).join("bin"));
+    command::run(command)
+}
+
+/// Lets a command find the programs of the environment first.
+fn with_programs(command: &mut Command, programs: &Path) {
+    let old = env::var_os("PATH").unwrap_or_default();
+    let all = std::iter::once(PathBuf::from(programs)).chain(env::split_paths(&old));
+    if let Ok(path) = env::join_paths(all) {
+        command.env("PATH", path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_programs_of_the_environment_come_first() {
+        let mut command = Command::new("pip");
+        with_programs(&mut command, Path::new("/environment/bin"));
+        let path = command.get_envs().find(|(name, _)| *name == "PATH").and_then(|(_, value)| value).unwrap();
+        let all: Vec<PathBuf> = env::split_paths(path).collect();
+        assert_eq!(all[0], Path::new("/environment/bin"));
+        assert_eq!(all.len(), 1 + env::split_paths(&env::var_os("PATH").unwrap_or_default()).count());
+    }
+
+    #[test]
+    fn what_the_package_asks_for_is_what_is_looked_for() {
+        let project = std::fs::read_to_string(command::root().join("pyproject.toml")).unwrap();
+        let (major, minor) = OLDEST;
+        assert!(project.contains(&format!("requires-python = \">={major}.{minor}\"")));
+        assert!(SKIPPED.contains(&format!("Python {major}.{minor}")) && TESTS.starts_with(ENVIRONMENT));
+    }
+}
