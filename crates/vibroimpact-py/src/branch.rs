@@ -22,7 +22,7 @@ pub(crate) struct Cycles<'py> {
 }
 
 impl<'py> Cycles<'py> {
-    pub(crate) fn new<'a>(py: Python<'py>, cycles: impl Iterator<Item = &'a Cycle> + Clone) -> PyResult<Self> {
+    pub(crate) fn new<'a>(py: Python<'py>, cycles: &(impl Iterator<Item = &'a Cycle> + Clone)) -> PyResult<Self> {
         let mut end = 0;
         let ends = cycles.clone().map(|cycle| {
             end += i64::try_from(cycle.points.len()).unwrap_or(0);
@@ -111,7 +111,7 @@ impl<'py> Fields<'py> {
             label: points().map(|point| point.cycle.label.to_string()).collect(),
             stable: column(py, points().map(Point::stable)),
             physical: column(py, points().map(|point| point.physical)),
-            cycles: Cycles::new(py, points().map(|point| &point.cycle))?,
+            cycles: Cycles::new(py, &points().map(|point| &point.cycle))?,
             events: points()
                 .enumerate()
                 .filter_map(|(k, point)| Some(Event::new(k, point, point.event.as_ref()?)))

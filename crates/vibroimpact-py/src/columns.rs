@@ -32,7 +32,7 @@ pub(crate) struct Impacts<'py> {
 }
 
 impl<'py> Impacts<'py> {
-    pub(crate) fn new<'a>(py: Python<'py>, cycles: impl Iterator<Item = &'a Cycle> + Clone) -> Self {
+    pub(crate) fn new<'a>(py: Python<'py>, cycles: &(impl Iterator<Item = &'a Cycle> + Clone)) -> Self {
         let points = || cycles.clone().flat_map(|cycle| &cycle.points);
         Self {
             phase: column(py, points().map(|point| point.state.phase)),

@@ -58,7 +58,7 @@ pub(crate) fn curve<'py>(
     Ok(Fields {
         values: pairs(py, points().map(|point| point.values.into()))?,
         physical: column(py, points().map(|point| point.physical)),
-        cycles: Cycles::new(py, points().map(|point| &point.cycle))?,
+        cycles: Cycles::new(py, &points().map(|point| &point.cycle))?,
         events: points().enumerate().filter_map(|(k, point)| Some((point.event?.name(), k))).collect(),
         orbit: (found.chosen.number, found.chosen.count),
         found_at: found.events.iter().map(|event| event.value).collect(),

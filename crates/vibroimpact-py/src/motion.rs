@@ -83,7 +83,7 @@ impl<'py> Fields<'py> {
             sticks: None,
             stable: verdict.stable(osc),
             multipliers: verdict.multipliers(osc).map(|both| column(py, complex(both).into_iter())),
-            cycle: Impacts::new(py, core::iter::empty()),
+            cycle: Impacts::new(py, &core::iter::empty()),
             rests: Vec::new(),
             residual: None,
             lyapunov: None,
@@ -127,7 +127,7 @@ impl<'py> Fields<'py> {
             },
             periods: Some(cycle.label.periods),
             sticks: Some(cycle.rests.len()),
-            cycle: Impacts::new(py, core::iter::once(cycle)),
+            cycle: Impacts::new(py, &core::iter::once(cycle)),
             rests: cycle.rests.iter().map(rest).collect(),
             residual: Some(cycle.residual),
             ..bare

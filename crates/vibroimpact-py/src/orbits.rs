@@ -16,12 +16,12 @@ type Earlier = (usize, &'static str, f64);
 
 /// Each orbit, whether it is a possible motion, and where it meets a stop too early.
 #[pyfunction]
-pub(crate) fn orbits(
-    py: Python<'_>,
+pub(crate) fn orbits<'py>(
+    py: Python<'py>,
     osc: Oscillator,
-    label: String,
-) -> Result<Vec<(Fields<'_>, bool, Option<Earlier>)>, Trouble> {
-    let plan = Plan::new(osc.plan, Task::Orbit { label: label.clone() });
+    label: &str,
+) -> Result<Vec<(Fields<'py>, bool, Option<Earlier>)>, Trouble> {
+    let plan = Plan::new(osc.plan, Task::Orbit { label: label.to_owned() });
     plan.check()?;
     let (osc, label): (_, Label) = (osc.osc, label.parse()?);
     let watch = Watch::alone("looking for orbits");
