@@ -1,7 +1,8 @@
 //! The one door for work that takes time: off the interpreter's lock, on a thread of its own, with a stop flag.
 //!
 //! The calling thread meanwhile looks every 50 ms whether Ctrl-C was pressed and tells the progress callback how much is
-//! done. Work that looks at its stop flag has ended when the exception is raised; a search that knows no flag is left behind.
+//! done. Work that looks at its stop flag has ended when the exception is raised; a search that knows no flag is left behind
+//! after half a second.
 
 use crate::error::Trouble;
 use pyo3::prelude::*;
@@ -12,6 +13,8 @@ use std::thread;
 use std::time::Duration;
 use vibroimpact_study::{Control, Stopped};
 
+/// How long work that is to stop is waited for; what knows no flag is left behind after it.
+const PATIENCE: Duration = Duration::from_millis(500);
 /// Between two looks.
 const BEAT: Duration = Duration::from_millis(50);
 
@@ -94,6 +97,8 @@ fn wait<T>(receiver: &Receiver<Result<T, Trouble>>, shared: &Shared, watch: &Wat
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(trouble) = look(watch, shared.done.load(Ordering::Relaxed)) {
                     shared.stop.store(true, Ordering::Relaxed);
+                    // whatever it comes to, nobody asks any more
+                    let _ = receiver.recv_timeout(PATIENCE);
                     return Err(trouble);
                 }
             }

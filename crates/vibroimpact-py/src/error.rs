@@ -4,10 +4,11 @@
 //! |---|---|
 //! | the question makes no sense | `QuestionError`, a `ValueError`, with the sentence the command prints |
 //! | the progress callback asked to stop | `StoppedError` |
+//! | a store cannot be read, written or used | `StoreError`, an `OSError` |
 //! | Ctrl-C, or an exception in the progress callback | that exception |
 //! | a defect of ours | `RuntimeError` |
 
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::{PyErr, create_exception};
 use vibroimpact::SystemError;
 use vibroimpact::verdict::LabelError;
@@ -21,6 +22,13 @@ create_exception!(
 );
 create_exception!(vibroimpact, StoppedError, pyo3::exceptions::PyException, "The progress callback asked to stop.");
 
+create_exception!(
+    vibroimpact,
+    StoreError,
+    PyOSError,
+    "A store cannot be used; the text names the place and what to do."
+);
+
 /// Why there is no answer.
 #[derive(Debug)]
 pub(crate) enum Trouble {
@@ -28,6 +36,8 @@ pub(crate) enum Trouble {
     Question(String),
     /// It was stopped on the way.
     Stopped(Stopped),
+    /// A store cannot be used.
+    Store(String),
     /// An exception of Python.
     Raised(PyErr),
     /// A defect of ours.
@@ -45,6 +55,7 @@ impl From<Trouble> for PyErr {
         match trouble {
             Trouble::Question(sentence) => QuestionError::new_err(sentence),
             Trouble::Stopped(stopped) => StoppedError::new_err(stopped.to_string()),
+            Trouble::Store(sentence) => StoreError::new_err(sentence),
             Trouble::Raised(error) => error,
             Trouble::Defect(what) => PyRuntimeError::new_err(format!(
                 "{what} ended without a result: this is a defect of vibroimpact, not of your question\nhint: please report it with the call"
@@ -82,6 +93,18 @@ impl From<RunError> for Trouble {
         match error {
             RunError::Plan(error) => error.into(),
             RunError::Stopped(stopped) => stopped.into(),
+        }
+    }
+}
+
+impl From<vibroimpact_study::StoreError> for Trouble {
+    fn from(error: vibroimpact_study::StoreError) -> Self {
+        use vibroimpact_study::StoreError as Of;
+        match error {
+            Of::Plan(error) => error.into(),
+            Of::Stopped(stopped) => stopped.into(),
+            Of::Part { .. } => Self::Question(error.to_string()),
+            other => Self::Store(other.to_string()),
         }
     }
 }

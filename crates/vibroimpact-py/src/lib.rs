@@ -8,16 +8,18 @@ mod axis;
 mod branch;
 mod columns;
 mod curve;
-mod diagram;
 mod door;
 mod error;
+mod grid;
 mod lyapunov;
 mod motion;
 mod orbits;
 mod oscillator;
+mod plan;
 mod region;
 mod settle;
 mod simulate;
+mod store;
 
 /// The module `vibroimpact._core`.
 #[pyo3::pymodule]
@@ -25,15 +27,13 @@ mod _core {
     #[pymodule_export]
     use crate::attractors::attractors;
     #[pymodule_export]
-    use crate::axis::span_values;
-    #[pymodule_export]
     use crate::branch::branch;
     #[pymodule_export]
     use crate::curve::curve;
     #[pymodule_export]
-    use crate::diagram::orbit_diagram;
+    use crate::error::{QuestionError, StoppedError, StoreError};
     #[pymodule_export]
-    use crate::error::{QuestionError, StoppedError};
+    use crate::grid::{fill, labels_of, span_values};
     #[pymodule_export]
     use crate::lyapunov::lyapunov;
     #[pymodule_export]
@@ -41,11 +41,15 @@ mod _core {
     #[pymodule_export]
     use crate::oscillator::{Oscillator, Units};
     #[pymodule_export]
+    use crate::plan::checked_plan;
+    #[pymodule_export]
     use crate::region::{contains, region};
     #[pymodule_export]
     use crate::settle::{settle, settle_many};
     #[pymodule_export]
     use crate::simulate::{simulate, waveform};
+    #[pymodule_export]
+    use crate::store::Store;
 
     /// Version of the package.
     #[pymodule_export]

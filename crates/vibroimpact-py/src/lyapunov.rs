@@ -81,8 +81,8 @@ pub(crate) fn lyapunov(
     transient: u64,
     points: Option<u64>,
 ) -> Result<Fields<'_>, Trouble> {
-    let task = LyapunovPlan { start: start_plan(start), impacts, transient, points };
-    let plan = Plan::new(osc.plan, Task::Lyapunov(task));
+    let task = LyapunovPlan { start: start_plan(start), impacts, transient, points, ..LyapunovPlan::default() };
+    let plan = Plan::new(osc.plan, Task::Lyapunov(task.clone()));
     plan.check()?;
     let osc = osc.osc;
     let start = task.start.start(&osc)?;

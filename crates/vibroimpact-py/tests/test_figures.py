@@ -5,6 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import matplotlib
+import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -67,8 +69,11 @@ def test_a_branch_is_solid_where_it_is_stable_and_dashed_where_not() -> None:
         lambda s: vi.lyapunov(s, impacts=2000, points=100).plot()[0],
         lambda s: vi.lyapunov(s.replace(second_gap=1), impacts=2000, points=100).plot()[1],
         lambda s: vi.orbit_diagram(s, "gap", "0:3:61").vibro.plot(),
-        lambda s: vi.orbit_diagram(s, "gap", "0:3:61").vibro.plot(which="phase"),
+        lambda s: vi.orbit_diagram(s, "gap", "0:3:61").vibro.plot(which="impact_phase"),
         lambda s: vi.orbit_diagram(s, "inverse_beta", "1:1.3:21", show="strobe", direction="scatter").vibro.plot(),
+        lambda s: vi.basin(s, x="-4:0.75:30", v="-4:4:20").vibro.plot(),
+        lambda s: vi.region_map(s, {"inverse_beta": "0.5:1.5:9", "gap": "0:3:7"}, starts=6).vibro.plot(),
+        lambda s: vi.region_map(s, {"gap": [0.0, 0.5, 3.0], "restitution": "0.1:0.9:5"}, starts=6).vibro.plot(),
         lambda s: vi.settle(vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5)).plot(),
         lambda s: vi.simulate(vi.Oscillator(beta=0.5, gap=40, restitution=0.5)).plot(),
         lambda s: vi.simulate(vi.Oscillator(beta=0.9, gap=-1.5, restitution=0.5)).plot(),
@@ -77,7 +82,32 @@ def test_a_branch_is_solid_where_it_is_stable_and_dashed_where_not() -> None:
 def test_they_are_drawn(s: vi.Oscillator, draw: Callable[[vi.Oscillator], Any]) -> None:
     ax = draw(s)
     drawn(ax)
-    assert ax.get_xlabel() and (ax.lines or ax.patches)
+    assert ax.get_xlabel() and (ax.lines or ax.patches or ax.collections)
+
+
+def test_cells_have_the_colours_of_their_motions(s: vi.Oscillator) -> None:
+    ds = vi.basin(s, x="-4:0.75:30", v="-4:4:20")
+    ax = ds.vibro.plot()
+    drawn(ax)
+    assert words(ax) == ["1/1", "2/1"] and ax.get_xlabel() == r"$\xi_0$" and ax.get_ylabel() == "$u_0$"
+    mesh = ax.collections[0]
+    shown = np.asarray(mesh.get_array()).reshape(20, 30)
+    expected = np.searchsorted(["1/1", "2/1"], ds.vibro.labels().values)
+    np.testing.assert_array_equal(shown, expected)
+    colours = [matplotlib.colors.to_hex(patch.get_facecolor()) for patch in ax.get_legend().get_patches()]
+    assert colours == [_palette.CLASSES["1/1"], _palette.CLASSES["2/1"]]
+    with pytest.raises(vi.QuestionError, match="a figure has two axes, and there are 1"):
+        ds.isel(x=0).vibro.plot()
+
+
+def test_a_cell_is_divided_between_its_motions(s: vi.Oscillator) -> None:
+    ds = vi.region_map(s, {"inverse_beta": "1.2:1.3:2", "gap": "0.7:0.8:2"}, starts=20)
+    counts = (ds.vibro.labels() != "").sum("motion")
+    assert counts.max() >= 2
+    shown = np.asarray(ds.vibro.plot().collections[0].get_array()).reshape(2, 24)
+    for j in range(2):
+        for i in range(2):
+            assert len(set(shown[j, 12 * i : 12 * i + 12].tolist())) == counts.values[j, i]
 
 
 def test_a_region_is_filled_and_bounded(s: vi.Oscillator) -> None:

@@ -26,22 +26,26 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 | where a motion exists and where it is stable | `region` |
 | Lyapunov exponents and the dimension | `lyapunov` |
 | the motion after its transient over a parameter | `orbit_diagram` |
+| which motion each start leads to, which motions there are over parameters | `basin`, `region_map` |
+| a study as large as you like: a plan in a store | `Plan`, `run`, `resume`, `status`, `verify`, `open`, `vibroimpact.dask` |
 
 Results have arrays, `plot()` for a figure and `to_dict()` with the fields of the command's JSON.
 """
 
 from vibroimpact._attractors import Attractor, Attractors, attractors
 from vibroimpact._branch import Branch, BranchEvent, Origin, branch
-from vibroimpact._core import Oscillator, QuestionError, StoppedError, Units, __version__
+from vibroimpact._core import Oscillator, QuestionError, StoppedError, StoreError, Units, __version__
 from vibroimpact._curve import Curve, CurveEvent, curve
 from vibroimpact._cycle import Cycle
-from vibroimpact._diagram import orbit_diagram
+from vibroimpact._grid import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import Lyapunov, Measured, lyapunov
 from vibroimpact._motion import Motion
 from vibroimpact._orbits import EarlierContact, Orbit, orbits
+from vibroimpact._plan import Plan
 from vibroimpact._region import Part, Polygon, Region, region
 from vibroimpact._settle import Settlement, settle, settle_many
 from vibroimpact._simulate import Simulation, simulate
+from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
 
 __all__ = [
     "Attractor",
@@ -59,22 +63,43 @@ __all__ = [
     "Origin",
     "Oscillator",
     "Part",
+    "Plan",
     "Polygon",
     "QuestionError",
+    "Ran",
     "Region",
     "Settlement",
     "Simulation",
+    "Status",
     "StoppedError",
+    "StoreError",
     "Units",
+    "Verified",
     "__version__",
     "attractors",
+    "basin",
     "branch",
     "curve",
     "lyapunov",
+    "open",
     "orbit_diagram",
     "orbits",
     "region",
+    "region_map",
+    "resume",
+    "run",
     "settle",
     "settle_many",
     "simulate",
+    "status",
+    "verify",
 ]
+
+
+def __getattr__(name: str) -> object:
+    # Dask takes its time: its door is opened when someone knocks
+    if name == "dask":
+        import importlib
+
+        return importlib.import_module("vibroimpact.dask")
+    raise AttributeError(f"module 'vibroimpact' has no attribute '{name}'")

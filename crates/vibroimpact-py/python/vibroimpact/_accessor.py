@@ -1,23 +1,15 @@
 """`ds.vibro`: figures and labels of Datasets made here. Importing this registers it with xarray."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
+from vibroimpact import _core
 from vibroimpact._core import QuestionError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-
-def flags(long_name: str, meanings: dict[int, str]) -> dict[str, Any]:
-    """Attributes of a variable of codes, after the CF conventions."""
-    return {
-        "long_name": long_name,
-        "flag_values": np.array(list(meanings), dtype=np.int8),
-        "flag_meanings": " ".join(meanings.values()),
-    }
 
 
 @xr.register_dataset_accessor("vibro")  # type: ignore[no-untyped-call]
@@ -27,34 +19,47 @@ class VibroAccessor:
     def __init__(self, ds: xr.Dataset) -> None:
         self._ds = ds
 
-    def labels(self, name: str = "kind") -> xr.DataArray:
+    def labels(self, name: str | None = None) -> xr.DataArray:
         """The words behind the codes of a variable, in its shape.
 
         Parameters
         ----------
         name : str
-            A variable with the attributes `flag_values` and `flag_meanings`.
+            "label" unless given, in an orbit diagram "kind": motions by their labels m/n, other codes by their
+            meaning. Where there is no motion the text is empty.
         """
+        name = name or ("label" if "label" in self._ds else "kind")
+        if name not in self._ds:
+            raise QuestionError(f"this Dataset has no variable `{name}`")
         array = self._ds[name]
-        if "flag_meanings" not in array.attrs:
+        codes, places = np.unique(array.values, return_inverse=True)
+        if name == "label":
+            words = _core.labels_of(codes.tolist())
+        elif "flag_meanings" in array.attrs:
+            values = np.asarray(array.attrs["flag_values"]).tolist()
+            meanings = dict(zip(values, str(array.attrs["flag_meanings"]).split()))
+            words = [meanings.get(code, "") for code in codes.tolist()]
+        else:
             raise QuestionError(f"`{name}` has no codes: it lacks the attribute flag_meanings")
-        words = np.array(str(array.attrs["flag_meanings"]).split())
-        codes = np.asarray(array.attrs["flag_values"])
-        order = np.argsort(codes)
-        return array.copy(data=words[order][np.searchsorted(codes[order], array.values)])
+        text = np.array(words, dtype=np.str_)[places].reshape(array.shape)
+        return xr.DataArray(text, array.coords, array.dims, attrs={"long_name": array.attrs.get("long_name", name)})
 
     def plot(self, ax: "Axes | None" = None, *, which: str | None = None) -> "Axes":
-        """The figure of what the Dataset holds: of an orbit diagram its points over the parameter.
+        """The figure of what the Dataset holds: the motions over two axes, or the points of an orbit diagram.
 
         Parameters
         ----------
         ax : matplotlib Axes
             Where to draw; a new figure unless given.
         which : str
-            The variable on the ordinate: "velocity" or "x" unless given.
+            Of an orbit diagram, the variable on the ordinate: "velocity" or "x" unless given.
         """
-        from vibroimpact import _clouds
+        from vibroimpact import _cells, _clouds
 
-        if {"sweep", "point"} <= set(self._ds.dims):
+        if "point" in self._ds.dims:
             return _clouds.plot(self._ds, ax, which)
-        raise QuestionError("this Dataset is none that vibroimpact draws\nhint: those of orbit_diagram have a figure")
+        if "label" in self._ds:
+            return _cells.plot(self._ds, ax)
+        raise QuestionError(
+            "this Dataset is none that vibroimpact draws\nhint: those of basin, region_map and orbit_diagram have a figure"
+        )

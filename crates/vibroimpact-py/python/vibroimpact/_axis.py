@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
 
-#: `"A:B:N"`, `(a, b, n)`, or an array of evenly spaced values.
-Axis: TypeAlias = "str | tuple[float, float, int] | Sequence[float] | NDArray[np.float64]"
+#: `"A:B:N"`, `"A:B:N:log"`, `(a, b, n)`, `(a, b, n, "log")`, or an array of values.
+Axis: TypeAlias = str | tuple[float, float, int] | tuple[float, float, int, str] | Sequence[float] | NDArray[np.float64]
 #: `"A:B"` or `(a, b)`.
-Interval: TypeAlias = "str | tuple[float, float]"
+Interval: TypeAlias = str | tuple[float, float]
 
 #: What spacing may be off by, relative to the values: the rounding of `numpy.linspace` and `numpy.arange`.
 _EVEN = 1e-9
@@ -25,26 +25,53 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(array, dtype=np.float64, order="C")
 
 
-def span(over: Axis) -> str | tuple[float, float, int]:
-    """First and last value and how many, for the compiled part."""
+def span(over: Axis) -> str:
+    """A range as a plan has it; arrays must be evenly spaced."""
+    given = values(over)
+    if isinstance(given, str):
+        return given
+    text = _text(given[0], given[-1], len(given))
+    even = _core.span_values(text)
+    if not np.allclose(given, even, rtol=0, atol=_EVEN * float(np.max(np.abs(given)))):
+        raise _core.QuestionError(
+            f"the values from {given[0]} to {given[-1]} are not evenly spaced\nhint: numpy.linspace(a, b, n)"
+        )
+    return text
+
+
+def values(over: Axis) -> str | list[float]:
+    """Values of an axis as a plan has them: a range as text, or a list."""
     if isinstance(over, str):
         return over
     if isinstance(over, tuple) and len(over) == 3:
         first, last, count = over
-        return float(first), float(last), _whole(count)
-    values = numbers("values", over)
-    if values.ndim != 1 or values.size == 0:
+        return _text(float(first), float(last), _whole(count))
+    if isinstance(over, tuple) and len(over) == 4 and over[3] == "log":
+        first, last, count, _ = over
+        return _text(float(first), float(last), _whole(count)) + ":log"
+    array = numbers("values", over)
+    if array.ndim != 1 or array.size == 0:
         raise _core.QuestionError(
-            f"an axis of shape {values.shape} is no list of values\n"
+            f"an axis of shape {array.shape} is no list of values\n"
             'hint: "0:3:601", (0, 3, 601) or numpy.linspace(0, 3, 601)'
         )
-    result = float(values[0]), float(values[-1]), int(values.size)
-    even = _core.span_values(result)
-    if not np.allclose(values, even, rtol=0, atol=_EVEN * float(np.max(np.abs(values)))):
-        raise _core.QuestionError(
-            f"the values from {values[0]} to {values[-1]} are not evenly spaced\nhint: numpy.linspace(a, b, n)"
-        )
-    return result
+    listed: list[float] = array.tolist()
+    if len(listed) == 1 or listed[0] == listed[-1] or not np.all(np.isfinite(array)):
+        return listed
+    # short where nothing is lost: the very same numbers
+    text = _text(listed[0], listed[-1], len(listed))
+    return text if np.array_equal(array, _core.span_values(text)) else listed
+
+
+def _text(first: float, last: float, count: int) -> str:
+    return f"{first!r}:{last!r}:{count}"
+
+
+def axes(over: Mapping[str, Axis]) -> list[dict[str, object]]:
+    """The axes of a plan, the first drawn to the right."""
+    if not isinstance(over, Mapping):
+        raise TypeError('axes are written {"inverse_beta": "0.4:2:33", "gap": (0, 5, 41)}')
+    return [{"vary": name, "over": values(of)} for name, of in over.items()]
 
 
 def _whole(count: float) -> int:

@@ -9,7 +9,7 @@ from typing_extensions import Self
 
 _Fields: TypeAlias = dict[str, Any]
 _Start: TypeAlias = tuple[float | None, float, float]
-_Span: TypeAlias = str | tuple[float, float, int]
+_Counts: TypeAlias = tuple[int, int, int, int]
 _Stretch: TypeAlias = tuple[str, float, float]
 _Progress: TypeAlias = Callable[[int, int], object] | None
 _Array: TypeAlias = NDArray[np.float64]
@@ -17,10 +17,14 @@ _Part: TypeAlias = tuple[list[tuple[_Array, list[str], bool, bool]], _Array]
 
 __all__ = [
     "attractors",
+    "fill",
+    "labels_of",
     "span_values",
+    "checked_plan",
+    "Store",
+    "StoreError",
     "branch",
     "curve",
-    "orbit_diagram",
     "QuestionError",
     "StoppedError",
     "lyapunov",
@@ -40,6 +44,7 @@ __version__: str
 
 class QuestionError(ValueError): ...
 class StoppedError(Exception): ...
+class StoreError(OSError): ...
 
 @final
 class Units:
@@ -129,17 +134,18 @@ def region(
 ) -> tuple[_Part, _Part, str]: ...
 def contains(polygons: list[tuple[_Array, bool]], p: _Array, q: _Array) -> NDArray[np.bool_]: ...
 def lyapunov(osc: Oscillator, start: _Start, impacts: int, transient: int, points: int | None) -> _Fields: ...
-def orbit_diagram(
-    osc: Oscillator,
-    vary: str,
-    over: _Span,
-    show: str,
-    direction: str,
-    starts: int | None,
-    seed: int | None,
-    transient: int,
-    keep: int,
-    threads: int,
-    progress: _Progress,
-) -> _Fields: ...
-def span_values(over: _Span) -> _Array: ...
+def checked_plan(text: str) -> tuple[str, str, str, int]: ...
+def fill(plan: str, threads: int, progress: _Progress) -> tuple[list[_Fields], list[_Fields]]: ...
+def labels_of(codes: list[int]) -> list[str]: ...
+def span_values(over: str) -> _Array: ...
+
+@final
+class Store:
+    def __new__(cls, place: str, plan: str | None = None) -> Self: ...
+    @property
+    def plan(self) -> str: ...
+    def run(self, part: tuple[int, int], threads: int, progress: _Progress) -> _Counts: ...
+    def run_tiles(self, tiles: list[int], threads: int) -> _Counts: ...
+    def conclude(self) -> bool: ...
+    def status(self) -> _Fields: ...
+    def verify(self, sample: int, seed: int, threads: int, progress: _Progress) -> _Fields: ...

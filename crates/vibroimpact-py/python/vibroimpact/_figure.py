@@ -10,6 +10,7 @@ from vibroimpact._palette import CLASSES, SERIES, legend_group
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.patches import Patch
 
     from vibroimpact._lyapunov import Impacts, Strobes
 
@@ -64,10 +65,12 @@ def new_axes(ax: "Axes | None", size: tuple[float, float]) -> "Axes":
     return plt.subplots(figsize=size, layout="constrained")[1]
 
 
-def legend(ax: "Axes") -> None:
+def legend(ax: "Axes", handles: "list[Patch] | None" = None) -> None:
     """A legend to the right of the axes, where it hides nothing."""
-    if ax.get_legend_handles_labels()[0]:
-        ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, borderaxespad=0.0)
+    handles_of_axes = ax.get_legend_handles_labels()[0]
+    if handles or handles_of_axes:
+        of = handles or handles_of_axes
+        ax.legend(handles=of, loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, borderaxespad=0.0)
 
 
 def _number(value: float) -> str:

@@ -26,6 +26,17 @@ CLASSES = {
     "other": "#9a9a9a",
 }
 
+#: The words of a legend.
+LEGEND = {
+    **{group: group for group in CLASSES},
+    "0": "no impact",
+    "m/1": r"$m$/1, $m \geq 5$",
+    "1/n": r"1/$n$, $n \geq 4$",
+    "k/k": r"$k$/$k$, $k \geq 2$",
+    "m/n": r"other $m$/$n$",
+    "inf/n": r"∞/$n$ (chatter)",
+}
+
 
 def legend_group(label: str) -> str:
     """The key of `CLASSES` that a motion's label belongs to."""

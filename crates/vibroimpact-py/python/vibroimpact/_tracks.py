@@ -64,13 +64,13 @@ def _colour(k: int) -> tuple[str, float]:
 
 def _behind(branch: "Branch", ax: "Axes", unit: float, speed: float) -> None:
     """What simulation finds, in grey."""
-    from vibroimpact._diagram import orbit_diagram
+    from vibroimpact._grid import orbit_diagram
 
     ds = orbit_diagram(branch.osc, branch.vary, (*branch.ends, _VALUES))
-    for sweep in ds["sweep"].values:
-        one = ds.sel(sweep=sweep)
+    for k in range(ds.sizes["sweep"]):
+        one = ds.isel(sweep=k)
         xs = np.broadcast_to(one[branch.vary].values[:, None], one["velocity"].shape)
-        repeats = one["count"].values < ds.sizes["point"]
+        repeats = np.isfinite(one["velocity"].values).sum(axis=1) < ds.sizes["point"]
         # dots of motions that repeat themselves are wider than a curve
         for rows, size in ((repeats, 4.5), (~repeats, 1.6)):
             ys = one["velocity"].values[rows].ravel()

@@ -1,0 +1,193 @@
+"""A plan: all that a study depends on, and nothing else."""
+
+import json
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from vibroimpact import _core
+from vibroimpact._axis import Axis, axes, span
+from vibroimpact._core import Oscillator
+
+#: Version of the fields of a plan.
+_VERSION = 1
+
+
+@dataclass(frozen=True, repr=False, slots=True)
+class Plan:
+    """What is asked of which system, checked: it can be run anywhere, stored, and run again from its results.
+
+    The command, a TOML file and Python build the same plans. Those here fill a grid: `map`, `basin`, `diagram`,
+    `lyapunov` and `attractors` make them, `read` takes one from a file.
+
+    Attributes
+    ----------
+    json : str
+        The plan as it is stored.
+    hash : str
+        A name for its content.
+    title : str
+        What it asks, in words.
+    points : int
+        Points of its grid.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, Plan
+    >>> osc = Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+    >>> plan = Plan.basin(osc, {"x": "-4:0.75:100", "v": "-4:4:80"})
+    >>> plan
+    <Plan: motions an impact oscillator settles into over x, v; 8000 points>
+    >>> plan == Plan(plan.json)
+    True
+    """
+
+    json: str
+    hash: str = field(init=False, compare=False)
+    title: str = field(init=False, compare=False)
+    points: int = field(init=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for name, value in zip(("json", "hash", "title", "points"), _core.checked_plan(self.json)):
+            object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        return f"<Plan: {self.title}; {self.points} points>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its fields."""
+        fields: dict[str, Any] = json.loads(self.json)
+        return fields
+
+    @classmethod
+    def read(cls, path: str | PathLike[str]) -> "Plan":
+        """The plan in a .toml or .json file."""
+        file = Path(path)
+        try:
+            if file.suffix.lower() == ".toml":
+                return cls(json.dumps(tomllib.loads(file.read_text("utf-8"))))
+            return cls(file.read_text("utf-8"))
+        except tomllib.TOMLDecodeError as error:
+            raise _core.QuestionError(f"{file} is no TOML: {error}") from None
+
+    @classmethod
+    def map(
+        cls,
+        osc: Oscillator,
+        over: Mapping[str, Axis],
+        *,
+        starts: int = 8,
+        seed: int = 1,
+        refine: int | None = None,
+        tile: int | None = None,
+    ) -> "Plan":
+        """Which motions there are at each point of a plane of parameters; the arguments are those of `region_map`."""
+        return cls._of(osc, "map", {"axes": axes(over), "starts": starts, "seed": seed, "refine": refine}, tile)
+
+    @classmethod
+    def basin(
+        cls,
+        osc: Oscillator,
+        over: Mapping[str, Axis],
+        *,
+        x: float | None = None,
+        v: float = 0.0,
+        phase: float = 0.0,
+        refine: int | None = None,
+        tile: int | None = None,
+    ) -> "Plan":
+        """Which motion each start leads to, over "x", "v", "phase" and parameters; what is on no axis is as given."""
+        task = {"axes": axes(over), "start": _start(x, v, phase), "refine": refine}
+        return cls._of(osc, "basin", task, tile)
+
+    @classmethod
+    def diagram(
+        cls,
+        osc: Oscillator,
+        vary: str,
+        over: Axis,
+        *,
+        show: str = "velocity",
+        direction: str = "both",
+        starts: int | None = None,
+        seed: int | None = None,
+        transient: int = 500,
+        keep: int = 64,
+        tile: int | None = None,
+    ) -> "Plan":
+        """The motion after its transient along one parameter; the arguments are those of `orbit_diagram`."""
+        _known("show", show, ("velocity", "strobe"))
+        _known("direction", direction, ("up", "down", "both", "scatter"))
+        way: object = direction
+        if direction == "scatter":
+            way = {"scatter": {"starts": 8 if starts is None else starts, "seed": 1 if seed is None else seed}}
+        elif starts is not None or seed is not None:
+            raise _core.QuestionError('starts and seed belong to direction="scatter"')
+        task = {
+            "vary": vary,
+            "over": span(over),
+            "show": show,
+            "direction": way,
+            "transient": transient,
+            "keep": keep,
+        }
+        return cls._of(osc, "diagram", task, tile)
+
+    @classmethod
+    def lyapunov(
+        cls,
+        osc: Oscillator,
+        over: Mapping[str, Axis],
+        *,
+        x: float | None = None,
+        v: float = 0.0,
+        phase: float = 0.0,
+        impacts: int = 100_000,
+        transient: int = 1000,
+        tile: int | None = None,
+    ) -> "Plan":
+        """Lyapunov exponents over parameters and coordinates of the start."""
+        task = {"axes": axes(over), "start": _start(x, v, phase), "impacts": impacts, "transient": transient}
+        return cls._of(osc, "lyapunov", task, tile)
+
+    @classmethod
+    def attractors(cls, osc: Oscillator, starts: int, *, seed: int = 1, tile: int | None = None) -> "Plan":
+        """Which motion each of many scattered starts leads to."""
+        return cls._of(osc, "attractors", {"starts": starts, "seed": seed}, tile)
+
+    @classmethod
+    def _of(cls, osc: Oscillator, name: str, task: dict[str, Any], tile: int | None) -> "Plan":
+        given = {key: value for key, value in task.items() if value is not None}
+        plan: dict[str, Any] = {"version": _VERSION, "system": _system(osc), "task": {name: given}}
+        if tile is not None:
+            plan["tile"] = tile
+        return cls(json.dumps(plan))
+
+
+def _known(what: str, given: str, known: tuple[str, ...]) -> None:
+    if given not in known:
+        raise _core.QuestionError(f"{what} = `{given}` is none of {', '.join(known)}")
+
+
+def _start(x: float | None, v: float, phase: float) -> dict[str, float]:
+    given = {"x": x, "v": v, "phase": phase}
+    return {name: float(value) for name, value in given.items() if value is not None}
+
+
+def _system(osc: Oscillator) -> dict[str, Any]:
+    """The fields of the system, the frequency as it was given."""
+    frequency = "inverse_beta" if "inverse_beta" in repr(osc) else "beta"
+    fields: dict[str, Any] = {name: getattr(osc, name) for name in (frequency, "gap", "restitution", "damping")}
+    if osc.second_gap is not None:
+        fields["second_stop"] = {"gap": osc.second_gap, "restitution": osc.second_restitution}
+    return fields
+
+
+def oscillator(plan: dict[str, Any]) -> Oscillator:
+    """The oscillator of a plan's fields."""
+    system = dict(plan["system"])
+    second = system.pop("second_stop", None) or {}
+    return Oscillator(**system, **{f"second_{name}": value for name, value in second.items()})

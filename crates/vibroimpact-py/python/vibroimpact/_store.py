@@ -1,0 +1,197 @@
+"""Studies in stores: run, resumed, looked at, verified, opened."""
+
+from dataclasses import dataclass
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, NamedTuple
+
+from vibroimpact import _core
+from vibroimpact._plan import Plan
+from vibroimpact._progress import Progress, watched
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+
+class Ran(NamedTuple):
+    """What a run did, in tiles."""
+
+    #: Computed now.
+    computed: int
+    #: Done before, or by another process meanwhile.
+    found: int
+    #: Finished, damaged, and computed anew.
+    mended: int
+    #: Of the whole, not done yet.
+    left: int
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """How far a store is."""
+
+    #: Tiles in all, and those that are done.
+    tiles: int
+    done: int
+    #: Points in all, and those of the tiles that are done.
+    points: int
+    points_done: int
+    #: Whether it was concluded.
+    complete: bool
+    #: How long the rest takes at the rate of the last tiles, or None.
+    seconds_left: float | None
+    #: Numbers of the tiles that are not done, up to a thousand.
+    missing: list[int]
+    #: Bytes of the store.
+    bytes: int
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """What a verification found."""
+
+    #: Tiles whose check sums were read.
+    checked: int
+    #: Tiles that were computed again and compared byte by byte.
+    recomputed: int
+    #: Tiles that are not done.
+    open: int
+    #: Number of a tile and what is wrong with it.
+    damage: list[tuple[int, str]]
+
+    @property
+    def whole(self) -> bool:
+        """Whether nothing is wrong and nothing open."""
+        return not self.damage and self.open == 0
+
+
+def run(
+    plan: Plan,
+    store: str | PathLike[str],
+    *,
+    part: tuple[int, int] = (1, 1),
+    threads: int = 0,
+    progress: Progress = None,
+) -> Ran:
+    """Fill the store of a plan: what is there already is not computed again.
+
+    Any number of processes may work on one store; it has the same bytes however it came about. Stopped or killed, it
+    is finished by the same call, or by `resume`.
+
+    Parameters
+    ----------
+    plan : Plan
+        The study.
+    store : path
+        A folder of its own, begun where there is none.
+    part : (int, int)
+        (i, n): every n-th tile only, i from 1 to n, for job arrays.
+    threads : int
+        0 for one per core.
+    progress : bool or callable
+        True for a bar, or a function of what is done and what there is to do.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from vibroimpact import Oscillator, Plan, run, open, verify
+    >>> osc = Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+    >>> plan = Plan.basin(osc, {"x": "-4:0.75:60", "v": "-4:4:50"}, tile=20)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     ran = run(plan, folder + "/basin.zarr")
+    ...     whole = verify(folder + "/basin.zarr").whole
+    ...     labels = set(open(folder + "/basin.zarr").vibro.labels().values.ravel().tolist())
+    >>> ran.computed, whole, sorted(labels)
+    (9, True, ['1/1', '2/1'])
+    """
+    with watched(progress, "points") as tell:
+        return Ran(*_core.Store(fspath(store), plan.json).run(part, threads, tell))
+
+
+def resume(store: str | PathLike[str], *, threads: int = 0, progress: Progress = None) -> Ran:
+    """Compute what is missing or damaged in a store.
+
+    Examples
+    --------
+    >>> from vibroimpact import resume
+    >>> resume("no/such/place")
+    Traceback (most recent call last):
+        ...
+    vibroimpact.StoreError: there is no store at no/such/place
+    hint: `vibro run PLAN --store no/such/place` begins one
+    """
+    with watched(progress, "points") as tell:
+        return Ran(*_core.Store(fspath(store)).run((1, 1), threads, tell))
+
+
+def status(store: str | PathLike[str]) -> Status:
+    """How far a store is: which tiles are done, how long the rest takes.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from vibroimpact import Oscillator, Plan, run, status
+    >>> plan = Plan.attractors(Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), 300, tile=100)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     ran = run(plan, folder + "/shares.zarr", part=(1, 3))
+    ...     far = status(folder + "/shares.zarr")
+    >>> far.done, far.tiles, far.missing, far.complete
+    (1, 3, [1, 2], False)
+    """
+    return Status(**_core.Store(fspath(store)).status())
+
+
+def verify(
+    store: str | PathLike[str], *, sample: int = 4, seed: int = 1, threads: int = 0, progress: Progress = None
+) -> Verified:
+    """Read the check sums of all tiles, compute a sample of them again and compare the bytes; changes nothing.
+
+    Parameters
+    ----------
+    store : path
+        The store.
+    sample, seed : int
+        How many tiles to compute again, and which.
+    threads : int
+        0 for one per core.
+    progress : bool or callable
+        True for a bar, or a function of what is done and what there is to do.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from vibroimpact import Oscillator, Plan, run, verify
+    >>> plan = Plan.attractors(Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), 300, tile=100)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     ran = run(plan, folder + "/shares.zarr")
+    ...     found = verify(folder + "/shares.zarr", sample=2)
+    >>> found.checked, found.recomputed, found.damage
+    (3, 2, [])
+    """
+    with watched(progress, "points") as tell:
+        return Verified(**_core.Store(fspath(store)).verify(sample, seed, threads, tell))
+
+
+def open(store: str | PathLike[str]) -> "xr.Dataset":
+    """The Dataset of a store, read from it when it is looked at; `ds.vibro` draws it.
+
+    xarray opens a store without help too: `xarray.open_zarr(store)`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from vibroimpact import Oscillator, Plan, open, run
+    >>> plan = Plan.attractors(Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), 300)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     ran = run(plan, folder + "/shares.zarr")
+    ...     ds = open(folder + "/shares.zarr").load()
+    >>> ds["cycle_label"].values.tolist()
+    ['2/1', '1/1']
+    """
+    import xarray as xr
+
+    from vibroimpact import _accessor  # noqa: F401  registers ds.vibro
+
+    place = fspath(store)
+    _core.Store(place)
+    ds: xr.Dataset = xr.open_zarr(place)
+    return ds

@@ -1,0 +1,120 @@
+//! A study computed in memory, as arrays.
+
+use crate::columns::column;
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::plan::{points, read};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use std::collections::BTreeSet;
+use vibroimpact_study::study::{Cells, Sheet, Table, in_memory, label_of};
+use vibroimpact_study::{Column, Field, Study};
+
+/// An array with what it means: flat, in row-major order.
+#[derive(IntoPyObject)]
+pub(crate) struct Variable<'py> {
+    name: String,
+    dimensions: Vec<(String, usize)>,
+    values: Bound<'py, PyAny>,
+    long_name: &'static str,
+    units: &'static str,
+    comment: &'static str,
+    flags: Vec<(i32, String)>,
+}
+
+/// Coordinates and variables.
+type Variables<'py> = (Vec<Variable<'py>>, Vec<Variable<'py>>);
+
+fn array(py: Python<'_>, values: Column) -> Bound<'_, PyAny> {
+    match values {
+        Column::I8(values) => values.into_pyarray(py).into_any(),
+        Column::I32(values) => values.into_pyarray(py).into_any(),
+        Column::F64(values) => values.into_pyarray(py).into_any(),
+    }
+}
+
+/// The meanings of a field's numbers, with the labels m/n that occur.
+fn flags(field: &Field, values: &Column) -> Vec<(i32, String)> {
+    let own = field.flags.iter().map(|(value, meaning)| (*value, (*meaning).to_owned()));
+    let labels: BTreeSet<i32> = if field.name == "label" {
+        values.whole().iter().copied().filter(|code| *code > 0).collect()
+    } else {
+        BTreeSet::new()
+    };
+    own.chain(labels.into_iter().filter_map(|code| Some((code, label_of(code)?)))).collect()
+}
+
+fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
+    let grid: Vec<(String, usize)> =
+        sheet.study.grid().dimensions.iter().map(|along| (along.name.clone(), along.count)).collect();
+    let coordinates = sheet.study.coordinates().into_iter().map(|along| Variable {
+        dimensions: vec![(along.dimension.clone(), along.values.len())],
+        name: along.dimension,
+        values: along.values.into_pyarray(py).into_any(),
+        long_name: along.long_name,
+        units: along.units,
+        comment: "",
+        flags: Vec::new(),
+    });
+    let fields = sheet.fields.into_iter().zip(sheet.columns).map(|(field, values)| Variable {
+        name: field.name.to_owned(),
+        dimensions: grid
+            .iter()
+            .cloned()
+            .chain(field.extra.iter().map(|extra| (extra.name.to_owned(), extra.count)))
+            .collect(),
+        flags: flags(&field, &values),
+        values: array(py, values),
+        long_name: field.long_name,
+        units: field.units,
+        comment: field.comment,
+    });
+    let mut all: Vec<Variable<'_>> = fields.collect();
+    for table in sheet.tables {
+        all.push(of_table(py, table)?);
+    }
+    Ok((coordinates.collect(), all))
+}
+
+fn of_table(py: Python<'_>, table: Table) -> PyResult<Variable<'_>> {
+    Ok(Variable {
+        name: table.name.to_owned(),
+        dimensions: table.dimensions.iter().map(|(name, count)| ((*name).to_owned(), *count)).collect(),
+        values: match table.values {
+            Cells::Numbers(values) => array(py, values),
+            Cells::Text(words) => words.into_pyobject(py)?.into_any(),
+        },
+        long_name: table.long_name,
+        units: table.units,
+        comment: "",
+        flags: Vec::new(),
+    })
+}
+
+/// Computes a plan in memory.
+#[pyfunction]
+pub(crate) fn fill<'py>(
+    py: Python<'py>,
+    plan: &str,
+    threads: usize,
+    progress: Option<Py<PyAny>>,
+) -> Result<Variables<'py>, Trouble> {
+    let plan = read(plan)?;
+    let watch = Watch { what: "computing a study", total: points(&plan), progress, threads };
+    let sheet = door::run(py, watch, move |control| Ok(in_memory(Study::new(&plan)?, control)?))?;
+    Ok(variables(py, sheet)?)
+}
+
+/// The labels behind codes: m/n, "0", "chaotic", "stuck", "undecided", and nothing where there is no motion.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // what Python hands over
+pub(crate) fn labels_of(codes: Vec<i32>) -> Vec<String> {
+    codes.into_iter().map(|code| label_of(code).unwrap_or_default()).collect()
+}
+
+/// The values of a span, the very numbers that are computed with.
+#[pyfunction]
+pub(crate) fn span_values<'py>(py: Python<'py>, over: &str) -> Result<Bound<'py, PyArray1<f64>>, Trouble> {
+    let span: vibroimpact_study::Span = over.parse()?;
+    Ok(column(py, span.values()))
+}

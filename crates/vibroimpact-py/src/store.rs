@@ -1,0 +1,140 @@
+//! A study on disk, filled tile by tile.
+
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::plan::{points, read};
+use crate::simulate::text;
+use pyo3::prelude::*;
+use std::sync::Arc;
+use vibroimpact_study::store::{Part, Ran, shelf};
+
+/// A store that is open: cheap to hold, so that one process opens it once.
+#[pyclass(frozen, module = "vibroimpact._core")]
+pub(crate) struct Store(Arc<vibroimpact_study::Store>);
+
+/// Tiles computed, found done, mended, and left.
+type Counts = (u64, u64, u64, u64);
+
+const fn counts(ran: Ran) -> Counts {
+    (ran.computed, ran.found, ran.mended, ran.left)
+}
+
+/// The fields of `Status`.
+#[derive(IntoPyObject)]
+pub(crate) struct Status {
+    tiles: u64,
+    done: u64,
+    points: u64,
+    points_done: u64,
+    complete: bool,
+    seconds_left: Option<f64>,
+    missing: Vec<u64>,
+    bytes: u64,
+}
+
+/// The fields of `Verified`.
+#[derive(IntoPyObject)]
+pub(crate) struct Verified {
+    checked: u64,
+    recomputed: u64,
+    open: u64,
+    /// Tile and what is wrong with it.
+    damage: Vec<(u64, String)>,
+}
+
+impl Store {
+    fn watch(&self, what: &'static str, threads: usize, progress: Option<Py<PyAny>>) -> Watch {
+        Watch { what, total: points(self.0.plan()), progress, threads }
+    }
+}
+
+#[pymethods]
+impl Store {
+    /// The store of a plan, begun where there is none; without a plan one that is there.
+    #[new]
+    #[pyo3(signature = (place, plan=None))]
+    fn new(py: Python<'_>, place: String, plan: Option<&str>) -> Result<Self, Trouble> {
+        let plan = plan.map(read).transpose()?;
+        let store = door::run(py, Watch::alone("opening a store"), move |_| {
+            let shelf = shelf(&place)?;
+            Ok(match plan {
+                Some(plan) => vibroimpact_study::Store::create(shelf, &plan)?,
+                None => vibroimpact_study::Store::open(shelf)?,
+            })
+        })?;
+        Ok(Self(Arc::new(store)))
+    }
+
+    /// The plan as JSON.
+    #[getter]
+    fn plan(&self) -> Result<String, Trouble> {
+        text(self.0.plan())
+    }
+
+    /// Computes the tiles of part (i, n) that are not done, and concludes when all are.
+    fn run(
+        &self,
+        py: Python<'_>,
+        part: (u64, u64),
+        threads: usize,
+        progress: Option<Py<PyAny>>,
+    ) -> Result<Counts, Trouble> {
+        let (store, part) = (Arc::clone(&self.0), Part::new(part.0, part.1)?);
+        let watch = self.watch("filling a store", threads, progress);
+        door::run(py, watch, move |control| Ok(counts(store.run(part, control)?)))
+    }
+
+    /// Computes those of these tiles that are not done; does not conclude.
+    fn run_tiles(&self, py: Python<'_>, mut tiles: Vec<u64>, threads: usize) -> Result<Counts, Trouble> {
+        let (store, all) = (Arc::clone(&self.0), self.0.study().grid().tiles());
+        tiles.sort_unstable();
+        tiles.dedup();
+        if let Some(tile) = tiles.iter().find(|tile| **tile >= all) {
+            return Err(Trouble::question(format!("tile {tile} is none of the {all} of this store")));
+        }
+        let watch = self.watch("filling tiles", threads, None);
+        door::run(py, watch, move |control| Ok(counts(store.run_tiles(&tiles, control)?)))
+    }
+
+    /// Concludes if all tiles are done; says whether they are.
+    fn conclude(&self, py: Python<'_>) -> Result<bool, Trouble> {
+        let store = Arc::clone(&self.0);
+        door::run(py, Watch::alone("concluding a store"), move |_| Ok(store.conclude_if_done()?))
+    }
+
+    /// How far it is.
+    fn status(&self, py: Python<'_>) -> Result<Status, Trouble> {
+        let store = Arc::clone(&self.0);
+        let found = door::run(py, Watch::alone("looking at a store"), move |_| Ok(store.progress()?))?;
+        Ok(Status {
+            tiles: found.tiles,
+            done: found.done,
+            points: found.points,
+            points_done: found.points_done,
+            complete: found.complete,
+            seconds_left: found.left.map(|time| time.as_secs_f64()),
+            missing: found.missing,
+            bytes: found.bytes,
+        })
+    }
+
+    /// Reads all check sums and computes some tiles again.
+    fn verify(
+        &self,
+        py: Python<'_>,
+        sample: u64,
+        seed: u64,
+        threads: usize,
+        progress: Option<Py<PyAny>>,
+    ) -> Result<Verified, Trouble> {
+        let store = Arc::clone(&self.0);
+        let watch = self.watch("verifying a store", threads, progress);
+        let found = door::run(py, watch, move |control| Ok(store.verify(sample, seed, control)?))?;
+        Ok(Verified {
+            checked: found.checked,
+            recomputed: found.recomputed,
+            open: found.open,
+            damage: found.damage.into_iter().map(|damage| (damage.tile, damage.what)).collect(),
+        })
+    }
+}

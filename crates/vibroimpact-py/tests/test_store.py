@@ -1,0 +1,128 @@
+"""Studies in stores: the same bytes however they came about."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+
+
+@pytest.fixture
+def plan(s: vi.Oscillator) -> vi.Plan:
+    return vi.Plan.basin(s, {"x": "-4:0.75:100", "v": "-4:4:90"}, tile=16)
+
+
+def contents(store: Path) -> dict[str, bytes]:
+    return {str(file.relative_to(store)): file.read_bytes() for file in sorted(store.rglob("*")) if file.is_file()}
+
+
+def test_a_store_holds_what_memory_would(plan: vi.Plan, s: vi.Oscillator, tmp_path: Path) -> None:
+    place = tmp_path / "basin.zarr"
+    ran = vi.run(plan, place)
+    assert (ran.computed, ran.left) == (42, 0) and vi.run(plan, place) == vi.Ran(0, 42, 0, 0)
+    stored = vi.open(place).load()
+    memory = vi.basin(s, x="-4:0.75:100", v="-4:4:90")
+    for name, of in memory.variables.items():
+        np.testing.assert_array_equal(stored[name].values, of.values)
+        assert stored[name].dims == of.dims and stored[name].attrs == of.attrs, name
+    assert stored.attrs["plan_hash"] == plan.hash and vi.Plan(stored.attrs["plan"]) == plan
+    # xarray needs no help
+    xr.testing.assert_identical(xr.open_zarr(place).load(), stored)
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_parts_in_any_order(plan: vi.Plan, tmp_path: Path, threads: int) -> None:
+    vi.run(plan, tmp_path / "one.zarr")
+    for part in ((3, 3), (1, 3), (2, 3)):
+        vi.run(plan, tmp_path / "parts.zarr", part=part, threads=threads)
+    assert contents(tmp_path / "parts.zarr") == contents(tmp_path / "one.zarr")
+    with pytest.raises(vi.QuestionError, match="tiles 4/3 is no part"):
+        vi.run(plan, tmp_path / "parts.zarr", part=(4, 3))
+
+
+def test_stopped_and_resumed(plan: vi.Plan, tmp_path: Path) -> None:
+    vi.run(plan, tmp_path / "one.zarr")
+    vi.run(plan, tmp_path / "two.zarr", part=(1, 2))
+    far = vi.status(tmp_path / "two.zarr")
+    assert (far.tiles, far.done, far.complete) == (42, 21, False) and far.missing[0] == 1 and far.points == 9000
+    found = vi.verify(tmp_path / "two.zarr")
+    assert found.open == 21 and not found.whole and found.damage == []
+    ran = vi.resume(tmp_path / "two.zarr")
+    assert (ran.computed, ran.found) == (21, 21) and vi.status(tmp_path / "two.zarr").complete
+    assert contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr")
+
+
+def test_damage_is_found_and_mended(plan: vi.Plan, tmp_path: Path) -> None:
+    place = tmp_path / "basin.zarr"
+    vi.run(plan, place)
+    before = contents(place)
+    chunk = max(file for file in place.glob("label/c/**/*") if file.is_file())
+    bits = bytearray(chunk.read_bytes())
+    bits[len(bits) // 2] ^= 4
+    chunk.write_bytes(bits)
+    found = vi.verify(place)
+    assert len(found.damage) == 1 and "check sum" in found.damage[0][1] and not found.whole
+    assert vi.resume(place).mended == 1 and contents(place) == before and vi.verify(place, sample=42).whole
+
+
+def test_killed_and_resumed(tmp_path: Path, u: vi.Oscillator) -> None:
+    plan = vi.Plan.basin(u, {"x": "-4:3:60", "v": "-4:4:60"}, tile=10)
+    vi.run(plan, tmp_path / "one.zarr")
+    (tmp_path / "plan.json").write_text(plan.json)
+    program = f"import vibroimpact as vi; vi.run(vi.Plan.read({str(tmp_path / 'plan.json')!r}), {str(tmp_path / 'two.zarr')!r})"
+    seen = set()
+    for seconds in (0.3, 0.5, 0.8):
+        with subprocess.Popen([sys.executable, "-c", program]) as run:
+            time.sleep(seconds)
+            run.kill()
+        if (tmp_path / "two.zarr/zarr.json").exists():
+            seen.add(vi.status(tmp_path / "two.zarr").done)
+    vi.run(plan, tmp_path / "two.zarr")
+    assert contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr"), seen
+
+
+def test_ctrl_c_keeps_what_is_done(tmp_path: Path) -> None:
+    program = f"""
+import vibroimpact as vi
+u = vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5)
+try:
+    vi.basin(u, x="-4:3:400", v="-4:4:400", tile=8, store={str(tmp_path / 'chaos.zarr')!r},
+             progress=lambda done, total: print(done, flush=True))
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as run:
+        assert run.stdout is not None
+        for line in run.stdout:
+            if int(line) > 200:
+                break
+        run.send_signal(signal.SIGINT)
+        assert run.stdout.read().endswith("interrupted\n") and run.wait(60) == 0
+    far = vi.status(tmp_path / "chaos.zarr")
+    assert 0 < far.done < far.tiles
+
+
+def test_stores_that_cannot_be_used(plan: vi.Plan, s: vi.Oscillator, tmp_path: Path) -> None:
+    with pytest.raises(vi.StoreError, match="there is no store at"):
+        vi.open(tmp_path / "none.zarr")
+    with pytest.raises(vi.StoreError, match="there is no store at"):
+        vi.status(tmp_path / "none.zarr")
+    vi.run(plan, tmp_path / "one.zarr")
+    with pytest.raises(vi.StoreError, match="holds another plan"):
+        vi.basin(s, x="-4:0.75:9", store=tmp_path / "one.zarr")
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full/diary.txt").write_text("mine")
+    with pytest.raises(vi.StoreError, match="is not empty, and no store"):
+        vi.run(plan, tmp_path / "full")
+    if os.geteuid() != 0:
+        (tmp_path / "locked").mkdir(mode=0o500)
+        with pytest.raises(vi.StoreError, match="cannot write"):
+            vi.run(plan, tmp_path / "locked/basin.zarr")
+    assert issubclass(vi.StoreError, OSError)
