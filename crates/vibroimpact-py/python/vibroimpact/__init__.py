@@ -32,6 +32,7 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 Results have arrays, `plot()` for a figure and `to_dict()` with the fields of the command's JSON.
 """
 
+from vibroimpact import dask
 from vibroimpact._attractors import Attractor, Attractors, attractors
 from vibroimpact._branch import Branch, BranchEvent, Origin, branch
 from vibroimpact._core import Oscillator, QuestionError, StoppedError, StoreError, Units, __version__
@@ -80,6 +81,7 @@ __all__ = [
     "basin",
     "branch",
     "curve",
+    "dask",
     "lyapunov",
     "open",
     "orbit_diagram",
@@ -94,12 +96,3 @@ __all__ = [
     "status",
     "verify",
 ]
-
-
-def __getattr__(name: str) -> object:
-    # Dask takes its time: its door is opened when someone knocks
-    if name == "dask":
-        import importlib
-
-        return importlib.import_module("vibroimpact.dask")
-    raise AttributeError(f"module 'vibroimpact' has no attribute '{name}'")
