@@ -4,6 +4,7 @@ use crate::axis::parameter;
 use crate::columns::{Impacts, column, complex, named, pairs};
 use crate::door::{self, Watch};
 use crate::error::Trouble;
+use crate::motion::{Rest, rests};
 use crate::oscillator::Oscillator;
 use crate::simulate::text;
 use numpy::{Complex64, PyArray1, PyArray2};
@@ -19,6 +20,8 @@ pub(crate) struct Cycles<'py> {
     offsets: Bound<'py, PyArray1<i64>>,
     impacts: Impacts<'py>,
     multipliers: Bound<'py, PyArray2<Complex64>>,
+    /// Of each cycle, where any of them has one.
+    rests: Option<Vec<Vec<Rest>>>,
 }
 
 impl<'py> Cycles<'py> {
@@ -31,6 +34,7 @@ impl<'py> Cycles<'py> {
         Ok(Self {
             offsets: column(py, core::iter::once(0).chain(ends)),
             multipliers: pairs(py, cycles.clone().map(|cycle| complex(cycle.multipliers)))?,
+            rests: cycles.clone().any(|cycle| !cycle.rests.is_empty()).then(|| cycles.clone().map(rests).collect()),
             impacts: Impacts::new(py, cycles),
         })
     }
@@ -62,41 +66,63 @@ struct Event {
     side: Option<&'static str>,
     phase: Option<f64>,
     turns: Option<bool>,
+    /// Impact, side and phase of a touch together with that of the event.
+    also: Option<(Option<usize>, &'static str, f64)>,
 }
 
 impl Event {
     fn new(place: usize, point: &Point, event: &BranchEvent) -> Self {
         let label = point.cycle.label.to_string();
+        // where there are none, none is counted
+        let place_of = |impact: usize| (!point.cycle.points.is_empty()).then_some(impact + 1);
         let bare = Self {
             kind: event.name(),
             parameter: point.value,
             point: place,
             ends: event.ends(),
             label_after: (!event.ends()).then(|| label.clone()),
-            label_before: label,
+            label_before: label.clone(),
             change: None,
             impact: None,
             side: None,
             phase: None,
             turns: None,
+            also: None,
         };
         match event {
-            BranchEvent::Grazing { change, impact, side, phase, before, after, turns } => Self {
+            BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also } => Self {
                 label_before: before.to_string(),
                 label_after: Some(after.to_string()),
                 change: Some(match change {
                     Change::Appears => "appears",
                     Change::Disappears => "disappears",
                 }),
-                impact: Some(impact + 1),
+                impact: place_of(*impact),
                 side: Some(named(*side)),
                 phase: Some(*phase),
                 turns: Some(*turns),
+                also: also.map(|touch| (place_of(touch.impact), named(touch.side), touch.phase)),
                 ..bare
             },
-            BranchEvent::LossOfContact { side, phase } => {
+            BranchEvent::SoftLanding { impact, side, phase, before, after } => Self {
+                label_before: before.to_string(),
+                label_after: Some(after.to_string()),
+                impact: Some(impact + 1),
+                side: Some(named(*side)),
+                phase: Some(*phase),
+                ..bare
+            },
+            BranchEvent::Chatter { side, phase, before } => Self {
+                label_before: before.to_string(),
+                label_after: Some(label),
+                side: Some(named(*side)),
+                phase: Some(*phase),
+                ..bare
+            },
+            BranchEvent::LossOfContact { side, phase } | BranchEvent::EndOfRest { side, phase } => {
                 Self { side: Some(named(*side)), phase: Some(*phase), ..bare }
             }
+            BranchEvent::RestForEver { side } => Self { side: Some(named(*side)), ..bare },
             BranchEvent::Stick { impact } => Self { impact: Some(impact + 1), ..bare },
             _ => bare,
         }

@@ -29,8 +29,9 @@ pub(crate) struct Fields<'py> {
     tried: Option<Tried>,
 }
 
+/// A rest on a stop.
 #[derive(IntoPyObject)]
-struct Rest {
+pub(crate) struct Rest {
     side: &'static str,
     chatter: bool,
     begin: f64,
@@ -67,6 +68,14 @@ impl HorizonFields {
         };
         Self { kind: "forever", periods: None, why, common_period }
     }
+}
+
+/// The rests of a cycle.
+pub(crate) fn rests(cycle: &Cycle) -> Vec<Rest> {
+    let rests = cycle.rests.iter();
+    rests
+        .map(|rest| Rest { side: named(rest.side), chatter: rest.chatter, begin: rest.begin, release: rest.release })
+        .collect()
 }
 
 const fn pair(of: Measured) -> (f64, f64) {
@@ -113,12 +122,6 @@ impl<'py> Fields<'py> {
     }
 
     fn periodic(py: Python<'py>, cycle: &Cycle, bare: Self) -> Self {
-        let rest = |rest: &vibroimpact::orbit::RestSpan| Rest {
-            side: named(rest.side),
-            chatter: rest.chatter,
-            begin: rest.begin,
-            release: rest.release,
-        };
         Self {
             kind: "periodic",
             impacts: match cycle.label.impacts {
@@ -128,7 +131,7 @@ impl<'py> Fields<'py> {
             periods: Some(cycle.label.periods),
             sticks: Some(cycle.rests.len()),
             cycle: Impacts::new(py, &core::iter::once(cycle)),
-            rests: cycle.rests.iter().map(rest).collect(),
+            rests: rests(cycle),
             residual: Some(cycle.residual),
             ..bare
         }

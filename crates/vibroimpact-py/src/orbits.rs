@@ -12,7 +12,7 @@ use vibroimpact::verdict::Verdict;
 use vibroimpact_study::{Plan, Task};
 
 /// After which impact, counted from 1, it meets which stop, and how long after.
-type Earlier = (usize, &'static str, f64);
+type Earlier = (Option<usize>, &'static str, f64);
 
 /// Each orbit, whether it is a possible motion, and where it meets a stop too early.
 #[pyfunction]
@@ -29,7 +29,10 @@ pub(crate) fn orbits<'py>(
     Ok(found
         .into_iter()
         .map(|orbit| {
-            let earlier = orbit.earlier.map(|contact| (contact.flight + 1, named(contact.side), contact.time));
+            let earlier = orbit.earlier.map(|contact| {
+                let impact = (!orbit.cycle.points.is_empty()).then_some(contact.flight + 1);
+                (impact, named(contact.side), contact.time)
+            });
             (Fields::new(py, &Verdict::Periodic(orbit.cycle), &osc), orbit.physical, earlier)
         })
         .collect())

@@ -70,6 +70,14 @@ def test_branch(ask: Callable[..., Any]) -> None:
     assert found == {name: told[name] for name in found}
 
 
+def test_branch_of_an_orbit_that_rests(ask: Callable[..., Any]) -> None:
+    told = ask("branch", "--inverse-beta", 1.11, "--gap", -0.5, "--restitution", 0.5, "--label", "inf/1", "--vary", "gap",
+               "--to", -0.2)
+    found = vi.branch(vi.Oscillator(inverse_beta=1.11, gap=-0.5, restitution=0.5), "inf/1", "gap", -0.2)
+    assert found.events[-1].kind == "end of rest" and len(found.rests[0]) == 1
+    assert found.to_dict() == {name: told[name] for name in found.to_dict()}
+
+
 def test_curve(ask: Callable[..., Any]) -> None:
     osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
     told = ask("curve", "--inverse-beta", 1.11, "--gap", 1.5, "--restitution", 0.5, "--label", "1/1", "--kind", "flip",

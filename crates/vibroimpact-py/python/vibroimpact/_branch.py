@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 class BranchEvent:
     """What happens at a point of a branch.
 
-    `kind` is "fold", "flip", "branch point", "grazing", "loss of contact", "stick", or why the branch ends: "end of range",
+    `kind` is "fold", "flip", "branch point", "grazing", "loss of contact", "stick", "soft landing", "end of
+    rest", "rest for ever", "chatter", or why the branch ends: "end of range",
     "closed", "halving", "step limit", "impact limit", "no convergence". Grazing events say which impact (counted from 1)
     appears or disappears, on which side, at which phase, and whether the parameter turns back.
     """
@@ -36,11 +37,16 @@ class BranchEvent:
     side: str | None = None
     phase: float | None = None
     turns: bool | None = None
+    #: With two stops alike the touch of the other one: impact, side and phase.
+    also: tuple[int | None, str, float] | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The fields of the command's JSON."""
         always = ("kind", "parameter", "point", "ends", "label_before", "label_after")
         fields = {name: getattr(self, name) for name in self.__dataclass_fields__}
+        if self.also is not None:
+            also = dict(zip(("impact", "side", "phase"), self.also))
+            fields["also"] = {name: value for name, value in also.items() if value is not None}
         return {name: value for name, value in fields.items() if name in always or value is not None}
 
 
@@ -114,6 +120,11 @@ class Branch:
         return self.cycles.multipliers
 
     @property
+    def rests(self) -> list[list[dict[str, Any]]]:
+        """The rests on a stop at each point, as in a Motion."""
+        return self.cycles.rests or [[] for _ in range(len(self))]
+
+    @property
     def speed(self) -> NDArray[np.float64]:
         """The largest speed of arrival at each point."""
         return self.cycles.fastest()
@@ -139,11 +150,13 @@ class Branch:
         return _tracks.plot(self, ax, diagram, virtual, si)
 
     def _points(self) -> list[dict[str, Any]]:
+        rests = self.rests
         return [
             {
                 "parameter": float(self.parameter[k]),
                 "label": self.label[k],
                 "cycle": cycle.to_list(),
+                **({"rests": rests[k]} if rests[k] else {}),
                 "multipliers": pairs(self.multipliers[k]),
                 "stable": bool(self.stable[k]),
                 "physical": bool(self.physical[k]),

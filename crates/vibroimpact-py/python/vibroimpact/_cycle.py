@@ -58,10 +58,11 @@ class Cycles:
     offsets: NDArray[np.int64]
     impacts: Cycle
     multipliers: NDArray[np.complex128]
+    rests: list[list[dict[str, Any]]] | None
 
     @classmethod
     def of(cls, fields: dict[str, Any]) -> "Cycles":
-        return cls(fields["offsets"], Cycle(**fields["impacts"]), fields["multipliers"])
+        return cls(fields["offsets"], Cycle(**fields["impacts"]), fields["multipliers"], fields["rests"])
 
     def __len__(self) -> int:
         return len(self.offsets) - 1

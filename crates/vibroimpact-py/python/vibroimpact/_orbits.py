@@ -15,11 +15,11 @@ from vibroimpact._motion import Motion, fields_of
 class EarlierContact(NamedTuple):
     """Where a solution that is no motion meets a stop before it is meant to."""
 
-    #: After which of its impacts, counted from 1.
-    after_impact: int
+    #: After which of its impacts, counted from 1; None where it has no impacts.
+    after_impact: int | None
     #: "upper" or "lower".
     side: str
-    #: How long after that impact.
+    #: How long after that impact, or after phase 0.
     time: float
 
 

@@ -20,7 +20,7 @@ _VALUES = 401
 #: Labels with a colour of their own.
 _NAMED = 12
 #: Marks of events.
-_MARKS = {"fold": "s", "flip": "D", "branch point": "o", "grazing": "^", "loss of contact": "v"}
+_MARKS = {"fold": "s", "flip": "D", "branch point": "o", "grazing": "^", "loss of contact": "v", "soft landing": "P"}
 _LOOKS = {"stable": "-", "unstable": "--", "no motion": ":"}
 
 
@@ -84,7 +84,7 @@ def _events(branches: "list[Branch]", ax: "Axes", virtual: bool, unit: float, sp
         for event in one.events:
             if event.kind not in _MARKS or not (virtual or one.physical[event.point]):
                 continue
-            comes_or_goes = event.kind in ("grazing", "loss of contact")
+            comes_or_goes = event.kind in ("grazing", "loss of contact", "soft landing")
             speeds = [0.0] if comes_or_goes else one.cycles[event.point].velocity_before.tolist()
             places.setdefault(event.kind, []).extend((event.parameter, u) for u in speeds)
     for kind in sorted(places):
