@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -108,3 +109,9 @@ def test_questions_from_many_threads_at_once(s: vi.Oscillator) -> None:
     for thread in threads:
         thread.join()
     assert found == [expected] * 4
+
+
+def test_there_is_one_door(root: Path) -> None:
+    sources = (root / "crates/vibroimpact-py/src").glob("*.rs")
+    words = (".detach(", "thread::", "check_signals")
+    assert {file.name for file in sources if any(word in file.read_text() for word in words)} == {"door.rs"}

@@ -4,6 +4,7 @@ import doctest
 import importlib
 import pkgutil
 import re
+import statistics
 import subprocess
 import sys
 from pathlib import Path
@@ -16,14 +17,14 @@ import vibroimpact as vi
 def test_importing_takes_no_time_and_drags_nothing_in() -> None:
     program = """
 import sys, time
-begin = time.perf_counter()
+begin = time.process_time()
 import vibroimpact
-print(time.perf_counter() - begin)
+print(time.process_time() - begin)
 print(*sorted({"xarray", "matplotlib", "pandas", "zarr", "tqdm", "dask"} & set(sys.modules)))
 """
     runs = [subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True) for _ in range(5)]
-    # the least disturbed one: a busy machine is no fault of ours
-    seconds = min(float(run.stdout.splitlines()[0]) for run in runs)
+    # time of the processor: what else keeps the machine busy does not count
+    seconds = statistics.median(float(run.stdout.splitlines()[0]) for run in runs)
     assert seconds < 0.3, f"{seconds} s"
     assert {run.stdout.splitlines()[1] for run in runs} == {""}
 
@@ -52,7 +53,9 @@ def listings(path: Path) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```$", path.read_text(), re.S | re.M)
 
 
+@pytest.mark.filterwarnings("ignore")
 def test_listings_run_as_typed(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("distributed")
     monkeypatch.chdir(tmp_path)
     pages = [root / "README.md", root / "docs/python.md"]
     found = {page.name: listings(page) for page in pages}
