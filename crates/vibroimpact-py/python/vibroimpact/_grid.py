@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from vibroimpact import _core
 from vibroimpact._axis import Axis
 from vibroimpact._core import Oscillator
@@ -42,7 +44,6 @@ def computed(
 
 
 def _dataset(plan: Plan, coordinates: list[dict[str, Any]], variables: list[dict[str, Any]]) -> "xr.Dataset":
-    import numpy as np
     import xarray as xr
 
     from vibroimpact import _accessor  # noqa: F401  registers ds.vibro
@@ -124,8 +125,8 @@ def basin(
     """
     axes, fixed = dict[str, Axis](), dict[str, float | None]()
     for name, of in (("x", x), ("v", v), ("phase", phase)):
-        if of is None or isinstance(of, (int, float)):
-            fixed[name] = of
+        if of is None or isinstance(of, (int, float, np.number)):
+            fixed[name] = None if of is None else float(of)
         else:
             axes[name] = of
     plan = Plan.basin(
