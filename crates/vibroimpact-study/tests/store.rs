@@ -2,64 +2,17 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::collections::BTreeMap;
+mod common;
+
+use common::{S, basin, control, files, map, open, whole};
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use vibroimpact_study::store::{Folder, Part, Store, StoreError};
 use vibroimpact_study::{
-    Axis, BasinPlan, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, StartPlan, SystemPlan, Task,
+    Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, StartPlan, SystemPlan, Task,
 };
-
-const S: SystemPlan =
-    SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, damping: 0.0, second_stop: None };
-
-fn basin() -> Plan {
-    let task = BasinPlan::plane("-4:0.75:45".parse().unwrap(), "-4:4:37".parse().unwrap(), 0.0);
-    Plan { tile: Some(10), ..Plan::new(S, Task::Basin(task)) }
-}
-
-fn map() -> Plan {
-    let task = MapPlan::plane("0.6:1.4:13".parse().unwrap(), "-0.5:2:9".parse().unwrap(), 4, 1);
-    let system = SystemPlan { inverse_beta: Some(0.6), gap: -0.5, ..S };
-    Plan { tile: Some(4), ..Plan::new(system, Task::Map(task)) }
-}
-
-fn open(folder: &Path, plan: &Plan) -> Store {
-    Store::create(Arc::new(Folder::new(folder)), plan).unwrap()
-}
-
-fn control(threads: usize) -> Control<'static> {
-    Control { threads, ..Control::default() }
-}
-
-/// All files of a folder.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    fn walk(from: &Path, root: &Path, into: &mut BTreeMap<String, Vec<u8>>) {
-        for entry in fs::read_dir(from).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                walk(&path, root, into);
-            } else {
-                into.insert(path.strip_prefix(root).unwrap().display().to_string(), fs::read(&path).unwrap());
-            }
-        }
-    }
-    let mut found = BTreeMap::new();
-    walk(folder, folder, &mut found);
-    found
-}
-
-/// The store of a plan computed by one thread without a break.
-fn whole(plan: &Plan) -> (tempfile::TempDir, BTreeMap<String, Vec<u8>>) {
-    let folder = tempfile::tempdir().unwrap();
-    let store = open(folder.path(), plan);
-    let ran = store.run(Part::ALL, &control(1)).unwrap();
-    assert_eq!((ran.computed, ran.left), (store.study().grid().tiles(), 0));
-    let files = files(folder.path());
-    (folder, files)
-}
 
 #[test]
 fn the_same_bytes_for_any_threads_and_parts() {

@@ -4,12 +4,29 @@ use std::io::{self, BufRead, BufReader, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use serde_json::Value;
+
 /// The root of the repository this program was started in.
 pub(crate) fn root() -> PathBuf {
     // cargo sets the variable at run time; what was compiled in serves a direct start
     let here =
         std::env::var_os("CARGO_MANIFEST_DIR").map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
     here.ancestors().nth(2).map_or(here.clone(), Path::to_path_buf)
+}
+
+/// The folder cargo builds in.
+///
+/// # Errors
+/// The sentence that says why cargo does not tell.
+pub(crate) fn target(root: &Path) -> Result<PathBuf, String> {
+    let unreadable = |why: String| format!("the answer of `cargo metadata` cannot be read: {why}");
+    let output = words(root, "cargo metadata --no-deps --format-version 1")
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| format!("`cargo metadata` cannot be started: {error}"))?;
+    let metadata: Value = serde_json::from_slice(&output.stdout).map_err(|error| unreadable(error.to_string()))?;
+    let target = metadata["target_directory"].as_str().ok_or_else(|| unreadable("no target directory".to_owned()))?;
+    Ok(PathBuf::from(target))
 }
 
 /// A command written as one would type it: words parted by blanks, no quoting.

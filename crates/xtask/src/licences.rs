@@ -8,7 +8,8 @@ use serde_json::Value;
 
 use crate::{command, spdx};
 
-/// Licences that ask for no more than to keep a notice. MPL-2.0 and the GPL family are left out:
+/// Licences that ask for no more than to keep a notice; CDLA-Permissive-2.0 is one for data, as for a list of the
+/// authorities that sign the keys of servers. MPL-2.0 and the GPL family are left out:
 /// they would put conditions on those who build on this library.
 const ALLOWED: &[&str] = &[
     "0BSD",
@@ -18,6 +19,7 @@ const ALLOWED: &[&str] = &[
     "BSD-3-Clause",
     "BSL-1.0",
     "CC0-1.0",
+    "CDLA-Permissive-2.0",
     "ISC",
     "MIT",
     "MIT-0",
@@ -31,7 +33,7 @@ const ALLOWED: &[&str] = &[
 /// # Errors
 /// A sentence for each package whose licence is not allowed, cannot be read or is not stated.
 pub(crate) fn check(root: &Path) -> Result<String, String> {
-    let output = command::words(root, "cargo metadata --format-version 1")
+    let output = command::words(root, "cargo metadata --all-features --format-version 1")
         .stderr(Stdio::inherit())
         .output()
         .map_err(|error| format!("`cargo metadata` cannot be started: {error}"))?;

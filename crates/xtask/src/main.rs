@@ -12,10 +12,12 @@ mod licences;
 mod line;
 mod links;
 mod python;
+mod s3;
 mod spdx;
 mod test;
 mod tools;
 mod totals;
+mod venv;
 
 use std::process::ExitCode;
 
@@ -34,6 +36,7 @@ usage: cargo xtask COMMAND
   python                  the Python package, into an environment under target/
   licences                the licence of every dependency against the allow-list
   links                   every relative link in the Markdown files
+  s3                      studies in buckets, against a server that it installs in target/s3-venv
 ";
 
 /// Exit status of a question that makes no sense, as in `vibro`.
@@ -58,6 +61,7 @@ fn main() -> ExitCode {
         ["python"] => finish(python::install(&root)),
         ["licences"] => finish(licences::check(&root)),
         ["links"] => finish(links::check(&root)),
+        ["s3"] => finish(s3::test(&root)),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");
             ExitCode::SUCCESS

@@ -4,6 +4,25 @@
 //! its status, which is written last, is there and whole. Objects appear whole or not at all, so that a process may be
 //! killed at any moment, and several may work on one store without knowing of each other.
 //!
+//! # Places
+//!
+//! A folder, or with the feature `s3` a bucket of any object store that speaks S3, called `s3://BUCKET/PREFIX`; both come to
+//! the same objects with the same bytes. All that is asked of a place is in [`Shelf`]. How a bucket is reached stands in the
+//! environment, by the usual names:
+//!
+//! | variable | meaning |
+//! |---|---|
+//! | `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY` | who asks; without them the role of the machine, where it has one |
+//! | `AWS_SESSION_TOKEN` | for a key that is lent |
+//! | `AWS_REGION` | where the bucket is; `us-east-1` unless given |
+//! | `AWS_ENDPOINT_URL` | the server, `https://...`; Amazon's unless given |
+//! | `AWS_ALLOW_HTTP` | `true` allows a server without encryption, as on one's own machine |
+//!
+//! The files of `aws configure` are not read. The bucket has to be there. A server that never answered is given up after some
+//! five seconds, fifteen where nothing refuses the connection; one that has answered may be away for a minute and a half.
+//!
+//! # Files
+//!
 //! | idea | file |
 //! |---|---|
 //! | objects by name: a folder, or a bucket | `shelf.rs`, `bucket.rs` |
@@ -13,6 +32,8 @@
 //! | what only the whole can say | `conclude.rs` |
 //! | how far it is, and what is damaged | `check.rs` |
 
+#[cfg(feature = "s3")]
+mod bucket;
 mod check;
 mod chunk;
 mod conclude;
@@ -22,6 +43,8 @@ mod read;
 mod run;
 mod shelf;
 
+#[cfg(feature = "s3")]
+pub use bucket::Bucket;
 pub use check::{Damage, Progress, Verified};
 pub use error::StoreError;
 pub use run::{Part, Ran};
@@ -63,9 +86,16 @@ pub fn shelf(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
     }
     match place.split_once("://") {
         None => Ok(Arc::new(Folder::new(Path::new(place)))),
-        Some(_) => Err(StoreError::Unreachable {
+        #[cfg(feature = "s3")]
+        Some(("s3", _)) => Ok(Arc::new(Bucket::new(place)?)),
+        #[cfg(not(feature = "s3"))]
+        Some(("s3", _)) => Err(StoreError::Unreachable {
             place: place.to_owned(),
             why: "this build reaches folders only\nhint: build with `--features s3`".to_owned(),
+        }),
+        Some(_) => Err(StoreError::Unreachable {
+            place: place.to_owned(),
+            why: "a store lies in a folder or at s3://BUCKET/PREFIX".to_owned(),
         }),
     }
 }

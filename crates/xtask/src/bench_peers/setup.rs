@@ -5,9 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use serde_json::Value;
-
-use crate::command;
+use crate::{command, venv};
 
 /// Compiler and flags of the peers in C.
 pub(super) const COMPILE: &str = "gcc -O3 -march=native";
@@ -51,48 +49,19 @@ impl Workshop {
 /// # Errors
 /// The sentence that says which step failed.
 pub(super) fn prepare(root: &Path) -> Result<Workshop, String> {
-    let target = target(root)?;
+    let target = command::target(root)?;
     let folder = target.join("peers");
+    let sources = root.join("benches/peers");
+    command::run(command::words(root, "cargo build --release --package vibroimpact-cli"))?;
+    let hint = |why: String| format!("{why}\nhint: the peers need Python 3.11 or later with venv, and access to PyPI");
     let workshop = Workshop {
-        python: folder.join("venv/bin/python"),
-        sources: root.join("benches/peers"),
+        python: venv::ready(root, &folder.join("venv"), &sources.join("requirements.txt")).map_err(hint)?,
+        sources,
         vibro: target.join("release").join(format!("vibro{}", std::env::consts::EXE_SUFFIX)),
         folder,
     };
-    command::run(command::words(root, "cargo build --release --package vibroimpact-cli"))?;
-    python(root, &workshop)?;
     compile(&workshop)?;
     Ok(workshop)
-}
-
-/// The folder cargo builds in.
-fn target(root: &Path) -> Result<PathBuf, String> {
-    let unreadable = |why: String| format!("the answer of `cargo metadata` cannot be read: {why}");
-    let output = command::words(root, "cargo metadata --no-deps --format-version 1")
-        .stderr(Stdio::inherit())
-        .output()
-        .map_err(|error| format!("`cargo metadata` cannot be started: {error}"))?;
-    let metadata: Value = serde_json::from_slice(&output.stdout).map_err(|error| unreadable(error.to_string()))?;
-    let target = metadata["target_directory"].as_str().ok_or_else(|| unreadable("no target directory".to_owned()))?;
-    Ok(PathBuf::from(target))
-}
-
-/// The environment with the pinned packages; made anew only when the pins have changed.
-fn python(root: &Path, workshop: &Workshop) -> Result<(), String> {
-    let pins = workshop.sources.join("requirements.txt");
-    let wanted = fs::read_to_string(&pins).map_err(|error| format!("{} cannot be read: {error}", pins.display()))?;
-    let stamp = workshop.folder.join("venv/installed.txt");
-    if fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) {
-        return Ok(());
-    }
-    let hint = |why: String| format!("{why}\nhint: the peers need Python 3.11 or later with venv, and access to PyPI");
-    let mut make = command::words(root, "python3 -m venv");
-    make.arg(workshop.folder.join("venv"));
-    command::run(make).map_err(hint)?;
-    let mut install = workshop.command(&workshop.python);
-    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"]).arg(&pins);
-    command::run(install).map_err(hint)?;
-    fs::write(&stamp, wanted).map_err(|error| format!("{} cannot be written: {error}", stamp.display()))
 }
 
 /// Compiles the peers in C. It takes a second, so it is done each time.
