@@ -5,11 +5,11 @@
 mod common;
 
 use common::{S, basin, control, files, map, open, whole};
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use vibroimpact_study::store::{Folder, Part, Store, StoreError};
+use std::{fs, io};
+use vibroimpact_study::store::{Folder, Item, Part, Shelf, Store, StoreError};
 use vibroimpact_study::{
     Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, StartPlan, SystemPlan, Task,
 };
@@ -153,6 +153,43 @@ fn two_at_once_do_no_harm() {
                 }
             });
             assert!(files(folder.path()) == want);
+        }
+    }
+}
+
+/// A folder in which somebody else begins a store just after it was found empty.
+struct Contested(Folder, Plan, AtomicBool);
+
+impl Shelf for Contested {
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        let found = self.0.get(key);
+        if key == "zarr.json" && !self.2.swap(true, Ordering::Relaxed) {
+            open(self.0.path(), &self.1);
+        }
+        found
+    }
+    fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()> {
+        self.0.put(key, bytes)
+    }
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
+        self.0.list(prefix)
+    }
+    fn sweep(&self) -> io::Result<()> {
+        self.0.sweep()
+    }
+    fn name(&self) -> String {
+        self.0.name()
+    }
+}
+
+#[test]
+fn a_store_that_is_begun_meanwhile_is_joined() {
+    for (theirs, joined) in [(map(), true), (basin(), false)] {
+        let folder = tempfile::tempdir().unwrap();
+        let shelf = Contested(Folder::new(folder.path()), theirs, AtomicBool::new(false));
+        match Store::create(Arc::new(shelf), &map()) {
+            Ok(store) => assert!(joined && store.progress().unwrap().done == 0),
+            Err(error) => assert!(!joined && error.to_string().contains("holds another plan"), "{error}"),
         }
     }
 }

@@ -109,16 +109,14 @@ impl Store {
         let plan = &plan.canonical()?;
         let store = Self::over(shelf, plan, VERSION.to_owned())?;
         match store.root() {
-            Ok(root) => {
-                let found = store.found(&root)?;
-                if found.hash != plan.hash() {
-                    let (theirs, ours) = (found.hash, plan.hash());
-                    return Err(StoreError::OtherPlan { place: store.place(), theirs, ours });
-                }
-                return Ok(Self { begun_by: found.version, ..store });
-            }
+            Ok(root) => return store.joined(&root),
             Err(StoreError::Absent(_)) => {
                 let there = store.shelf.list("").map_err(|error| store.unread("", error))?;
+                if there.iter().any(|item| item.key == ROOT) {
+                    // another process has begun it since
+                    let root = store.root()?;
+                    return store.joined(&root);
+                }
                 // one that another process is beginning just now has arrays, but nothing else
                 let known = |key: &str| store.described().any(|array| key.starts_with(&format!("{}/", array.name)));
                 if there.iter().any(|item| !known(&item.key)) {
@@ -131,6 +129,15 @@ impl Store {
         }
         store.describe()?;
         Ok(store)
+    }
+
+    /// Itself, if what is there is of the same plan.
+    fn joined(self, root: &Value) -> Result<Self, StoreError> {
+        let found = self.found(root)?;
+        if found.hash != self.plan.hash() {
+            return Err(StoreError::OtherPlan { place: self.place(), theirs: found.hash, ours: self.plan.hash() });
+        }
+        Ok(Self { begun_by: found.version, ..self })
     }
 
     /// Opens a store that is there.
