@@ -231,9 +231,19 @@ fn patience_comes_with_the_first_answer() {
         assert!(begin.elapsed() < Duration::from_secs(10), "{:?}", begin.elapsed());
     };
     refused(Instant::now());
-    // a server that knows nothing, for one request
+    // a server that knows nothing, for one request, if one comes
     let answer = || {
-        let (mut stream, _) = TcpListener::bind(("127.0.0.1", port)).unwrap().accept().unwrap();
+        let listener = TcpListener::bind(("127.0.0.1", port)).unwrap();
+        listener.set_nonblocking(true).unwrap();
+        let begin = Instant::now();
+        let mut stream = loop {
+            match listener.accept() {
+                Ok((stream, _)) => break stream,
+                Err(_) if begin.elapsed() < Duration::from_secs(20) => std::thread::sleep(Duration::from_millis(10)),
+                Err(_) => return,
+            }
+        };
+        stream.set_nonblocking(false).unwrap();
         let mut request = [0; 4096];
         let _ = stream.read(&mut request).unwrap();
         stream.write_all(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\nConnection: close\r\n\r\n").unwrap();
@@ -265,6 +275,8 @@ fn refusals() {
     // no bucket of that name
     let none = Store::create(server.shelf("s3://nobody/x"), &map()).err().unwrap().to_string();
     assert!(none.contains("refuses: NoSuchBucket: ") && none.contains("\nhint: make the bucket first"), "{none}");
+    let none = Store::open(server.shelf("s3://nobody/x")).err().unwrap().to_string();
+    assert!(none.contains("refuses: NoSuchBucket: "), "{none}");
     // something else in it
     server.shelf("s3://studies/mine").put("thesis.tex", b"years of work").unwrap();
     let foreign = Store::create(server.shelf("s3://studies/mine"), &map()).err().unwrap().to_string();
