@@ -18,8 +18,8 @@
 //! | `AWS_ENDPOINT_URL` | the server, `https://...`; Amazon's unless given |
 //! | `AWS_ALLOW_HTTP` | `true` allows a server without encryption, as on one's own machine |
 //!
-//! The files of `aws configure` are not read. The bucket has to be there. A server that never answered is given up after some
-//! five seconds, fifteen where nothing refuses the connection; one that has answered may be away for a minute and a half.
+//! The files of `aws configure` are not read. The bucket has to be there. A server that cannot be reached is given up after
+//! some three seconds, one that never says a word after thirty; one that has answered once may be away for a minute and a half.
 //!
 //! # Files
 //!
