@@ -246,26 +246,33 @@ impl Axis {
     }
 }
 
-/// The system and the start at a point of the axes; what is on no axis is as given.
+/// The system at a point of the axes; what is on no axis is as given.
 ///
 /// # Errors
 /// [`PlanError::NoSecondStop`] for a parameter of a second stop that is not there.
-pub fn at(
-    (system, start): (&SystemPlan, &StartPlan),
-    axes: &[Axis],
-    index: impl Fn(usize) -> usize,
-) -> Result<(SystemPlan, StartPlan), PlanError> {
-    let (mut system, mut start) = (*system, *start);
+pub fn system_at(system: &SystemPlan, axes: &[Axis], index: impl Fn(usize) -> usize) -> Result<SystemPlan, PlanError> {
+    let mut system = *system;
     for (k, axis) in axes.iter().enumerate() {
-        let value = axis.over.at(index(k));
-        match axis.vary {
-            Coordinate::Parameter(parameter) => system = system.with(parameter, value)?,
-            Coordinate::X => start.x = Some(value),
-            Coordinate::V => start.v = value,
-            Coordinate::Phase => start.phase = value,
+        if let Coordinate::Parameter(parameter) = axis.vary {
+            system = system.with(parameter, axis.over.at(index(k)))?;
         }
     }
-    Ok((system, start))
+    Ok(system)
+}
+
+/// The start at a point of the axes; what is on no axis is as given.
+pub fn start_at(start: &StartPlan, axes: &[Axis], index: impl Fn(usize) -> usize) -> StartPlan {
+    let mut start = *start;
+    for (k, axis) in axes.iter().enumerate() {
+        let value = || axis.over.at(index(k));
+        match axis.vary {
+            Coordinate::Parameter(_) => {}
+            Coordinate::X => start.x = Some(value()),
+            Coordinate::V => start.v = value(),
+            Coordinate::Phase => start.phase = value(),
+        }
+    }
+    start
 }
 
 /// Checks that the axes are of the right number and kind, none of them there twice.

@@ -62,9 +62,12 @@ pub fn start(osc: &Oscillator, plan: &BasinPlan, k: u64) -> Start {
         *place = usize::try_from(rest % count).unwrap_or(0);
         rest /= count;
     }
-    // parameters are not looked at
-    let given = axis::at((&SystemPlan::default(), &plan.start), &plan.axes, |k| place[k]);
-    let given = given.map_or(plan.start, |(_, start)| start);
+    start_at(osc, plan, |k| place[k])
+}
+
+/// The start at a point of the axes, of the oscillator there.
+pub(crate) fn start_at(osc: &Oscillator, plan: &BasinPlan, place: impl Fn(usize) -> usize) -> Start {
+    let given = axis::start_at(&plan.start, &plan.axes, place);
     let (lowest, highest) = Start::room(osc);
     Start {
         // the ends are within the stops; rounding in between must not leave them

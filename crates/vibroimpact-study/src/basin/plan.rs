@@ -44,8 +44,8 @@ impl BasinPlan {
         }
         check_refine(self.refine)?;
         for corner in axis::corners(&self.axes) {
-            let (system, start) = axis::at((system, &self.start), &self.axes, |k| corner[k])?;
-            start.start(&system.oscillator()?)?;
+            let osc = axis::system_at(system, &self.axes, |k| corner[k])?.oscillator()?;
+            axis::start_at(&self.start, &self.axes, |k| corner[k]).start(&osc)?;
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::plan::starts;
-use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan};
+use crate::{Parameter, PlanError, Span, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 
@@ -73,7 +73,7 @@ impl MapPlan {
     /// # Errors
     /// [`PlanError`] for a point that is no legal system.
     pub fn oscillator(&self, system: &SystemPlan, place: impl Fn(usize) -> usize) -> Result<Oscillator, PlanError> {
-        axis::at((system, &StartPlan::default()), &self.axes, place)?.0.oscillator()
+        axis::system_at(system, &self.axes, place)?.oscillator()
     }
 }
 

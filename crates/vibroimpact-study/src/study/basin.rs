@@ -5,9 +5,10 @@ use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
 use super::{Along, Fill, along, code, grid_of, on_axis};
 use crate::axis;
+use crate::basin::start_at;
 use crate::field::{Column, Field, Kind};
 use crate::grid::{Block, Dimension, Grid};
-use crate::{Axis, BasinPlan, PlanError, StartPlan, SystemPlan};
+use crate::{BasinPlan, PlanError, SystemPlan};
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{Atlas, Census, Found, SettleOptions, StartBox, Verdict, scattered_starts, settle_many};
 use vibroimpact::{Oscillator, Start};
@@ -22,7 +23,7 @@ const TRAPS: u64 = 24;
 /// Where the starts are.
 enum Starts {
     /// At the points of the axes.
-    Grid { axes: Vec<Axis>, start: StartPlan },
+    Grid(BasinPlan),
     /// Scattered, so many with that seed.
     Scattered { area: StartBox, seed: u64 },
 }
@@ -48,7 +49,7 @@ type Leads = (i32, i32);
 
 impl BasinFill {
     pub(super) fn plane(system: &SystemPlan, plan: &BasinPlan, tile: Option<u32>) -> Result<Self, PlanError> {
-        let starts = Starts::Grid { axes: plan.axes.clone(), start: plan.start };
+        let starts = Starts::Grid(plan.clone());
         let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
         let osc = if plan.one_system() { Some(system.oscillator()?) } else { None };
         Ok(Self { system: *system, one: None, starts, grid, refine: plan.refine }.surveyed(osc))
@@ -97,24 +98,14 @@ impl BasinFill {
     fn start(&self, osc: &Oscillator, index: &[usize]) -> Start {
         match &self.starts {
             Starts::Scattered { area, seed } => scattered_starts(osc, *area, *seed, index[0] as u64),
-            Starts::Grid { axes, start } => {
-                let given = axis::at((&self.system, start), axes, |k| on_axis(index, k));
-                let given = given.map_or(*start, |(_, start)| start);
-                let (lowest, highest) = Start::room(osc);
-                Start {
-                    // the ends are within the stops; rounding in between must not leave them
-                    x: given.x.unwrap_or_else(|| Start::at_rest(osc).x).clamp(lowest, highest),
-                    v: given.v,
-                    phase: vibroimpact::system::phase::wrap(given.phase),
-                }
-            }
+            Starts::Grid(plan) => start_at(osc, plan, |k| on_axis(index, k)),
         }
     }
 
     /// The oscillator at a point of the grid; the corners were checked.
     fn oscillator(&self, index: &[usize]) -> Option<Oscillator> {
-        let Starts::Grid { axes, start } = &self.starts else { return None };
-        axis::at((&self.system, start), axes, |k| on_axis(index, k)).ok()?.0.oscillator().ok()
+        let Starts::Grid(plan) = &self.starts else { return None };
+        axis::system_at(&self.system, &plan.axes, |k| on_axis(index, k)).ok()?.oscillator().ok()
     }
 
     /// Settles these points of a tile, and collects the cycles that the survey has not met.
@@ -171,7 +162,7 @@ impl Fill for BasinFill {
 
     fn coordinates(&self) -> Vec<Along> {
         match &self.starts {
-            Starts::Grid { axes, .. } => along(axes),
+            Starts::Grid(plan) => along(&plan.axes),
             Starts::Scattered { .. } => Vec::new(),
         }
     }

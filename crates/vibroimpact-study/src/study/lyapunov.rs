@@ -4,7 +4,8 @@ use super::map::side;
 use super::{Along, Fill, along, grid_of, on_axis};
 use crate::axis;
 use crate::field::{Column, Extra, Field, Kind};
-use crate::{Block, Grid, LyapunovPlan, SystemPlan};
+use crate::{Block, Grid, LyapunovPlan, PlanError, SystemPlan};
+use vibroimpact::Oscillator;
 use vibroimpact::chaos::{Grounds, Measured, exponents};
 
 /// Points of a tile along each of two axes where no number is given; some seconds of work.
@@ -87,12 +88,11 @@ impl Fill for LyapunovFill {
         let mut why = vec![0_i8; points];
         for (k, why) in why.iter_mut().enumerate() {
             let index = block.index(k);
-            let given = axis::at((&self.system, &self.plan.start), &self.plan.axes, |axis| on_axis(&index, axis));
+            let (place, axes) = (|axis: usize| on_axis(&index, axis), &self.plan.axes);
             // the corners were checked; where a point between them makes no sense, nothing is known
-            let question = given.and_then(|(system, start)| {
-                let osc = system.oscillator()?;
-                Ok((osc, start.start(&osc)?))
-            });
+            let osc = axis::system_at(&self.system, axes, place).and_then(|system| system.oscillator());
+            let start = |osc: Oscillator| Ok((osc, axis::start_at(&self.plan.start, axes, place).start(&osc)?));
+            let question: Result<_, PlanError> = osc.and_then(start);
             if let Ok((osc, start)) = question {
                 let found = exponents(&osc, start, &self.plan.options());
                 let mut put = |array: usize, at: usize, value: f64| numbers[array][at] = value;

@@ -143,6 +143,18 @@ fn scattered_starts_exponents_and_three_axes() {
     let found = sheet(u, Task::Basin(basin), None, 1);
     assert!(found.tables.is_empty() && found.fields.len() == 1);
     let labels = columns(&found, "label").whole();
+    let second = crate::SecondStop { gap: 1.0, restitution: 0.5 };
+    let two = SystemPlan { second_stop: Some(second), ..u };
+    let over = vec![Axis::new(Coordinate::V, span("-9:9:5")), Axis::parameter(Parameter::SecondGap, span("1:2:2"))];
+    let starts = BasinPlan { axes: over, start: StartPlan::default(), refine: None };
+    let between = sheet(two, Task::Basin(starts), None, 1);
+    for (k, found) in columns(&between, "label").whole().iter().enumerate() {
+        let gap = if k < 5 { 1.0 } else { 2.0 };
+        let system = SystemPlan { second_stop: Some(crate::SecondStop { gap, ..second }), ..u };
+        let osc = system.oscillator().unwrap();
+        let start = vibroimpact::Start::new(&osc, 0.0, [-9.0, -4.5, 0.0, 4.5, 9.0][k % 5], 0.0).unwrap();
+        assert_eq!(*found, code(&vibroimpact::verdict::settle(&osc, start, &SettleOptions::default()).verdict));
+    }
     assert!(labels[..6].iter().all(|c| *c == CHAOTIC) && labels[6..].iter().all(|c| *c == 10_002), "{labels:?}");
 }
 
