@@ -1,4 +1,4 @@
-//! A plan as JSON, checked and in the form in which it is stored.
+//! A plan as text, JSON or TOML, checked and in the form in which it is stored.
 
 use crate::error::Trouble;
 use pyo3::prelude::*;
@@ -6,11 +6,15 @@ use vibroimpact_study::{Axis, Plan, Task};
 
 /// The plan of a text.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
-    let plan: Plan = serde_json::from_str(text).map_err(|error| {
-        // where in a text that nobody wrote by hand helps nobody
-        let sentence = error.to_string();
-        Trouble::question(sentence.rsplit_once(" at line ").map_or(sentence.as_str(), |(before, _)| before))
-    })?;
+    let plan = if text.trim_start().starts_with('{') {
+        serde_json::from_str::<Plan>(text).map_err(|error| {
+            // where in a text that nobody wrote by hand helps nobody
+            let sentence = error.to_string();
+            Trouble::question(sentence.rsplit_once(" at line ").map_or(sentence.as_str(), |(before, _)| before))
+        })?
+    } else {
+        Plan::from_text(text)?
+    };
     let plan = plan.canonical()?;
     plan.check()?;
     Ok(plan)

@@ -74,7 +74,10 @@ def test_listings_run_as_typed(root: Path, tmp_path: Path, monkeypatch: pytest.M
                 exec(compile(text, page, "exec"), names)
 
 
-@pytest.mark.parametrize("tool", [["mypy.stubtest", "vibroimpact._core"], ["mypy"]], ids=["stubs", "types"])
+TOOLS = [["mypy.stubtest", "vibroimpact._core"], ["mypy"], ["mypy", "--python-version", "3.10"]]
+
+
+@pytest.mark.parametrize("tool", TOOLS, ids=["stubs", "types", "oldest"])
 def test_types_are_true(root: Path, tool: list[str]) -> None:
     pytest.importorskip("mypy")
     done = subprocess.run([sys.executable, "-m", *tool], cwd=root, capture_output=True, text=True)

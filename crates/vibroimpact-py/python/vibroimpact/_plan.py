@@ -1,7 +1,6 @@
 """A plan: all that a study depends on, and nothing else."""
 
 import json
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from os import PathLike
@@ -26,7 +25,7 @@ class Plan:
     Attributes
     ----------
     json : str
-        The plan as it is stored.
+        The plan as it is stored; given as JSON or TOML.
     hash : str
         A name for its content.
     title : str
@@ -67,11 +66,9 @@ class Plan:
         """The plan in a .toml or .json file."""
         file = Path(path)
         try:
-            if file.suffix.lower() == ".toml":
-                return cls(json.dumps(tomllib.loads(file.read_text("utf-8"))))
             return cls(file.read_text("utf-8"))
-        except tomllib.TOMLDecodeError as error:
-            raise _core.QuestionError(f"{file} is no TOML: {error}") from None
+        except _core.QuestionError as error:
+            raise _core.QuestionError(f"`{file}`: {error}") from None
 
     @classmethod
     def map(

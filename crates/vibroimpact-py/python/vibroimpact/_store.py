@@ -193,5 +193,22 @@ def open(store: str | PathLike[str]) -> "xr.Dataset":
 
     place = fspath(store)
     _core.Store(place)
+    _need_zarr()
     ds: xr.Dataset = xr.open_zarr(place)
     return ds
+
+
+def _need_zarr() -> None:
+    """Says what is missing where there is no zarr that reads version 3 of the format."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        found = version("zarr")
+    except PackageNotFoundError:
+        found = ""
+    if int(found.partition(".")[0] or 0) < 3:
+        here = f"zarr {found} is" if found else "no zarr is"
+        raise ImportError(
+            f"reading a store as a Dataset needs zarr 3 or later, and {here} installed\n"
+            "hint: pip install 'zarr>=3', which needs Python 3.11; `vibro export STORE --csv FILE` reads the store without it"
+        )

@@ -140,7 +140,8 @@ def _tracks(run: "list[Cycle]") -> NDArray[np.float64]:
             phases, speeds = np.roll(phases, shift), np.roll(speeds, shift)
         rows[k] = speeds
         before = phases, speeds
-    return rows.T
+    matrix: NDArray[np.float64] = rows.T
+    return matrix
 
 
 def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
