@@ -1,0 +1,150 @@
+"""Stores in other formats: what is read back is what was in the store."""
+
+import csv
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from vibroimpact import _export
+from vibroimpact.__main__ import main
+
+pd = pytest.importorskip("pandas")
+
+pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
+
+KINDS = ["map", "basin", "attractors", "lyapunov", "diagram"]
+
+
+@pytest.fixture(params=KINDS)
+def store(request: pytest.FixtureRequest, s: vi.Oscillator, u: vi.Oscillator, tmp_path: Path) -> Path:
+    plans = {
+        "map": lambda: vi.Plan.map(s, {"inverse_beta": "1:1.5:6", "gap": [0.25, 0.5, 1.0]}, starts=6, tile=3),
+        "basin": lambda: vi.Plan.basin(s, {"x": "-4:0.75:9", "v": "-4:4.5:7"}, refine=4),
+        "attractors": lambda: vi.Plan.attractors(s, 20),
+        "lyapunov": lambda: vi.Plan.lyapunov(u, {"gap": "2.8:3:3"}, impacts=2000),
+        "diagram": lambda: vi.Plan.diagram(s, "gap", "0.5:1:5"),
+    }
+    place = tmp_path / f"{request.param}.zarr"
+    vi.run(plans[request.param](), place)
+    return place
+
+
+@pytest.mark.parametrize("engine", ["netcdf4", "h5netcdf", "scipy"])
+def test_netcdf_holds_all_arrays(
+    store: Path, engine: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    modules = _export._ENGINES[engine]
+    for module in modules:
+        pytest.importorskip(module)
+    monkeypatch.setattr(_export, "_ENGINES", {engine: modules})
+    assert main(["export", str(store), "--format", "netcdf", str(tmp_path / "out.nc")]) == 0
+    with xr.open_dataset(tmp_path / "out.nc", engine=engine) as file:
+        read = file.load()
+    kept = vi.open(store).load()
+    assert set(read.variables) == set(kept.variables)
+    for name, of in kept.variables.items():
+        assert read[name].dims == of.dims, name
+        np.testing.assert_array_equal(read[name].values.astype(of.dtype), of.values, err_msg=str(name))
+        assert read[name].dtype == of.dtype or of.dtype.kind == "T", name
+        assert {**read[name].attrs, "flag_values": 0} == {**of.attrs, "flag_values": 0}, name
+        np.testing.assert_array_equal(read[name].attrs.get("flag_values", 0), of.attrs.get("flag_values", 0))
+        assert np.asarray(read[name].attrs.get("flag_values", of.dtype.type() if of.dtype.kind == "i" else 0)).dtype.kind == "i"
+    assert read.attrs == kept.attrs and vi.Plan(read.attrs["plan"]).hash == read.attrs["plan_hash"]
+    if "label" in kept or "kind" in kept:
+        xr.testing.assert_equal(read.vibro.labels(), kept.vibro.labels())
+    if "cycle_label" in kept:
+        assert read["cycle_label"].values.tolist() == kept["cycle_label"].values.tolist() != []
+
+
+def test_parquet_holds_the_table(store: Path, tmp_path: Path) -> None:
+    pq = pytest.importorskip("pyarrow.parquet")
+    assert main(["export", str(store), "--format", "parquet", str(tmp_path / "out.parquet")]) == 0
+    kept = vi.open(store).load()
+    told = {name.decode(): text.decode() for name, text in pq.read_schema(tmp_path / "out.parquet").metadata.items()}
+    assert vi.Plan(told["plan"]).hash == told["plan_hash"] == kept.attrs["plan_hash"] and told["title"] == kept.attrs["title"]
+    units = {f.name: (f.metadata or {}).get(b"units", b"").decode() for f in pq.read_schema(tmp_path / "out.parquet")}
+    assert all(units[name] == kept[name].attrs["units"] for name in units if name in kept.variables)
+    read = pd.read_parquet(tmp_path / "out.parquet")
+    pd.testing.assert_frame_equal(read, _export.table(kept), check_exact=True)
+    if "motion" in kept.dims:
+        for row in read.itertuples():
+            here = kept.sel(gap=row.gap, inverse_beta=row.inverse_beta)
+            places = np.flatnonzero(here["share"].values == row.share)
+            assert row.label in here.vibro.labels().values[places]
+        assert len(read) == int((kept["share"] > 0).sum()) > kept.sizes["gap"] * kept.sizes["inverse_beta"]
+
+
+def rows(path: Path) -> list[list[float | str]]:
+    """The cells, numbers as such: 1 and 1.0 are the same."""
+
+    def cell(text: str) -> float | str:
+        try:
+            return float(text)
+        except ValueError:
+            return text
+
+    with path.open(newline="") as file:
+        return [[cell(text) for text in line] for line in csv.reader(file)]
+
+
+def test_the_table_is_that_of_the_command(store: Path, vibro: Callable[..., Any], tmp_path: Path) -> None:
+    if store.stem == "diagram":
+        pytest.skip("the command's table of a diagram has other columns")
+    assert main(["export", str(store), "--format", "csv", str(tmp_path / "here.csv")]) == 0
+    done = vibro("export", store, "--csv", tmp_path / "command.csv", "--quiet")
+    assert done.returncode == 0, done.stderr
+    here, command = (rows(tmp_path / f"{name}.csv") for name in ("here", "command"))
+    assert here == command and len(here) > 5
+
+
+def test_the_command_asks_for_it(store: Path, vibro: Callable[..., Any], tmp_path: Path) -> None:
+    if store.stem != "basin":
+        pytest.skip("one kind is enough")
+    for form in ("netcdf", "parquet"):
+        pytest.importorskip({"netcdf": "scipy", "parquet": "pyarrow"}[form])
+        words = ("export", store, f"--{form}", tmp_path / form, "--python", sys.executable)
+        done = vibro(*words)
+        assert done.returncode == 0 and (tmp_path / form).stat().st_size > 500, done.stderr
+        assert vibro(*words).returncode == 2 and vibro(*words, "--force").returncode == 0
+
+
+def test_refusals(s: vi.Oscillator, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def said(*words: object) -> str:
+        assert main(["export", *map(str, words)]) == 1
+        return capsys.readouterr().err
+
+    assert "there is no store at" in said(tmp_path / "none.zarr", "--format", "csv", tmp_path / "x")
+    place = tmp_path / "one.zarr"
+    vi.run(vi.Plan.basin(s, {"x": "-4:0.75:9"}), place)
+    assert "error: there is no folder" in said(place, "--format", "csv", tmp_path / "no/x.csv")
+    monkeypatch.setattr(_export, "find_spec", lambda name: None)
+    assert "error: writing Parquet needs pyarrow" in said(place, "--format", "parquet", tmp_path / "x.parquet")
+    assert "needs netCDF4, h5netcdf or scipy, and none of them is installed" in said(place, "--format", "netcdf", tmp_path / "x.nc")
+    assert sorted(of.name for of in tmp_path.iterdir()) == ["one.zarr"]
+    with pytest.raises(vi.QuestionError, match="format = `xls` is none of netcdf, parquet, csv"):
+        _export.export(place, tmp_path / "x", "xls")
+
+
+def test_a_module_that_runs(s: vi.Oscillator, tmp_path: Path) -> None:
+    vi.run(vi.Plan.basin(s, {"x": "-4:0.75:9"}), tmp_path / "one.zarr")
+    words = [sys.executable, "-m", "vibroimpact", "export", "one.zarr", "--format", "csv", "one.csv"]
+    subprocess.run(words, cwd=tmp_path, check=True)
+    assert (tmp_path / "one.csv").read_text().startswith("x,label,cycle\n-4.0,")
+
+
+def test_without_zarr_a_store_says_what_is_missing(
+    s: vi.Oscillator, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import importlib.metadata
+
+    vi.run(vi.Plan.basin(s, {"x": "-4:0.75:9"}), tmp_path / "one.zarr")
+    monkeypatch.setattr(importlib.metadata, "version", lambda name: "2.18.3")
+    with pytest.raises(ImportError, match=r"needs zarr 3 or later, and zarr 2.18.3 is installed\nhint: pip install 'zarr>=3'"):
+        vi.open(tmp_path / "one.zarr")
