@@ -1,7 +1,8 @@
 //! How far a store is, and whether what is in it is what its plan gives.
 
+use super::root::pretty;
 use super::run::State;
-use super::{Part, Store, StoreError, pretty};
+use super::{Part, Store, StoreError};
 use crate::Control;
 use crate::field::Column;
 use crate::store::shelf::Memory;

@@ -2,7 +2,8 @@
 
 use super::chunk::Chunked;
 use super::layout::{array_of, array_of_table};
-use super::{Store, StoreError, pretty};
+use super::root::pretty;
+use super::{Store, StoreError};
 use crate::field::Column;
 use crate::study::{Tiles, label_of};
 use serde_json::Map;

@@ -28,6 +28,7 @@
 //! | objects by name: a folder, or a bucket | `shelf.rs`, `bucket.rs` |
 //! | an array: its description, its chunks as bytes | `chunk.rs` |
 //! | the arrays of a study | `layout.rs` |
+//! | what describes the store | `root.rs` |
 //! | filling tiles, over threads, until all are there | `run.rs` |
 //! | what only the whole can say | `conclude.rs` |
 //! | how far it is, and what is damaged | `check.rs` |
@@ -40,6 +41,7 @@ mod conclude;
 mod error;
 mod layout;
 mod read;
+mod root;
 mod run;
 mod shelf;
 
@@ -52,9 +54,9 @@ pub use shelf::{Folder, Item, Shelf};
 
 use crate::study::{Cells, Study};
 use crate::{Column, Plan};
-use chunk::Chunked;
 use layout::{DONE, Layout};
-use serde_json::{Map, Value, json};
+use root::{Found, ROOT, read_root};
+use serde_json::Value;
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
@@ -63,9 +65,6 @@ use std::sync::Arc;
 pub const FORMAT: u64 = 1;
 /// This program.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// What describes the whole store; written when everything else that is there from the beginning is.
-const ROOT: &str = "zarr.json";
-
 /// A study and where it is stored.
 pub struct Store {
     shelf: Arc<dyn Shelf>,
@@ -186,56 +185,6 @@ impl Store {
         &self.begun_by
     }
 
-    fn root(&self) -> Result<Value, StoreError> {
-        read_root(self.shelf.as_ref())
-    }
-
-    fn found(&self, root: &Value) -> Result<Found, StoreError> {
-        Found::of(root, &self.place())
-    }
-
-    /// The arrays that are there from the beginning.
-    fn described(&self) -> impl Iterator<Item = &Chunked> {
-        let Layout { arrays, status, coordinates, .. } = &self.layout;
-        arrays.iter().chain([status]).chain(coordinates.iter().map(|(array, _)| array))
-    }
-
-    /// Writes what is there from the beginning.
-    fn describe(&self) -> Result<(), StoreError> {
-        let mut descriptions = Map::new();
-        for array in self.described() {
-            let description = array.description().map_err(|why| self.defect(&array.name, why))?;
-            self.put(&array.description_key(), &pretty(&description))?;
-            descriptions.insert(array.name.clone(), description);
-        }
-        for (array, values) in &self.layout.coordinates {
-            let bytes = array.encode(&[0], values).map_err(|why| self.defect(&array.name, why))?;
-            self.put(&array.key(&[0]), &bytes)?;
-        }
-        self.write_root(&descriptions, false)
-    }
-
-    fn write_root(&self, descriptions: &Map<String, Value>, complete: bool) -> Result<(), StoreError> {
-        let plan = serde_json::to_string(&self.plan).map_err(|error| self.defect(ROOT, error.to_string()))?;
-        let root = json!({
-            "zarr_format": 3,
-            "node_type": "group",
-            "attributes": {
-                "Conventions": "CF-1.11",
-                "title": self.plan.title(),
-                "source": format!("vibroimpact {}", self.begun_by),
-                "references": "Fukaya and Irie (1971); every motion is settled to a proved verdict",
-                "vibroimpact_format": FORMAT,
-                "vibroimpact_version": self.begun_by,
-                "plan": plan,
-                "plan_hash": self.plan.hash(),
-                "complete": i32::from(complete),
-            },
-            "consolidated_metadata": { "kind": "inline", "must_understand": false, "metadata": descriptions },
-        });
-        self.put(ROOT, &pretty(&root))
-    }
-
     fn put(&self, key: &str, bytes: &[u8]) -> Result<(), StoreError> {
         let failed = |error| StoreError::Write { place: self.place(), key: key.to_owned(), error };
         self.shelf.put(key, bytes).map_err(failed)
@@ -305,53 +254,5 @@ impl Store {
         }
         let (theirs, ours) = (self.begun_by.clone(), VERSION.to_owned());
         Err(StoreError::OtherVersion { place: self.place(), theirs, ours })
-    }
-}
-
-/// JSON for people too.
-fn pretty(value: &Value) -> Vec<u8> {
-    let mut bytes = serde_json::to_vec_pretty(value).unwrap_or_default();
-    bytes.push(b'\n');
-    bytes
-}
-
-fn read_root(shelf: &dyn Shelf) -> Result<Value, StoreError> {
-    let place = shelf.name();
-    let damaged = |why: String| StoreError::Damaged { place: place.clone(), key: ROOT.into(), why };
-    match shelf.get(ROOT) {
-        Ok(Some(bytes)) => serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string())),
-        Ok(None) => Err(StoreError::Absent(place)),
-        // the folder is a file
-        Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(StoreError::Foreign(place)),
-        Err(error) => Err(StoreError::Read { place, key: ROOT.into(), error }),
-    }
-}
-
-/// What the description of a store says of it.
-struct Found {
-    plan: String,
-    hash: String,
-    version: String,
-}
-
-impl Found {
-    fn of(root: &Value, place: &str) -> Result<Self, StoreError> {
-        let attribute = |name: &str| root.get("attributes").and_then(|all| all.get(name));
-        let word = |name: &str| attribute(name).and_then(Value::as_str).map(str::to_owned);
-        let Some(format) = attribute("vibroimpact_format").and_then(Value::as_u64) else {
-            return Err(StoreError::Foreign(place.to_owned()));
-        };
-        if format > FORMAT {
-            let program = word("vibroimpact_version").unwrap_or_else(|| "unknown".into());
-            return Err(StoreError::Newer { place: place.to_owned(), found: format, known: FORMAT, program });
-        }
-        match (word("plan"), word("plan_hash"), word("vibroimpact_version")) {
-            (Some(plan), Some(hash), Some(version)) => Ok(Self { plan, hash, version }),
-            _ => Err(StoreError::Damaged {
-                place: place.to_owned(),
-                key: ROOT.into(),
-                why: "the plan is missing".into(),
-            }),
-        }
     }
 }

@@ -1,0 +1,111 @@
+//! What describes a store: the arrays that are there from the beginning, and the root, written after them.
+
+use super::chunk::Chunked;
+use super::layout::Layout;
+use super::shelf::Shelf;
+use super::{FORMAT, Store, StoreError};
+use serde_json::{Map, Value, json};
+use std::io;
+
+/// What describes the whole store; written when everything else that is there from the beginning is.
+pub(super) const ROOT: &str = "zarr.json";
+
+impl Store {
+    pub(super) fn root(&self) -> Result<Value, StoreError> {
+        read_root(self.shelf.as_ref())
+    }
+
+    pub(super) fn found(&self, root: &Value) -> Result<Found, StoreError> {
+        Found::of(root, &self.place())
+    }
+
+    /// The arrays that are there from the beginning.
+    pub(super) fn described(&self) -> impl Iterator<Item = &Chunked> {
+        let Layout { arrays, status, coordinates, .. } = &self.layout;
+        arrays.iter().chain([status]).chain(coordinates.iter().map(|(array, _)| array))
+    }
+
+    /// Writes what is there from the beginning.
+    pub(super) fn describe(&self) -> Result<(), StoreError> {
+        let mut descriptions = Map::new();
+        for array in self.described() {
+            let description = array.description().map_err(|why| self.defect(&array.name, why))?;
+            self.put(&array.description_key(), &pretty(&description))?;
+            descriptions.insert(array.name.clone(), description);
+        }
+        for (array, values) in &self.layout.coordinates {
+            let bytes = array.encode(&[0], values).map_err(|why| self.defect(&array.name, why))?;
+            self.put(&array.key(&[0]), &bytes)?;
+        }
+        self.write_root(&descriptions, false)
+    }
+
+    pub(super) fn write_root(&self, descriptions: &Map<String, Value>, complete: bool) -> Result<(), StoreError> {
+        let plan = serde_json::to_string(&self.plan).map_err(|error| self.defect(ROOT, error.to_string()))?;
+        let root = json!({
+            "zarr_format": 3,
+            "node_type": "group",
+            "attributes": {
+                "Conventions": "CF-1.11",
+                "title": self.plan.title(),
+                "source": format!("vibroimpact {}", self.begun_by),
+                "references": "Fukaya and Irie (1971); every motion is settled to a proved verdict",
+                "vibroimpact_format": FORMAT,
+                "vibroimpact_version": self.begun_by,
+                "plan": plan,
+                "plan_hash": self.plan.hash(),
+                "complete": i32::from(complete),
+            },
+            "consolidated_metadata": { "kind": "inline", "must_understand": false, "metadata": descriptions },
+        });
+        self.put(ROOT, &pretty(&root))
+    }
+}
+
+/// JSON for people too.
+pub(super) fn pretty(value: &Value) -> Vec<u8> {
+    let mut bytes = serde_json::to_vec_pretty(value).unwrap_or_default();
+    bytes.push(b'\n');
+    bytes
+}
+
+pub(super) fn read_root(shelf: &dyn Shelf) -> Result<Value, StoreError> {
+    let place = shelf.name();
+    let damaged = |why: String| StoreError::Damaged { place: place.clone(), key: ROOT.into(), why };
+    match shelf.get(ROOT) {
+        Ok(Some(bytes)) => serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string())),
+        Ok(None) => Err(StoreError::Absent(place)),
+        // the folder is a file
+        Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(StoreError::Foreign(place)),
+        Err(error) => Err(StoreError::Read { place, key: ROOT.into(), error }),
+    }
+}
+
+/// What the description of a store says of it.
+pub(super) struct Found {
+    pub(super) plan: String,
+    pub(super) hash: String,
+    pub(super) version: String,
+}
+
+impl Found {
+    pub(super) fn of(root: &Value, place: &str) -> Result<Self, StoreError> {
+        let attribute = |name: &str| root.get("attributes").and_then(|all| all.get(name));
+        let word = |name: &str| attribute(name).and_then(Value::as_str).map(str::to_owned);
+        let Some(format) = attribute("vibroimpact_format").and_then(Value::as_u64) else {
+            return Err(StoreError::Foreign(place.to_owned()));
+        };
+        if format > FORMAT {
+            let program = word("vibroimpact_version").unwrap_or_else(|| "unknown".into());
+            return Err(StoreError::Newer { place: place.to_owned(), found: format, known: FORMAT, program });
+        }
+        match (word("plan"), word("plan_hash"), word("vibroimpact_version")) {
+            (Some(plan), Some(hash), Some(version)) => Ok(Self { plan, hash, version }),
+            _ => Err(StoreError::Damaged {
+                place: place.to_owned(),
+                key: ROOT.into(),
+                why: "the plan is missing".into(),
+            }),
+        }
+    }
+}
