@@ -41,21 +41,27 @@ def test_workers_make_the_same_bytes(client: "distributed.Client", s: vi.Oscilla
     assert vi.dask.run(plan, tmp_path / "two.zarr", client) == vi.Ran(0, 12, 0, 0)
 
 
-def test_a_worker_may_be_killed(client: "distributed.Client", u: vi.Oscillator, tmp_path: Path) -> None:
-    plan = vi.Plan.basin(u, {"x": "-4:3:80", "v": "-4:4:80"}, tile=8)
+@pytest.mark.parametrize("tiles", [1, 30, 75])
+def test_a_worker_may_be_killed(client: "distributed.Client", u: vi.Oscillator, tmp_path: Path, tiles: int) -> None:
+    client.wait_for_workers(2, timeout=60)
+    plan = vi.Plan.basin(u, {"x": "-4:3:60", "v": "-4:4:60"}, tile=6)
     vi.run(plan, tmp_path / "one.zarr")
     victims = list(client.run(os.getpid).values())
     place = tmp_path / "two.zarr"
 
+    done: list[int] = []
+
     def murder() -> None:
-        while not (place / "zarr.json").exists() or vi.status(place).done < 5:
-            time.sleep(0.02)
+        while not (place / "zarr.json").exists() or vi.status(place).done < tiles:
+            time.sleep(0.005)
         os.kill(victims[0], signal.SIGKILL)
+        done.append(vi.status(place).done)
 
     thread = threading.Thread(target=murder)
     thread.start()
     ran = vi.dask.run(plan, place, client)
     thread.join()
+    assert tiles <= done[0] < 100, "the work was over before the worker was killed"
     assert ran.left == 0 and vi.verify(place, sample=5).whole
     assert contents(place) == contents(tmp_path / "one.zarr")
 
