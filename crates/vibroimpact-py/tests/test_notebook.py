@@ -1,0 +1,36 @@
+"""The notebook of the examples runs as it is, and stores no outputs."""
+
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("ipykernel", reason="the notebook needs ipykernel")
+nbclient = pytest.importorskip("nbclient", reason="the notebook needs nbclient")
+nbformat = pytest.importorskip("nbformat", reason="the notebook needs nbformat")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_the_notebook_runs(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # a kernel of this Python, whatever others are registered here
+    monkeypatch.setenv("JUPYTER_PATH", str(tmp_path))
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
+    monkeypatch.delenv("MPLBACKEND", raising=False)
+    kernel = tmp_path / "kernels/here"
+    kernel.mkdir(parents=True)
+    command = f'["{sys.executable}", "-m", "ipykernel_launcher", "-f", "{{connection_file}}"]'
+    (kernel / "kernel.json").write_text(f'{{"argv": {command}, "display_name": "here", "language": "python"}}')
+    book = nbformat.read(root / "examples/rattling-part.ipynb", as_version=4)
+    nbformat.validate(book)
+    cells = [cell for cell in book.cells if cell.cell_type == "code"]
+    assert all(cell.outputs == [] and cell.execution_count is None for cell in cells)
+    begin = time.monotonic()
+    where = {"metadata": {"path": str(tmp_path)}}
+    nbclient.NotebookClient(book, timeout=60, kernel_name="here", resources=where).execute()
+    assert time.monotonic() - begin < 60
+    told = "".join(out.text for cell in cells for out in cell.outputs if out.output_type == "stream" and out.name == "stdout")
+    figures = [out for cell in cells for out in cell.outputs if "image/png" in out.get("data", {})]
+    # what the sentences of the notebook say
+    assert "one length is 5 mm" in told and "<Motion 2/1, stable>" in told and "flip at a gap of" in told
+    assert len(figures) == 5 and all(len(out.data["image/png"]) > 10_000 for out in figures)
