@@ -7,10 +7,13 @@
 //! | idea | file |
 //! |---|---|
 //! | the question, checked | [`Plan`], [`SystemPlan`], [`StartPlan`], [`Task`] |
-//! | `A:B:N`, N values from A to B | [`Span`] |
+//! | `A:B:N`, N values from A to B; what varies over which values | [`Span`], [`Axis`] |
+//! | a grid and its tiles, the arrays over it | [`Grid`], [`Field`] |
+//! | what a tile of a plan holds | [`Study`], [`study`] |
+//! | where tiles are kept | [`Store`], [`store`] |
 //! | tiles over threads, with a stop flag and progress | [`Control`], [`tiles`] |
 //! | the events of one motion | [`simulate`](simulate()) |
-//! | which motion each start of a plane leads to | [`basin`] |
+//! | which motion each start of a plane leads to | [`basin()`] |
 //! | which motions there are at each point of a parameter plane | [`map`] |
 //! | the motions of one system from many starts | [`attractors`] |
 //! | the motion after its transient at each value of a parameter | [`diagram()`], [`mod@diagram`] |
