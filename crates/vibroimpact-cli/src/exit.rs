@@ -71,9 +71,10 @@ impl From<StoreError> for Failure {
         match error {
             StoreError::Plan(error) => error.into(),
             StoreError::Stopped(_) => Self::Stopped(format!("{error}; `vibro resume` goes on")),
-            StoreError::Read { .. } | StoreError::Write { .. } | StoreError::Damaged { .. } => {
-                Self::Failed(error.to_string())
-            }
+            StoreError::Read { .. }
+            | StoreError::Write { .. }
+            | StoreError::Damaged { .. }
+            | StoreError::Threads(_) => Self::Failed(error.to_string()),
             _ => Self::bad(error),
         }
     }

@@ -9,9 +9,9 @@ use crate::oscillator::Oscillator;
 use crate::simulate::text;
 use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::prelude::*;
-use vibroimpact::continuation::{BranchEvent, Change, Point};
+use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact::orbit::Cycle;
-use vibroimpact_study::{BranchPlan, Followed, Plan, Task, branches};
+use vibroimpact_study::{BranchPlan, Followed, Plan, Task, Told, branches};
 
 /// Cycles one after another, and where each begins.
 #[derive(IntoPyObject)]
@@ -72,59 +72,21 @@ struct Event {
 
 impl Event {
     fn new(place: usize, point: &Point, event: &BranchEvent) -> Self {
-        let label = point.cycle.label.to_string();
-        // where there are none, none is counted
-        let place_of = |impact: usize| (!point.cycle.points.is_empty()).then_some(impact + 1);
-        let bare = Self {
-            kind: event.name(),
+        let Told { kind, ends, label_before, label_after, change, impact, side, phase, turns, also } =
+            Told::of(point, event);
+        Self {
+            kind,
             parameter: point.value,
             point: place,
-            ends: event.ends(),
-            label_after: (!event.ends()).then(|| label.clone()),
-            label_before: label.clone(),
-            change: None,
-            impact: None,
-            side: None,
-            phase: None,
-            turns: None,
-            also: None,
-        };
-        match event {
-            BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also } => Self {
-                label_before: before.to_string(),
-                label_after: Some(after.to_string()),
-                change: Some(match change {
-                    Change::Appears => "appears",
-                    Change::Disappears => "disappears",
-                }),
-                impact: place_of(*impact),
-                side: Some(named(*side)),
-                phase: Some(*phase),
-                turns: Some(*turns),
-                also: also.map(|touch| (place_of(touch.impact), named(touch.side), touch.phase)),
-                ..bare
-            },
-            BranchEvent::SoftLanding { impact, side, phase, before, after } => Self {
-                label_before: before.to_string(),
-                label_after: Some(after.to_string()),
-                impact: Some(impact + 1),
-                side: Some(named(*side)),
-                phase: Some(*phase),
-                ..bare
-            },
-            BranchEvent::Chatter { side, phase, before } => Self {
-                label_before: before.to_string(),
-                label_after: Some(label),
-                side: Some(named(*side)),
-                phase: Some(*phase),
-                ..bare
-            },
-            BranchEvent::LossOfContact { side, phase } | BranchEvent::EndOfRest { side, phase } => {
-                Self { side: Some(named(*side)), phase: Some(*phase), ..bare }
-            }
-            BranchEvent::RestForEver { side } => Self { side: Some(named(*side)), ..bare },
-            BranchEvent::Stick { impact } => Self { impact: Some(impact + 1), ..bare },
-            _ => bare,
+            ends,
+            label_after,
+            label_before,
+            change,
+            impact,
+            side: side.map(named),
+            phase,
+            turns,
+            also: also.map(|(impact, side, phase)| (impact, named(side), phase)),
         }
     }
 }

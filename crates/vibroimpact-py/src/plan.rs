@@ -1,6 +1,7 @@
 //! A plan as text, JSON or TOML, checked and in the form in which it is stored.
 
 use crate::error::Trouble;
+use crate::oscillator::Oscillator;
 use pyo3::prelude::*;
 use vibroimpact_study::{Axis, Plan, Task};
 
@@ -38,4 +39,10 @@ pub(crate) fn points(plan: &Plan) -> u64 {
 pub(crate) fn checked_plan(text: &str) -> Result<(String, String, String, u64), Trouble> {
     let plan = read(text)?;
     Ok((crate::simulate::text(&plan)?, plan.hash(), plan.title(), points(&plan)))
+}
+
+/// The fields of an oscillator's system in a plan as JSON, the frequency as it was given.
+#[pyfunction]
+pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
+    serde_json::to_string(&osc.plan).map_err(|_| Trouble::Defect("writing the system"))
 }

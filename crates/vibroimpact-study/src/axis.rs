@@ -1,6 +1,6 @@
 //! An axis of a grid: what varies, and over which values.
 
-use crate::{Parameter, PlanError, Span, StartPlan, SystemPlan};
+use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -65,7 +65,7 @@ impl Coordinate {
         }
     }
 
-    /// Whether a length, in physical units, is scaled like it.
+    /// Whether it is a coordinate of the start, and no parameter of the system.
     #[must_use]
     pub const fn is_start(self) -> bool {
         !matches!(self, Self::Parameter(_))
@@ -301,6 +301,11 @@ pub(crate) fn check(
         axis.over.check()?;
     }
     Ok(())
+}
+
+/// All points of the axes; the first axis runs fastest.
+pub(crate) fn whole(axes: &[Axis]) -> Block {
+    Block { ranges: axes.iter().rev().map(|axis| 0..axis.over.count()).collect() }
 }
 
 /// Every combination of smallest and largest values on the axes, as indices of the values.

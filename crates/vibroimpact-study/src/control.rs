@@ -13,6 +13,57 @@ pub struct Control<'a> {
     pub threads: usize,
 }
 
+impl Control<'_> {
+    /// The threads asked for.
+    ///
+    /// # Errors
+    /// When the operating system refuses to start them.
+    pub(crate) fn pool(&self) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
+        rayon::ThreadPoolBuilder::new().num_threads(self.threads).build()
+    }
+
+    /// Whether someone asked to stop.
+    pub(crate) fn stopping(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+}
+
+/// Points done, told now and then to whoever watches.
+pub(crate) struct Meter<'a> {
+    control: &'a Control<'a>,
+    done: AtomicU64,
+    total: u64,
+}
+
+/// Points between two tellings.
+const TELL: u64 = 64;
+
+impl<'a> Meter<'a> {
+    /// `done` of `total` points are done already.
+    pub(crate) const fn new(control: &'a Control<'a>, done: u64, total: u64) -> Self {
+        Self { control, done: AtomicU64::new(done), total }
+    }
+
+    /// One more; says whether to stop.
+    pub(crate) fn tick(&self) -> bool {
+        let now = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if now.is_multiple_of(TELL) || now == self.total {
+            (self.control.progress)(now);
+        }
+        self.control.stopping()
+    }
+
+    /// So many more, that someone else has done.
+    pub(crate) fn add(&self, points: u64) {
+        self.done.fetch_add(points, Ordering::Relaxed);
+    }
+
+    /// How far it is, as the answer to a wish to stop.
+    pub(crate) fn stopped(&self) -> Stopped {
+        Stopped { done: self.done.load(Ordering::Relaxed).min(self.total), total: self.total }
+    }
+}
+
 static NEVER: AtomicBool = AtomicBool::new(false);
 
 impl Default for Control<'_> {
@@ -48,27 +99,21 @@ pub fn tiles<T: Send>(
     control: &Control<'_>,
     work: impl Fn(core::ops::Range<u64>, &(dyn Fn() -> bool + Sync)) -> T + Sync,
 ) -> Result<Vec<T>, Stopped> {
-    let done = AtomicU64::new(0);
-    let tick = || {
-        let now = done.fetch_add(1, Ordering::Relaxed) + 1;
-        if now.is_multiple_of(64) || now == total {
-            (control.progress)(now);
-        }
-        control.stop.load(Ordering::Relaxed)
-    };
+    let meter = Meter::new(control, 0, total);
+    let tick = || meter.tick();
     let count = total.div_ceil(tile.max(1));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(control.threads).build().expect("threads can be started");
+    let pool = control.pool().expect("threads can be started");
     let results: Vec<Option<T>> = pool.install(|| {
         (0..count)
             .into_par_iter()
             .map(|k| {
                 let range = k * tile..((k + 1) * tile).min(total);
-                (!control.stop.load(Ordering::Relaxed)).then(|| work(range, &tick))
+                (!control.stopping()).then(|| work(range, &tick))
             })
             .collect()
     });
-    let stopped = Stopped { done: done.load(Ordering::Relaxed), total };
-    if stopped.done < total || control.stop.load(Ordering::Relaxed) {
+    let stopped = meter.stopped();
+    if stopped.done < total || control.stopping() {
         return Err(stopped);
     }
     results.into_iter().collect::<Option<Vec<T>>>().ok_or(stopped)

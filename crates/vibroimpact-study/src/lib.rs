@@ -19,7 +19,7 @@
 //! | the motion after its transient at each value of a parameter | [`diagram()`], [`mod@diagram`] |
 //! | the Lyapunov exponents of a motion: the question | [`LyapunovPlan`] |
 //! | a branch of periodic orbits in one parameter, and those that begin on it | [`BranchPlan`], [`branches`] |
-//! | which orbit it begins with | [`Chosen`] |
+//! | which orbit it begins with; what an event on it has to tell | [`Chosen`], [`Told`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`curve`](curve()) |
 //! | where a motion exists and where it is stable | [`RegionPlan`], [`regions`] |
 //! | a parameter and its range | [`Stretch`] |
@@ -46,6 +46,7 @@ mod span;
 pub mod store;
 mod stretch;
 pub mod study;
+mod told;
 mod written;
 
 pub use attractors::attractors;
@@ -53,6 +54,7 @@ pub use axis::{Axis, Coordinate, Values};
 pub use basin::{Basin, BasinPlan, RunError, basin};
 pub use begin::Chosen;
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin, branches};
+pub(crate) use control::Meter;
 pub use control::{Control, Stopped, tiles};
 pub use curve::{CurvePlan, EventCurve, EventKind, curve};
 pub use diagram::{Diagram, DiagramPlan, diagram};
@@ -69,3 +71,4 @@ pub use span::Span;
 pub use store::{Store, StoreError};
 pub use stretch::Stretch;
 pub use study::Study;
+pub use told::Told;

@@ -155,7 +155,7 @@ fn the_same_bytes_as_in_a_folder() {
         let progress = store.progress().unwrap();
         assert_eq!((progress.done, progress.complete), (tiles, true));
         let again = Store::open(server.shelf(place)).unwrap();
-        assert_eq!(again.resume(&control(2)).unwrap().computed, 0);
+        assert_eq!(again.run(Part::ALL, &control(2)).unwrap().computed, 0);
         assert_eq!(again.verify(3, 0, &control(2)).unwrap().damage, []);
     }
 }
@@ -201,7 +201,7 @@ fn damage_is_found_and_mended() {
     }
     let store = Store::open(server.shelf(place)).unwrap();
     assert_eq!(store.verify(0, 0, &control(2)).unwrap().damage.len(), 6);
-    assert_eq!(store.resume(&control(2)).unwrap().mended, 6);
+    assert_eq!(store.run(Part::ALL, &control(2)).unwrap().mended, 6);
     assert!(objects(shelf.as_ref()) == want);
 }
 

@@ -113,7 +113,7 @@ fn damage_is_found_and_mended() {
                 !found.damage.is_empty() || (found.open == 1 && key.starts_with("status")) || key.starts_with("cycle_"),
                 "{key}"
             );
-            open_again().resume(&control(2)).unwrap();
+            open_again().run(Part::ALL, &control(2)).unwrap();
             assert!(files(folder.path()) == want, "{key}");
         }
         for key in want.keys().filter(|key| key.ends_with("zarr.json")) {
@@ -228,9 +228,9 @@ fn refusals() {
     fs::write(&root, text.replace(&version, "\"vibroimpact_version\": \"0.0.9\"")).unwrap();
     let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
     // what is whole may be read and concluded; to add to it is refused
-    store.resume(&control(1)).unwrap();
+    store.run(Part::ALL, &control(1)).unwrap();
     fs::remove_file(folder.path().join("status/c/0/0")).unwrap();
-    let mixed = store.resume(&control(1)).err().unwrap().to_string();
+    let mixed = store.run(Part::ALL, &control(1)).err().unwrap().to_string();
     assert!(mixed.contains("was begun by vibroimpact 0.0.9"), "{mixed}");
     assert!(matches!(Part::new(0, 3), Err(StoreError::Part { .. })) && Part::new(4, 3).is_err());
 }

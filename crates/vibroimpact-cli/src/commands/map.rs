@@ -7,7 +7,7 @@ use crate::exit::Failure;
 use crate::plot;
 use crate::report::csv::{self, Number};
 use crate::report::json::{PROGRAM, Range};
-use crate::report::text::{percent, table};
+use crate::report::stored::{LabelCount, label_table};
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
@@ -180,16 +180,6 @@ fn objects(system: &SystemPlan, axes: &[Axis]) -> (serde_json::Map<String, Value
     (fixed, axes.iter().map(|axis| (axis.vary.name().to_owned(), range(axis))).collect())
 }
 
-/// How often a label occurs.
-#[derive(Clone, Serialize)]
-struct LabelCount {
-    label: String,
-    /// Points that have such a motion.
-    points: usize,
-    /// Its share of all starts.
-    share: f64,
-}
-
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     let (system, axes) = (args.plane.system()?, args.plane.axes());
     if axes.is_empty() {
@@ -240,14 +230,11 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     if silent {
         return Ok(());
     }
-    let heads = ["<label", "points", "share of starts"].map(str::to_owned);
-    let rows: Vec<Vec<String>> =
-        labels.iter().map(|count| vec![count.label.clone(), count.points.to_string(), percent(count.share)]).collect();
     session.print(&format!(
         "{} points, {} starts each; several motions coexist at {coexisting} of them\n\n{}",
         found.points.len(),
         args.starts,
-        table(&heads, &rows)
+        label_table(&labels)
     ))?;
     session.note("hint: --csv FILE keeps every point, --plot FILE.png draws them");
     Ok(())
@@ -264,7 +251,7 @@ fn rows(found: &RegionMap) -> impl Iterator<Item = String> + '_ {
 
 /// Labels in the order of a legend, then by name.
 fn counts(found: &RegionMap) -> Vec<LabelCount> {
-    let mut counts: BTreeMap<(usize, String), (usize, f64)> = BTreeMap::new();
+    let mut counts: BTreeMap<(usize, String), (u64, f64)> = BTreeMap::new();
     for point in &found.points {
         let mut here: Vec<String> = Vec::new();
         for motion in &point.motions {

@@ -5,9 +5,9 @@ use crate::report::csv::Number;
 use crate::report::json::{CyclePoint, Rest, impacts, pairs, rests, side};
 use serde::Serialize;
 use vibroimpact::Parameter;
-use vibroimpact::continuation::{BranchEvent, Change, Point};
+use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact::orbit::Cycle;
-use vibroimpact_study::{Branches, Chosen, Followed};
+use vibroimpact_study::{Branches, Chosen, Followed, Told};
 
 /// The command's part of the object.
 #[derive(Serialize)]
@@ -147,69 +147,22 @@ fn events(branch: &Followed, unit: f64) -> Vec<EventObject> {
 
 impl EventObject {
     fn new(place: usize, point: &Point, event: &BranchEvent, unit: f64) -> Self {
-        let label = point.cycle.label.to_string();
-        // where there are none, none is counted
-        let place_of = |impact: usize| (!point.cycle.points.is_empty()).then_some(impact + 1);
-        let bare = Self {
-            kind: event.name(),
+        let Told { kind, ends, label_before, label_after, change, impact, side: at, phase, turns, also } =
+            Told::of(point, event);
+        Self {
+            kind,
             parameter: point.value * unit,
             point: place,
-            ends: event.ends(),
-            label_after: (!event.ends()).then(|| label.clone()),
-            label_before: label.clone(),
-            change: None,
-            impact: None,
-            side: None,
-            phase: None,
-            turns: None,
-            also: None,
-        };
-        match event {
-            BranchEvent::Grazing { change, impact, side: at, phase, before, after, turns, also } => Self {
-                label_before: before.to_string(),
-                label_after: Some(after.to_string()),
-                change: Some(changes(*change)),
-                impact: place_of(*impact),
-                side: Some(side(*at)),
-                phase: Some(*phase),
-                turns: Some(*turns),
-                also: also.map(|touch| TouchObject {
-                    impact: place_of(touch.impact),
-                    side: side(touch.side),
-                    phase: touch.phase,
-                }),
-                ..bare
-            },
-            BranchEvent::LossOfContact { side: at, phase } => {
-                Self { side: Some(side(*at)), phase: Some(*phase), ..bare }
-            }
-            BranchEvent::SoftLanding { impact, side: at, phase, before, after } => Self {
-                label_before: before.to_string(),
-                label_after: Some(after.to_string()),
-                impact: Some(impact + 1),
-                side: Some(side(*at)),
-                phase: Some(*phase),
-                ..bare
-            },
-            BranchEvent::EndOfRest { side: at, phase } => Self { side: Some(side(*at)), phase: Some(*phase), ..bare },
-            BranchEvent::RestForEver { side: at } => Self { side: Some(side(*at)), ..bare },
-            BranchEvent::Chatter { side: at, phase, before } => Self {
-                label_before: before.to_string(),
-                label_after: Some(label),
-                side: Some(side(*at)),
-                phase: Some(*phase),
-                ..bare
-            },
-            BranchEvent::Stick { impact } => Self { impact: Some(impact + 1), ..bare },
-            _ => bare,
+            ends,
+            label_after,
+            label_before,
+            change,
+            impact,
+            side: at.map(side),
+            phase,
+            turns,
+            also: also.map(|(impact, at, phase)| TouchObject { impact, side: side(at), phase }),
         }
-    }
-}
-
-const fn changes(change: Change) -> &'static str {
-    match change {
-        Change::Appears => "appears",
-        Change::Disappears => "disappears",
     }
 }
 

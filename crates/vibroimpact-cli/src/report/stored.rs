@@ -39,11 +39,18 @@ impl<'a, Filled: Serialize> Answer<'a, Filled> {
 /// How often a label occurs.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct LabelCount {
-    label: String,
+    pub(crate) label: String,
     /// Points that have such a motion.
-    points: u64,
+    pub(crate) points: u64,
     /// Its share of all starts.
-    share: f64,
+    pub(crate) share: f64,
+}
+
+/// The labels as a table for people.
+pub(crate) fn label_table(labels: &[LabelCount]) -> String {
+    let heads = ["<label", "points", "share of starts"].map(str::to_owned);
+    let row = |count: &LabelCount| vec![count.label.clone(), count.points.to_string(), percent(count.share)];
+    columns_of_text(&heads, &labels.iter().map(row).collect::<Vec<_>>())
 }
 
 /// The labels of all finished tiles, the most frequent first.
@@ -86,10 +93,8 @@ pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
     let mut text = format!("{}\n{} points: {}\n", store.plan().title(), grid.points(), sides.join(" x "));
     let labels = labels(store)?;
     if !labels.is_empty() {
-        let heads = ["<label", "points", "share of starts"].map(str::to_owned);
-        let row = |count: &LabelCount| vec![count.label.clone(), count.points.to_string(), percent(count.share)];
         text.push('\n');
-        text.push_str(&columns_of_text(&heads, &labels.iter().map(row).collect::<Vec<_>>()));
+        text.push_str(&label_table(&labels));
     }
     Ok(text)
 }

@@ -158,7 +158,7 @@ class Plan:
     @classmethod
     def _of(cls, osc: Oscillator, name: str, task: dict[str, Any], tile: int | None) -> "Plan":
         given = {key: value for key, value in task.items() if value is not None}
-        plan: dict[str, Any] = {"version": _VERSION, "system": _system(osc), "task": {name: given}}
+        plan: dict[str, Any] = {"version": _VERSION, "system": json.loads(_core.system_fields(osc)), "task": {name: given}}
         if tile is not None:
             plan["tile"] = tile
         return cls(json.dumps(plan))
@@ -172,15 +172,6 @@ def _known(what: str, given: str, known: tuple[str, ...]) -> None:
 def _start(x: float | None, v: float, phase: float) -> dict[str, float]:
     given = {"x": x, "v": v, "phase": phase}
     return {name: float(value) for name, value in given.items() if value is not None}
-
-
-def _system(osc: Oscillator) -> dict[str, Any]:
-    """The fields of the system, the frequency as it was given."""
-    frequency = "inverse_beta" if "inverse_beta" in repr(osc) else "beta"
-    fields: dict[str, Any] = {name: getattr(osc, name) for name in (frequency, "gap", "restitution", "damping")}
-    if osc.second_gap is not None:
-        fields["second_stop"] = {"gap": osc.second_gap, "restitution": osc.second_restitution}
-    return fields
 
 
 def oscillator(plan: dict[str, Any]) -> Oscillator:

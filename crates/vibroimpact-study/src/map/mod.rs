@@ -6,9 +6,8 @@ pub use plan::MapPlan;
 pub(crate) use plan::check_refine;
 
 use crate::basin::RunError;
-use crate::grid::{Block, Dimension, Grid};
 use crate::plan::MOST_CELLS;
-use crate::{Control, PlanError, SystemPlan, tiles};
+use crate::{Control, PlanError, SystemPlan, axis, tiles};
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{Atlas, Found, SettleOptions, StartBox, Verdict, scattered_starts, settle_many};
@@ -55,7 +54,7 @@ pub fn map(
     if total > MOST_CELLS {
         return Err(PlanError::too_many("points", &plan.axes).into());
     }
-    let all = whole(plan);
+    let all = axis::whole(&plan.axes);
     let parts = tiles(total, 4, control, |range, tick| {
         let mut points = Vec::new();
         for k in range {
@@ -74,15 +73,6 @@ pub fn map(
     })?;
     let points = parts.into_iter().flatten().collect::<Result<Vec<_>, _>>()?;
     Ok(RegionMap { plan: plan.clone(), points })
-}
-
-fn whole(plan: &MapPlan) -> Block {
-    let dimension = |axis: &crate::Axis| Dimension {
-        name: axis.vary.name().to_owned(),
-        count: axis.over.count(),
-        tile: axis.over.count(),
-    };
-    Grid { dimensions: plan.axes.iter().rev().map(dimension).collect() }.whole()
 }
 
 /// The motions at one point, the most frequent first, and their shares of the starts.

@@ -1,12 +1,10 @@
 //! How far a store is, and whether what is in it is what its plan gives.
 
-use super::root::pretty;
 use super::run::State;
-use super::{Part, Store, StoreError};
-use crate::Control;
+use super::{Store, StoreError};
 use crate::field::Column;
 use crate::store::shelf::Memory;
-use core::sync::atomic::{AtomicU64, Ordering};
+use crate::{Control, Meter};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
@@ -93,20 +91,23 @@ impl Store {
             }),
             _ => None,
         };
-        let root = self.root()?;
-        let complete = root.pointer("/attributes/complete").and_then(serde_json::Value::as_i64) == Some(1);
         Ok(Progress {
             tiles: grid.tiles(),
             done,
             points: grid.points(),
             points_done,
-            complete: complete && done == grid.tiles(),
+            complete: done == grid.tiles() && self.concluded()?,
             first: times.first().copied(),
             last: times.last().copied(),
             left,
             missing,
             bytes: items.iter().map(|item| item.size).sum(),
         })
+    }
+
+    /// Whether its root says that it was concluded.
+    fn concluded(&self) -> Result<bool, StoreError> {
+        Ok(self.root()?.pointer("/attributes/complete").and_then(serde_json::Value::as_i64) == Some(1))
     }
 
     /// Reads the check sums of all finished tiles, computes `sample` of them again, chosen by `seed`, and compares the
@@ -117,12 +118,11 @@ impl Store {
     pub fn verify(&self, sample: u64, seed: u64, control: &Control<'_>) -> Result<Verified, StoreError> {
         let grid = self.study.grid();
         let tiles: Vec<u64> = (0..grid.tiles()).collect();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(control.threads).build();
-        let pool = pool.map_err(|error| StoreError::Unreachable { place: "threads".into(), why: error.to_string() })?;
-        let stop = || control.stop.load(Ordering::Relaxed);
-        let stopped = || StoreError::Stopped(crate::Stopped { done: 0, total: grid.points() });
+        let pool = control.pool()?;
+        let meter = Meter::new(control, 0, grid.points());
+        let stopped = || StoreError::Stopped(meter.stopped());
         let states = pool.install(|| {
-            let state = |tile: &u64| if stop() { Err(stopped()) } else { self.state(*tile) };
+            let state = |tile: &u64| if control.stopping() { Err(stopped()) } else { self.state(*tile) };
             tiles.par_iter().map(state).collect::<Result<Vec<State>, StoreError>>()
         })?;
         let mut damage = self.descriptions()?;
@@ -133,21 +133,13 @@ impl Store {
         let whole: Vec<u64> = with(State::Whole).collect();
         let chosen = choose(&whole, sample, seed);
         let twin = Self::over(Arc::new(Memory::default()), &self.plan, self.begun_by.clone())?;
-        let done = AtomicU64::new(0);
-        let complete = self.progress()?.complete;
+        let concluded = self.concluded()?;
         let compared = pool.install(|| {
             let compare = |tile: &u64| -> Result<Option<Damage>, StoreError> {
-                let tick = || {
-                    let now = done.fetch_add(1, Ordering::Relaxed) + 1;
-                    if now.is_multiple_of(64) {
-                        (control.progress)(now);
-                    }
-                    stop()
-                };
-                if !twin.fill(*tile, &tick)? {
+                if !twin.fill(*tile, &|| meter.tick())? {
                     return Err(stopped());
                 }
-                Ok(self.differs(&twin, *tile, complete)?.map(|what| Damage { tile: *tile, what }))
+                Ok(self.differs(&twin, *tile, concluded)?.map(|what| Damage { tile: *tile, what }))
             };
             chosen.par_iter().map(compare).collect::<Result<Vec<_>, StoreError>>()
         })?;
@@ -182,7 +174,7 @@ impl Store {
     }
 
     /// How a tile here differs from the same tile there.
-    fn differs(&self, twin: &Self, tile: u64, complete: bool) -> Result<Option<String>, StoreError> {
+    fn differs(&self, twin: &Self, tile: u64, concluded: bool) -> Result<Option<String>, StoreError> {
         for (field, array) in self.layout.arrays.iter().enumerate() {
             let key = array.key(&self.layout.place(tile, field));
             if self.get(&key)? == twin.get(&key)? {
@@ -192,7 +184,7 @@ impl Store {
             let same = match (self.read(tile, field)?, twin.read(tile, field)?) {
                 (Some(Column::I32(here)), Some(Column::I32(there))) => {
                     here.len() == there.len()
-                        && here.iter().zip(&there).all(|(a, b)| a == b || (complete && *b < -1 && *a >= 0))
+                        && here.iter().zip(&there).all(|(a, b)| a == b || (concluded && *b < -1 && *a >= 0))
                 }
                 _ => false,
             };
@@ -206,21 +198,6 @@ impl Store {
     /// Writes descriptions and coordinates anew where they are damaged.
     pub(super) fn mend_descriptions(&self) -> Result<(), StoreError> {
         if self.descriptions()?.is_empty() { Ok(()) } else { self.describe() }
-    }
-
-    /// Computes what is missing or damaged: [`Store::run`] of all tiles.
-    ///
-    /// # Errors
-    /// As for [`Store::run`].
-    pub fn resume(&self, control: &Control<'_>) -> Result<super::Ran, StoreError> {
-        self.run(Part::ALL, control)
-    }
-
-    /// The plan, as text for people.
-    #[must_use]
-    pub fn plan_text(&self) -> String {
-        let plan = serde_json::to_value(&self.plan).unwrap_or_default();
-        String::from_utf8(pretty(&plan)).unwrap_or_default()
     }
 }
 

@@ -100,6 +100,9 @@ pub enum StoreError {
         /// Of how many.
         of: u64,
     },
+    /// The operating system starts no threads.
+    #[error("threads cannot be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
     /// A place that this build cannot reach.
     #[error("{place}: {why}")]
     Unreachable {

@@ -1,7 +1,7 @@
 //! Filling tiles, over threads, until all are there.
 
 use super::{Store, StoreError};
-use crate::{Control, Grid, Stopped};
+use crate::{Control, Grid, Meter};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
@@ -88,12 +88,9 @@ impl Store {
         let grid = self.study.grid();
         let points = |tile: u64| grid.tile(tile).points() as u64;
         let total: u64 = mine.iter().map(|tile| points(*tile)).sum();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(control.threads).build();
-        let pool = pool.map_err(|error| StoreError::Unreachable { place: "threads".into(), why: error.to_string() })?;
-
-        let stop = || control.stop.load(Ordering::Relaxed);
+        let pool = control.pool()?;
         let states = pool.install(|| {
-            let state = |tile: &u64| if stop() { Ok(State::Open) } else { self.state(*tile) };
+            let state = |tile: &u64| if control.stopping() { Ok(State::Open) } else { self.state(*tile) };
             mine.par_iter().map(state).collect::<Result<Vec<State>, StoreError>>()
         })?;
         let mut open: Vec<u64> =
@@ -106,23 +103,18 @@ impl Store {
             let turn = std::process::id() as usize * 7919 % open.len();
             open.rotate_left(turn);
         }
-        let done = AtomicU64::new(total - open.iter().map(|tile| points(*tile)).sum::<u64>());
-        (control.progress)(done.load(Ordering::Relaxed));
+        let before = total - open.iter().map(|tile| points(*tile)).sum::<u64>();
+        let meter = Meter::new(control, before, total);
+        (control.progress)(before);
 
         let failure: Mutex<Option<StoreError>> = Mutex::new(None);
         let failed = AtomicBool::new(false);
         let (computed, elsewhere) = (AtomicU64::new(0), AtomicU64::new(0));
-        let tick = || {
-            let now = done.fetch_add(1, Ordering::Relaxed) + 1;
-            if now.is_multiple_of(64) {
-                (control.progress)(now);
-            }
-            stop() || failed.load(Ordering::Relaxed)
-        };
+        let tick = || meter.tick() || failed.load(Ordering::Relaxed);
         let one = |tile: u64| -> Result<(), StoreError> {
             if !damaged(tile) && self.done(tile)? {
                 elsewhere.fetch_add(1, Ordering::Relaxed);
-                done.fetch_add(points(tile), Ordering::Relaxed);
+                meter.add(points(tile));
                 return Ok(());
             }
             if self.fill(tile, &tick)? {
@@ -133,7 +125,7 @@ impl Store {
         pool.install(|| {
             // by ones, in this order: a run that is stopped leaves no holes larger than its threads
             open.par_iter().with_max_len(1).for_each(|tile| {
-                if stop() || failed.load(Ordering::Relaxed) {
+                if control.stopping() || failed.load(Ordering::Relaxed) {
                     return;
                 }
                 if let Err(error) = one(*tile) {
@@ -147,7 +139,7 @@ impl Store {
         }
         let (computed, elsewhere) = (computed.into_inner(), elsewhere.into_inner());
         if computed + elsewhere < open.len() as u64 {
-            return Err(StoreError::Stopped(Stopped { done: done.into_inner().min(total), total }));
+            return Err(StoreError::Stopped(meter.stopped()));
         }
         (control.progress)(total);
         let found = mine.len() as u64 - open.len() as u64 + elsewhere;

@@ -1,6 +1,5 @@
 //! Where the objects of a store lie: a name, its bytes, written whole or not at all.
 
-use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -105,12 +104,6 @@ impl Folder {
         file.write_all(bytes)?;
         drop(file);
         fs::rename(beside, place)
-    }
-}
-
-impl fmt::Display for Folder {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.path.display())
     }
 }
 

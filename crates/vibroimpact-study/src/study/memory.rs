@@ -4,7 +4,7 @@ use super::{Study, Table, Tiles};
 use crate::field::{Column, Field};
 use crate::grid::Grid;
 use crate::plan::MOST_CELLS;
-use crate::{Control, PlanError, RunError, tiles};
+use crate::{Control, Meter, PlanError, RunError, tiles};
 
 /// A study with all its arrays.
 pub struct Sheet {
@@ -29,25 +29,19 @@ pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError>
         return Err(PlanError::Memory { numbers, most: 4 * MOST_CELLS }.into());
     }
     let points = usize::try_from(grid.points()).unwrap_or(usize::MAX);
-    let done = core::sync::atomic::AtomicU64::new(0);
-    let tick = |stop: &(dyn Fn() -> bool + Sync)| {
-        done.fetch_add(1, core::sync::atomic::Ordering::Relaxed);
-        stop()
-    };
-    let stop = || control.stop.load(core::sync::atomic::Ordering::Relaxed);
-    // one tile of the grid is one unit of work; progress is told in points
-    let watched = Control { progress: &|_| {}, ..*control };
-    let parts = tiles(grid.tiles(), 1, &watched, |range, finished| {
-        let columns = study.tile(range.start, &|| tick(&stop));
-        (control.progress)(done.load(core::sync::atomic::Ordering::Relaxed).min(grid.points()));
+    // one tile of the grid is one unit of work, but what is told are points
+    let meter = Meter::new(control, 0, grid.points());
+    let untold = Control { progress: &|_| {}, ..*control };
+    let parts = tiles(grid.tiles(), 1, &untold, |range, finished| {
+        let columns = study.tile(range.start, &|| meter.tick());
         finished();
         columns
-    })?;
+    });
+    let parts = parts.map_err(|_| meter.stopped())?;
     let mut columns: Vec<Column> = fields.iter().map(|field| field.empty(points)).collect();
     let all = grid.whole();
     for (k, part) in parts.into_iter().enumerate() {
-        let stopped = crate::Stopped { done: k as u64, total: grid.tiles() };
-        let part = part.ok_or(stopped)?;
+        let part = part.ok_or_else(|| meter.stopped())?;
         for ((field, column), part) in fields.iter().zip(&mut columns).zip(&part) {
             grid.tile(k as u64).rows(&all, field.width(), |at, from, len| column.copy(at, part, from, len));
         }
