@@ -116,6 +116,14 @@ pub enum PlanError {
     /// A number of impacts that makes no sense.
     #[error("impacts = {0} lies outside 1 <= impacts <= 10000000")]
     Impacts(u64),
+    /// A number of impacts to follow each start for that makes no sense.
+    #[error("impacts = {given} lies outside 1 <= impacts <= {most}")]
+    Budget {
+        /// What was given.
+        given: u32,
+        /// The most there may be.
+        most: u32,
+    },
     /// A number of impacts to measure over that is too small for an error bar, or too large.
     #[error(
         "impacts = {given} lies outside {least} <= impacts <= {most}\nhint: the error bar shrinks with the square root of the number; 100000 give two or three digits"

@@ -57,7 +57,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<Shares, Error> {
             restitution: 0.5,
             ..SystemPlan::default()
         };
-        let basin = basin(&system, &plan, &SettleOptions::default(), run.control)?;
+        let basin = basin(&system, &plan, run.control)?;
         let picture = measure(point, (x, v), basin);
         run.folder.write(&format!("{name}.csv"), table(&picture).bytes())?;
         drawings.push(run.folder.figure(name, draw(&picture)?)?);

@@ -13,7 +13,6 @@ use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
-use vibroimpact::verdict::SettleOptions;
 use vibroimpact_study::store::Part;
 use vibroimpact_study::{Basin as Computed, BasinPlan, Plan, Span, Task, basin};
 
@@ -42,6 +41,10 @@ pub(crate) struct Basin {
     /// Phase of the force at all starts, in radians
     #[arg(long, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "Starts")]
     phase: f64,
+
+    /// Follow each start for so many impacts at most, 1 to 1000000; what is not settled by then is undecided
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
+    impacts: Option<u32>,
 
     #[command(flatten)]
     store: StoreArgs,
@@ -76,7 +79,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let units = asked.units;
     let plane = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
-    let task = BasinPlan { refine: args.refine, ..plane };
+    let task = BasinPlan { refine: args.refine, impacts: args.impacts, ..plane };
     let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task.clone())))?;
     let osc = asked.system.oscillator()?;
     let total = task.starts();
@@ -86,8 +89,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
         return stored::run(&plan, place, Part::ALL, outputs, session);
     }
 
-    let found =
-        session.tiled(total, "starts", |control, _| basin(&asked.system, &task, &SettleOptions::default(), control))?;
+    let found = session.tiled(total, "starts", |control, _| basin(&asked.system, &task, control))?;
 
     let silent = outputs.any();
     outputs.write(

@@ -14,7 +14,6 @@ use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use vibroimpact::verdict::SettleOptions;
 use vibroimpact_plot::{GROUPS, legend_group};
 use vibroimpact_study::store::Part;
 use vibroimpact_study::{
@@ -47,6 +46,10 @@ pub(crate) struct Map {
     /// Which sequence of starts
     #[arg(long, value_name = "S", default_value_t = 1, help_heading = "Starts")]
     seed: u64,
+
+    /// Follow each start for so many impacts at most, 1 to 1000000; what is not settled by then is undecided
+    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
+    impacts: Option<u32>,
 
     #[command(flatten)]
     store: StoreArgs,
@@ -187,7 +190,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
             "nothing varies\nhint: give one of the parameters a range, --gap 0:5:41; `vibro attractors` answers for one point",
         ));
     }
-    let task = MapPlan { axes, starts: args.starts, seed: args.seed, refine: args.refine };
+    let task = MapPlan { axes, starts: args.starts, seed: args.seed, refine: args.refine, impacts: args.impacts };
     let plan = args.store.tiled(Plan::new(system, Task::Map(task.clone())))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     outputs.drawable(&task.axes)?;
@@ -196,7 +199,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     }
 
     let total = task.points();
-    let found = session.tiled(total, "points", |control, _| map(&system, &task, &SettleOptions::default(), control))?;
+    let found = session.tiled(total, "points", |control, _| map(&system, &task, control))?;
 
     let silent = outputs.any();
     let names: Vec<&str> = task.axes.iter().map(|axis| axis.vary.name()).collect();

@@ -81,6 +81,7 @@ def basin(
     v: Axis | float = 0.0,
     phase: Axis | float = 0.0,
     refine: int | None = None,
+    impacts: int | None = None,
     store: str | PathLike[str] | None = None,
     client: "Client | None" = None,
     tile: int | None = None,
@@ -100,6 +101,8 @@ def basin(
         The first of them that varies is drawn to the right, the second upwards.
     refine : int
         Compute every so many-th point first, and those between only where neighbours differ.
+    impacts : int
+        Follow each start for so many impacts at most; what is not settled by then is undecided.
     store : path
         Where results are kept; what is there already is not computed again.
     client : distributed.Client
@@ -135,7 +138,7 @@ def basin(
         x=fixed.get("x"),
         v=fixed.get("v") or 0.0,
         phase=fixed.get("phase") or 0.0,
-        refine=refine,
+        refine=refine, impacts=impacts,
         tile=tile,
     )
     return computed(plan, store, client, threads, progress)
@@ -148,6 +151,7 @@ def region_map(
     starts: int = 8,
     seed: int = 1,
     refine: int | None = None,
+    impacts: int | None = None,
     store: str | PathLike[str] | None = None,
     client: "Client | None" = None,
     tile: int | None = None,
@@ -169,6 +173,8 @@ def region_map(
         Which sequence of them.
     refine : int
         Compute every so many-th point first, and those between only where neighbours differ.
+    impacts : int
+        Follow each start for so many impacts at most; what is not settled by then is undecided.
     store, client, tile, threads, progress
         As for `basin`.
 
@@ -185,7 +191,7 @@ def region_map(
     >>> ds.vibro.labels().sel(inverse_beta=1.3, gap=0.75, motion=0).item()
     '2/1'
     """
-    plan = Plan.map(osc, over, starts=starts, seed=seed, refine=refine, tile=tile)
+    plan = Plan.map(osc, over, starts=starts, seed=seed, refine=refine, impacts=impacts, tile=tile)
     return computed(plan, store, client, threads, progress)
 
 

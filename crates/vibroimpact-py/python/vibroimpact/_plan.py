@@ -79,10 +79,12 @@ class Plan:
         starts: int = 8,
         seed: int = 1,
         refine: int | None = None,
+        impacts: int | None = None,
         tile: int | None = None,
     ) -> "Plan":
         """Which motions there are at each point of a plane of parameters; the arguments are those of `region_map`."""
-        return cls._of(osc, "map", {"axes": axes(over), "starts": starts, "seed": seed, "refine": refine}, tile)
+        task = {"axes": axes(over), "starts": starts, "seed": seed, "refine": refine, "impacts": impacts}
+        return cls._of(osc, "map", task, tile)
 
     @classmethod
     def basin(
@@ -94,10 +96,11 @@ class Plan:
         v: float = 0.0,
         phase: float = 0.0,
         refine: int | None = None,
+        impacts: int | None = None,
         tile: int | None = None,
     ) -> "Plan":
         """Which motion each start leads to, over "x", "v", "phase" and parameters; what is on no axis is as given."""
-        task = {"axes": axes(over), "start": _start(x, v, phase), "refine": refine}
+        task = {"axes": axes(over), "start": _start(x, v, phase), "refine": refine, "impacts": impacts}
         return cls._of(osc, "basin", task, tile)
 
     @classmethod

@@ -7,7 +7,7 @@ pub use plan::BasinPlan;
 use crate::plan::MOST_CELLS;
 use crate::{Control, PlanError, Stopped, SystemPlan, axis, tiles};
 use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Atlas, Census, Found, SettleOptions, settle_many};
+use vibroimpact::verdict::{Atlas, Census, Found, settle_many};
 use vibroimpact::{Oscillator, Start};
 
 /// The motions of a basin and, for every start, which of them it leads to.
@@ -81,23 +81,13 @@ pub(crate) fn start_at(osc: &Oscillator, plan: &BasinPlan, place: impl Fn(usize)
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense or varies parameters too, or when stopped.
-pub fn basin(
-    system: &SystemPlan,
-    plan: &BasinPlan,
-    options: &SettleOptions,
-    control: &Control<'_>,
-) -> Result<Basin, RunError> {
-    in_tiles(system, plan, options, control, TILE)
+pub fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>) -> Result<Basin, RunError> {
+    in_tiles(system, plan, control, TILE)
 }
 
-fn in_tiles(
-    system: &SystemPlan,
-    plan: &BasinPlan,
-    options: &SettleOptions,
-    control: &Control<'_>,
-    tile: u64,
-) -> Result<Basin, RunError> {
+fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: u64) -> Result<Basin, RunError> {
     plan.check(system)?;
+    let options = &plan.options();
     let (osc, total) = (&system.oscillator()?, plan.starts());
     if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
         let (task, name) = ("basin of one system", axis.vary.name());
@@ -131,9 +121,7 @@ mod tests {
     fn the_same_for_any_number_of_threads() {
         let osc = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
         let plan = BasinPlan::plane("-4:0.75:50".parse().unwrap(), "-4:4:40".parse().unwrap(), 0.0);
-        let run = |threads| {
-            basin(&osc, &plan, &SettleOptions::default(), &Control { threads, ..Control::default() }).unwrap()
-        };
+        let run = |threads| basin(&osc, &plan, &Control { threads, ..Control::default() }).unwrap();
         let one = run(1);
         assert_eq!(one.cells.len(), 2000);
         assert_eq!(one.motions.iter().map(|m| m.count).sum::<u64>(), 2000);
@@ -143,7 +131,7 @@ mod tests {
         }
         for tile in [1, 7, 64, 999, 100_000] {
             let control = Control { threads: 2, ..Control::default() };
-            assert_eq!(in_tiles(&osc, &plan, &SettleOptions::default(), &control, tile).unwrap(), one, "{tile}");
+            assert_eq!(in_tiles(&osc, &plan, &control, tile).unwrap(), one, "{tile}");
         }
     }
 
@@ -153,10 +141,10 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(1.7), gap: 2.25, restitution: 0.5, ..SystemPlan::default() };
         let osc = system.oscillator().unwrap();
         let plan = BasinPlan::plane("-4:2.25:40".parse().unwrap(), "-4:4:30".parse().unwrap(), 0.5);
-        let got = basin(&system, &plan, &SettleOptions::default(), &Control::default()).unwrap();
+        let got = basin(&system, &plan, &Control::default()).unwrap();
         let mut census = Census::default();
         let one_by_one = |k| {
-            let verdict = vibroimpact::verdict::settle(&osc, start(&osc, &plan, k), &SettleOptions::default());
+            let verdict = vibroimpact::verdict::settle(&osc, start(&osc, &plan, k), &plan.options());
             census.add(&verdict.verdict)
         };
         let cells: Vec<usize> = (0..1200).map(one_by_one).collect();

@@ -1,9 +1,10 @@
 //! What a basin asks: over which starts, and of which systems.
 
 use crate::axis::{self, Axis, Coordinate};
-use crate::map::check_refine;
+use crate::map::{check_impacts, check_refine};
 use crate::{PlanError, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
+use vibroimpact::verdict::SettleOptions;
 
 /// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -18,6 +19,10 @@ pub struct BasinPlan {
     /// differ. All of them when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<u32>,
+    /// Impacts to follow each start for, at most: [`SettleOptions::at_most`](vibroimpact::verdict::SettleOptions::at_most). As many as it
+    /// takes, within the default of `SettleOptions`, when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<u32>,
 }
 
 /// Most axes.
@@ -28,7 +33,7 @@ impl BasinPlan {
     #[must_use]
     pub fn plane(x: Span, v: Span, phase: f64) -> Self {
         let axes = vec![Axis::new(Coordinate::X, x), Axis::new(Coordinate::V, v)];
-        Self { axes, start: StartPlan { phase, ..StartPlan::default() }, refine: None }
+        Self { axes, start: StartPlan { phase, ..StartPlan::default() }, refine: None, impacts: None }
     }
 
     /// Checks everything that can be checked without running it.
@@ -43,11 +48,18 @@ impl BasinPlan {
             return Err(PlanError::NoStartAxis);
         }
         check_refine(self.refine)?;
+        check_impacts(self.impacts)?;
         for corner in axis::corners(&self.axes) {
             let osc = axis::system_at(system, &self.axes, |k| corner[k])?.oscillator()?;
             axis::start_at(&self.start, &self.axes, |k| corner[k]).start(&osc)?;
         }
         Ok(())
+    }
+
+    /// How far each start is followed.
+    #[must_use]
+    pub fn options(&self) -> SettleOptions {
+        self.impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
     }
 
     /// Starts in all.

@@ -3,7 +3,7 @@
 mod plan;
 
 pub use plan::MapPlan;
-pub(crate) use plan::check_refine;
+pub(crate) use plan::{check_impacts, check_refine};
 
 use crate::basin::RunError;
 use crate::plan::MOST_CELLS;
@@ -43,13 +43,9 @@ pub struct RegionMap {
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, or when stopped.
-pub fn map(
-    system: &SystemPlan,
-    plan: &MapPlan,
-    options: &SettleOptions,
-    control: &Control<'_>,
-) -> Result<RegionMap, RunError> {
+pub fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result<RegionMap, RunError> {
     plan.check(system)?;
+    let options = &plan.options();
     let total = plan.points();
     if total > MOST_CELLS {
         return Err(PlanError::too_many("points", &plan.axes).into());
@@ -95,7 +91,7 @@ mod tests {
     fn points_in_order_with_shares_that_add_up() {
         let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
         let plan = MapPlan::plane("0.6:1.4:5".parse().unwrap(), "-0.5:2:3".parse().unwrap(), 6, 1);
-        let run = |threads| map(&system, &plan, &SettleOptions::default(), &Control { threads, ..Control::default() });
+        let run = |threads| map(&system, &plan, &Control { threads, ..Control::default() });
         let one = run(1).unwrap();
         assert_eq!(one.points.len(), 15);
         assert_eq!(one.points[0].at, [0.6, -0.5]);

@@ -5,6 +5,7 @@ use crate::plan::starts;
 use crate::{Parameter, PlanError, Span, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
+use vibroimpact::verdict::SettleOptions;
 
 /// The points of a map: a grid over two parameters or more, several starts each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -21,6 +22,10 @@ pub struct MapPlan {
     /// differ. All of them when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<u32>,
+    /// Impacts to follow each start for, at most: [`SettleOptions::at_most`](vibroimpact::verdict::SettleOptions::at_most). As many as it
+    /// takes, within the default of `SettleOptions`, when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<u32>,
 }
 
 /// Most axes.
@@ -39,12 +44,26 @@ pub(crate) fn check_refine(refine: Option<u32>) -> Result<(), PlanError> {
     }
 }
 
+/// Most impacts to follow a start for.
+const MOST_IMPACTS: u32 = 1_000_000;
+
+/// Checks how many impacts each start is followed for.
+///
+/// # Errors
+/// [`PlanError::Budget`] for none, or more than a million.
+pub(crate) fn check_impacts(impacts: Option<u32>) -> Result<(), PlanError> {
+    match impacts.filter(|impacts| !(1..=MOST_IMPACTS).contains(impacts)) {
+        Some(given) => Err(PlanError::Budget { given, most: MOST_IMPACTS }),
+        None => Ok(()),
+    }
+}
+
 impl MapPlan {
     /// A map over inverse frequency and gap, the plane of the 1971 paper.
     #[must_use]
     pub fn plane(inverse_beta: Span, gap: Span, starts: u64, seed: u64) -> Self {
         let axes = vec![Axis::parameter(Parameter::InverseBeta, inverse_beta), Axis::parameter(Parameter::Gap, gap)];
-        Self { axes, starts, seed, refine: None }
+        Self { axes, starts, seed, refine: None, impacts: None }
     }
 
     /// Checks everything that can be checked without running it.
@@ -56,10 +75,17 @@ impl MapPlan {
         axis::check("map", &self.axes, (1, MOST_AXES), (allowed, "the parameters of the system"))?;
         starts(self.starts)?;
         check_refine(self.refine)?;
+        check_impacts(self.impacts)?;
         for corner in axis::corners(&self.axes) {
             self.oscillator(system, |k| corner[k])?;
         }
         Ok(())
+    }
+
+    /// How far each start is followed.
+    #[must_use]
+    pub fn options(&self) -> SettleOptions {
+        self.impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
     }
 
     /// Points in all.
@@ -103,6 +129,7 @@ mod tests {
                 "second_gap is to vary, but there is no",
             ),
             (MapPlan { starts: 0, ..good.clone() }, "starts = 0 lies outside"),
+            (MapPlan { impacts: Some(0), ..good.clone() }, "impacts = 0 lies outside 1 <= impacts <= 1000000"),
             (MapPlan { refine: Some(1), ..good.clone() }, "refine = 1 lies outside 2 <= refine <= 64"),
             (
                 MapPlan { axes: vec![Axis::new(Coordinate::X, "0:1:3".parse::<Span>().unwrap())], ..good.clone() },

@@ -35,6 +35,7 @@ pub(super) struct BasinFill {
     starts: Starts,
     grid: Grid,
     refine: Option<u32>,
+    options: SettleOptions,
 }
 
 /// An oscillator and what is known of it beforehand.
@@ -52,7 +53,8 @@ impl BasinFill {
         let starts = Starts::Grid(plan.clone());
         let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
         let osc = if plan.one_system() { Some(system.oscillator()?) } else { None };
-        Ok(Self { system: *system, one: None, starts, grid, refine: plan.refine }.surveyed(osc))
+        Ok(Self { system: *system, one: None, starts, grid, refine: plan.refine, options: plan.options() }
+            .surveyed(osc))
     }
 
     pub(super) fn scattered(
@@ -66,12 +68,13 @@ impl BasinFill {
         let dimension = Dimension { name: "start".into(), count, tile };
         let grid = Grid { dimensions: vec![dimension] };
         let starts = Starts::Scattered { area: StartBox::natural(&osc), seed };
-        Ok(Self { system: *system, one: None, starts, grid, refine: None }.surveyed(Some(osc)))
+        Ok(Self { system: *system, one: None, starts, grid, refine: None, options: SettleOptions::default() }
+            .surveyed(Some(osc)))
     }
 
     fn surveyed(self, osc: Option<Oscillator>) -> Self {
         let one = osc.map(|osc| {
-            let (whole, options) = (self.grid.whole(), SettleOptions::default());
+            let (whole, options) = (self.grid.whole(), self.options);
             let total = self.grid.points();
             let start = |k: u64| self.start(&osc, &whole.index(usize::try_from(k).unwrap_or(0)));
             let spread = |n: u64| (0..n.min(total)).map(move |k| total / n.min(total) * k);
@@ -116,7 +119,7 @@ impl BasinFill {
         unknown: &mut Census,
         tick: &(dyn Fn() -> bool + Sync),
     ) -> Option<Vec<Leads>> {
-        let options = SettleOptions::default();
+        let options = self.options;
         let Some(one) = &self.one else {
             let alone = |k: &usize| {
                 let index = block.index(*k);

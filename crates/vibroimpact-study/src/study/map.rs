@@ -16,6 +16,7 @@ const TILE: usize = 64;
 pub(super) struct MapFill {
     system: SystemPlan,
     plan: MapPlan,
+    options: SettleOptions,
     grid: Grid,
     kept: usize,
 }
@@ -44,7 +45,7 @@ impl MapFill {
     pub(super) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
         let kept = usize::try_from(plan.starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
         let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
-        Self { system: *system, plan: plan.clone(), grid, kept }
+        Self { system: *system, plan: plan.clone(), options: plan.options(), grid, kept }
     }
 
     /// The motions at a point; none where it is no legal system, which only the corners were checked for.
@@ -56,7 +57,7 @@ impl MapFill {
             speed: speed(&found.verdict),
             multiplier: multiplier(&found.verdict, &osc),
         };
-        motions(&osc, &self.plan, &SettleOptions::default()).into_iter().take(self.kept).map(row).collect()
+        motions(&osc, &self.plan, &self.options).into_iter().take(self.kept).map(row).collect()
     }
 }
 

@@ -25,7 +25,7 @@ fn columns<'a>(sheet: &'a Sheet, name: &str) -> &'a Column {
 fn a_basin_is_that_of_the_starts_one_by_one() {
     let plan = BasinPlan::plane(span("-4:0.75:37"), span("-4:4:29"), 0.3);
     let found = sheet(S, Task::Basin(plan.clone()), Some(10), 2);
-    let direct = crate::basin(&S, &plan, &SettleOptions::default(), &Control::default()).unwrap();
+    let direct = crate::basin(&S, &plan, &Control::default()).unwrap();
     let labels: Vec<String> = columns(&found, "label").whole().iter().map(|c| label_of(*c).unwrap()).collect();
     let want: Vec<String> = (0..37 * 29).map(|k| direct.label(k).into_owned()).collect();
     assert_eq!(labels, want);
@@ -67,7 +67,7 @@ fn a_map_is_that_of_its_points() {
     let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, ..S };
     let plan = MapPlan::plane(span("0.6:1.4:9"), span("-0.5:2:7"), 6, 1);
     let found = sheet(system, Task::Map(plan.clone()), Some(4), 2);
-    let direct = crate::map(&system, &plan, &SettleOptions::default(), &Control::default()).unwrap();
+    let direct = crate::map(&system, &plan, &Control::default()).unwrap();
     let (labels, shares) = (columns(&found, "label").whole(), columns(&found, "share").real());
     for (k, point) in direct.points.iter().enumerate() {
         for (i, motion) in point.motions.iter().enumerate() {
@@ -139,14 +139,14 @@ fn scattered_starts_exponents_and_three_axes() {
         assert!(row[0] > 0.005 && row[2] < -0.005, "{row:?}");
     }
     let axes = vec![speeds, Axis::new(Coordinate::X, span("-1:0:2")), gaps];
-    let basin = BasinPlan { axes, start: StartPlan::default(), refine: None };
+    let basin = BasinPlan { axes, start: StartPlan::default(), refine: None, impacts: None };
     let found = sheet(u, Task::Basin(basin), None, 1);
     assert!(found.tables.is_empty() && found.fields.len() == 1);
     let labels = columns(&found, "label").whole();
     let second = crate::SecondStop { gap: 1.0, restitution: 0.5 };
     let two = SystemPlan { second_stop: Some(second), ..u };
     let over = vec![Axis::new(Coordinate::V, span("-9:9:5")), Axis::parameter(Parameter::SecondGap, span("1:2:2"))];
-    let starts = BasinPlan { axes: over, start: StartPlan::default(), refine: None };
+    let starts = BasinPlan { axes: over, start: StartPlan::default(), refine: None, impacts: None };
     let between = sheet(two, Task::Basin(starts), None, 1);
     for (k, found) in columns(&between, "label").whole().iter().enumerate() {
         let gap = if k < 5 { 1.0 } else { 2.0 };

@@ -19,8 +19,8 @@ pub(super) struct Follow {
     impacts: Vec<(ImpactState, f64)>,
     /// Time since the last impact.
     since: f64,
-    /// The stops whose release was followed and did not come back.
-    released: [bool; 2],
+    /// Releases from each stop.
+    released: [u32; 2],
     candidate: Option<Cycle>,
     grazes: u32,
     next_look: usize,
@@ -30,16 +30,22 @@ pub(super) struct Follow {
     pub(super) spectrum: Option<Option<Spectrum>>,
 }
 
-/// The cycles through a release, which is the same for every motion of an oscillator: each is looked for once.
+/// The cycles through a release, which is the same for every motion of an oscillator: each is looked for once in each way.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Releases([Option<Option<Cycle>>; 2]);
+pub(super) struct Releases([[Option<Option<Cycle>>; 2]; 2]);
 
 impl Releases {
-    fn cycle(&mut self, osc: &Oscillator, side: Side) -> Option<Cycle> {
-        let known = &mut self.0[usize::from(side == Side::Lower)];
-        known.get_or_insert_with(|| from_release(osc, side, DEFAULT_EVENTS)).clone()
+    /// After the first release a short cycle is looked for; a long one when the motion itself has come back, because
+    /// most motions that rest on their way never do again, and to follow such a one to the end costs far more than it.
+    fn cycle(&mut self, osc: &Oscillator, side: Side, again: bool) -> Option<Cycle> {
+        let known = &mut self.0[usize::from(side == Side::Lower)][usize::from(again)];
+        let events = if again { DEFAULT_EVENTS } else { SHORT };
+        known.get_or_insert_with(|| from_release(osc, side, events)).clone()
     }
 }
+
+/// Events after a release in which a cycle is short.
+const SHORT: u32 = 64;
 
 /// How many times longer the exponents are measured before a divergence too small to tell is left undecided.
 const LONGER: u32 = 8;
@@ -69,7 +75,7 @@ impl Follow {
 
     /// Whether it is time to measure for chaos.
     pub(super) fn wants_measure(&self, options: &SettleOptions) -> bool {
-        self.impacts.len() >= options.chaos_after as usize && self.spectrum.is_none()
+        options.chaos_over > 0 && self.impacts.len() >= options.chaos_after as usize && self.spectrum.is_none()
     }
 
     /// The last impact; before the first, the stop at rest.
@@ -134,7 +140,7 @@ impl Follow {
         None
     }
 
-    /// A release decides all that follows: if it leads back to itself, that is the cycle.
+    /// A release decides all that follows: if it leads back to itself, that is the cycle. Looked for after the first two.
     pub(super) fn release(
         &mut self,
         osc: &Oscillator,
@@ -143,15 +149,18 @@ impl Follow {
         interval: f64,
     ) -> Option<Verdict> {
         self.since += interval;
-        if core::mem::replace(&mut self.released[usize::from(side == Side::Lower)], true) {
-            return None;
-        }
-        releases.cycle(osc, side).map(Verdict::Periodic)
+        let seen = &mut self.released[usize::from(side == Side::Lower)];
+        *seen += 1;
+        let again = *seen == 2;
+        if *seen > 2 { None } else { releases.cycle(osc, side, again).map(Verdict::Periodic) }
     }
 
     /// The verdict when the budget is spent: a last look, where the transient is as far gone as it will be.
     pub(super) fn last_look(&self, osc: &Oscillator, options: &SettleOptions) -> Verdict {
-        let measured = |impacts| self.impacts.last().and_then(|(state, _)| lyapunov(osc, *state, impacts));
+        let measured = |impacts: u32| {
+            let last = self.impacts.last().filter(|_| impacts > 0);
+            last.and_then(|(state, _)| lyapunov(osc, *state, impacts))
+        };
         let mut last = measured(options.chaos_over);
         // weak chaos shows in a longer run, and so does a slow transient
         if last.is_some_and(|found| found.diverges() && !found.chaotic()) {

@@ -30,7 +30,7 @@ pub struct SettleOptions {
     pub max_impacts: u32,
     /// Impacts after which a motion without a cycle is measured for chaos.
     pub chaos_after: u32,
-    /// Impacts over which the Lyapunov exponents are measured.
+    /// Impacts over which the Lyapunov exponents are measured; 0 for never, and no motion is called chaotic.
     pub chaos_over: u32,
     /// The longest period looked for, in impacts.
     pub longest: u32,
@@ -54,6 +54,26 @@ impl Default for SettleOptions {
             recurrence: 1e-2,
             limits: SearchLimits::default(),
             max_steps: 2_000_000,
+        }
+    }
+}
+
+impl SettleOptions {
+    /// At most so many impacts. A budget below that of the default has search steps for that many ordinary flights, and no chaos below
+    /// `chaos_after`; what it decides, the default decides alike, and the rest is undecided.
+    #[must_use]
+    pub fn at_most(impacts: u32) -> Self {
+        let usual = Self::default();
+        if impacts >= usual.max_impacts {
+            return Self { max_impacts: impacts, max_steps: 100 * u64::from(impacts), ..usual };
+        }
+        let steps = impacts.saturating_mul(2).min(usual.limits.steps);
+        Self {
+            max_impacts: impacts,
+            max_steps: 20 * u64::from(impacts),
+            chaos_over: if impacts > usual.chaos_after { usual.chaos_over } else { 0 },
+            limits: SearchLimits { steps, ..usual.limits },
+            ..usual
         }
     }
 }
