@@ -24,6 +24,11 @@ impl Session {
         Self { quiet: globals.quiet, force: globals.force, threads: usize::from(globals.threads) }
     }
 
+    /// The threads asked for; 0 for one per processor.
+    pub(crate) const fn threads(&self) -> usize {
+        self.threads
+    }
+
     /// Text for stdout.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
         self.to_stdout(|out| out.write_all(text.as_bytes()))

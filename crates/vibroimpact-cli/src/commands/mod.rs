@@ -7,6 +7,7 @@ mod branch;
 mod completions;
 mod curve;
 mod diagram;
+mod explore;
 mod export;
 mod lyapunov;
 mod man;
@@ -43,6 +44,7 @@ pub(crate) enum Command {
     Map(map::Map),
     Diagram(diagram::Diagram),
     Lyapunov(lyapunov::Lyapunov),
+    Explore(explore::Explore),
     Run(run::Run),
     Resume(resume::Resume),
     Status(status::Status),
@@ -70,6 +72,7 @@ pub(crate) fn run(command: &Command, session: &Session) -> Result<(), Failure> {
         Command::Map(args) => map::run(args, session),
         Command::Diagram(args) => diagram::run(args, session),
         Command::Lyapunov(args) => lyapunov::run(args, session),
+        Command::Explore(args) => explore::run(args, session),
         Command::Run(args) => run::run(args, session),
         Command::Resume(args) => resume::run(args, session),
         Command::Status(args) => status::run(args, session),

@@ -1,0 +1,201 @@
+//! The arrays of a plane as bytes: a header as JSON, then the numbers, little-endian.
+//!
+//! Four bytes give the length of the header, which is padded so that the numbers begin at a multiple of eight. It names the
+//! fields with their types and places, every label that occurs with its colour, and for a basin its cycles.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+use vibroimpact_plot::class_style;
+use vibroimpact_study::study::{Cells, NOT_COMPUTED, Sheet, Table, label_of};
+use vibroimpact_study::{Column, Field};
+
+/// Fields that the page draws; the others of a study are for tables.
+const DRAWN: [&str; 4] = ["label", "share", "cycle", "computed"];
+
+#[derive(Serialize)]
+struct Header<'a> {
+    /// Rows and columns, the first row at the lowest value.
+    shape: Vec<usize>,
+    fields: Vec<Place<'a>>,
+    labels: BTreeMap<i32, Named>,
+    cycles: Vec<Cycle>,
+    /// The part of the points that were computed themselves.
+    computed: f64,
+}
+
+#[derive(Serialize)]
+struct Place<'a> {
+    name: &'a str,
+    #[serde(rename = "type")]
+    kind: &'static str,
+    per_point: usize,
+    offset: usize,
+    length: usize,
+}
+
+/// A label and its colour, the same as in every figure.
+#[derive(Clone, Serialize)]
+pub(crate) struct Named {
+    name: String,
+    colour: String,
+}
+
+impl Named {
+    pub(crate) fn new(label: &str) -> Self {
+        Self { name: label.to_owned(), colour: class_style(label).colour.to_hex() }
+    }
+}
+
+/// What tells cycles of one label apart: their fastest impact.
+#[derive(Serialize)]
+struct Cycle {
+    label: String,
+    phase: Option<f64>,
+    velocity: Option<f64>,
+    share: f64,
+    colour: String,
+}
+
+/// All of it as bytes.
+pub(crate) fn pack(sheet: &Sheet) -> Vec<u8> {
+    let grid = sheet.study.grid();
+    let mut body = Vec::new();
+    let mut header = Header {
+        shape: grid.dimensions.iter().map(|dimension| dimension.count).collect(),
+        fields: Vec::new(),
+        labels: BTreeMap::new(),
+        cycles: cycles(&sheet.tables),
+        computed: 1.0,
+    };
+    for (field, column) in sheet.fields.iter().zip(&sheet.columns) {
+        if !DRAWN.contains(&field.name) {
+            continue;
+        }
+        header.fields.push(place(field, column, &mut body));
+        match (field.name, column) {
+            ("label", Column::I32(codes)) => header.labels = labels(codes),
+            ("computed", Column::I8(how)) => {
+                #[allow(clippy::cast_precision_loss)] // a screen full
+                let part = how.iter().filter(|how| **how == 1).count() as f64 / how.len().max(1) as f64;
+                header.computed = part;
+            }
+            _ => {}
+        }
+    }
+    // numbers, texts and lists of them are always JSON
+    let mut text = serde_json::to_vec(&header).unwrap_or_default();
+    text.resize((4 + text.len()).next_multiple_of(8) - 4, b' ');
+    let length = u32::try_from(text.len()).unwrap_or(u32::MAX);
+    [&length.to_le_bytes(), text.as_slice(), body.as_slice()].concat()
+}
+
+/// Writes a column, at a multiple of eight.
+fn place<'a>(field: &'a Field, column: &Column, body: &mut Vec<u8>) -> Place<'a> {
+    body.resize(body.len().next_multiple_of(8), 0);
+    let offset = body.len();
+    let kind = match column {
+        Column::I8(numbers) => {
+            body.extend(numbers.iter().flat_map(|n| n.to_le_bytes()));
+            "i8"
+        }
+        Column::I32(numbers) => {
+            body.extend(numbers.iter().flat_map(|n| n.to_le_bytes()));
+            "i32"
+        }
+        Column::F64(numbers) => {
+            body.extend(numbers.iter().flat_map(|n| n.to_le_bytes()));
+            "f64"
+        }
+    };
+    Place { name: field.name, kind, per_point: field.width(), offset, length: column.len() }
+}
+
+fn labels(codes: &[i32]) -> BTreeMap<i32, Named> {
+    let mut seen: Vec<i32> = codes.to_vec();
+    seen.sort_unstable();
+    seen.dedup();
+    let named = |code: i32| match code {
+        NOT_COMPUTED => None,
+        code => label_of(code).map(|label| (code, Named::new(&label))),
+    };
+    seen.into_iter().filter_map(named).collect()
+}
+
+fn cycles(tables: &[Table]) -> Vec<Cycle> {
+    let table = |name: &str| tables.iter().find(|table| table.name == name);
+    let Some(Cells::Text(labels)) = table("cycle_label").map(|table| &table.values) else { return Vec::new() };
+    let numbers = |name: &str| match table(name).map(|table| &table.values) {
+        Some(Cells::Numbers(Column::F64(numbers))) => numbers.as_slice(),
+        _ => &[],
+    };
+    let [phases, velocities, shares] = ["cycle_phase", "cycle_velocity", "cycle_share"].map(numbers);
+    let each = phases.len() / labels.len().max(1);
+    let first = |of: &[f64], k: usize| of.get(k * each).copied().filter(|value| value.is_finite());
+    let cycle = |(k, label): (usize, &String)| Cycle {
+        label: label.clone(),
+        phase: first(phases, k),
+        velocity: first(velocities, k),
+        share: shares.get(k).copied().unwrap_or(f64::NAN),
+        colour: class_style(label).colour.to_hex(),
+    };
+    labels.iter().enumerate().map(cycle).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vibroimpact_study::study::in_memory;
+    use vibroimpact_study::{Control, Plan, Study};
+
+    fn packed(task: &str) -> (serde_json::Value, Vec<u8>) {
+        let plan = Plan::from_text(&format!(
+            r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{{task}}}}}"#
+        ));
+        let bytes = pack(&in_memory(Study::new(&plan.unwrap()).unwrap(), &Control::default()).unwrap());
+        let length = u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize;
+        assert_eq!((4 + length) % 8, 0);
+        (serde_json::from_slice(&bytes[4..4 + length]).unwrap(), bytes[4 + length..].to_vec())
+    }
+
+    fn whole(body: &[u8], field: &serde_json::Value) -> Vec<i32> {
+        let at = usize::try_from(field["offset"].as_u64().unwrap()).unwrap();
+        let count = usize::try_from(field["length"].as_u64().unwrap()).unwrap();
+        body[at..at + 4 * count].chunks(4).map(|four| i32::from_le_bytes(four.try_into().unwrap())).collect()
+    }
+
+    /// S of the 1971 paper has two motions; every start leads to one of them.
+    #[test]
+    fn a_basin() {
+        let axes = r#"[{"vary":"x","over":"-2:0.75:13"},{"vary":"v","over":"-2:2:9"}]"#;
+        let (header, body) = packed(&format!(r#""basin":{{"axes":{axes},"refine":4}}"#));
+        assert_eq!(header["shape"], serde_json::json!([9, 13]));
+        let names: Vec<_> = header["fields"].as_array().unwrap().iter().map(|f| f["name"].clone()).collect();
+        assert_eq!(names, ["label", "cycle", "computed"]);
+        let labels = whole(&body, &header["fields"][0]);
+        assert_eq!(labels.len(), 117);
+        assert!(labels.iter().all(|code| header["labels"][code.to_string()]["name"].is_string()));
+        let cycles = header["cycles"].as_array().unwrap();
+        assert_eq!(cycles.len(), 2);
+        let label = |k: usize| cycles[k]["label"].as_str().unwrap();
+        let numbers = whole(&body, &header["fields"][1]);
+        assert!(
+            labels
+                .iter()
+                .zip(&numbers)
+                .all(|(code, k)| { header["labels"][code.to_string()]["name"] == label(usize::try_from(*k).unwrap()) })
+        );
+        assert!(header["computed"].as_f64().unwrap() <= 1.0);
+    }
+
+    #[test]
+    fn a_map() {
+        let axes = r#"[{"vary":"inverse_beta","over":"0.5:2:7"},{"vary":"gap","over":"0:2:5"}]"#;
+        let (header, body) = packed(&format!(r#""map":{{"axes":{axes},"starts":2,"impacts":200}}"#));
+        assert_eq!(header["shape"], serde_json::json!([5, 7]));
+        assert_eq!(header["fields"][0]["per_point"], 2);
+        assert_eq!(header["fields"][1]["type"], "f64");
+        let labels = whole(&body, &header["fields"][0]);
+        assert_eq!(labels.len(), 70);
+        assert!(header["labels"]["10001"]["colour"].as_str().unwrap().starts_with('#'));
+    }
+}

@@ -1,0 +1,53 @@
+//! What the page needs to know before it asks.
+
+use crate::bounds::{MOST_IMPACTS, MOST_POINTS, MOST_STARTS};
+use crate::packed::Named;
+use crate::workshop::processors;
+use axum::Json;
+use serde::Serialize;
+use vibroimpact::scenario::{PAPER, Scenario};
+use vibroimpact_plot::GROUPS;
+
+#[derive(Serialize)]
+pub(super) struct About {
+    version: &'static str,
+    threads: usize,
+    limits: Limits,
+    /// The points the 1971 paper discusses.
+    points: Vec<Point>,
+    /// Every group of labels in the order of a legend.
+    groups: Vec<Named>,
+}
+
+#[derive(Serialize)]
+struct Limits {
+    points: u64,
+    starts: u64,
+    impacts: u64,
+}
+
+#[derive(Serialize)]
+struct Point {
+    name: &'static str,
+    inverse_beta: f64,
+    gap: f64,
+    restitution: f64,
+    motions: &'static [&'static str],
+}
+
+pub(super) async fn about() -> Json<About> {
+    let point = |s: &Scenario| Point {
+        name: s.name,
+        inverse_beta: s.inverse_beta,
+        gap: s.gap,
+        restitution: s.oscillator().restitution(),
+        motions: s.motions,
+    };
+    Json(About {
+        version: env!("CARGO_PKG_VERSION"),
+        threads: processors(),
+        limits: Limits { points: MOST_POINTS, starts: MOST_STARTS, impacts: MOST_IMPACTS },
+        points: PAPER.iter().map(point).collect(),
+        groups: GROUPS.into_iter().map(Named::new).collect(),
+    })
+}

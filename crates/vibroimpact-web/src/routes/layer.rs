@@ -1,0 +1,135 @@
+//! Lines over a plane: the edges of the regions in which motions are stable, and where the motion without stops touches one.
+
+use super::{Asked, wants_events};
+use crate::Explorer;
+use crate::events::{Done, stream};
+use crate::packed::Named;
+use crate::refusal::Refusal;
+use crate::workshop::Bench;
+use axum::Json;
+use axum::extract::{Query, State};
+use axum::http::HeaderMap;
+use axum::response::{IntoResponse, Response};
+use core::sync::atomic::Ordering;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use vibroimpact_study::{
+    Axis, Control, Coordinate, MapPlan, Parameter, RegionPlan, Stretch, SystemPlan, Task, regions,
+};
+
+/// Motions whose regions are drawn: those of the 1971 paper, and what they double into.
+const LABELS: [&str; 9] = ["1/1", "2/1", "3/1", "4/1", "1/2", "1/3", "2/2", "3/2", "2/4"];
+/// Points of the grid at which orbits are looked for.
+const GRID: u32 = 20;
+/// Points of a line.
+const POINTS: u32 = 600;
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    Regions,
+    Amplitude,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Wanted {
+    kind: Kind,
+}
+
+#[derive(Serialize)]
+struct Edge {
+    #[serde(flatten)]
+    motion: Named,
+    rings: Vec<Vec<(f64, f64)>>,
+}
+
+/// The two axes of a map.
+struct Plane {
+    system: SystemPlan,
+    across: Stretch,
+    up: Stretch,
+}
+
+impl Plane {
+    fn new(system: SystemPlan, map: &MapPlan) -> Result<Self, Refusal> {
+        let stretch = |axis: &Axis| match (axis.vary, axis.over.extent()) {
+            (Coordinate::Parameter(parameter), (from, to)) => Some(Stretch { parameter, from, to }),
+            _ => None,
+        };
+        match map.axes.iter().map(stretch).collect::<Option<Vec<_>>>().as_deref() {
+            Some([across, up]) => Ok(Self { system, across: *across, up: *up }),
+            _ => Err(Refusal::bad("a layer lies over a map of two parameters")),
+        }
+    }
+}
+
+pub(super) async fn layer(
+    State(explorer): State<Explorer>,
+    Query(wanted): Query<Wanted>,
+    headers: HeaderMap,
+    asked: Asked,
+) -> Result<Response, Refusal> {
+    let Task::Map(map) = &asked.plan.task else { return Err(Refusal::bad("a layer lies over a map")) };
+    let plane = Plane::new(asked.plan.system, map)?;
+    let kind = wanted.kind;
+    let done = Done::default();
+    let (told, workshop) = (done.clone(), explorer.workshop);
+    let work = async move {
+        workshop
+            .run(
+                Bench::Answers,
+                0,
+                |_| {},
+                move |control| match kind {
+                    Kind::Regions => edges(&plane, control, &told),
+                    Kind::Amplitude => Ok(json!({ "curves": amplitude(&plane) })),
+                },
+            )
+            .await
+    };
+    if wants_events(&headers) {
+        return Ok(stream(LABELS.len() as u64, done, work));
+    }
+    Ok(Json(work.await?).into_response())
+}
+
+/// The polygons in which each motion is stable.
+fn edges(plane: &Plane, control: &Control<'_>, done: &Done) -> Result<Value, Refusal> {
+    let mut found = Vec::new();
+    for label in LABELS {
+        let plan = RegionPlan { label: label.to_owned(), across: plane.across, up: plane.up, grid: GRID };
+        let polygons = regions(&plane.system, &plan, control)?.stability.polygons;
+        let ring = |vertices: &[vibroimpact::continuation::Vertex]| vertices.iter().map(|v| v.values).collect();
+        let rings: Vec<_> = polygons.iter().map(|polygon| ring(&polygon.vertices)).collect();
+        if !rings.is_empty() {
+            found.push(Edge { motion: Named::new(label), rings });
+        }
+        done.fetch_add(1, Ordering::Relaxed);
+    }
+    Ok(json!({ "regions": found }))
+}
+
+/// Where the gap equals the amplitude of the motion without stops: lines over a plane with a gap axis.
+fn amplitude(plane: &Plane) -> Vec<Vec<(f64, f64)>> {
+    let (gap, other, upwards) = match (plane.across.parameter, plane.up.parameter) {
+        (_, Parameter::Gap) => (&plane.up, &plane.across, true),
+        (Parameter::Gap, _) => (&plane.across, &plane.up, false),
+        _ => return Vec::new(),
+    };
+    let (low, high) = (gap.from.min(gap.to), gap.from.max(gap.to));
+    let mut lines = vec![Vec::new()];
+    for k in 0..=POINTS {
+        let at = other.from + (other.to - other.from) * f64::from(k) / f64::from(POINTS);
+        let osc = plane.system.with(other.parameter, at).and_then(|system| system.oscillator());
+        let amplitude = osc.map_or(f64::INFINITY, |osc| osc.free_amplitude());
+        // a little beyond the frame, so that the line reaches it
+        if amplitude >= low - (high - low) && amplitude <= high + (high - low) {
+            let point = if upwards { (at, amplitude) } else { (amplitude, at) };
+            lines.last_mut().into_iter().for_each(|line| line.push(point));
+        } else if lines.last().is_some_and(|line| !line.is_empty()) {
+            lines.push(Vec::new());
+        }
+    }
+    lines.retain(|line| line.len() > 1);
+    lines
+}

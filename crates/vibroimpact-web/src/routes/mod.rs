@@ -1,0 +1,73 @@
+//! The requests. Each is a plan, and some say in what form its answer is wanted.
+
+mod about;
+mod layer;
+mod page;
+mod tile;
+
+use crate::Explorer;
+use crate::bounds;
+use crate::refusal::Refusal;
+use axum::Router;
+use axum::body::Bytes;
+use axum::extract::{FromRequest, Request};
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use core::time::Duration;
+use vibroimpact_study::Plan;
+
+/// All of them.
+pub(crate) fn all() -> Router<Explorer> {
+    Router::new()
+        .route("/", get(page::index))
+        .route("/assets/{*path}", get(page::asset))
+        .route("/api/about", get(about::about))
+        .route("/api/tile", post(tile::tile))
+        .route("/api/layer", post(layer::layer))
+        .fallback(nothing)
+        .method_not_allowed_fallback(wrong_method)
+}
+
+async fn nothing() -> Refusal {
+    Refusal::new(StatusCode::NOT_FOUND, "there is nothing under this address\nhint: the page is at /")
+}
+
+async fn wrong_method() -> Refusal {
+    Refusal::new(StatusCode::METHOD_NOT_ALLOWED, "this address takes no request of this kind")
+}
+
+/// A plan that makes sense and is not too much.
+pub(crate) struct Asked {
+    pub(crate) plan: Plan,
+    /// Its points, for progress.
+    pub(crate) points: u64,
+}
+
+/// How long a client may take to send a plan.
+const SENDING: Duration = Duration::from_secs(10);
+
+impl<S: Send + Sync> FromRequest<S> for Asked {
+    type Rejection = Refusal;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Refusal> {
+        let body = tokio::time::timeout(SENDING, Bytes::from_request(request, state)).await;
+        let body = body
+            .map_err(|_| Refusal::new(StatusCode::REQUEST_TIMEOUT, "the plan did not arrive within 10 seconds"))?
+            .map_err(|why| Refusal::new(why.status(), format!("the plan cannot be read: {}", why.body_text())))?;
+        let text = core::str::from_utf8(&body).map_err(|_| Refusal::bad("the plan is no text"))?;
+        let plan: Plan = serde_json::from_str(text).map_err(|why| Refusal::bad(format!("this is no plan: {why}")))?;
+        plan.check()?;
+        Ok(Self { points: bounds::points(&plan)?, plan })
+    }
+}
+
+/// Whether the page wants to be told how far it is.
+fn wants_events(headers: &HeaderMap) -> bool {
+    headers.get(header::ACCEPT).is_some_and(|kind| kind.as_bytes().starts_with(b"text/event-stream"))
+}
+
+/// Bytes of a kind; nothing is kept by the browser but what the page keeps.
+fn bytes(kind: &'static str, body: Bytes) -> Response {
+    ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, "no-store")], body).into_response()
+}
