@@ -5,6 +5,7 @@ use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;
 use vibroimpact_plot::PlotError;
+use vibroimpact_report::ReportError;
 use vibroimpact_study::{PlanError, RunError, Stopped, StoreError};
 
 /// Why a command did not finish. The texts may carry a second line, `hint: ...`.
@@ -83,6 +84,16 @@ impl From<StoreError> for Failure {
 impl From<PlotError> for Failure {
     fn from(error: PlotError) -> Self {
         Self::Failed(format!("the figure failed: {error}"))
+    }
+}
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Self {
+        match error {
+            ReportError::Plot(error) => error.into(),
+            ReportError::Store(error) => error.into(),
+            _ => Self::bad(error),
+        }
     }
 }
 

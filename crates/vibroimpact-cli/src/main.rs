@@ -8,7 +8,7 @@ mod commands;
 mod exit;
 mod files;
 mod measure;
-mod plot;
+mod picture;
 mod progress;
 mod report;
 mod session;

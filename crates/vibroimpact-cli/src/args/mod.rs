@@ -13,7 +13,7 @@ pub(crate) use plane::{Over, Place};
 pub(crate) use ranged::Ranged;
 pub(crate) use start::StartArgs;
 pub(crate) use store::{StoreArgs, Tiles};
-pub(crate) use system::{Asked, Convention, MachineArgs, SystemArgs, Units};
+pub(crate) use system::{Convention, MachineArgs, SystemArgs};
 pub(crate) use vary::parameter;
 
 use crate::commands::Command;

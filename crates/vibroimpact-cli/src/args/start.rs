@@ -1,7 +1,7 @@
 //! START: where a motion begins.
 
-use super::Units;
 use clap::Args;
+use vibroimpact_report::Units;
 use vibroimpact_study::StartPlan;
 
 #[derive(Clone, Copy, Debug, Args)]

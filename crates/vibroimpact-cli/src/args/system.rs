@@ -2,8 +2,9 @@
 
 use crate::exit::Failure;
 use clap::{Args, ValueEnum};
-use vibroimpact::{Frequency, Machine, Scales};
-use vibroimpact_study::{Parameter, SecondStop, SystemPlan, is_length};
+use vibroimpact::{Frequency, Machine};
+use vibroimpact_report::{Asked, Units};
+use vibroimpact_study::{Parameter, SecondStop, SystemPlan};
 
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "System")]
@@ -88,50 +89,6 @@ pub(crate) enum Convention {
     Nondimensional,
     /// Metres and seconds; needs the system in physical units
     Si,
-}
-
-/// One unit of the results, in nondimensional units.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Units {
-    /// Of the machine, where one was given.
-    pub(crate) scales: Option<Scales>,
-    /// Whether results are in metres and seconds.
-    pub(crate) si: bool,
-}
-
-impl Units {
-    fn factor(&self, of: impl Fn(&Scales) -> f64) -> f64 {
-        self.scales.as_ref().filter(|_| self.si).map_or(1.0, of)
-    }
-
-    pub(crate) fn length(&self) -> f64 {
-        self.factor(|s| s.length_m)
-    }
-
-    pub(crate) fn time(&self) -> f64 {
-        self.factor(|s| s.time_s)
-    }
-
-    pub(crate) fn velocity(&self) -> f64 {
-        self.factor(Scales::velocity_m_per_s)
-    }
-
-    /// Of a parameter.
-    pub(crate) fn of(&self, parameter: Parameter) -> f64 {
-        if is_length(parameter) { self.length() } else { 1.0 }
-    }
-
-    /// `name`, followed by its unit where there is one: `time (s)`.
-    pub(crate) fn named(&self, name: &str, unit: &str) -> String {
-        if self.si { format!("{name} ({unit})") } else { name.to_owned() }
-    }
-}
-
-/// The system as it goes into a plan, and the units its results are wanted in.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Asked {
-    pub(crate) system: SystemPlan,
-    pub(crate) units: Units,
 }
 
 impl SystemArgs {

@@ -1,8 +1,9 @@
 //! VARY: the parameter that takes all values of a range, and the system without it.
 
-use super::{Asked, SystemArgs};
+use super::SystemArgs;
 use crate::exit::Failure;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use vibroimpact_report::Asked;
 use vibroimpact_study::Parameter;
 
 /// A parameter by the name of its flag.

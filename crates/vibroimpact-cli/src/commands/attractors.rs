@@ -4,12 +4,12 @@ use crate::args::{StoreArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
-use crate::report::json::{Document, Motion, SharedMotion};
-use crate::report::text::{self, multipliers, percent};
+use crate::report::text::{self, multipliers};
 use crate::session::Session;
 use clap::Args;
-use serde::Serialize;
 use vibroimpact::verdict::{SettleOptions, StartBox};
+use vibroimpact_report::json::attractors::document;
+use vibroimpact_report::number::{percent, short};
 use vibroimpact_study::store::Part;
 use vibroimpact_study::{Plan, Task, attractors};
 
@@ -42,23 +42,6 @@ pub(crate) struct Attractors {
     json: bool,
 }
 
-#[derive(Serialize)]
-struct Answer {
-    motions: Vec<SharedMotion>,
-    starts: u64,
-    seed: u64,
-    #[serde(rename = "box")]
-    area: Area,
-}
-
-/// Where the starts were.
-#[derive(Serialize)]
-struct Area {
-    x: (f64, f64),
-    v: (f64, f64),
-    phase: (f64, f64),
-}
-
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed };
@@ -77,20 +60,10 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
 
     let found = census.by_share();
     let units = &asked.units;
-    let scaled = |(a, b): (f64, f64), unit: f64| (a * unit, b * unit);
-    let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
     if args.json {
-        let motions = found
-            .iter()
-            .map(|found| SharedMotion {
-                motion: Motion::new(&found.verdict, &osc, units),
-                share: census.share(found),
-                count: found.count,
-            })
-            .collect();
-        let answer = Answer { motions, starts: args.starts, seed: args.seed, area };
-        return session.print_json(&Document::new(&asked, &osc, &plan, answer));
+        return session.print_json(&document(&asked, &plan, &osc, starts, &census));
     }
+    let (x, v) = (area.x, area.v);
     let heads = ["share", "starts", "<label", "multipliers", "<meaning"].map(str::to_owned);
     let rows: Vec<Vec<String>> = found
         .iter()
@@ -108,10 +81,10 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     text.push_str(&format!(
         "starts  {} in x {} to {}, v {} to {}, all phases\n\n",
         args.starts,
-        text::short(area.x.0),
-        text::short(area.x.1),
-        text::short(area.v.0),
-        text::short(area.v.1)
+        short(x.0 * units.length()),
+        short(x.1 * units.length()),
+        short(v.0 * units.velocity()),
+        short(v.1 * units.velocity())
     ));
     session.print(&(text + &text::table(&heads, &rows)))?;
     session.note("hint: --json has the impacts of each motion; `vibro basin` shows where they start from");

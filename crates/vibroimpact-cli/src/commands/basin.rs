@@ -4,17 +4,16 @@ use crate::args::{StoreArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
-use crate::plot;
-use crate::plot::plane::{Plane, Side};
-use crate::report::csv::{self, Number};
-use crate::report::json::{Document, Motion, Range, SharedMotion};
-use crate::report::text::{self, percent};
+use crate::report::text;
 use crate::session::Session;
 use clap::Args;
-use serde::Serialize;
 use std::path::PathBuf;
+use vibroimpact_report::figure::basin::figure;
+use vibroimpact_report::json::basin::{by_count, document};
+use vibroimpact_report::number::percent;
+use vibroimpact_report::table::basin::table;
 use vibroimpact_study::store::Part;
-use vibroimpact_study::{Basin as Computed, BasinPlan, Plan, Span, Task, basin};
+use vibroimpact_study::{BasinPlan, Plan, Span, Task, basin};
 
 /// Which motion each start of a plane of positions and velocities leads to
 ///
@@ -66,15 +65,6 @@ pub(crate) struct Basin {
     json: bool,
 }
 
-#[derive(Serialize)]
-struct Answer {
-    x: Range,
-    v: Range,
-    phase: f64,
-    motions: Vec<SharedMotion>,
-    starts: usize,
-}
-
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let units = asked.units;
@@ -92,48 +82,17 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let found = session.tiled(total, "starts", |control, _| basin(&asked.system, &task, control))?;
 
     let silent = outputs.any();
-    outputs.write(
-        session,
-        |out| csv::write(out, "x,v,label", rows(&found, (&args.x, &args.v))),
-        || {
-            let title = plot::title(&asked.system);
-            let names = (units.named("*ξ*_0", "m"), units.named("*ξ*_0′", "m/s"));
-            let plane = Plane { x: Side::new(names.0, &args.x.into())?, y: Side::new(names.1, &args.v.into())? };
-            let motion = |m: usize| plot::basin::Motion {
-                label: found.motions[m].verdict.label().into_owned(),
-                share: found.share(m),
-            };
-            let motions: Vec<_> = (0..found.motions.len()).map(motion).collect();
-            plot::basin::figure(&plane, &motions, found.cells.clone(), title)
-        },
-    )?;
-    let mut order: Vec<usize> = (0..found.motions.len()).collect();
-    order.sort_by_key(|m| core::cmp::Reverse(found.motions[*m].count));
+    outputs.write(session, || Ok(table(&found, &units)?), || Ok(figure(&found, &asked)?))?;
     if args.json {
-        let motions = order
-            .iter()
-            .map(|&m| SharedMotion {
-                motion: Motion::new(&found.motions[m].verdict, &osc, &units),
-                share: found.share(m),
-                count: found.motions[m].count,
-            })
-            .collect();
-        let answer = Answer {
-            x: Range::new(&args.x),
-            v: Range::new(&args.v),
-            phase: args.phase,
-            motions,
-            starts: found.cells.len(),
-        };
-        return session.print_json(&Document::new(&asked, &osc, &plan, answer));
+        return session.print_json(&document(&asked, &plan, &osc, &found));
     }
     if silent {
         return Ok(());
     }
     let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
-    let rows: Vec<Vec<String>> = order
-        .iter()
-        .map(|&m| {
+    let rows: Vec<Vec<String>> = by_count(&found)
+        .into_iter()
+        .map(|m| {
             let motion = &found.motions[m];
             vec![
                 percent(found.share(m)),
@@ -146,16 +105,4 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     session.print(&(text::system(&asked, &osc) + "\n" + &text::table(&heads, &rows)))?;
     session.note("hint: --csv FILE keeps every start, --plot FILE.png draws them");
     Ok(())
-}
-
-/// Rows in the order of the cells, in the units and with the very numbers of the question.
-fn rows<'a>(found: &'a Computed, (x, v): (&'a Span, &'a Span)) -> impl Iterator<Item = String> + 'a {
-    let labels: Vec<String> = found.motions.iter().map(|motion| motion.verdict.label().into_owned()).collect();
-    let columns = x.count() as usize;
-    let xs: Vec<String> = x.values().map(|x| Number(x).to_string()).collect();
-    let vs: Vec<String> = v.values().map(|v| Number(v).to_string()).collect();
-    found.cells.iter().enumerate().map(move |(k, motion)| {
-        let (x, v) = (&xs[k % columns], &vs[k / columns]);
-        format!("{x},{v},{}", labels[usize::from(*motion)])
-    })
 }

@@ -2,13 +2,13 @@
 
 use crate::exit::Failure;
 use crate::measure::{Rates, Workload, measure};
-use crate::report::json::PROGRAM;
 use crate::session::Session;
 use crate::signal;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::time::Duration;
 use vibroimpact::lanes::Width;
+use vibroimpact_report::PROGRAM;
 
 /// How fast this machine is, in about ten seconds
 ///

@@ -3,16 +3,15 @@
 use crate::args::{SystemArgs, parameter};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
-use crate::plot;
-use crate::report::branch::{Answer, columns, rows};
-use crate::report::branch_text::text;
-use crate::report::csv;
-use crate::report::json::Document;
+use crate::report::branch::text;
 use crate::report::text as words;
 use crate::session::Session;
 use crate::signal;
 use clap::Args;
 use std::path::PathBuf;
+use vibroimpact_report::figure::branch::figure;
+use vibroimpact_report::json::branch::document;
+use vibroimpact_report::table::branch::table;
 use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Task, branches, diagram};
 
 /// An orbit followed in one parameter, stable or not, with every event on the way
@@ -117,11 +116,11 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
 
     outputs.write(
         session,
-        |out| csv::write(out, &columns(vary), rows(&found, vary, &asked.units)),
-        || plot::branch::figure(&found, vary, ends, behind.as_ref(), args.show_virtual, &asked),
+        || Ok(table(&found, vary, &asked.units)),
+        || Ok(figure(&found, vary, ends, behind.as_ref(), args.show_virtual, &asked)?),
     )?;
     if args.json {
-        return session.print_json(&Document::new(&asked, &osc, &plan, Answer::new(&found, vary, ends, &asked.units)));
+        return session.print_json(&document(&asked, &plan, &osc, &found, (vary, ends)));
     }
     if to_stdout {
         return Ok(());

@@ -1,17 +1,18 @@
 //! `vibro curve`: a fold, flip or grazing of an orbit over a plane of two parameters.
 
-use crate::args::{Over, SystemArgs, Units};
+use crate::args::{Over, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
-use crate::plot;
-use crate::report::csv;
-use crate::report::curve::{Answer, columns, rows, text};
-use crate::report::json::Document;
+use crate::report::curve::text;
 use crate::report::text as words;
 use crate::session::Session;
 use crate::signal;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use vibroimpact_report::Units;
+use vibroimpact_report::figure::curve::figure;
+use vibroimpact_report::json::curve::document;
+use vibroimpact_report::table::curve::table;
 use vibroimpact_study::{CurvePlan, EventKind, Plan, Stretch, Task, curve};
 
 /// The curve of an event of an orbit in a plane of two parameters: where it folds, flips or grazes
@@ -115,13 +116,9 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let (system, question) = (asked.system, task.clone());
     let found = signal::interruptible("following a curve", move || curve(&system, &question))??;
 
-    outputs.write(
-        session,
-        |out| csv::write(out, &columns(&task), rows(&found, &task, &asked.units)),
-        || Ok(plot::curve::figure(&found, &task, &asked)),
-    )?;
+    outputs.write(session, || Ok(table(&found, &task, &asked.units)), || Ok(figure(&found, &task, &asked)))?;
     if args.json {
-        return session.print_json(&Document::new(&asked, &osc, &plan, Answer::new(&found, &task, &asked.units)));
+        return session.print_json(&document(&asked, &plan, &osc, (&task, &found)));
     }
     if to_stdout {
         return Ok(());

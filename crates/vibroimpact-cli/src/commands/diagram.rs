@@ -4,15 +4,14 @@ use crate::args::{StoreArgs, SystemArgs, parameter};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
-use crate::plot;
-use crate::report::csv;
-use crate::report::diagram::{Counts, columns, counts, rows};
-use crate::report::json::{Document, Range};
-use crate::report::text::{short, table};
+use crate::report::text;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
-use serde::Serialize;
 use std::path::PathBuf;
+use vibroimpact_report::figure::diagram::figure;
+use vibroimpact_report::json::diagram::{Counts, counts, document};
+use vibroimpact_report::number::short;
+use vibroimpact_report::table::diagram::table;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
 use vibroimpact_study::store::Part;
 use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Task, diagram};
@@ -114,14 +113,6 @@ enum What {
     Strobe,
 }
 
-#[derive(Serialize)]
-struct Answer {
-    vary: &'static str,
-    over: Range,
-    columns: Vec<&'static str>,
-    sweeps: Vec<Counts>,
-}
-
 impl Diagram {
     fn direction(&self) -> Result<Direction, Failure> {
         if self.direction != Way::Scatter && (self.starts.is_some() || self.seed.is_some()) {
@@ -160,21 +151,14 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     let found = session.tiled(total, "motions", |control, _| diagram(&asked.system, &task, control))?;
 
     let silent = outputs.any();
-    outputs.write(
-        session,
-        |out| csv::write(out, &columns(&found).join(","), rows(&found, &args.over, units)),
-        || plot::diagram::figure(&found, &args.over, &asked),
-    )?;
-    let sweeps = counts(&found);
+    outputs.write(session, || Ok(table(&found, units)?), || Ok(figure(&found, &asked)?))?;
     if args.json {
-        let osc = asked.system.oscillator()?;
-        let answer = Answer { vary: vary.name(), over: Range::new(&args.over), columns: columns(&found), sweeps };
-        return session.print_json(&Document::new(&asked, &osc, &plan, answer));
+        return session.print_json(&document(&asked, &plan, &found)?);
     }
     if silent {
         return Ok(());
     }
-    session.print(&summary(args, &sweeps))?;
+    session.print(&summary(args, &counts(&found)))?;
     session.note("hint: --csv FILE keeps every point, --plot FILE.png draws them");
     Ok(())
 }
@@ -190,5 +174,11 @@ fn summary(args: &Diagram, sweeps: &[Counts]) -> String {
             core::iter::once(c.sweep.to_owned()).chain(counts.map(|n| n.to_string())).collect()
         })
         .collect();
-    format!("{} values of {name} from {} to {}\n\n{}", args.over.count(), short(from), short(to), table(&heads, &rows))
+    format!(
+        "{} values of {name} from {} to {}\n\n{}",
+        args.over.count(),
+        short(from),
+        short(to),
+        text::table(&heads, &rows)
+    )
 }

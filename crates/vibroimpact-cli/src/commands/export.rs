@@ -41,7 +41,11 @@ pub(super) fn run(args: &Export, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
     if let Some(path) = &args.csv {
         let outputs = Outputs::reserve(Some(path), None, false, session)?;
-        return outputs.write(session, |out| table(&store, true, out), || Err(Failure::bad("no figure was asked for")));
+        return outputs.stream(
+            session,
+            |out| table(&store, true, out),
+            || Err(Failure::bad("no figure was asked for")),
+        );
     }
     match (&args.parquet, &args.netcdf) {
         (Some(path), _) => by_python(args, "parquet", path, session),

@@ -3,10 +3,7 @@
 use crate::args::{StartArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
-use crate::plot;
-use crate::report::csv;
-use crate::report::json::Document;
-use crate::report::lyapunov::{Answer, COLUMNS, rows, text};
+use crate::report::lyapunov::text;
 use crate::report::text as words;
 use crate::session::Session;
 use crate::signal;
@@ -14,6 +11,9 @@ use clap::Args;
 use std::path::PathBuf;
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, Section, exponents, section};
 use vibroimpact::verdict::{SettleOptions, settle};
+use vibroimpact_report::figure;
+use vibroimpact_report::json::lyapunov::document;
+use vibroimpact_report::table;
 use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, Plan, Task};
 
 /// The Lyapunov exponents of the motion from a start, with error bars, and its attractor's dimension
@@ -91,13 +91,11 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
 
     outputs.write(
         session,
-        |out| csv::write(out, COLUMNS, rows(&points, &osc, asked.units)),
-        || Ok(plot::section::figure(&points, &osc, &asked)),
+        || Ok(table::section::table(&points, &osc, asked.units)),
+        || Ok(figure::section::figure(&points, &osc, &asked)),
     )?;
     if args.json {
-        let answer = Answer::new(&settled.verdict, &found, &osc, &asked.units);
-        let document = Document::new(&asked, &osc, &plan, answer);
-        return session.print_json(&document.start(&start, &asked.units));
+        return session.print_json(&document(&asked, &plan, (&osc, &start), (&settled.verdict, &found)));
     }
     if to_stdout {
         return Ok(());

@@ -4,21 +4,15 @@ use crate::args::{Ranged, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
-use crate::plot;
-use crate::report::csv::{self, Number};
-use crate::report::json::{PROGRAM, Range};
-use crate::report::stored::{LabelCount, label_table};
+use crate::report::stored::label_table;
 use crate::session::Session;
 use clap::Args;
-use serde::Serialize;
-use serde_json::Value;
-use std::collections::BTreeMap;
 use std::path::PathBuf;
-use vibroimpact_plot::{GROUPS, legend_group};
+use vibroimpact_report::figure::map::figure;
+use vibroimpact_report::json::map::{coexisting, counts, document};
+use vibroimpact_report::table::map::table;
 use vibroimpact_study::store::Part;
-use vibroimpact_study::{
-    Axis, Coordinate, MapPlan, MapPoint, Parameter, Plan, RegionMap, SecondStop, SystemPlan, Task, Values, map,
-};
+use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, Task, map};
 
 /// Which motions there are at each point of a plane of parameters
 ///
@@ -145,44 +139,6 @@ impl PlaneArgs {
     }
 }
 
-#[derive(Serialize)]
-struct Answer<'a> {
-    system: serde_json::Map<String, Value>,
-    #[serde(flatten)]
-    axes: serde_json::Map<String, Value>,
-    starts: u64,
-    seed: u64,
-    points: usize,
-    coexisting: usize,
-    labels: Vec<LabelCount>,
-    plan: &'a Plan,
-    program: &'static str,
-}
-
-/// What is the same at all points, and what varies.
-fn objects(system: &SystemPlan, axes: &[Axis]) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
-    let mut fixed = serde_json::Map::new();
-    for parameter in Parameter::ALL {
-        let given = match parameter {
-            Parameter::Beta => system.beta,
-            Parameter::InverseBeta => system.inverse_beta,
-            Parameter::SecondGap | Parameter::SecondRestitution => None,
-            _ => system.value(parameter).ok(),
-        };
-        if let Some(value) = given.filter(|_| !axes.iter().any(|axis| axis.vary == Coordinate::Parameter(parameter))) {
-            fixed.insert(parameter.name().to_owned(), value.into());
-        }
-    }
-    if let Some(stop) = system.second_stop {
-        fixed.insert("second_stop".into(), serde_json::json!({ "gap": stop.gap, "restitution": stop.restitution }));
-    }
-    let range = |axis: &Axis| match &axis.over {
-        Values::Span(span) => serde_json::to_value(Range::new(span)).unwrap_or_default(),
-        Values::Listed(values) => values.clone().into(),
-    };
-    (fixed, axes.iter().map(|axis| (axis.vary.name().to_owned(), range(axis))).collect())
-}
-
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     let (system, axes) = (args.plane.system()?, args.plane.axes());
     if axes.is_empty() {
@@ -202,74 +158,20 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     let found = session.tiled(total, "points", |control, _| map(&system, &task, control))?;
 
     let silent = outputs.any();
-    let names: Vec<&str> = task.axes.iter().map(|axis| axis.vary.name()).collect();
-    outputs.write(
-        session,
-        |out| csv::write(out, &format!("{},label,share", names.join(",")), rows(&found)),
-        || {
-            let varied: Vec<Parameter> =
-                args.plane.given().filter(|(p, g)| g.axis(*p).is_some()).map(|(p, _)| p).collect();
-            let cell = |point: &MapPoint| plot::map::groups(point.motions.iter().map(|motion| motion.verdict.label()));
-            let cells: Vec<Vec<usize>> = found.points.iter().map(cell).collect();
-            plot::map::figure(&plot::stored::plane(&task.axes)?, &cells, plot::title_without(&system, &varied))
-        },
-    )?;
-    let labels = counts(&found);
-    let coexisting = found.points.iter().filter(|p| p.motions.len() > 1).count();
+    outputs.write(session, || Ok(table(&found)), || Ok(figure(&found, &system)?))?;
     if args.json {
-        let (system, axes) = objects(&system, &task.axes);
-        return session.print_json(&Answer {
-            system,
-            axes,
-            starts: args.starts,
-            seed: args.seed,
-            points: found.points.len(),
-            coexisting,
-            labels,
-            plan: &plan,
-            program: PROGRAM,
-        });
+        return session.print_json(&document(&plan, &found));
     }
     if silent {
         return Ok(());
     }
     session.print(&format!(
-        "{} points, {} starts each; several motions coexist at {coexisting} of them\n\n{}",
+        "{} points, {} starts each; several motions coexist at {} of them\n\n{}",
         found.points.len(),
         args.starts,
-        label_table(&labels)
+        coexisting(&found),
+        label_table(&counts(&found))
     ))?;
     session.note("hint: --csv FILE keeps every point, --plot FILE.png draws them");
     Ok(())
-}
-
-fn rows(found: &RegionMap) -> impl Iterator<Item = String> + '_ {
-    found.points.iter().flat_map(|point| {
-        point.motions.iter().map(|motion| {
-            let place: Vec<String> = point.at.iter().map(|at| Number(*at).to_string()).collect();
-            format!("{},{},{}", place.join(","), motion.verdict.label(), Number(motion.share))
-        })
-    })
-}
-
-/// Labels in the order of a legend, then by name.
-fn counts(found: &RegionMap) -> Vec<LabelCount> {
-    let mut counts: BTreeMap<(usize, String), (u64, f64)> = BTreeMap::new();
-    for point in &found.points {
-        let mut here: Vec<String> = Vec::new();
-        for motion in &point.motions {
-            let label = motion.verdict.label().into_owned();
-            let group = legend_group(&label);
-            let rank = GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len());
-            let entry = counts.entry((rank, label.clone())).or_default();
-            entry.1 += motion.share;
-            if !here.contains(&label) {
-                entry.0 += 1;
-                here.push(label);
-            }
-        }
-    }
-    #[allow(clippy::cast_precision_loss)] // at most 1e8
-    let all = found.points.len() as f64;
-    counts.into_iter().map(|((_, label), (points, share))| LabelCount { label, points, share: share / all }).collect()
 }

@@ -2,16 +2,15 @@
 
 use crate::args::SystemArgs;
 use crate::exit::Failure;
-use crate::report::json::Document;
-use crate::report::orbit::{OrbitObject, text};
+use crate::report::orbit::text;
 use crate::report::text as words;
 use crate::session::Session;
 use crate::signal;
 use clap::Args;
-use serde::Serialize;
 use vibroimpact::Label;
 use vibroimpact::orbit::{FindOptions, find};
 use vibroimpact::verdict::LabelError;
+use vibroimpact_report::json::orbit::document;
 use vibroimpact_study::{Plan, Task};
 
 /// All periodic orbits with m impacts in n forcing periods, stable or not
@@ -41,11 +40,6 @@ pub(crate) struct Orbit {
     json: bool,
 }
 
-#[derive(Serialize)]
-struct Answer {
-    orbits: Vec<OrbitObject>,
-}
-
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let task = Task::Orbit { label: args.label.clone() };
@@ -57,8 +51,7 @@ pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let orbits = signal::interruptible("looking for orbits", move || find(&osc, label, FindOptions::default()))?;
 
     if args.json {
-        let orbits = orbits.into_iter().map(|orbit| OrbitObject::new(orbit, &osc, &asked.units)).collect();
-        return session.print_json(&Document::new(&asked, &osc, &plan, Answer { orbits }));
+        return session.print_json(&document(&asked, &plan, &osc, &orbits));
     }
     let mut said = words::system(&asked, &osc);
     if orbits.is_empty() {

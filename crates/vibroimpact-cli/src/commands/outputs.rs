@@ -2,10 +2,12 @@
 
 use crate::exit::Failure;
 use crate::files::Target;
-use crate::plot::Picture;
-use crate::plot::stored::plane;
+use crate::picture::Picture;
 use crate::session::Session;
 use std::path::Path;
+use vibroimpact_plot::Figure;
+use vibroimpact_report::figure::plane::Plane;
+use vibroimpact_report::{Table, Units};
 use vibroimpact_study::Axis;
 
 /// The outputs of a grid command.
@@ -44,7 +46,10 @@ impl Outputs {
 
     /// Refuses a picture of axes that none can be drawn over, before anything is computed.
     pub(super) fn drawable(&self, axes: &[Axis]) -> Result<(), Failure> {
-        if self.picture.is_some() { plane(axes).map(|_| ()) } else { Ok(()) }
+        if self.picture.is_some() {
+            Plane::of(axes, &Units::default())?;
+        }
+        Ok(())
     }
 
     /// Whether a table or a picture was asked for.
@@ -67,11 +72,23 @@ impl Outputs {
         matches!(self.csv, Some(Sheet::Stdout))
     }
 
-    pub(super) fn write(
+    /// Writes what was asked for of a result.
+    pub(super) fn write<'a>(
+        self,
+        session: &Session,
+        table: impl FnOnce() -> Result<Table<'a>, Failure>,
+        figure: impl FnOnce() -> Result<Figure, Failure>,
+    ) -> Result<(), Failure> {
+        let table = self.csv.is_some().then(table).transpose()?;
+        self.stream(session, |out| table.map_or(Ok(()), |table| table.write(out)), figure)
+    }
+
+    /// The same with a table that is read while it is written.
+    pub(super) fn stream(
         self,
         session: &Session,
         table: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
-        figure: impl FnOnce() -> Result<vibroimpact_plot::Figure, Failure>,
+        figure: impl FnOnce() -> Result<Figure, Failure>,
     ) -> Result<(), Failure> {
         if let Some(picture) = self.picture {
             picture.write(&figure()?)?;

@@ -2,10 +2,11 @@
 
 use super::stored;
 use crate::exit::Failure;
-use crate::plot::{Picture, stored::figure};
+use crate::picture::Picture;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
+use vibroimpact_report::figure::stored::figure;
 
 /// Draw what a store holds; of one that is not complete, what there is
 #[derive(Clone, Debug, Args)]

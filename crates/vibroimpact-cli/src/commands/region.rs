@@ -1,16 +1,16 @@
 //! `vibro region`: where in a plane of two parameters a motion exists, and where it is stable.
 
-use crate::args::{Asked, Convention, MachineArgs, Place, SystemArgs, Units};
+use crate::args::{Convention, MachineArgs, Place, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
-use crate::plot;
-use crate::report::csv;
-use crate::report::json::{self, PROGRAM, Scales};
-use crate::report::region::{Answer, columns, rows, text};
+use crate::report::region::text;
 use crate::session::Session;
 use clap::Args;
-use serde::Serialize;
 use std::path::PathBuf;
+use vibroimpact_report::figure::region::figure;
+use vibroimpact_report::json::region::document;
+use vibroimpact_report::table::region::table;
+use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task, regions};
 
 /// Where in a plane of two parameters the motion m/n exists, and where it is stable: closed polygons
@@ -83,32 +83,6 @@ pub(crate) struct Region {
     /// Print one JSON object with the polygons instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
-}
-
-/// The object; what varies has no value in `system`.
-#[derive(Serialize)]
-struct Object<'a> {
-    system: SystemObject,
-    #[serde(flatten)]
-    answer: Answer,
-    units: &'static str,
-    plan: &'a Plan,
-    program: &'static str,
-}
-
-#[derive(Serialize)]
-struct SystemObject {
-    beta: Option<f64>,
-    inverse_beta: Option<f64>,
-    gap: Option<f64>,
-    restitution: Option<f64>,
-    damping: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    second_gap: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    second_restitution: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    scales: Option<Scales>,
 }
 
 impl Region {
@@ -184,35 +158,9 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
 
     let found = session.tiled(2, "regions", |control, _| regions(&system, &task, control))?;
 
-    outputs.write(
-        session,
-        |out| csv::write(out, &columns(&task), rows(&found, &task, &units)),
-        || {
-            let title = plot::title_without(&system, &[across.parameter, up.parameter]);
-            Ok(plot::region::figure(&found, &task, &units, title))
-        },
-    )?;
+    outputs.write(session, || Ok(table(&found, &task, &units)), || Ok(figure(&found, &task, &asked)))?;
     if args.json {
-        let fixed = |parameter: Parameter, value: Option<f64>| {
-            value.filter(|_| ![across.parameter, up.parameter].contains(&parameter))
-        };
-        let second = system.second_stop;
-        return session.print_json(&Object {
-            system: SystemObject {
-                beta: fixed(Parameter::Beta, system.beta),
-                inverse_beta: fixed(Parameter::InverseBeta, system.inverse_beta),
-                gap: fixed(Parameter::Gap, Some(system.gap)),
-                restitution: fixed(Parameter::Restitution, Some(system.restitution)),
-                damping: fixed(Parameter::Damping, Some(system.damping)),
-                second_gap: fixed(Parameter::SecondGap, second.map(|stop| stop.gap)),
-                second_restitution: fixed(Parameter::SecondRestitution, second.map(|stop| stop.restitution)),
-                scales: Scales::new(&units),
-            },
-            answer: Answer::new(&found, &task, &units),
-            units: json::units(&units),
-            plan: &plan,
-            program: PROGRAM,
-        });
+        return session.print_json(&document(&asked, &plan, (&task, &found)));
     }
     if to_stdout {
         return Ok(());

@@ -1,18 +1,17 @@
 //! `vibro settle`: what the motion from one start settles into.
 
-use crate::args::{Asked, StartArgs, SystemArgs};
+use crate::args::{StartArgs, SystemArgs};
 use crate::exit::Failure;
-use crate::plot::{self, Picture, waveform};
-use crate::report::json::{Document, Motion as MotionObject};
-use crate::report::text::{self, short};
+use crate::picture::Picture;
+use crate::report::text;
 use crate::session::Session;
 use crate::signal;
 use clap::{Args, ValueEnum};
-use serde::Serialize;
 use std::path::PathBuf;
-use vibroimpact::motion::{EventKind, ImpactState, Motion};
-use vibroimpact::verdict::{PaperRule, PaperVerdict, SettleOptions, Settled, Verdict, paper_rule, settle};
-use vibroimpact::{Oscillator, Start};
+use vibroimpact::verdict::{PaperRule, PaperVerdict, SettleOptions, paper_rule, settle};
+use vibroimpact_report::figure::settle::figure;
+use vibroimpact_report::json::settle::document;
+use vibroimpact_report::number::short;
 use vibroimpact_study::{Plan, Task};
 
 /// What the motion from a start settles into, and why that is so
@@ -64,28 +63,6 @@ enum Rule {
     Paper,
 }
 
-#[derive(Serialize)]
-struct Answer {
-    motion: MotionObject,
-    impacts_followed: u64,
-    time_followed: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    paper_rule: Option<PaperAnswer>,
-}
-
-#[derive(Serialize)]
-struct PaperAnswer {
-    percent: f64,
-    limit: u32,
-    verdict: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    label: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    n: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    impacts: Option<u32>,
-}
-
 pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let start = args.start.plan(&asked.units);
@@ -101,17 +78,10 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
         (settled, rule.map(|rule| (rule, paper_rule(&osc, start, rule))))
     })?;
     if let Some(picture) = picture {
-        picture.write(&steady(&osc, start, &settled, &asked))?;
+        picture.write(&figure(&osc, start, &settled, &asked))?;
     }
     if args.json {
-        let answer = Answer {
-            motion: MotionObject::new(&settled.verdict, &osc, &asked.units),
-            impacts_followed: settled.impacts,
-            time_followed: settled.time * asked.units.time(),
-            paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),
-        };
-        let document = Document::new(&asked, &osc, &plan, answer);
-        return session.print_json(&document.start(&start, &asked.units));
+        return session.print_json(&document(&asked, &plan, (&osc, &start), &settled, paper));
     }
     let mut text = text::system(&asked, &osc) + &text::start(&start, &asked.units) + "\n";
     text.push_str(&text::motion(&settled.verdict, &osc, &asked.units));
@@ -151,60 +121,6 @@ impl Settle {
             return Err(Failure::bad(format!("limit = {} lies outside 2 <= limit <= 100000", rule.limit)));
         }
         Ok(Some(rule))
-    }
-}
-
-/// Forcing periods shown of a steady motion.
-const SHOWN: f64 = 6.0;
-
-/// The motion once it has settled.
-fn steady(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> vibroimpact_plot::Figure {
-    let (from, time) = last_event(osc, start, settled.time);
-    let periods = match &settled.verdict {
-        Verdict::Periodic(cycle) => {
-            let n = f64::from(cycle.label.periods);
-            n * (SHOWN / n).ceil().max(2.0)
-        }
-        Verdict::Chaotic(_) | Verdict::Undecided(_) => 4.0 * SHOWN,
-        _ => SHOWN,
-    };
-    let label = plot::label(&settled.verdict.label());
-    let title = format!("{}: {label}", plot::title(&asked.system));
-    let span = (time, periods * osc.period());
-    waveform::figure(osc, from, span, &asked.units, title)
-}
-
-/// The state after the last event up to a time, and the time of that event.
-fn last_event(osc: &Oscillator, start: Start, until: f64) -> (Start, f64) {
-    let (mut state, mut time) = (start, 0.0);
-    for event in Motion::new(osc, start).take_while(|event| event.time <= until) {
-        let at_stop = ImpactState { phase: event.phase, velocity: 0.0, side: event.side };
-        let at_stop = match event.kind {
-            EventKind::Impact { velocity_before, .. } => ImpactState { velocity: velocity_before, ..at_stop },
-            EventKind::Stick { .. } | EventKind::Release => at_stop,
-            EventKind::Graze { .. } => continue,
-        };
-        (state, time) = (at_stop.rebound(osc), event.time);
-    }
-    (state, time)
-}
-
-impl PaperAnswer {
-    fn new(rule: PaperRule, verdict: PaperVerdict) -> Self {
-        let bare =
-            Self { percent: rule.percent, limit: rule.limit, verdict: "unstable", label: None, n: None, impacts: None };
-        match verdict {
-            PaperVerdict::Settled { m, n, impacts } => Self {
-                verdict: "settled",
-                label: Some(format!("{m}/{}", n.round())),
-                n: Some(n),
-                impacts: Some(impacts),
-                ..bare
-            },
-            PaperVerdict::Unstable => bare,
-            PaperVerdict::NoMoreImpacts => Self { verdict: "no_more_impacts", ..bare },
-            PaperVerdict::Sticks => Self { verdict: "sticks", ..bare },
-        }
     }
 }
 

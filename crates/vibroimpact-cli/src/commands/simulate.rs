@@ -1,18 +1,21 @@
 //! `vibro simulate`: the events of a motion, one after another.
 
-use crate::args::{Asked, StartArgs, SystemArgs};
+use crate::args::{StartArgs, SystemArgs};
 use crate::exit::Failure;
 use crate::files::Target;
-use crate::plot::{self, Picture, waveform};
-use crate::report::csv::{self, Number};
-use crate::report::json::{Document, Simulation};
-use crate::report::text::{self, short};
+use crate::picture::Picture;
+use crate::report::text;
 use crate::session::Session;
 use crate::signal;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact::motion::{EventKind, sample};
-use vibroimpact::{Oscillator, Start};
+use vibroimpact::motion::EventKind;
+use vibroimpact_report::Asked;
+use vibroimpact_report::figure::title;
+use vibroimpact_report::figure::waveform::figure;
+use vibroimpact_report::json::simulate::document;
+use vibroimpact_report::number::short;
+use vibroimpact_report::table::waveform::table;
 use vibroimpact_study::{Control, Plan, Simulated, Task, most_impacts, simulate};
 
 /// Follow a motion event by event: impacts, grazes, sticking, release
@@ -58,9 +61,6 @@ pub(crate) struct Simulate {
     plot: Option<PathBuf>,
 }
 
-/// Points of a waveform at most.
-const MOST_POINTS: f64 = 1e7;
-
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let impacts = most_impacts(args.impacts, args.periods);
@@ -82,50 +82,19 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     })?;
     let until = followed.shown_until(&osc);
     if let Some(target) = csv {
-        waveform_csv(target, &osc, start, (until, step), &asked)?;
+        let table = table(&osc, start, (until, step), asked.units)?;
+        target.write(|out| table.write(out))?;
     }
     if let Some(picture) = picture {
-        let title = plot::title(&asked.system);
-        picture.write(&waveform::figure(&osc, start, (0.0, until), &asked.units, title))?;
+        let title = title(&asked.system);
+        picture.write(&figure(&osc, start, (0.0, until), &asked.units, title))?;
     }
     if args.json {
-        let end = (followed.reason, followed.time, followed.horizon);
-        let result = Simulation::new(&followed.events, end, asked.units);
-        let document = Document::new(&asked, &osc, &plan, result);
-        session.print_json(&document.start(&start, &asked.units))
+        session.print_json(&document(&asked, &plan, (&osc, &start), &followed))
     } else {
         let head = text::system(&asked, &osc) + &text::start(&start, &asked.units);
         session.print(&(head + &report(&followed, &asked)))
     }
-}
-
-fn waveform_csv(
-    target: Target,
-    osc: &Oscillator,
-    start: Start,
-    (until, step): (f64, f64),
-    asked: &Asked,
-) -> Result<(), Failure> {
-    if until / step > MOST_POINTS || until.is_nan() {
-        return Err(Failure::bad(format!(
-            "step = {} gives {} points over a time of {}; at most {MOST_POINTS} are allowed\nhint: a longer --step, or fewer --periods or --impacts",
-            short(step),
-            short(until / step),
-            short(until)
-        )));
-    }
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1e7
-    let wave = sample(osc, start, until, step, 3 * MOST_POINTS as usize);
-    let units = asked.units;
-    let rows = wave.iter().map(|point| {
-        format!(
-            "{},{},{}",
-            Number(point.time * units.time()),
-            Number(point.x * units.length()),
-            Number(point.v * units.velocity())
-        )
-    });
-    target.write(|out| csv::write(out, "t,x,v", rows))
 }
 
 fn report(followed: &Simulated, asked: &Asked) -> String {

@@ -2,10 +2,10 @@
 
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
-use crate::plot;
 use crate::report::stored as report;
 use crate::session::Session;
 use serde::Serialize;
+use vibroimpact_report::figure::stored::figure;
 use vibroimpact_study::store::{Part, Ran, Store, shelf};
 use vibroimpact_study::{Plan, StoreError};
 
@@ -71,7 +71,7 @@ pub(super) fn run(plan: &Plan, place: &str, part: Part, outputs: Outputs, sessio
         return Ok(());
     }
     let (json, silent) = (outputs.json(), outputs.any());
-    outputs.write(session, |out| report::table(&store, false, out), || plot::stored::figure(&store))?;
+    outputs.stream(session, |out| report::table(&store, false, out), || Ok(figure(&store)?))?;
     if json {
         return session.print_json(&report::Answer::new(&store, Some(filled))?);
     }

@@ -1,120 +1,12 @@
-//! Lyapunov exponents as text and JSON, sections as a table.
+//! Lyapunov exponents in words.
 
-use crate::args::Units;
-use crate::report::csv::Number;
-use crate::report::json::{HorizonObject, Motion, side};
-use crate::report::text::{meaning, short, table};
-use serde::Serialize;
+use crate::report::text::{meaning, stop_name, table};
 use std::fmt::Write;
-use vibroimpact::chaos::{Exponents, Grounds, Measured, Section};
+use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::verdict::{NoImpact, Verdict};
-use vibroimpact::{Oscillator, Side};
-
-/// The columns of the table of both sections.
-pub(crate) const COLUMNS: &str = "section,side,phase,x,v";
-
-/// One row a point, the impacts first.
-pub(crate) fn rows<'a>(points: &'a Section, osc: &'a Oscillator, units: Units) -> impl Iterator<Item = String> + 'a {
-    let state = move |phase, x: f64, v: f64| {
-        format!("{},{},{}", Number(phase), Number(x * units.length()), Number(v * units.velocity()))
-    };
-    let impacts = points.impacts.iter().map(move |at| {
-        let (sign, gap) = (at.side.sign(), osc.stop(at.side).map_or(0.0, |stop| stop.gap));
-        format!("impact,{},{}", side(at.side), state(at.phase, sign * gap, sign * at.velocity))
-    });
-    impacts.chain(points.strobes.iter().map(move |at| format!("strobe,,{}", state(at.phase, at.x, at.v))))
-}
-
-/// The command's part of the object.
-#[derive(Serialize)]
-pub(crate) struct Answer {
-    motion: Motion,
-    /// Per unit of time.
-    exponents: [Quantity; 2],
-    exponents_per_period: [Quantity; 2],
-    sum: Quantity,
-    /// What the sum must be.
-    identity: Option<f64>,
-    impacts_per_period: Quantity,
-    dimension: Dimension,
-    grounds: GroundsObject,
-}
-
-/// A number with its error; where it is none, why.
-#[derive(Serialize)]
-struct Quantity {
-    value: Option<f64>,
-    error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    why: Option<&'static str>,
-}
-
-/// Kaplan-Yorke dimensions; `null` where the larger exponent is not known to differ from 0.
-#[derive(Serialize)]
-struct Dimension {
-    /// Of the stroboscopic section.
-    section: Option<Quantity>,
-    /// Of the flow in the space of position, velocity and phase.
-    flow: Option<Quantity>,
-}
-
-#[derive(Serialize)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-enum GroundsObject {
-    Measured { impacts: u64, transient: u64, time: f64, blocks: u32 },
-    NoImpact { horizon: HorizonObject },
-    Sticks { side: &'static str },
-    Stuck { side: &'static str },
-    Touches { horizon: HorizonObject },
-    Undecided { impacts: u64 },
-}
-
-impl Quantity {
-    fn new(of: Measured) -> Self {
-        let why = if of.value.is_nan() {
-            Some("undefined")
-        } else if of.value == f64::NEG_INFINITY {
-            Some("minus_infinity")
-        } else {
-            of.value.is_infinite().then_some("infinity")
-        };
-        let known = |x: f64| x.is_finite().then_some(x);
-        Self { value: known(of.value), error: known(of.error).filter(|_| why.is_none()), why }
-    }
-}
-
-impl Answer {
-    pub(crate) fn new(verdict: &Verdict, found: &Exponents, osc: &Oscillator, units: &Units) -> Self {
-        let per_time = |of: Measured| Quantity::new(scaled(of, 1.0 / units.time()));
-        let identity = found.identity / units.time();
-        Self {
-            motion: Motion::new(verdict, osc, units).without_lyapunov(),
-            exponents: found.exponents.map(per_time),
-            exponents_per_period: found.per_period().map(Quantity::new),
-            sum: per_time(found.sum),
-            identity: identity.is_finite().then_some(identity),
-            impacts_per_period: Quantity::new(found.impacts_per_period),
-            dimension: Dimension {
-                section: found.section_dimension.map(Quantity::new),
-                flow: found.flow_dimension().map(Quantity::new),
-            },
-            grounds: match found.grounds {
-                Grounds::Measured { impacts, transient, time, blocks } => {
-                    GroundsObject::Measured { impacts, transient, time: time * units.time(), blocks }
-                }
-                Grounds::Flight(why) => GroundsObject::NoImpact { horizon: HorizonObject::new(&why) },
-                Grounds::Sticks(at) => GroundsObject::Sticks { side: side(at) },
-                Grounds::Stuck(at) => GroundsObject::Stuck { side: side(at) },
-                Grounds::Touches(why) => GroundsObject::Touches { horizon: HorizonObject::new(&why) },
-                Grounds::Undecided { impacts } => GroundsObject::Undecided { impacts },
-            },
-        }
-    }
-}
-
-fn scaled(of: Measured, factor: f64) -> Measured {
-    Measured { value: of.value * factor, error: of.error * factor }
-}
+use vibroimpact_report::Units;
+use vibroimpact_report::json::lyapunov::scaled;
+use vibroimpact_report::number::short;
 
 /// A number in words: `0.01862 +- 0.00023`, with the digits that its error leaves; `minus infinity`, `none`, or as it is where
 /// it is exact.
@@ -160,13 +52,6 @@ pub(crate) fn text(verdict: &Verdict, found: &Exponents, units: &Units) -> Strin
     text
 }
 
-const fn stop(side: Side) -> &'static str {
-    match side {
-        Side::Upper => "stop",
-        Side::Lower => "second stop",
-    }
-}
-
 fn grounds(found: &Exponents, units: &Units) -> String {
     match found.grounds {
         Grounds::Measured { impacts, transient, time, blocks } => {
@@ -188,9 +73,9 @@ fn grounds(found: &Exponents, units: &Units) -> String {
         }
         Grounds::Flight(_) => "those of the flight, exact: there are no more impacts".into(),
         Grounds::Sticks(at) => {
-            format!("it comes to rest on the {} in every turn, and a release forgets all before it", stop(at))
+            format!("it comes to rest on the {} in every turn, and a release forgets all before it", stop_name(at))
         }
-        Grounds::Stuck(at) => format!("it rests on the {} for ever, whatever came before", stop(at)),
+        Grounds::Stuck(at) => format!("it rests on the {} for ever, whatever came before", stop_name(at)),
         Grounds::Touches(_) => "it only touches the stop, and a touch has no derivative".into(),
         Grounds::Undecided { impacts } => format!("the search ran out after {impacts} impacts"),
     }

@@ -1,45 +1,11 @@
-//! An orbit that was looked for: a motion, or a solution of the equations that is none.
+//! An orbit that was looked for in words: a motion, or a solution of the equations that is none.
 
-use crate::args::Units;
-use crate::report::json::{Motion, side};
-use crate::report::text::{impacts, motion, multipliers, short, stop_name};
-use serde::Serialize;
+use crate::report::text::{impacts, motion, multipliers, stop_name};
 use vibroimpact::Oscillator;
-use vibroimpact::orbit::{EarlierContact, Orbit};
+use vibroimpact::orbit::Orbit;
 use vibroimpact::verdict::Verdict;
-
-/// One of `"orbits"`.
-#[derive(Serialize)]
-pub(crate) struct OrbitObject {
-    #[serde(flatten)]
-    motion: Motion,
-    physical: bool,
-    earlier_contact: Option<ContactObject>,
-}
-
-#[derive(Serialize)]
-struct ContactObject {
-    /// Counted from 1; none where the motion has no impacts.
-    after_impact: Option<usize>,
-    side: &'static str,
-    /// Since that impact, or since phase 0.
-    time: f64,
-}
-
-impl OrbitObject {
-    pub(crate) fn new(orbit: Orbit, osc: &Oscillator, units: &Units) -> Self {
-        let earlier = |contact: EarlierContact| ContactObject {
-            after_impact: (!orbit.cycle.points.is_empty()).then_some(contact.flight + 1),
-            side: side(contact.side),
-            time: contact.time * units.time(),
-        };
-        Self {
-            physical: orbit.physical,
-            earlier_contact: orbit.earlier.map(earlier),
-            motion: Motion::new(&Verdict::Periodic(orbit.cycle), osc, units),
-        }
-    }
-}
+use vibroimpact_report::Units;
+use vibroimpact_report::number::short;
 
 /// Everything about it.
 pub(crate) fn text(orbit: Orbit, osc: &Oscillator, units: &Units) -> String {

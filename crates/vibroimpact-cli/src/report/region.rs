@@ -1,99 +1,14 @@
-//! Regions of existence and stability as tables, text and JSON.
+//! Regions of existence and stability in words.
 
-use crate::args::Units;
-use crate::report::branch_text::named;
-use crate::report::csv::Number;
-use crate::report::text::{short, table};
-use serde::Serialize;
+use crate::report::branch::named;
+use crate::report::text::table;
 use std::fmt::Write;
-use vibroimpact::continuation::{Polygon, Region, Vertex};
+use vibroimpact::continuation::Polygon;
+use vibroimpact_report::Units;
+use vibroimpact_report::json::region::unit;
+use vibroimpact_report::number::short;
+use vibroimpact_report::table::region::both;
 use vibroimpact_study::{RegionPlan, Regions, Stretch};
-
-/// The command's part of the object. Pairs of values are in the order of `parameters`.
-#[derive(Serialize)]
-pub(crate) struct Answer {
-    label: String,
-    parameters: [&'static str; 2],
-    existence: RegionObject,
-    stability: RegionObject,
-}
-
-#[derive(Serialize)]
-struct RegionObject {
-    polygons: Vec<PolygonObject>,
-    /// Points where the search for orbits and the polygons do not agree.
-    unresolved: Vec<[f64; 2]>,
-}
-
-#[derive(Serialize)]
-struct PolygonObject {
-    hole: bool,
-    sheet: &'static str,
-    vertices: Vec<[f64; 2]>,
-    /// What bounds the region from each vertex to the next.
-    bounds: Vec<&'static str>,
-}
-
-impl Answer {
-    pub(crate) fn new(found: &Regions, plan: &RegionPlan, units: &Units) -> Self {
-        let unit = unit(plan, units);
-        Self {
-            label: plan.label.trim().to_owned(),
-            parameters: [plan.across.parameter.name(), plan.up.parameter.name()],
-            existence: RegionObject::new(&found.existence, unit),
-            stability: RegionObject::new(&found.stability, unit),
-        }
-    }
-}
-
-impl RegionObject {
-    fn new(region: &Region, (x, y): (f64, f64)) -> Self {
-        let polygon = |polygon: &Polygon| PolygonObject {
-            hole: polygon.hole,
-            sheet: sheet(polygon),
-            vertices: polygon.vertices.iter().map(|Vertex { values: (p, q), .. }| [p * x, q * y]).collect(),
-            bounds: polygon.vertices.iter().map(|vertex| vertex.bound.name()).collect(),
-        };
-        Self {
-            polygons: region.polygons.iter().map(polygon).collect(),
-            unresolved: region.unresolved.iter().map(|(p, q)| [p * x, q * y]).collect(),
-        }
-    }
-}
-
-/// The units of both parameters.
-fn unit(plan: &RegionPlan, units: &Units) -> (f64, f64) {
-    (units.of(plan.across.parameter), units.of(plan.up.parameter))
-}
-
-/// Which sheet of the surface of orbits: their multipliers below +1, or one above.
-const fn sheet(polygon: &Polygon) -> &'static str {
-    if polygon.below { "below" } else { "above" }
-}
-
-/// Both regions with their names.
-fn both(found: &Regions) -> [(&'static str, &Region); 2] {
-    [("existence", &found.existence), ("stability", &found.stability)]
-}
-
-/// The columns of the table.
-pub(crate) fn columns(plan: &RegionPlan) -> String {
-    format!("region,polygon,hole,sheet,{},{},bound", plan.across.parameter.name(), plan.up.parameter.name())
-}
-
-/// One row a vertex.
-pub(crate) fn rows<'a>(found: &'a Regions, plan: &RegionPlan, units: &Units) -> impl Iterator<Item = String> + 'a {
-    let (x, y) = unit(plan, units);
-    both(found).into_iter().flat_map(move |(name, region)| {
-        region.polygons.iter().enumerate().flat_map(move |(k, polygon)| {
-            let head = format!("{name},{},{},{}", k + 1, polygon.hole, sheet(polygon));
-            polygon.vertices.iter().map(move |vertex| {
-                let (p, q) = vertex.values;
-                format!("{head},{},{},{}", Number(p * x), Number(q * y), vertex.bound.name())
-            })
-        })
-    })
-}
 
 /// A parameter's range in words.
 fn over(stretch: &Stretch, units: &Units) -> String {

@@ -1,12 +1,14 @@
 //! What is in a store: a summary, and a table with a row for each point and motion.
 
 use crate::exit::Failure;
-use crate::report::csv::Number;
-use crate::report::json::PROGRAM;
-use crate::report::text::{percent, table as columns_of_text};
+use crate::report::text::table as columns_of_text;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
+use vibroimpact_report::json::map::LabelCount;
+use vibroimpact_report::number::{Number, percent};
+use vibroimpact_report::table::diagram;
+use vibroimpact_report::{PROGRAM, Units};
 use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, diagram_of, label_of};
 use vibroimpact_study::{Block, Column, Field, Plan, Store, StoreError, Task};
 
@@ -34,16 +36,6 @@ impl<'a, Filled: Serialize> Answer<'a, Filled> {
             program: PROGRAM,
         })
     }
-}
-
-/// How often a label occurs.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct LabelCount {
-    pub(crate) label: String,
-    /// Points that have such a motion.
-    pub(crate) points: u64,
-    /// Its share of all starts.
-    pub(crate) share: f64,
 }
 
 /// The labels as a table for people.
@@ -109,11 +101,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     if let Task::Diagram(plan) = &store.plan().task {
         let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
         let found = diagram_of(plan, &columns.map_err(io::Error::other)?);
-        writeln!(out, "{}", super::diagram::columns(&found).join(","))?;
-        for row in super::diagram::rows(&found, &plan.over, crate::args::Units::default()) {
-            writeln!(out, "{row}")?;
-        }
-        return Ok(());
+        return diagram::table(&found, Units::default()).map_err(io::Error::other)?.write(out);
     }
     let (study, all) = (store.study(), store.study().fields());
     let shown: Vec<usize> =

@@ -1,7 +1,7 @@
 //! A curve of events in the plane of its two parameters, and the points of codimension two on it.
 
-use crate::args::Asked;
-use crate::plot::{label, named, title_without};
+use crate::Asked;
+use crate::figure::{label, named, title_without};
 use std::collections::BTreeMap;
 use vibroimpact::continuation::CurveEvent;
 use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
@@ -12,7 +12,9 @@ const MARK: f64 = 13.0;
 /// Width of the curve.
 const WIDTH: f64 = 2.8;
 
-pub(crate) fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
+/// The figure of `vibro curve`.
+#[must_use]
+pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
     let (p, q) = (plan.vary.parameter, plan.and.parameter);
     let (x, y) = (asked.units.of(p), asked.units.of(q));
     let axis = |stretch: &Stretch, unit: f64| {

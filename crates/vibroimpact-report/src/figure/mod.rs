@@ -1,60 +1,32 @@
-//! Figures: each file one kind of picture; here their files.
+//! Figures: each file one kind of picture, and here what several say of a system and its motions.
 
-pub(crate) mod basin;
-pub(crate) mod branch;
-pub(crate) mod curve;
-pub(crate) mod diagram;
-pub(crate) mod map;
-pub(crate) mod plane;
-pub(crate) mod region;
-pub(crate) mod section;
-pub(crate) mod stored;
-pub(crate) mod tracks;
-pub(crate) mod waveform;
+pub mod basin;
+pub mod branch;
+pub mod curve;
+pub mod diagram;
+pub mod map;
+pub mod plane;
+pub mod region;
+pub mod section;
+pub mod settle;
+pub mod stored;
+mod tracks;
+pub mod waveform;
 
-use crate::args::Units;
-use crate::exit::Failure;
-use crate::files::Target;
-use crate::report::text::short;
-use std::path::Path;
-use vibroimpact_plot::{Colour, DPI_300, Figure, plain};
+use crate::Units;
+use crate::number::short;
+use vibroimpact_plot::{Colour, plain};
 use vibroimpact_study::{Parameter, SystemPlan, is_length};
 
-/// A place for a figure, known to be writable and of a known format.
-#[derive(Debug)]
-pub(crate) struct Picture {
-    target: Target,
-    png: bool,
-}
-
-impl Picture {
-    /// Reserves a file that ends in .svg or .png.
-    pub(crate) fn reserve(path: &Path, force: bool) -> Result<Self, Failure> {
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let png = match ending.as_deref() {
-            Some("svg") => false,
-            Some("png") => true,
-            _ => {
-                return Err(Failure::bad(format!("the figure `{}` ends in neither .svg nor .png", path.display())));
-            }
-        };
-        let target = Target::reserve(path, force)?;
-        Ok(Self { target, png })
-    }
-
-    pub(crate) fn write(self, figure: &Figure) -> Result<(), Failure> {
-        let bytes = if self.png { figure.to_png(DPI_300)? } else { figure.to_svg().into_bytes() };
-        self.target.write(|out| out.write_all(&bytes))
-    }
-}
-
 /// The parameters as a title, the frequency as it was given.
-pub(crate) fn title(system: &SystemPlan) -> String {
+#[must_use]
+pub fn title(system: &SystemPlan) -> String {
     title_without(system, &[])
 }
 
 /// The same without the parameters that vary in the figure.
-pub(crate) fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String {
+#[must_use]
+pub fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String {
     let frequency = match (system.inverse_beta, system.beta) {
         (Some(inverse), _) => (Parameter::InverseBeta, inverse),
         (None, beta) => (Parameter::Beta, beta.unwrap_or(f64::NAN)),
@@ -78,7 +50,8 @@ pub(crate) fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String
 }
 
 /// The symbol of a parameter, as markup.
-pub(crate) const fn symbol(parameter: Parameter) -> &'static str {
+#[must_use]
+pub const fn symbol(parameter: Parameter) -> &'static str {
     match parameter {
         Parameter::Beta => "*β*",
         Parameter::InverseBeta => "1/*β*",
@@ -91,12 +64,14 @@ pub(crate) const fn symbol(parameter: Parameter) -> &'static str {
 }
 
 /// The same with its unit, for an axis.
-pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
+#[must_use]
+pub fn named(parameter: Parameter, units: &Units) -> String {
     if is_length(parameter) { units.named(symbol(parameter), "m") } else { symbol(parameter).into() }
 }
 
 /// A label as a figure shows it.
-pub(crate) fn label(label: &str) -> String {
+#[must_use]
+pub fn label(label: &str) -> String {
     match label {
         "0" => "no impact".into(),
         label => plain(label).replace("inf", "∞"),
@@ -104,7 +79,8 @@ pub(crate) fn label(label: &str) -> String {
 }
 
 /// Variant number `k` of a colour: itself, darker, lighter, darker still ... for motions of one class.
-pub(crate) fn variant(colour: Colour, k: usize) -> Colour {
+#[must_use]
+pub fn variant(colour: Colour, k: usize) -> Colour {
     let towards = if k % 2 == 1 { 0.0 } else { 255.0 };
     #[allow(clippy::cast_precision_loss)] // a handful
     let part = if k == 0 { 0.0 } else { 1.0 - 0.6_f64.powi(i32::try_from(k.div_ceil(2)).unwrap_or(9)) };

@@ -1,11 +1,10 @@
 //! The bifurcation diagram: impact velocities of orbits over the parameter, stable solid and unstable dashed, with the
 //! events, over what simulation finds.
 
-use crate::args::Asked;
-use crate::exit::Failure;
-use crate::plot::diagram::backdrop;
-use crate::plot::tracks::{Curves, Look, velocities};
-use crate::plot::{label, named, title_without, variant};
+use crate::figure::diagram::backdrop;
+use crate::figure::tracks::{Curves, Look, velocities};
+use crate::figure::{label, named, title_without, variant};
+use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
 use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
@@ -26,14 +25,19 @@ const NAMED: usize = 12;
 /// Colour of the others.
 const OTHERS: Colour = Colour::hex(0x50_5050);
 
-pub(crate) fn figure(
+/// The figure of `vibro branch`: a parameter followed between these values, with simulation behind, and with solutions that are
+/// no motions where they are asked for.
+///
+/// # Errors
+/// [`ReportError::Plan`] where the values of the parameter leave the range of numbers in these units.
+pub fn figure(
     found: &Branches,
     vary: Parameter,
     (from, to): (f64, f64),
     behind: Option<&Diagram>,
     show_virtual: bool,
     asked: &Asked,
-) -> Result<Figure, Failure> {
+) -> Result<Figure, ReportError> {
     let (unit, speed) = (asked.units.of(vary), asked.units.velocity());
     let mut panel = Panel::new(
         Axis::new(named(vary, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),

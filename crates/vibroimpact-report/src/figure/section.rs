@@ -1,8 +1,8 @@
 //! Both sections of an attractor, one above the other: phase and speed of its impacts, and its states at phase 0.
 
-use crate::args::Asked;
-use crate::plot::title;
-use crate::report::text::short;
+use crate::Asked;
+use crate::figure::title;
+use crate::number::short;
 use core::f64::consts::PI;
 use vibroimpact::chaos::Section;
 use vibroimpact::{Oscillator, Side, Stop};
@@ -17,7 +17,9 @@ const SAME: f64 = 1e-6;
 const LARGE: f64 = 9.0;
 const SMALL: f64 = 2.6;
 
-pub(crate) fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
+/// The figure of `vibro lyapunov`.
+#[must_use]
+pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
     let units = &asked.units;
     let mut above =
         Panel::new(phases(found), Axis::new(units.named("arrival velocity *u*_−", "m/s"))).caption("impacts");

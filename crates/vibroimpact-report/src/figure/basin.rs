@@ -1,21 +1,39 @@
 //! The basin: each start in the colour of the motion it leads to.
 
-use crate::exit::Failure;
-use crate::plot::plane::Plane;
-use crate::plot::variant;
+use crate::figure::plane::Plane;
+use crate::figure::{title, variant};
+use crate::{Asked, ReportError};
 use vibroimpact_plot::{ClassStyle, Colour, Figure, Legend, Panel, Raster, Rects, class_style, legend_group};
+use vibroimpact_study::Basin;
 
 /// Motions with an entry of their own in the legend.
 const NAMED: usize = 12;
 
 /// A motion and the share of starts that lead to it.
-pub(crate) struct Motion {
-    pub(crate) label: String,
-    pub(crate) share: f64,
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Its label.
+    pub label: String,
+    /// Its share.
+    pub share: f64,
 }
 
-/// `cells` holds the number of its motion for each start.
-pub(crate) fn figure(plane: &Plane, motions: &[Motion], cells: Vec<u16>, title: String) -> Result<Figure, Failure> {
+/// The figure of `vibro basin`.
+///
+/// # Errors
+/// [`ReportError`] for axes that are not two in some order, or too long.
+pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
+    let motion = |m: usize| Motion { label: found.motions[m].verdict.label().into_owned(), share: found.share(m) };
+    let motions: Vec<Motion> = (0..found.motions.len()).map(motion).collect();
+    let plane = Plane::of(&found.plan.axes, &asked.units)?;
+    draw(&plane, &motions, found.cells.clone(), title(&asked.system))
+}
+
+/// `cells` holds the number of its motion for each start; what is no number of a motion is left blank.
+///
+/// # Errors
+/// [`ReportError::Plot`] for cells that are not as many as the points of the plane.
+pub fn draw(plane: &Plane, motions: &[Motion], cells: Vec<u16>, title: String) -> Result<Figure, ReportError> {
     let mut by_share: Vec<usize> = (0..motions.len()).collect();
     by_share.sort_by(|a, b| motions[*b].share.total_cmp(&motions[*a].share));
     let mut colours = vec![Colour::hex(0x9a_9a9a); motions.len()];
@@ -30,8 +48,8 @@ pub(crate) fn figure(plane: &Plane, motions: &[Motion], cells: Vec<u16>, title: 
             continue;
         }
         colours[m] = variant(class_style(label).colour, twins);
-        let share = crate::report::text::percent(motions[m].share);
-        let name = crate::plot::label(label);
+        let share = crate::number::percent(motions[m].share);
+        let name = crate::figure::label(label);
         legend = legend.patch(ClassStyle::plain(colours[m]), format!("{name}, {share}"));
     }
     if motions.len() > NAMED {

@@ -1,7 +1,7 @@
 //! Where a motion exists and where it is stable, in a plane of two parameters: the edges in the colour of what bounds them.
 
-use crate::args::Units;
-use crate::plot::{label, named};
+use crate::Asked;
+use crate::figure::{label, named, title_without};
 use vibroimpact::continuation::{Bound, Polygon, Region};
 use vibroimpact_plot::{
     Axis, ClassStyle, Colour, Dash, Figure, Legend, Line, Panel, Region as Area, SERIES, Stroke, class_style,
@@ -16,7 +16,10 @@ const THIN: f64 = 1.5;
 /// Every bound that is drawn, in the order of the legend. The frame is the edge of the figure.
 const BOUNDS: [Bound; 5] = [Bound::Fold, Bound::Flip, Bound::NoSpeed, Bound::Touch, Bound::Merging];
 
-pub(crate) fn figure(found: &Regions, plan: &RegionPlan, units: &Units, title: String) -> Figure {
+/// The figure of `vibro region`.
+#[must_use]
+pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
+    let (units, title) = (&asked.units, title_without(&asked.system, &[plan.across.parameter, plan.up.parameter]));
     let axis = |stretch: &Stretch| {
         let unit = units.of(stretch.parameter);
         Axis::new(named(stretch.parameter, units)).range(stretch.from * unit, stretch.to * unit)

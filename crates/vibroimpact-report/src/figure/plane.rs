@@ -1,49 +1,100 @@
 //! A plane of two axes with a cell around each point.
 
-use crate::exit::Failure;
-use crate::plot::symbol;
+use crate::figure::symbol;
+use crate::units::shown;
+use crate::{ReportError, Units};
 use vibroimpact_plot::Axis;
-use vibroimpact_study::{Coordinate, Span, Values};
+use vibroimpact_study::{Axis as Along, Coordinate, Parameter, Span, Values, is_length};
+
+/// Points a figure of a plane can show along one axis.
+const MOST: usize = 16_384;
 
 /// One side of a plane: a name and values.
-pub(crate) struct Side {
+#[derive(Clone, Debug)]
+pub struct Side {
     name: String,
     values: Values,
 }
 
 /// The two sides; the first runs to the right and fastest.
-pub(crate) struct Plane {
-    pub(crate) x: Side,
-    pub(crate) y: Side,
+#[derive(Clone, Debug)]
+pub struct Plane {
+    /// The abscissa.
+    pub x: Side,
+    /// The ordinate.
+    pub y: Side,
+}
+
+/// One unit of what varies.
+pub(crate) fn unit(vary: Coordinate, units: &Units) -> f64 {
+    match vary {
+        Coordinate::Parameter(parameter) => units.of(parameter),
+        Coordinate::X => units.length(),
+        Coordinate::V => units.velocity(),
+        Coordinate::Phase => 1.0,
+    }
+}
+
+/// The parameters among what varies.
+pub(crate) fn varied(axes: &[Along]) -> Vec<Parameter> {
+    let parameter =
+        |axis: &Along| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None };
+    axes.iter().filter_map(parameter).collect()
+}
+
+impl Plane {
+    /// The plane of a plan; what has another number of axes has no figure.
+    ///
+    /// # Errors
+    /// [`ReportError`] for axes that are not two in some order, or too long.
+    pub fn of(axes: &[Along], units: &Units) -> Result<Self, ReportError> {
+        let [x, y] = axes else { return Err(ReportError::Axes(axes.len())) };
+        let plane = Self { x: Side::of(x, units)?, y: Side::of(y, units)? };
+        let given = plane.x.count().max(plane.y.count());
+        if given > MOST {
+            return Err(ReportError::Values { given, most: MOST });
+        }
+        Ok(plane)
+    }
 }
 
 impl Side {
     /// Values that rise or fall throughout.
-    pub(crate) fn new(name: impl Into<String>, values: &Values) -> Result<Self, Failure> {
+    ///
+    /// # Errors
+    /// [`ReportError::Order`] for others.
+    pub fn new(name: impl Into<String>, values: &Values) -> Result<Self, ReportError> {
         let all = values.all();
         if !(all.is_sorted() || all.is_sorted_by(|a, b| a >= b)) {
-            return Err(Failure::bad("a figure needs values in rising or falling order\nhint: --csv takes any order"));
+            return Err(ReportError::Order);
         }
         Ok(Self { name: name.into(), values: values.clone() })
     }
 
-    /// The axis of a plan.
-    pub(crate) fn of(axis: &vibroimpact_study::Axis) -> Result<Self, Failure> {
-        let name = match axis.vary {
-            Coordinate::Parameter(parameter) => symbol(parameter),
-            Coordinate::X => "*ξ*_0",
-            Coordinate::V => "*ξ*_0′",
-            Coordinate::Phase => "phase *φ*",
+    /// The axis of a plan, in these units.
+    ///
+    /// # Errors
+    /// [`ReportError::Order`] as [`Self::new`], and [`ReportError::Plan`] where the units leave the range of numbers.
+    pub fn of(axis: &Along, units: &Units) -> Result<Self, ReportError> {
+        let (name, name_of_unit) = match axis.vary {
+            Coordinate::Parameter(parameter) => (symbol(parameter), is_length(parameter).then_some("m")),
+            Coordinate::X => ("*ξ*_0", Some("m")),
+            Coordinate::V => ("*ξ*_0′", Some("m/s")),
+            Coordinate::Phase => ("phase *φ*", None),
         };
-        Self::new(name, &axis.over)
+        let name = name_of_unit.map_or_else(|| name.to_owned(), |unit| units.named(name, unit));
+        Self::new(name, &shown(&axis.over, unit(axis.vary, units))?)
     }
 
-    pub(crate) fn count(&self) -> usize {
+    /// How many values.
+    #[must_use]
+    pub fn count(&self) -> usize {
         self.values.count()
     }
 
     /// Its first and last value, if they are evenly spaced.
-    pub(crate) fn even(&self) -> Option<(f64, f64)> {
+    #[must_use]
+    pub fn even(&self) -> Option<(f64, f64)> {
         match &self.values {
             Values::Span(span) if !span.is_logarithmic() => Some(span.ends()),
             _ => None,
@@ -55,7 +106,8 @@ impl Side {
     }
 
     /// The edges of the cell around value number `k`.
-    pub(crate) fn cell(&self, k: usize) -> (f64, f64) {
+    #[must_use]
+    pub fn cell(&self, k: usize) -> (f64, f64) {
         let at = |k: usize| self.values.at(k);
         let (here, last) = (at(k), self.count() - 1);
         let between = |a: f64, b: f64| if self.logarithmic() { (a * b).sqrt() } else { f64::midpoint(a, b) };
@@ -73,7 +125,8 @@ impl Side {
     }
 
     /// An axis that shows the outermost cells whole.
-    pub(crate) fn axis(&self) -> Axis {
+    #[must_use]
+    pub fn axis(&self) -> Axis {
         let (first, last) = (self.cell(0), self.cell(self.count() - 1));
         let axis = Axis::new(self.name.clone()).range(first.0.min(last.0), first.1.max(last.1));
         if self.logarithmic() { axis.log10() } else { axis }

@@ -1,19 +1,18 @@
 //! The figure of a store: that of the command which asks the same.
 
-use crate::args::{Asked, Units};
-use crate::exit::Failure;
-use crate::plot::plane::{Plane, Side};
-use crate::plot::{basin, diagram, map, title_without};
+use crate::figure::plane::{Plane, Side, varied};
+use crate::figure::{basin, diagram, map, title_without};
+use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{Axis, Colour, Figure, Line, Panel, SERIES};
 use vibroimpact_study::study::{diagram_of, label_of};
-use vibroimpact_study::{Axis as Along, Coordinate, LyapunovPlan, Parameter, Store, SystemPlan, Task};
-
-/// Points a figure of a plane can show along one axis.
-const MOST: usize = 16_384;
+use vibroimpact_study::{Axis as Along, LyapunovPlan, Store, SystemPlan, Task};
 
 /// Draws what a store holds.
-pub(crate) fn figure(store: &Store) -> Result<Figure, Failure> {
+///
+/// # Errors
+/// [`ReportError`] for what has no figure, or cannot be read.
+pub fn figure(store: &Store) -> Result<Figure, ReportError> {
     let system = store.plan().system;
     match &store.plan().task {
         Task::Map(plan) => of_map(store, &plan.axes, title_without(&system, &varied(&plan.axes))),
@@ -21,37 +20,15 @@ pub(crate) fn figure(store: &Store) -> Result<Figure, Failure> {
         Task::Lyapunov(plan) => of_exponents(store, plan, &system),
         Task::Diagram(plan) => {
             let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>()?;
-            diagram::figure(&diagram_of(plan, &columns), &plan.over, &Asked { system, units: Units::default() })
+            diagram::figure(&diagram_of(plan, &columns), &Asked { system, units: Units::default() })
         }
-        _ => Err(Failure::bad("scattered starts have no figure\nhint: `vibro export --csv` has them all")),
+        _ => Err(ReportError::Scattered),
     }
 }
 
-fn varied(axes: &[Along]) -> Vec<Parameter> {
-    let parameter =
-        |axis: &Along| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None };
-    axes.iter().filter_map(parameter).collect()
-}
-
-/// The plane of a plan; what has another number of axes has no figure.
-pub(crate) fn plane(axes: &[Along]) -> Result<Plane, Failure> {
-    let [x, y] = axes else {
-        return Err(Failure::bad(format!(
-            "a figure needs two axes, not {}\nhint: --csv takes any number, and xarray opens a store",
-            axes.len()
-        )));
-    };
-    let plane = Plane { x: Side::of(x)?, y: Side::of(y)? };
-    let most = plane.x.count().max(plane.y.count());
-    if most > MOST {
-        return Err(Failure::bad(format!("a figure shows at most {MOST} values on an axis, not {most}")));
-    }
-    Ok(plane)
-}
-
-fn of_map(store: &Store, axes: &[Along], title: String) -> Result<Figure, Failure> {
-    let plane = plane(axes)?;
-    let Some(label) = store.field("label") else { return Err(Failure::bad("there are no labels")) };
+fn of_map(store: &Store, axes: &[Along], title: String) -> Result<Figure, ReportError> {
+    let plane = Plane::of(axes, &Units::default())?;
+    let Some(label) = store.field("label") else { return Err(ReportError::NoLabels) };
     let width = store.study().fields()[label].width();
     let mut known: BTreeMap<i32, usize> = BTreeMap::new();
     let mut group = |code: i32| *known.entry(code).or_insert_with(|| map::group(&label_of(code).unwrap_or_default()));
@@ -67,13 +44,13 @@ fn of_map(store: &Store, axes: &[Along], title: String) -> Result<Figure, Failur
             groups
         })
         .collect();
-    map::figure(&plane, &cells, title)
+    map::draw(&plane, &cells, title)
 }
 
 #[allow(clippy::cast_precision_loss)] // counts below 2^53
-fn of_basin(store: &Store, axes: &[Along], title: String) -> Result<Figure, Failure> {
-    let plane = plane(axes)?;
-    let Some(label) = store.field("label") else { return Err(Failure::bad("there are no labels")) };
+fn of_basin(store: &Store, axes: &[Along], title: String) -> Result<Figure, ReportError> {
+    let plane = Plane::of(axes, &Units::default())?;
+    let Some(label) = store.field("label") else { return Err(ReportError::NoLabels) };
     let labels = store.column(label)?;
     let cycles = store.field("cycle").map(|cycle| store.column(cycle)).transpose()?;
     let key = |k: usize| (labels.whole()[k], cycles.as_ref().map_or(-1, |cycles| cycles.whole()[k]));
@@ -96,16 +73,16 @@ fn of_basin(store: &Store, axes: &[Along], title: String) -> Result<Figure, Fail
         label: label_of(code).unwrap_or_default(),
         share: count as f64 / total,
     };
-    basin::figure(&plane, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)
+    basin::draw(&plane, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)
 }
 
 /// Both exponents over one axis, and the line where they would be neither.
-fn of_exponents(store: &Store, plan: &LyapunovPlan, system: &SystemPlan) -> Result<Figure, Failure> {
+fn of_exponents(store: &Store, plan: &LyapunovPlan, system: &SystemPlan) -> Result<Figure, ReportError> {
     let ([axis], Some(field)) = (plan.axes.as_slice(), store.field("exponent")) else {
-        return Err(Failure::bad("exponents are drawn over one axis\nhint: `vibro export --csv`, or xarray, for more"));
+        return Err(ReportError::Exponents);
     };
     let column = store.column(field)?;
-    let side = Side::of(axis)?;
+    let side = Side::of(axis, &Units::default())?;
     let values = axis.over.all();
     let of = |which: usize, colour: Colour| {
         let points = values.iter().zip(column.real().chunks(2)).map(|(x, both)| (*x, both[which]));

@@ -1,22 +1,39 @@
 //! The map: each point of the parameter plane in the colours of the motions that coexist there.
 
-use crate::exit::Failure;
-use crate::plot::plane::Plane;
+use crate::figure::plane::{Plane, varied};
+use crate::figure::title_without;
+use crate::{ReportError, Units};
 use vibroimpact_plot::{
     ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_group, legend_text,
 };
+use vibroimpact_study::{MapPoint, RegionMap, SystemPlan};
 
 /// Above so many points coexisting motions could not be told apart, and a raster shows the most frequent one.
 const SPLIT: usize = 40_000;
 
+/// The figure of `vibro map`.
+///
+/// # Errors
+/// [`ReportError`] for axes that are not two in some order, or too long.
+pub fn figure(found: &RegionMap, system: &SystemPlan) -> Result<Figure, ReportError> {
+    let axes = &found.plan.axes;
+    let cell = |point: &MapPoint| groups(point.motions.iter().map(|motion| motion.verdict.label()));
+    let cells: Vec<Vec<usize>> = found.points.iter().map(cell).collect();
+    draw(&Plane::of(axes, &Units::default())?, &cells, title_without(system, &varied(axes)))
+}
+
 /// The group of a label in the legend.
-pub(crate) fn group(label: &str) -> usize {
+#[must_use]
+pub fn group(label: &str) -> usize {
     let group = legend_group(label);
     GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len() - 1)
 }
 
 /// `cells` holds the groups of the motions at each point, each once, the most frequent first.
-pub(crate) fn figure(plane: &Plane, cells: &[Vec<usize>], title: String) -> Result<Figure, Failure> {
+///
+/// # Errors
+/// [`ReportError::Plot`] for cells that are not as many as the points of the plane.
+pub fn draw(plane: &Plane, cells: &[Vec<usize>], title: String) -> Result<Figure, ReportError> {
     let mut present = [false; GROUPS.len()];
     let split = cells.len() <= SPLIT;
     let shown = |cell: &Vec<usize>| cell.iter().take(if split { usize::MAX } else { 1 }).copied().collect::<Vec<_>>();
@@ -51,7 +68,7 @@ pub(crate) fn figure(plane: &Plane, cells: &[Vec<usize>], title: String) -> Resu
 }
 
 /// The groups of these labels, each once, in their order.
-pub(crate) fn groups<'a>(labels: impl Iterator<Item = std::borrow::Cow<'a, str>>) -> Vec<usize> {
+fn groups<'a>(labels: impl Iterator<Item = std::borrow::Cow<'a, str>>) -> Vec<usize> {
     let mut groups: Vec<usize> = Vec::new();
     for label in labels {
         let class = group(&label);

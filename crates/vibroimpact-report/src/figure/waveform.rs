@@ -1,6 +1,6 @@
 //! Position over time, with the stops and the impacts.
 
-use crate::args::Units;
+use crate::Units;
 use vibroimpact::motion::{Motion, sample};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Hatch, Legend, Line, Panel, Pattern, Points, SERIES, Wall};
@@ -11,13 +11,8 @@ const MOST: f64 = 400_000.0;
 const MARKED: usize = 5000;
 
 /// The motion from `start` for a time `until`; times in the figure begin at `from`.
-pub(crate) fn figure(
-    osc: &Oscillator,
-    start: Start,
-    (from, until): (f64, f64),
-    units: &Units,
-    title: String,
-) -> Figure {
+#[must_use]
+pub fn figure(osc: &Oscillator, start: Start, (from, until): (f64, f64), units: &Units, title: String) -> Figure {
     let fine = osc.period().min(core::f64::consts::TAU) / 240.0;
     let step = fine.max(until / MOST).max(f64::MIN_POSITIVE);
     let wave = sample(osc, start, until, step, 2_000_000);

@@ -3,13 +3,13 @@
 //! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other and both colours
 //! are seen. What does not repeat itself has small dots in both.
 
-use crate::args::Asked;
-use crate::exit::Failure;
-use crate::plot::{
+use crate::figure::{
     named,
     plane::{axis, half_cell},
     symbol, title_without,
 };
+use crate::units::shown_span;
+use crate::{Asked, ReportError};
 use std::collections::HashSet;
 use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Points, Raster, SERIES};
 use vibroimpact_study::Span;
@@ -34,7 +34,12 @@ struct Cloud {
     small: Vec<(u32, f64)>,
 }
 
-pub(crate) fn figure(found: &Diagram, over: &Span, asked: &Asked) -> Result<Figure, Failure> {
+/// The figure of `vibro diagram`.
+///
+/// # Errors
+/// [`ReportError::Plan`] where the values of the parameter leave the range of numbers in these units.
+pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
+    let over = &shown_span(&found.plan.over, asked.units.of(found.plan.vary))?;
     let mut clouds = clouds(found, asked);
     let range = spread(clouds.iter().flat_map(|cloud| cloud.large.iter().chain(&cloud.small)));
     for cloud in &mut clouds {
@@ -50,7 +55,7 @@ pub(crate) fn figure(found: &Diagram, over: &Span, asked: &Asked) -> Result<Figu
 }
 
 /// All its dots in one colour, to lie behind curves: those of motions that repeat themselves are wider than a curve.
-pub(crate) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colour) -> [Points; 2] {
+pub(super) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colour) -> [Points; 2] {
     let range = spread(clouds(found, asked).iter().flat_map(|cloud| cloud.large.iter().chain(&cloud.small)));
     [(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
         let steps = found.steps.iter().filter(|step| repeats(found, step) == repeating);
@@ -145,7 +150,7 @@ fn as_dots(mut panel: Panel, clouds: Vec<Cloud>, over: &Span) -> (Panel, Legend)
 }
 
 /// The same as a picture of cells, as many columns as there are values, or a whole part of them.
-fn as_cells(panel: Panel, clouds: &[Cloud], over: &Span, range: (f64, f64)) -> Result<(Panel, Legend), Failure> {
+fn as_cells(panel: Panel, clouds: &[Cloud], over: &Span, range: (f64, f64)) -> Result<(Panel, Legend), ReportError> {
     let values = over.count() as usize;
     let (columns, rows) = (values / values.div_ceil(MOST_COLUMNS), CELL_ROWS);
     let mut cells = vec![(u16::MAX, false); columns * rows];

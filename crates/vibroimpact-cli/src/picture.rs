@@ -1,0 +1,34 @@
+//! The files of figures.
+
+use crate::exit::Failure;
+use crate::files::Target;
+use std::path::Path;
+use vibroimpact_plot::{DPI_300, Figure};
+
+/// A place for a figure, known to be writable and of a known format.
+#[derive(Debug)]
+pub(crate) struct Picture {
+    target: Target,
+    png: bool,
+}
+
+impl Picture {
+    /// Reserves a file that ends in .svg or .png.
+    pub(crate) fn reserve(path: &Path, force: bool) -> Result<Self, Failure> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let png = match ending.as_deref() {
+            Some("svg") => false,
+            Some("png") => true,
+            _ => {
+                return Err(Failure::bad(format!("the figure `{}` ends in neither .svg nor .png", path.display())));
+            }
+        };
+        let target = Target::reserve(path, force)?;
+        Ok(Self { target, png })
+    }
+
+    pub(crate) fn write(self, figure: &Figure) -> Result<(), Failure> {
+        let bytes = if self.png { figure.to_png(DPI_300)? } else { figure.to_svg().into_bytes() };
+        self.target.write(|out| out.write_all(&bytes))
+    }
+}

@@ -1,0 +1,44 @@
+//! The motion once it has settled, over a few of its periods.
+
+use crate::Asked;
+use crate::figure::{label, title, waveform};
+use vibroimpact::motion::{EventKind, ImpactState, Motion};
+use vibroimpact::verdict::{Settled, Verdict};
+use vibroimpact::{Oscillator, Start};
+use vibroimpact_plot::Figure;
+
+/// Forcing periods shown of a steady motion.
+const SHOWN: f64 = 6.0;
+
+/// The figure of `vibro settle`: the motion once it has settled.
+#[must_use]
+pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> Figure {
+    let (from, time) = last_event(osc, start, settled.time);
+    let periods = match &settled.verdict {
+        Verdict::Periodic(cycle) => {
+            let n = f64::from(cycle.label.periods);
+            n * (SHOWN / n).ceil().max(2.0)
+        }
+        Verdict::Chaotic(_) | Verdict::Undecided(_) => 4.0 * SHOWN,
+        _ => SHOWN,
+    };
+    let label = label(&settled.verdict.label());
+    let name = format!("{}: {label}", title(&asked.system));
+    let span = (time, periods * osc.period());
+    waveform::figure(osc, from, span, &asked.units, name)
+}
+
+/// The state after the last event up to a time, and the time of that event.
+fn last_event(osc: &Oscillator, start: Start, until: f64) -> (Start, f64) {
+    let (mut state, mut time) = (start, 0.0);
+    for event in Motion::new(osc, start).take_while(|event| event.time <= until) {
+        let at_stop = ImpactState { phase: event.phase, velocity: 0.0, side: event.side };
+        let at_stop = match event.kind {
+            EventKind::Impact { velocity_before, .. } => ImpactState { velocity: velocity_before, ..at_stop },
+            EventKind::Stick { .. } | EventKind::Release => at_stop,
+            EventKind::Graze { .. } => continue,
+        };
+        (state, time) = (at_stop.rebound(osc), event.time);
+    }
+    (state, time)
+}

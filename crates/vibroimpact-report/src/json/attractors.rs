@@ -1,0 +1,47 @@
+//! The steady motions that scattered starts lead to, and their shares.
+
+use super::Document;
+use super::motion::{Motion, SharedMotion};
+use crate::Asked;
+use serde::Serialize;
+use vibroimpact::Oscillator;
+use vibroimpact::verdict::{Census, StartBox};
+use vibroimpact_study::Plan;
+
+/// What `vibro attractors` says.
+#[derive(Serialize)]
+struct Answer {
+    motions: Vec<SharedMotion>,
+    starts: u64,
+    seed: u64,
+    #[serde(rename = "box")]
+    area: Area,
+}
+
+/// Where the starts were.
+#[derive(Serialize)]
+struct Area {
+    x: (f64, f64),
+    v: (f64, f64),
+    phase: (f64, f64),
+}
+
+/// The object of `vibro attractors`: of so many starts of that sequence in the natural box of the system.
+#[must_use]
+pub fn document<'a>(
+    asked: &Asked,
+    plan: &'a Plan,
+    osc: &Oscillator,
+    (starts, seed): (u64, u64),
+    census: &Census,
+) -> impl Serialize + use<'a> {
+    let (units, area) = (&asked.units, StartBox::natural(osc));
+    let scaled = |(a, b): (f64, f64), unit: f64| (a * unit, b * unit);
+    let shared = census.by_share().into_iter().map(|found| SharedMotion {
+        motion: Motion::new(&found.verdict, osc, units),
+        share: census.share(found),
+        count: found.count,
+    });
+    let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
+    Document::new(asked, osc, plan, Answer { motions: shared.collect(), starts, seed, area })
+}

@@ -1,0 +1,49 @@
+//! The motions of a basin and their shares of its starts.
+
+use super::motion::{Motion, SharedMotion};
+use super::{Document, Place};
+use crate::Asked;
+use serde::Serialize;
+use vibroimpact::{Oscillator, Start};
+use vibroimpact_study::{Basin, Coordinate, Plan};
+
+/// What `vibro basin` says: the axes of the starts, and the values of what is on no axis.
+#[derive(Serialize)]
+struct Answer {
+    x: Place,
+    v: Place,
+    phase: Place,
+    motions: Vec<SharedMotion>,
+    starts: usize,
+}
+
+/// The object of `vibro basin`.
+#[must_use]
+pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Basin) -> impl Serialize + use<'a> {
+    let (units, task) = (&asked.units, &found.plan);
+    let place = |vary: Coordinate, unit: f64, fixed: f64| {
+        let axis = task.axes.iter().find(|axis| axis.vary == vary);
+        axis.map_or(Place::At(fixed * unit), |axis| Place::over(&axis.over, unit))
+    };
+    let shared = by_count(found).into_iter().map(|m| SharedMotion {
+        motion: Motion::new(&found.motions[m].verdict, osc, units),
+        share: found.share(m),
+        count: found.motions[m].count,
+    });
+    let answer = Answer {
+        x: place(Coordinate::X, units.length(), task.start.x.unwrap_or_else(|| Start::at_rest(osc).x)),
+        v: place(Coordinate::V, units.velocity(), task.start.v),
+        phase: place(Coordinate::Phase, 1.0, task.start.phase),
+        motions: shared.collect(),
+        starts: found.cells.len(),
+    };
+    Document::new(asked, osc, plan, answer)
+}
+
+/// The numbers of the motions, those that most starts lead to first.
+#[must_use]
+pub fn by_count(found: &Basin) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..found.motions.len()).collect();
+    order.sort_by_key(|m| core::cmp::Reverse(found.motions[*m].count));
+    order
+}

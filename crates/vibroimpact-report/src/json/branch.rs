@@ -1,0 +1,179 @@
+//! Branches of periodic orbits: their points, their events, and where further branches begin.
+
+use super::Document;
+use super::motion::{CyclePoint, Rest, impacts, pairs, rests, side};
+use crate::{Asked, Units};
+use serde::Serialize;
+use vibroimpact::Oscillator;
+use vibroimpact::Parameter;
+use vibroimpact::continuation::{BranchEvent, Point};
+use vibroimpact_study::{Branches, Chosen, Followed, Plan, Told};
+
+/// What `vibro branch` says.
+#[derive(Serialize)]
+struct Answer {
+    label: String,
+    vary: &'static str,
+    from: f64,
+    to: f64,
+    orbit: ChosenObject,
+    points: Vec<PointObject>,
+    events: Vec<EventObject>,
+    branches: Vec<BranchObject>,
+}
+
+/// Which of the orbits it began with.
+#[derive(Serialize)]
+pub(super) struct ChosenObject {
+    number: u32,
+    count: u32,
+}
+
+#[derive(Serialize)]
+struct PointObject {
+    parameter: f64,
+    label: String,
+    cycle: Vec<CyclePoint>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    rests: Vec<Rest>,
+    multipliers: [[f64; 2]; 2],
+    stable: bool,
+    physical: bool,
+}
+
+#[derive(Serialize)]
+struct EventObject {
+    kind: &'static str,
+    parameter: f64,
+    /// Place among the points.
+    point: usize,
+    ends: bool,
+    label_before: String,
+    label_after: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    change: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impact: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    side: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    phase: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turns: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<TouchObject>,
+}
+
+/// A touch together with that of the event.
+#[derive(Serialize)]
+struct TouchObject {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impact: Option<usize>,
+    side: &'static str,
+    phase: f64,
+}
+
+/// A further branch.
+#[derive(Serialize)]
+struct BranchObject {
+    from: OriginObject,
+    points: Vec<PointObject>,
+    events: Vec<EventObject>,
+}
+
+/// Where it begins.
+#[derive(Serialize)]
+struct OriginObject {
+    kind: &'static str,
+    parameter: f64,
+    /// Counted from 1, the branch of the orbit being the first.
+    branch: usize,
+}
+
+/// The object of `vibro branch`, of a parameter followed between these values.
+#[must_use]
+pub fn document<'a>(
+    asked: &Asked,
+    plan: &'a Plan,
+    osc: &Oscillator,
+    found: &Branches,
+    (vary, ends): (Parameter, (f64, f64)),
+) -> impl Serialize + use<'a> {
+    Document::new(asked, osc, plan, Answer::new(found, vary, ends, &asked.units))
+}
+
+impl ChosenObject {
+    pub(super) const fn new(chosen: &Chosen) -> Self {
+        Self { number: chosen.number, count: chosen.count }
+    }
+}
+
+impl Answer {
+    fn new(found: &Branches, vary: Parameter, (from, to): (f64, f64), units: &Units) -> Self {
+        let unit = units.of(vary);
+        let points =
+            |branch: &Followed| branch.points.iter().map(|point| PointObject::new(point, unit, units)).collect();
+        let mut rest = found.followed.iter();
+        let first = rest.next();
+        Self {
+            label: found.chosen.orbit.cycle.label.to_string(),
+            vary: vary.name(),
+            from: from * unit,
+            to: to * unit,
+            orbit: ChosenObject::new(&found.chosen),
+            points: first.map_or_else(Vec::new, points),
+            events: first.map_or_else(Vec::new, |branch| events(branch, unit)),
+            branches: rest
+                .filter_map(|branch| {
+                    let origin = branch.origin.as_ref()?;
+                    let from = OriginObject {
+                        kind: origin.point.event.map_or("", |event| event.name()),
+                        parameter: origin.point.value * unit,
+                        branch: origin.branch + 1,
+                    };
+                    Some(BranchObject { from, points: points(branch), events: events(branch, unit) })
+                })
+                .collect(),
+        }
+    }
+}
+
+impl PointObject {
+    fn new(point: &Point, unit: f64, units: &Units) -> Self {
+        Self {
+            parameter: point.value * unit,
+            label: point.cycle.label.to_string(),
+            cycle: impacts(&point.cycle, units),
+            rests: rests(&point.cycle),
+            multipliers: pairs(point.cycle.multipliers),
+            stable: point.stable(),
+            physical: point.physical,
+        }
+    }
+}
+
+fn events(branch: &Followed, unit: f64) -> Vec<EventObject> {
+    let all = branch.points.iter().enumerate();
+    all.filter_map(|(k, point)| point.event.map(|event| EventObject::new(k, point, &event, unit))).collect()
+}
+
+impl EventObject {
+    fn new(place: usize, point: &Point, event: &BranchEvent, unit: f64) -> Self {
+        let Told { kind, ends, label_before, label_after, change, impact, side: at, phase, turns, also } =
+            Told::of(point, event);
+        Self {
+            kind,
+            parameter: point.value * unit,
+            point: place,
+            ends,
+            label_after,
+            label_before,
+            change,
+            impact,
+            side: at.map(side),
+            phase,
+            turns,
+            also: also.map(|(impact, at, phase)| TouchObject { impact, side: side(at), phase }),
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Curves of events in a plane of two parameters: their points, and those of codimension two.
+
+use super::Document;
+use super::branch::ChosenObject;
+use super::motion::{CyclePoint, impacts, pairs};
+use crate::{Asked, Units};
+use serde::Serialize;
+use vibroimpact::Oscillator;
+use vibroimpact::continuation::CurvePoint;
+use vibroimpact_study::{CurvePlan, EventCurve, Plan};
+
+/// What `vibro curve` says. Pairs of values are in the order of `parameters`.
+#[derive(Serialize)]
+struct Answer {
+    label: String,
+    kind: &'static str,
+    parameters: [&'static str; 2],
+    orbit: ChosenObject,
+    /// Values of the first parameter at the events of that kind on the branch.
+    found_at: Vec<f64>,
+    /// The one the curve goes through, counted from 1, and its place among the points.
+    through: Through,
+    points: Vec<PointObject>,
+    events: Vec<EventObject>,
+}
+
+#[derive(Serialize)]
+struct Through {
+    event: usize,
+    point: usize,
+}
+
+#[derive(Serialize)]
+struct PointObject {
+    values: [f64; 2],
+    physical: bool,
+    /// On a grazing curve with the impact of speed zero in it.
+    cycle: Vec<CyclePoint>,
+    multipliers: [[f64; 2]; 2],
+}
+
+#[derive(Serialize)]
+struct EventObject {
+    kind: &'static str,
+    values: [f64; 2],
+    point: usize,
+}
+
+/// The object of `vibro curve`.
+#[must_use]
+pub fn document<'a>(
+    asked: &Asked,
+    plan: &'a Plan,
+    osc: &Oscillator,
+    (task, found): (&CurvePlan, &EventCurve),
+) -> impl Serialize + use<'a> {
+    Document::new(asked, osc, plan, Answer::new(found, task, &asked.units))
+}
+
+/// Values of both parameters at a point, in the units of the results.
+#[must_use]
+pub fn values(point: &CurvePoint, plan: &CurvePlan, units: &Units) -> [f64; 2] {
+    [point.values.0 * units.of(plan.vary.parameter), point.values.1 * units.of(plan.and.parameter)]
+}
+
+impl Answer {
+    fn new(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Self {
+        let points = found.points.iter();
+        Self {
+            label: plan.label.trim().to_owned(),
+            kind: plan.kind.name(),
+            parameters: [plan.vary.parameter.name(), plan.and.parameter.name()],
+            orbit: ChosenObject::new(&found.chosen),
+            found_at: found.events.iter().map(|event| event.value * units.of(plan.vary.parameter)).collect(),
+            through: Through { event: found.through + 1, point: found.begin },
+            events: points
+                .clone()
+                .enumerate()
+                .filter_map(|(k, point)| {
+                    Some(EventObject { kind: point.event?.name(), values: values(point, plan, units), point: k })
+                })
+                .collect(),
+            points: points
+                .map(|point| PointObject {
+                    values: values(point, plan, units),
+                    physical: point.physical,
+                    cycle: impacts(&point.cycle, units),
+                    multipliers: pairs(point.cycle.multipliers),
+                })
+                .collect(),
+        }
+    }
+}

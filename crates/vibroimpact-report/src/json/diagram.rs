@@ -1,0 +1,72 @@
+//! An orbit diagram as a count of what there is.
+
+use super::{Document, Range};
+use crate::Asked;
+use crate::table::diagram::columns;
+use serde::Serialize;
+use vibroimpact_study::diagram::{Diagram, Direction, Kind, Sweep};
+use vibroimpact_study::{Plan, PlanError};
+
+/// What `vibro diagram` says.
+#[derive(Serialize)]
+struct Answer {
+    vary: &'static str,
+    over: Range,
+    columns: Vec<&'static str>,
+    sweeps: Vec<Counts>,
+}
+
+/// The object of `vibro diagram`.
+///
+/// # Errors
+/// [`PlanError`] for a system that makes no sense.
+pub fn document<'a>(asked: &Asked, plan: &'a Plan, found: &Diagram) -> Result<impl Serialize + use<'a>, PlanError> {
+    let (task, osc) = (&found.plan, asked.system.oscillator()?);
+    let over = Range::new(&task.over, asked.units.of(task.vary));
+    let answer = Answer { vary: task.vary.name(), over, columns: columns(found), sweeps: counts(found) };
+    Ok(Document::new(asked, &osc, plan, answer))
+}
+
+/// What the motions of a sweep, or of all scattered starts, turned out to be.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Counts {
+    /// `up`, `down` or `scatter`.
+    pub sweep: &'static str,
+    /// Motions followed.
+    pub motions: usize,
+    /// Those with impacts.
+    pub impact: usize,
+    /// Those without.
+    pub none: usize,
+    /// Those at rest on a stop for ever.
+    pub stuck: usize,
+    /// Those whose search ran out of steps.
+    pub undecided: usize,
+    /// Points to show.
+    pub points: usize,
+}
+
+/// The counts, one for each sweep.
+#[must_use]
+pub fn counts(found: &Diagram) -> Vec<Counts> {
+    let names: &[&str] = match found.plan.direction {
+        Direction::Up => &["up"],
+        Direction::Down => &["down"],
+        Direction::Both => &["up", "down"],
+        Direction::Scatter { .. } => &["scatter"],
+    };
+    let mut counts: Vec<Counts> = names.iter().map(|sweep| Counts { sweep, ..Counts::default() }).collect();
+    for step in &found.steps {
+        let row = usize::from(step.sweep == Sweep::Down && counts.len() > 1);
+        let count = &mut counts[row];
+        count.motions += 1;
+        count.points += step.points.len();
+        *match step.kind {
+            Kind::Impacts => &mut count.impact,
+            Kind::NoImpact => &mut count.none,
+            Kind::Stuck => &mut count.stuck,
+            Kind::Undecided => &mut count.undecided,
+        } += 1;
+    }
+    counts
+}

@@ -1,0 +1,106 @@
+//! The labels of a map and how often they occur.
+
+use super::Range;
+use crate::PROGRAM;
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use vibroimpact_plot::{GROUPS, legend_group};
+use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, RegionMap, SystemPlan, Values};
+
+/// What `vibro map` says. A map is nondimensional whatever the units.
+#[derive(Serialize)]
+struct Answer<'a> {
+    system: serde_json::Map<String, Value>,
+    #[serde(flatten)]
+    axes: serde_json::Map<String, Value>,
+    starts: u64,
+    seed: u64,
+    points: usize,
+    coexisting: usize,
+    labels: Vec<LabelCount>,
+    plan: &'a Plan,
+    program: &'static str,
+}
+
+/// How often a label occurs.
+#[derive(Clone, Debug, Serialize)]
+pub struct LabelCount {
+    /// The label.
+    pub label: String,
+    /// Points that have such a motion.
+    pub points: u64,
+    /// Its share of all starts.
+    pub share: f64,
+}
+
+/// The object of `vibro map`.
+#[must_use]
+pub fn document<'a>(plan: &'a Plan, found: &RegionMap) -> impl Serialize + use<'a> {
+    let task = &found.plan;
+    let (system, axes) = objects(&plan.system, &task.axes);
+    Answer {
+        system,
+        axes,
+        starts: task.starts,
+        seed: task.seed,
+        points: found.points.len(),
+        coexisting: coexisting(found),
+        labels: counts(found),
+        plan,
+        program: PROGRAM,
+    }
+}
+
+/// Points where several motions coexist.
+#[must_use]
+pub fn coexisting(found: &RegionMap) -> usize {
+    found.points.iter().filter(|point| point.motions.len() > 1).count()
+}
+
+/// What is the same at all points, and what varies.
+fn objects(system: &SystemPlan, axes: &[Axis]) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
+    let mut fixed = serde_json::Map::new();
+    for parameter in Parameter::ALL {
+        let given = match parameter {
+            Parameter::Beta => system.beta,
+            Parameter::InverseBeta => system.inverse_beta,
+            Parameter::SecondGap | Parameter::SecondRestitution => None,
+            _ => system.value(parameter).ok(),
+        };
+        if let Some(value) = given.filter(|_| !axes.iter().any(|axis| axis.vary == Coordinate::Parameter(parameter))) {
+            fixed.insert(parameter.name().to_owned(), value.into());
+        }
+    }
+    if let Some(stop) = system.second_stop {
+        fixed.insert("second_stop".into(), serde_json::json!({ "gap": stop.gap, "restitution": stop.restitution }));
+    }
+    let range = |axis: &Axis| match &axis.over {
+        Values::Span(span) => serde_json::to_value(Range::new(span, 1.0)).unwrap_or_default(),
+        Values::Listed(values) => values.clone().into(),
+    };
+    (fixed, axes.iter().map(|axis| (axis.vary.name().to_owned(), range(axis))).collect())
+}
+
+/// Labels in the order of a legend, then by name.
+#[must_use]
+pub fn counts(found: &RegionMap) -> Vec<LabelCount> {
+    let mut counts: BTreeMap<(usize, String), (u64, f64)> = BTreeMap::new();
+    for point in &found.points {
+        let mut here: Vec<String> = Vec::new();
+        for motion in &point.motions {
+            let label = motion.verdict.label().into_owned();
+            let group = legend_group(&label);
+            let rank = GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len());
+            let entry = counts.entry((rank, label.clone())).or_default();
+            entry.1 += motion.share;
+            if !here.contains(&label) {
+                entry.0 += 1;
+                here.push(label);
+            }
+        }
+    }
+    #[allow(clippy::cast_precision_loss)] // at most 1e8
+    let all = found.points.len() as f64;
+    counts.into_iter().map(|((_, label), (points, share))| LabelCount { label, points, share: share / all }).collect()
+}

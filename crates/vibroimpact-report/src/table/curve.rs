@@ -1,0 +1,30 @@
+//! Curves of events in a plane of two parameters: one row a point.
+
+use super::Table;
+use super::branch::cells;
+use crate::Units;
+use crate::json::curve::values;
+use crate::number::Number;
+use vibroimpact_study::{CurvePlan, EventCurve};
+
+/// The table of `vibro curve`.
+#[must_use]
+pub fn table<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -> Table<'a> {
+    Table::new(columns(plan), rows(found, plan, units))
+}
+
+/// The columns of the table.
+fn columns(plan: &CurvePlan) -> String {
+    let (p, q) = (plan.vary.parameter.name(), plan.and.parameter.name());
+    format!("{p},{q},physical,event,re_1,im_1,re_2,im_2,phases,velocities")
+}
+
+/// One row a point, from one end to the other.
+fn rows<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -> impl Iterator<Item = String> + 'a {
+    found.points.iter().map(move |point| {
+        let [p, q] = values(point, plan, units);
+        let event = point.event.map_or("", |event| event.name());
+        let head = format!("{},{},{},{event}", Number(p), Number(q), point.physical);
+        format!("{head},{}", cells(&point.cycle, units))
+    })
+}

@@ -1,0 +1,72 @@
+//! An orbit diagram: one row a point.
+
+use super::Table;
+use crate::Units;
+use crate::json::motion::side;
+use crate::number::Number;
+use crate::units::shown_span;
+use vibroimpact_study::diagram::{Diagram, Kind, Point, Show, Step, Sweep};
+use vibroimpact_study::{PlanError, Span};
+
+/// The table of `vibro diagram`.
+///
+/// # Errors
+/// [`PlanError`] where the values of the parameter leave the range of numbers in these units.
+pub fn table(found: &Diagram, units: Units) -> Result<Table<'_>, PlanError> {
+    let over = shown_span(&found.plan.over, units.of(found.plan.vary))?;
+    Ok(Table::new(columns(found).join(","), rows(found, over, units)))
+}
+
+/// The columns of the table.
+#[must_use]
+pub fn columns(found: &Diagram) -> Vec<&'static str> {
+    let name = found.plan.vary.name();
+    match found.plan.show {
+        Show::Velocity => vec![name, "sweep", "kind", "side", "phase", "velocity"],
+        Show::Strobe => vec![name, "sweep", "kind", "x", "v"],
+    }
+}
+
+/// One row a point; one row with empty places for a motion that has none to show. Values of the parameter are the very
+/// numbers of the question.
+fn rows(found: &Diagram, over: Span, units: Units) -> impl Iterator<Item = String> + '_ {
+    let none = match found.plan.show {
+        Show::Velocity => ",,",
+        Show::Strobe => ",",
+    };
+    found.steps.iter().flat_map(move |step| {
+        let head = format!("{},{}", Number(over.at(step.index)), sweep(step.sweep));
+        let alone = step.points.is_empty().then(|| format!("{head},{},{none}", kind(step.kind)));
+        let points = step.points.iter().map(move |point| format!("{head},{}", row(step, point, units)));
+        alone.into_iter().chain(points)
+    })
+}
+
+fn row(step: &Step, point: &Point, units: Units) -> String {
+    match point {
+        Point::Impact { phase, velocity, side: at } => {
+            format!("impact,{},{},{}", side(*at), Number(*phase), Number(velocity * units.velocity()))
+        }
+        Point::Chatter { phase, side: at } => format!("chatter,{},{},0", side(*at), Number(*phase)),
+        Point::State { x, v } => {
+            format!("{},{},{}", kind(step.kind), Number(x * units.length()), Number(v * units.velocity()))
+        }
+    }
+}
+
+fn sweep(sweep: Sweep) -> String {
+    match sweep {
+        Sweep::Up => "up".into(),
+        Sweep::Down => "down".into(),
+        Sweep::Start(k) => format!("start {}", k + 1),
+    }
+}
+
+const fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Impacts => "impact",
+        Kind::NoImpact => "none",
+        Kind::Stuck => "stuck",
+        Kind::Undecided => "undecided",
+    }
+}

@@ -1,0 +1,18 @@
+//! A map: one row a motion at a point.
+
+use super::Table;
+use crate::number::Number;
+use vibroimpact_study::RegionMap;
+
+/// The table of `vibro map`: what varies, the label, and its share of the starts.
+#[must_use]
+pub fn table(found: &RegionMap) -> Table<'_> {
+    let names: Vec<&str> = found.plan.axes.iter().map(|axis| axis.vary.name()).collect();
+    let rows = found.points.iter().flat_map(|point| {
+        point.motions.iter().map(|motion| {
+            let place: Vec<String> = point.at.iter().map(|at| Number(*at).to_string()).collect();
+            format!("{},{},{}", place.join(","), motion.verdict.label(), Number(motion.share))
+        })
+    });
+    Table::new(format!("{},label,share", names.join(",")), rows)
+}

@@ -1,0 +1,36 @@
+//! A motion over time: one row a point.
+
+use super::Table;
+use crate::number::Number;
+use crate::{ReportError, Units};
+use vibroimpact::motion::sample;
+use vibroimpact::{Oscillator, Start};
+
+/// Points of a waveform at most.
+const MOST_POINTS: f64 = 1e7;
+
+/// The table of `vibro simulate`: the motion from a start until a time, a step apart, and at its events.
+///
+/// # Errors
+/// [`ReportError::Points`] for more than ten million points.
+pub fn table(
+    osc: &Oscillator,
+    start: Start,
+    (until, step): (f64, f64),
+    units: Units,
+) -> Result<Table<'static>, ReportError> {
+    if until / step > MOST_POINTS || until.is_nan() {
+        return Err(ReportError::Points { step, until, most: MOST_POINTS });
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1e7
+    let wave = sample(osc, start, until, step, 3 * MOST_POINTS as usize);
+    let rows = wave.into_iter().map(move |point| {
+        format!(
+            "{},{},{}",
+            Number(point.time * units.time()),
+            Number(point.x * units.length()),
+            Number(point.v * units.velocity())
+        )
+    });
+    Ok(Table::new("t,x,v".to_owned(), rows))
+}
