@@ -5,6 +5,7 @@
 //!
 //! | idea | file |
 //! |---|---|
+//! | one door from a plan to all that is told about it | [`answer()`], [`Answer`] |
 //! | the system asked about, and the units of results | [`Asked`], [`Units`] |
 //! | the JSON objects of the commands, one file for each | [`json`] |
 //! | the rows of their tables | [`Table`], [`table`] |
@@ -12,6 +13,7 @@
 //! | numbers as text | [`number`] |
 //! | what cannot be drawn or tabulated | [`ReportError`] |
 
+pub mod answer;
 mod error;
 pub mod figure;
 pub mod json;
@@ -19,6 +21,7 @@ pub mod number;
 pub mod table;
 mod units;
 
+pub use answer::{Answer, AnswerError, answer};
 pub use error::ReportError;
 pub use table::Table;
 pub use units::{Asked, Units};

@@ -153,7 +153,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     let silent = outputs.any();
     outputs.write(session, || Ok(table(&found, units)?), || Ok(figure(&found, &asked)?))?;
     if args.json {
-        return session.print_json(&document(&asked, &plan, &found)?);
+        return session.print_json(&document(&asked, &plan, &asked.system.oscillator()?, &found));
     }
     if silent {
         return Ok(());

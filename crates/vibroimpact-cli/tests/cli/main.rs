@@ -9,6 +9,7 @@ mod lyapunov;
 mod planes;
 mod refusals;
 mod studies;
+mod told;
 
 use assert_cmd::Command;
 use serde_json::Value;

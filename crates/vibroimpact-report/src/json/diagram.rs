@@ -4,8 +4,9 @@ use super::{Document, Range};
 use crate::Asked;
 use crate::table::diagram::columns;
 use serde::Serialize;
+use vibroimpact::Oscillator;
+use vibroimpact_study::Plan;
 use vibroimpact_study::diagram::{Diagram, Direction, Kind, Sweep};
-use vibroimpact_study::{Plan, PlanError};
 
 /// What `vibro diagram` says.
 #[derive(Serialize)]
@@ -17,14 +18,12 @@ struct Answer {
 }
 
 /// The object of `vibro diagram`.
-///
-/// # Errors
-/// [`PlanError`] for a system that makes no sense.
-pub fn document<'a>(asked: &Asked, plan: &'a Plan, found: &Diagram) -> Result<impl Serialize + use<'a>, PlanError> {
-    let (task, osc) = (&found.plan, asked.system.oscillator()?);
+#[must_use]
+pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Diagram) -> impl Serialize + use<'a> {
+    let task = &found.plan;
     let over = Range::new(&task.over, asked.units.of(task.vary));
     let answer = Answer { vary: task.vary.name(), over, columns: columns(found), sweeps: counts(found) };
-    Ok(Document::new(asked, &osc, plan, answer))
+    Document::new(asked, osc, plan, answer)
 }
 
 /// What the motions of a sweep, or of all scattered starts, turned out to be.

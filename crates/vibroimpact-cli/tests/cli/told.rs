@@ -1,0 +1,91 @@
+//! What the library tells of a plan is what the command prints, writes and draws, to the byte.
+
+use crate::{S, vibro};
+use serde_json::Value;
+use vibroimpact::Scales;
+use vibroimpact_report::{Units, answer};
+use vibroimpact_study::{Control, Plan};
+
+/// A machine: omega_n = 20 rad/s, F/k = 0.005 m.
+const MACHINE: &str =
+    "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --gap-m 0.003 --restitution 0.6 --units si";
+
+/// The units an object is told in.
+fn units(object: &Value) -> Units {
+    let scales = &object["system"]["scales"];
+    let number = |key: &str| scales[key].as_f64();
+    let scales = number("length_m").zip(number("time_s"));
+    Units { scales: scales.map(|(length_m, time_s)| Scales { length_m, time_s }), si: object["units"] == "si" }
+}
+
+/// Runs a command with all its outputs, and asks the library the plan that it prints.
+fn same(line: &str) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (csv, svg) = (folder.path().join("table.csv"), folder.path().join("figure.svg"));
+    let task = line.split_whitespace().next().expect("a command");
+    let mut command = vibro(line);
+    command.arg("--json");
+    if !["settle", "attractors", "orbit"].contains(&task) {
+        command.arg("--csv").arg(&csv);
+    }
+    if !["attractors", "orbit"].contains(&task) {
+        command.arg("--plot").arg(&svg);
+    }
+    let output = command.output().expect("vibro runs");
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    let printed = String::from_utf8(output.stdout).expect("text");
+    let object: Value = serde_json::from_str(&printed).expect("one object");
+    let plan: Plan = serde_json::from_value(object["plan"].clone()).expect("a plan");
+    let control = Control::default();
+    let told = answer(&plan, units(&object), &control).expect("it was answered before");
+    assert_eq!(told.json() + "\n", printed, "{line}");
+    let table = told.table().expect("it was written before").map(|table| {
+        let mut text = Vec::new();
+        table.write(&mut text).expect("memory takes it");
+        text
+    });
+    assert!(table == std::fs::read(&csv).ok(), "the table of {line}");
+    let figure = told.figure(&control).expect("it was drawn before").map(|figure| figure.to_svg().into_bytes());
+    assert!(figure == std::fs::read(&svg).ok(), "the figure of {line}");
+}
+
+#[test]
+fn of_one_motion() {
+    same(&format!("simulate {S} --v 1 --impacts 20"));
+    same("simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 3");
+    same(&format!("simulate {MACHINE} --x -0.01 --impacts 5"));
+    same(&format!("settle {S} --v 1"));
+    same(&format!("settle {MACHINE} --v 0.1"));
+    same("lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --second-gap 4 --impacts 1000 --points 300");
+    same(&format!("lyapunov {MACHINE} --impacts 1000 --points 30"));
+}
+
+#[test]
+fn of_many_starts() {
+    same(&format!("attractors {S} --starts 40 --seed 3"));
+    same(&format!("attractors {MACHINE} --starts 10"));
+    same(&format!("basin {S} --x -2:0.75:12 --v -2:2:9 --phase 1 --impacts 300"));
+    same(&format!("basin {MACHINE} --x -0.0123:0.003:9 --v -0.13:0.17:7"));
+}
+
+#[test]
+fn over_parameters() {
+    same("map --inverse-beta 1:1.5:5 --gap 0:1:4 --restitution 0.5 --starts 3 --seed 2");
+    same(
+        "map --beta 0.1:10:4:log --restitution 0.2,0.5,0.9 --gap 1 --second-gap 2 --second-restitution 0.4 --starts 2",
+    );
+    same("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:31 --transient 100 --keep 16");
+    same(&format!("diagram {MACHINE} --vary gap --over 0.001:0.0123:14 --direction up --transient 50"));
+    same("diagram --gap 0 --restitution 0.8 --vary beta --over 2.5:3:7 --direction scatter --starts 3 --show strobe");
+}
+
+#[test]
+fn of_orbits() {
+    same(&format!("orbit {S} --label 1/1"));
+    same(&format!("orbit {MACHINE} --label 1/1"));
+    same("branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 1.9 --follow 1");
+    same(
+        "curve --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --kind flip --vary gap=1:2 --and inverse-beta=1.1:1.12",
+    );
+    same("region --label 1/1 --inverse-beta 1.05:1.2 --gap 1:2.5 --restitution 0.5 --grid 4");
+}
