@@ -1,0 +1,116 @@
+/** Questions to the server, with errors as the sentences it gives. */
+
+/** The server refused, and says why. */
+export class ServerError extends Error {}
+
+/** The server does not answer any more. */
+export class ServerGone extends Error {
+  constructor() {
+    super("The server has stopped; start `vibro explore` again.");
+  }
+}
+
+async function ask(path, { body, signal, accept } = {}) {
+  const headers = { accept: accept ?? "*/*" };
+  if (body !== undefined) headers["content-type"] = "application/json";
+  let response;
+  try {
+    response = await fetch(path, {
+      method: body === undefined ? "GET" : "POST", headers, signal,
+      body: body === undefined ? undefined : JSON.stringify(body),
+    });
+  } catch (error) {
+    throw error.name === "AbortError" ? error : new ServerGone();
+  }
+  if (response.ok) return response;
+  const told = await response.json().catch(() => null);
+  throw new ServerError(told?.error ?? `The server answered ${response.status} ${response.statusText}.`);
+}
+
+/** What the body of an answer holds; a connection that breaks on the way is a server that is gone. */
+async function whole(reading) {
+  try {
+    return await reading;
+  } catch (error) {
+    throw error.name === "AbortError" ? error : new ServerGone();
+  }
+}
+
+const withQuery = (path, query) => {
+  const given = Object.entries(query).filter(([, value]) => value !== undefined && value !== null);
+  return given.length ? `${path}?${new URLSearchParams(given)}` : path;
+};
+
+export const about = async () => (await ask("/api/about")).json();
+
+/**
+ * A tile: its header, and its fields as typed arrays by name.
+ * @param {object} plan
+ * @param {AbortSignal} [signal]
+ */
+export async function tile(plan, signal) {
+  const buffer = await whole((await ask("/api/tile", { body: plan, signal })).arrayBuffer());
+  const length = new DataView(buffer).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+  const kinds = { i32: Int32Array, f64: Float64Array, i8: Int8Array };
+  const fields = {};
+  for (const field of header.fields) {
+    const values = new kinds[field.type](buffer, 4 + length + field.offset, field.length);
+    fields[field.name] = { values, per: field.per_point };
+  }
+  return { header, fields };
+}
+
+/** Server-sent events of an answer, one after another. */
+async function* events(response) {
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (;;) {
+    const { value, done } = await whole(reader.read());
+    if (done) return;
+    text = (text + value).replaceAll("\r\n", "\n");
+    for (let end = text.indexOf("\n\n"); end >= 0; end = text.indexOf("\n\n")) {
+      const lines = text.slice(0, end).split("\n");
+      text = text.slice(end + 2);
+      const part = (name) => lines.filter((l) => l.startsWith(`${name}:`)).map((l) => l.slice(name.length + 1).trim());
+      const data = part("data").join("\n");
+      if (data) yield { event: part("event")[0] ?? "message", data: JSON.parse(data) };
+    }
+  }
+}
+
+async function told(path, plan, signal, onProgress) {
+  const response = await ask(path, { body: plan, signal, accept: "text/event-stream" });
+  if (!response.headers.get("content-type")?.startsWith("text/event-stream")) return whole(response.json());
+  for await (const { event, data } of events(response)) {
+    if (event === "progress") onProgress?.(data.total ? data.done / data.total : 0);
+    if (event === "error") throw new ServerError(data.error);
+    if (event === "done") return data;
+  }
+  throw new ServerGone();
+}
+
+/** @returns {Promise<object>} what `vibro TASK --json` prints */
+export const answer = (plan, signal, onProgress) => told("/api/answer", plan, signal, onProgress);
+
+/** @returns {Promise<{svg: string}>} the orbit diagram with its branches */
+export const bifurcation = (plan, query, signal, onProgress) =>
+  told(withQuery("/api/bifurcation", query), plan, signal, onProgress);
+
+/** @returns {Promise<object>} `regions` or `curves` */
+export const layer = (kind, plan, signal, onProgress) =>
+  told(withQuery("/api/layer", { kind }), plan, signal, onProgress);
+
+/**
+ * @param {object} plan
+ * @param {{format: "svg" | "png", width?: number, height?: number, kind?: string}} query
+ * @param {AbortSignal} [signal]
+ * @returns {Promise<Blob>}
+ */
+export const figure = async (plan, query, signal) =>
+  whole((await ask(withQuery("/api/figure", query), { body: plan, signal })).blob());
+
+export const table = async (plan, signal) => whole((await ask("/api/table", { body: plan, signal })).blob());
+
+/** @returns {Promise<{vibro: string, python: string}>} */
+export const command = async (plan, signal) => whole((await ask("/api/command", { body: plan, signal })).json());

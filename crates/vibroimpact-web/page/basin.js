@@ -1,0 +1,178 @@
+/** The basin of the chosen point: which motion each start leads to, with the chosen start to be dragged. */
+
+import { START } from "./parameters.js";
+import { basinPlan, room, startOf, systemOf } from "./plans.js";
+import { digits } from "./ticks.js";
+import { TileView } from "./tileview.js";
+import { Viewport } from "./viewport.js";
+import { legendText } from "./words.js";
+
+/** Numbers of cycles begin here, beyond all codes of labels. */
+const CYCLES = 2_000_000_000;
+
+/** The colour of the k-th cycle of a label: darker and lighter in turn. */
+function shade(colour, k) {
+  if (k === 0) return colour;
+  const rgb = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+  const light = rgb[0] * 0.3 + rgb[1] * 0.6 + rgb[2] * 0.1 > 110;
+  const towards = light === (k % 2 === 1) ? 0 : 255;
+  const part = Math.min(0.75, 0.32 * Math.ceil(k / 2));
+  return `#${rgb.map((v) => Math.round(v + part * (towards - v)).toString(16).padStart(2, "0")).join("")}`;
+}
+
+/** Cycles seen so far, numbered in the order of their appearance. */
+class Cycles {
+  constructor() {
+    this.list = [];
+  }
+
+  number({ label, phase, velocity, colour }) {
+    const same = (a, b) => Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(a));
+    const alike = (c) => c.label === label && same(c.velocity, velocity) && same(Math.cos(c.phase), Math.cos(phase))
+      && same(Math.sin(c.phase), Math.sin(phase));
+    let at = this.list.findIndex(alike);
+    if (at < 0) {
+      const variant = this.list.filter((cycle) => cycle.label === label).length;
+      at = this.list.push({ label, phase, velocity, variant, colour: shade(colour, variant) }) - 1;
+    }
+    return CYCLES + at;
+  }
+
+  look(id) {
+    const { label, variant, colour } = this.list[id - CYCLES];
+    return { name: label, variant, colour };
+  }
+}
+
+/** @param {import("./state.js").State} state @returns {number[]} what the basin shows first */
+export function basinWindow(state) {
+  const [lowest, highest] = room(state);
+  if (Number.isFinite(lowest)) {
+    const air = 0.05 * (highest - lowest);
+    return [lowest - air, highest + air, ...START.v.window];
+  }
+  return [Math.min(START.x.window[0], highest - 8), highest + 0.4, ...START.v.window];
+}
+
+export class Basin {
+  /**
+   * @param {HTMLElement} host
+   * @param {import("./state.js").Store} store
+   * @param {{cache: object, queue: object, failed: (error: Error) => void}} parts
+   * @param {{dragged: (start: number[]) => void, dropped: (start: number[]) => void}} heard
+   */
+  constructor(host, store, parts, heard) {
+    Object.assign(this, { store, heard, labels: new Map(), cycles: new Map(), dot: null });
+    this.view = new TileView(host, { ...parts, label: "Starts: initial position and velocity. Arrow keys move, plus and minus zoom, Enter puts the start at the cross." });
+    this.view.painters.push((context, viewport, frame) => this.paint(context, viewport, frame));
+    this.view.grab = (px, xy, touch) => this.hold(px, touch);
+    this.view.hand = (px) => this.near(px, 12);
+    this.view.addEventListener("pick", ({ detail }) => this.put(detail));
+    this.view.addEventListener("view", () => store.set({ basin: this.view.viewport.window() }, "replace"));
+    this.view.addEventListener("home", () => store.set({ basin: null }));
+  }
+
+  /** Shows the basin of the state, nothing where no point is chosen. */
+  refresh() {
+    const { state } = this.store;
+    const source = this.source();
+    this.dot = null;
+    const window = state.basin ?? basinWindow(state);
+    const elsewhere = JSON.stringify(window) !== JSON.stringify(this.view.viewport.window());
+    this.view.show(source, elsewhere || !this.view.home ? window : null);
+  }
+
+  /** @returns {import("./tileview.js").Source} */
+  source() {
+    const state = structuredClone(this.store.state);
+    const key = JSON.stringify(["basin", systemOf(state), startOf(state).phase, state.impacts]);
+    if (!this.cycles.has(key)) this.cycles.set(key, new Cycles());
+    const cycles = this.cycles.get(key);
+    return {
+      key,
+      x: START.x,
+      y: START.v,
+      legal: { x: room(state), y: [-Infinity, Infinity] },
+      plan: (overX, overY, refine) => basinPlan(state, overX, overY, refine),
+      look: (id) => (id >= CYCLES ? cycles.look(id) : this.labels.get(id)) ?? { name: "undecided", colour: "#ffffff" },
+      read: ({ header, fields }) => {
+        for (const [code, look] of Object.entries(header.labels)) this.labels.set(Number(code), look);
+        const numbers = header.cycles.map((cycle) => cycles.number(cycle));
+        const classes = fields.label.values.map((label, at) => {
+          const cycle = fields.cycle.values[at];
+          return cycle >= 0 ? numbers[cycle] : label;
+        });
+        return { classes, shares: null, per: 1 };
+      },
+    };
+  }
+
+  get place() {
+    const { x, v } = startOf(this.store.state);
+    return this.dot ?? [x, v];
+  }
+
+  near(px, reach) {
+    const [x, y] = this.view.viewport.toPixel(...this.place);
+    return Math.hypot(px[0] - x, px[1] - y) < reach;
+  }
+
+  hold(px, touch) {
+    if (!this.near(px, touch ? 26 : 12)) return null;
+    return {
+      move: (at) => {
+        this.dot = this.legal(at);
+        this.view.draw();
+        this.heard.dragged(this.dot);
+      },
+      up: () => {
+        if (this.dot) this.heard.dropped(this.dot);
+        this.dot = null;
+      },
+      cancel: () => {
+        this.dot = null;
+        this.view.draw();
+      },
+    };
+  }
+
+  put(px) {
+    this.heard.dropped(this.legal(px));
+  }
+
+  /** The start at a pixel, within the stops. */
+  legal(px) {
+    const { viewport: v } = this.view;
+    const [x, y] = v.toPlane(...px);
+    const [lowest, highest] = room(this.store.state);
+    return [Math.min(highest, Math.max(lowest, Viewport.rounded(x, v.hx))), Viewport.rounded(y, v.hy)];
+  }
+
+  paint(context, viewport, frame) {
+    for (const at of room(this.store.state).filter(Number.isFinite)) {
+      const [px] = viewport.toPixel(at, 0);
+      context.lineWidth = 2;
+      context.strokeStyle = frame.colours.ink;
+      context.beginPath();
+      context.moveTo(px, 0);
+      context.lineTo(px, viewport.height);
+      context.stroke();
+    }
+    const [px, py] = viewport.toPixel(...this.place);
+    for (const [r, colour] of [[0.62, "#000000"], [0.5, "#ffffff"], [0.34, "#b5221b"]]) {
+      context.fillStyle = colour;
+      context.beginPath();
+      context.arc(px, py, r * frame.em, 0, 2 * Math.PI);
+      context.fill();
+    }
+  }
+
+  tell(px) {
+    const { viewport: v } = this.view;
+    const { x, y, found } = this.view.at(...px);
+    const [lowest, highest] = room(this.store.state);
+    const motion = found.length ? legendText(found[0].name, this.store.state.impacts)
+      : x > highest || x < lowest ? "beyond the stop" : "not computed yet";
+    return { place: `ξ₀ ${digits(x, v.hx)}   u₀ ${digits(y, v.hy)}`, motions: motion, colour: found[0]?.colour ?? null };
+  }
+}

@@ -1,0 +1,124 @@
+/** Sliders and fields of what is on no axis, axes, starts, budget. */
+
+import { byId, debounced, element } from "./dom.js";
+import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
+import { valueOf } from "./plane.js";
+
+const BUDGETS = [[200, "quick: 200 impacts"], [1000, "1000 impacts"], [20000, "20 000 impacts"], [0, "everything"]];
+
+/** @param {import("./state.js").Store} store */
+export function controls(store) {
+  axes(store);
+  const rows = Object.keys(PARAMETERS).map((name) => parameter(store, name));
+  const second = element("input", {
+    type: "checkbox", id: "second", onchange: (event) => secondStop(store, event.target.checked),
+  });
+  byId("parameters").append(
+    ...rows.slice(0, 5).map((row) => row.box),
+    element("label", { class: "check" }, second, " second stop, at ξ = −δ₂"),
+    ...rows.slice(5).map((row) => row.box),
+  );
+  const starts = choice(store, "starts", Array.from({ length: 16 }, (_, k) => [k + 1, String(k + 1)]));
+  const impacts = choice(store, "impacts", BUDGETS);
+  byId("budget").append(
+    element("label", { class: "row" }, element("span", { text: "starts per point" }), starts),
+    element("label", { class: "row" }, element("span", { text: "follow for" }), impacts),
+  );
+  const show = () => {
+    const { state } = store;
+    second.checked = state.second;
+    second.disabled = ofSecondStop(state.x) || ofSecondStop(state.y);
+    starts.value = String(state.starts);
+    impacts.value = String(state.impacts);
+    for (const row of rows) row.show();
+  };
+  store.on(["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts"], show);
+  show();
+}
+
+function secondStop(store, second) {
+  const { state } = store;
+  const gap = Math.max(state.second_gap, 0.1 - state.gap);
+  store.set(second ? { second, second_gap: gap } : { second });
+}
+
+function choice(store, name, options) {
+  return element("select", { id: name, onchange: (event) => store.set({ [name]: Number(event.target.value) }) },
+    ...options.map(([value, text]) => element("option", { value, text })));
+}
+
+/** The slider and field of a parameter; shown where it is on no axis. */
+function parameter(store, name) {
+  const { symbol, words, slider: [from, to, step], least, most } = PARAMETERS[name];
+  const patch = (value) => {
+    if (name === "inverse_beta") return { inverse_beta: value, beta: null };
+    if (name === "beta") return { beta: value, inverse_beta: 1 / value };
+    return { [name]: value };
+  };
+  const live = debounced((value) => store.set(patch(value), "quiet"), 60);
+  const commit = (value) => store.set(patch(value));
+  const range = element("input", {
+    type: "range", min: from, max: to, step, "aria-label": `${words} ${symbol}`,
+    oninput: (event) => {
+      field.value = event.target.value;
+      live(Number(event.target.value));
+    },
+    onchange: (event) => {
+      const value = Number(event.target.value);
+      // after what the slider still has to say
+      setTimeout(() => commit(value), 70);
+    },
+  });
+  const field = element("input", {
+    type: "number", id: `field-${name}`, step: "any", min: Number.isFinite(least) ? least : null,
+    max: Number.isFinite(most) ? most : null,
+    onchange: (event) => {
+      const value = Number(event.target.value);
+      const right = event.target.value !== "" && legal(PARAMETERS[name], value);
+      event.target.setAttribute("aria-invalid", String(!right));
+      if (right) commit(value);
+    },
+  });
+  const box = element("div", { class: "parameter" },
+    element("label", { for: `field-${name}`, title: words }, element("i", { class: "math", text: symbol }), ` ${words}`),
+    range, field);
+  return { box, show: () => showParameter(store.state, name, { box, range, field }) };
+}
+
+function showParameter(state, name, { box, range, field }) {
+  const onAxis = [state.x, state.y].includes(name) || (isFrequency(name) && [state.x, state.y].some(isFrequency));
+  box.hidden = onAxis || name === "beta" || (ofSecondStop(name) && !state.second);
+  const value = valueOf(state, name);
+  if (document.activeElement !== range) range.value = String(value);
+  if (Number(field.value) !== value || field.value === "") field.value = String(value);
+  field.setAttribute("aria-invalid", "false");
+}
+
+/** Which parameter is on which axis. */
+function axes(store) {
+  const selects = ["x", "y"].map((axis) => element("select", {
+    id: `axis-${axis}`, "aria-label": axis === "x" ? "Parameter to the right" : "Parameter upwards",
+    onchange: (event) => turn(store, axis, event.target.value),
+  }, ...Object.entries(PARAMETERS).map(([value, { symbol, words }]) => element("option", { value, text: `${symbol}  ${words}` }))));
+  byId("axes").append(selects[0], element("span", { class: "times", text: "×" }), selects[1]);
+  const show = () => {
+    const { state } = store;
+    selects.forEach((select, k) => {
+      select.value = state[["x", "y"][k]];
+      for (const option of select.options) option.disabled = ofSecondStop(option.value) && !state.second;
+    });
+  };
+  store.on(["x", "y", "second"], show);
+  show();
+}
+
+/** Puts a parameter on an axis; the other axis gives way where both cannot be. */
+function turn(store, axis, name) {
+  const { state } = store;
+  const [other, had] = axis === "x" ? ["y", state.y] : ["x", state.x];
+  const patch = { [axis]: name, view: null, line: null };
+  const clash = had === name || (isFrequency(had) && isFrequency(name));
+  if (clash) patch[other] = had === name ? state[axis] : isFrequency(state[axis]) ? "gap" : state[axis];
+  if (isFrequency(name) && isFrequency(patch[other] ?? had)) patch[other] = "gap";
+  store.set(patch);
+}

@@ -1,0 +1,142 @@
+/** Export of what is shown: figure, table, command line, Python. */
+
+import * as api from "./api.js";
+import { byId, element } from "./dom.js";
+import { Latest } from "./latest.js";
+import {
+  attractorsPlan, basinPlan, diagramPlan, lyapunovPlan, mapPlan, over, settlePlan, simulatePlan,
+} from "./plans.js";
+
+/** Figures as on a page of a paper, in the units of the server. */
+const WIDTH = 1000;
+
+/** Points of a view along each axis. */
+const POINTS = [100, 200, 400, 800];
+
+export class Export {
+  /**
+   * @param {import("./state.js").Store} store
+   * @param {{plane: import("./plane.js").Plane, basin: () => import("./basin.js").Basin}} views
+   */
+  constructor(store, views) {
+    Object.assign(this, { store, views, dialog: byId("export") });
+    this.choice = element("select", { id: "export-view", onchange: () => this.refresh() });
+    this.points = element("select", { id: "export-points", onchange: () => this.refresh() },
+      ...POINTS.map((n) => element("option", { value: n, text: `${n} × ${n}`, selected: n === 200 })));
+    this.pointsRow = element("label", { class: "row" }, element("span", { text: "points" }), this.points);
+    this.said = element("p", { class: "note", role: "status" });
+    this.files = element("div", { class: "buttons" }, ...["svg", "png", "csv"].map((format) =>
+      element("button", { type: "button", "data-format": format, text: format.toUpperCase(), onclick: () => this.save(format) })));
+    this.commands = { vibro: this.command("Command line"), python: this.command("Python") };
+    byId("export-body").append(
+      element("label", { class: "row" }, element("span", { text: "view" }), this.choice), this.pointsRow, this.files, this.said,
+      this.commands.vibro.box, this.commands.python.box,
+    );
+    this.asked = new Latest((plan, signal) => this.tell(plan, signal), (error) => this.failed(error));
+    byId("export-button").addEventListener("click", () => this.open("plane"));
+  }
+
+  command(title) {
+    const code = element("pre", { class: "code", tabindex: "0", role: "region", "aria-label": title });
+    const copy = element("button", { type: "button", class: "quiet", text: "Copy", "aria-label": `Copy ${title}` });
+    copy.addEventListener("click", async () => {
+      try {
+        await navigator.clipboard.writeText(code.textContent);
+        this.said.textContent = `${title} copied.`;
+      } catch {
+        getSelection().selectAllChildren(code);
+        this.said.textContent = `${title} selected: the browser does not let a page copy it.`;
+      }
+    });
+    const box = element("section", { class: "command" },
+      element("header", { class: "head" }, element("h3", { text: title }), copy), code);
+    return { box, code };
+  }
+
+  /** What can be exported now: name, plan, kind of figure. */
+  list() {
+    const { state } = this.store;
+    const n = Number(this.points.value);
+    const span = (view, make) => {
+      const [l, r, b, t] = view.viewport.window();
+      const { legal, x, y } = view.source;
+      const cut = ([least, most], { open }, low, high) =>
+        over(Math.max(open ? (high - low) / n : least, low, least), Math.min(most, high), n);
+      return make(state, cut(legal.x, x, l, r), cut(legal.y, y, b, t));
+    };
+    const views = { plane: { name: "plane of parameters", plan: () => span(this.views.plane.view, mapPlan), points: true } };
+    if (state.point) {
+      const settle = () => settlePlan(state);
+      Object.assign(views, {
+        waveform: { name: "waveform", plan: () => simulatePlan(state), kind: "waveform" },
+        basin: { name: "basin: which start leads where", plan: () => span(this.views.basin().view, basinPlan), points: true, needs: () => this.views.basin().view.source },
+        attractors: { name: "motions that coexist", plan: () => attractorsPlan(state), tableOnly: true },
+        steady: { name: "steady motion", plan: settle, kind: "waveform" },
+        phase: { name: "phase portrait", plan: settle, kind: "phase" },
+        multipliers: { name: "multipliers", plan: settle, kind: "multipliers" },
+        sections: { name: "impact map and section", plan: settle, kind: "sections" },
+        lyapunov: { name: "Lyapunov exponents and attractor", plan: () => lyapunovPlan(state), kind: "sections" },
+      });
+    }
+    if (state.line) views.line = { name: "bifurcation diagram", plan: () => diagramPlan(state, 2 * n), points: true };
+    return Object.fromEntries(Object.entries(views).filter(([, view]) => !view.needs || view.needs()));
+  }
+
+  /** @param {string} view the one chosen first */
+  open(view) {
+    const views = this.list();
+    this.choice.replaceChildren(...Object.entries(views).map(([value, { name }]) => element("option", { value, text: name })));
+    this.choice.value = view in views ? view : "plane";
+    this.dialog.showModal();
+    this.refresh();
+  }
+
+  refresh() {
+    this.view = this.list()[this.choice.value];
+    this.plan = this.view.plan();
+    this.pointsRow.hidden = !this.view.points;
+    for (const button of this.files.children) {
+      button.hidden = Boolean(this.view.tableOnly) && button.dataset.format !== "csv";
+    }
+    this.said.textContent = "";
+    this.asked.ask(this.plan, true);
+  }
+
+  async tell(plan, signal) {
+    for (const { code } of Object.values(this.commands)) code.textContent = "";
+    const told = await api.command(plan, signal);
+    this.commands.vibro.code.textContent = told.vibro;
+    this.commands.python.code.textContent = told.python;
+  }
+
+  async save(format) {
+    const { plan } = this;
+    const name = `vibro-${this.choice.value}.${format}`;
+    this.said.textContent = "computing";
+    try {
+      this.download(await this.blob(format, plan), name);
+      this.said.textContent = `${name} saved.`;
+    } catch (error) {
+      this.failed(error);
+    }
+  }
+
+  async blob(format, plan) {
+    if (format === "csv") return api.table(plan);
+    if (this.choice.value === "line" && format === "svg") {
+      const { svg } = await api.bifurcation(plan, { width: WIDTH, height: 0.7 * WIDTH });
+      return new Blob([svg], { type: "image/svg+xml" });
+    }
+    return api.figure(plan, { format, width: WIDTH, kind: this.view.kind });
+  }
+
+  download(blob, name) {
+    const address = URL.createObjectURL(blob);
+    element("a", { href: address, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 10000);
+  }
+
+  failed(error) {
+    this.said.textContent = error.message;
+  }
+}

@@ -1,0 +1,169 @@
+/** Pointer, wheel, touch and keyboard on a tile view. */
+
+/** Pixels a press may move and still be a click. */
+const STILL = 4;
+
+/** @param {import("./tileview.js").TileView} view */
+export function gestures(view) {
+  const { surface } = view;
+  const fingers = new Map();
+  let press = null;
+  let held = null;
+  let pinch = null;
+
+  const inside = (event) => {
+    const box = surface.getBoundingClientRect();
+    return [event.clientX - box.left - view.frame.left, event.clientY - box.top - view.frame.top];
+  };
+  const settled = () => view.dispatchEvent(new Event("view"));
+  const hover = (px) => {
+    view.pointer = px;
+    view.dispatchEvent(new CustomEvent("hover", { detail: px }));
+  };
+
+  surface.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    surface.setPointerCapture(event.pointerId);
+    const px = inside(event);
+    fingers.set(event.pointerId, px);
+    view.stopMoving?.();
+    if (fingers.size === 2) {
+      held?.cancel?.();
+      [press, held] = [null, null];
+      pinch = spread(fingers);
+      return;
+    }
+    press = { px, last: px, moved: false };
+    held = view.grab?.(px, view.viewport.toPlane(...px), event.pointerType === "touch") ?? null;
+  });
+
+  surface.addEventListener("pointermove", (event) => {
+    const px = inside(event);
+    if (!fingers.has(event.pointerId)) {
+      hover(px);
+      surface.classList.toggle("grabs", Boolean(view.hand?.(px)));
+      return;
+    }
+    fingers.set(event.pointerId, px);
+    if (pinch && fingers.size === 2) {
+      const now = spread(fingers);
+      view.viewport.pan(now.x - pinch.x, now.y - pinch.y);
+      zoom(view, Math.log2(now.size / pinch.size), [now.x, now.y]);
+      pinch = now;
+      return;
+    }
+    if (!press) return;
+    if (Math.hypot(px[0] - press.px[0], px[1] - press.px[1]) > STILL) press.moved = true;
+    if (held) held.move(px, view.viewport.toPlane(...px));
+    else if (press.moved) {
+      view.viewport.pan(px[0] - press.last[0], px[1] - press.last[1]);
+      surface.classList.add("pans");
+      view.changed();
+    }
+    press.last = px;
+  });
+
+  const release = (event) => {
+    if (!fingers.delete(event.pointerId)) return;
+    surface.classList.remove("pans");
+    if (pinch) {
+      if (fingers.size < 2) pinch = null;
+      settled();
+      return;
+    }
+    if (!press) return;
+    const px = inside(event);
+    const { moved } = press;
+    if (held) held.up(px, view.viewport.toPlane(...px), moved);
+    else if (moved) settled();
+    else if (event.type === "pointerup") pick(view, px);
+    [press, held] = [null, null];
+  };
+  surface.addEventListener("pointerup", release);
+  surface.addEventListener("pointercancel", release);
+  surface.addEventListener("pointerleave", () => hover(null));
+
+  surface.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    const lines = event.deltaMode === 1 ? 33 : event.deltaMode === 2 ? 400 : 1;
+    const levels = -(event.deltaY * lines) / (event.ctrlKey ? 60 : 250);
+    zoom(view, Math.max(-2, Math.min(2, levels)), inside(event));
+    clearTimeout(view.wheeled);
+    view.wheeled = setTimeout(settled, 250);
+  }, { passive: false });
+
+  surface.addEventListener("dblclick", (event) => {
+    event.preventDefault();
+    glide(view, event.shiftKey ? -1 : 1, inside(event));
+  });
+
+  for (const name of ["focus", "blur"]) surface.addEventListener(name, () => view.draw());
+  surface.addEventListener("keydown", (event) => keyed(view, event, settled));
+}
+
+/** Where two fingers are, and how far apart. */
+function spread(fingers) {
+  const [[ax, ay], [bx, by]] = [...fingers.values()];
+  return { x: (ax + bx) / 2, y: (ay + by) / 2, size: Math.max(10, Math.hypot(ax - bx, ay - by)) };
+}
+
+function pick(view, px) {
+  const { viewport: v } = view;
+  if (px[0] < 0 || px[1] < 0 || px[0] > v.width || px[1] > v.height) return;
+  view.dispatchEvent(new CustomEvent("pick", { detail: px }));
+}
+
+/** Zooms, and tells where the numeric limit is met. */
+export function zoom(view, levels, px) {
+  const limited = view.viewport.zoom(levels, px[0], px[1], view.density);
+  view.dispatchEvent(new CustomEvent("limit", { detail: limited }));
+  view.changed();
+}
+
+/** Zooms in a few frames, at once where motion is unwelcome. */
+export function glide(view, levels, px = [view.viewport.width / 2, view.viewport.height / 2]) {
+  const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  const frames = still ? 1 : 9;
+  let left = frames;
+  let stopped = false;
+  view.stopMoving?.();
+  view.stopMoving = () => {
+    stopped = true;
+  };
+  const step = () => {
+    if (stopped) return;
+    zoom(view, levels / frames, px);
+    if (--left > 0) requestAnimationFrame(step);
+    else view.dispatchEvent(new Event("view"));
+  };
+  step();
+}
+
+const ARROWS = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+function keyed(view, event, settled) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  const { viewport: v } = view;
+  const centre = [v.width / 2, v.height / 2];
+  const arrow = ARROWS[event.key];
+  if (arrow) {
+    const far = event.shiftKey ? 4 : 40;
+    v.pan(arrow[0] * far, arrow[1] * far);
+    view.changed();
+    hoverCentre(view, centre);
+    clearTimeout(view.wheeled);
+    view.wheeled = setTimeout(settled, 300);
+  } else if (event.key === "+" || event.key === "=") glide(view, 1);
+  else if (event.key === "-" || event.key === "_") glide(view, -1);
+  else if (event.key === "0" || event.key === "Home") view.dispatchEvent(new Event("home"));
+  else if (event.key === "Enter" || event.key === " ") {
+    if (view.entered) view.entered(centre);
+    else pick(view, centre);
+  } else return;
+  event.preventDefault();
+}
+
+function hoverCentre(view, centre) {
+  view.dispatchEvent(new CustomEvent("hover", { detail: centre }));
+  view.dispatchEvent(new CustomEvent("crosshair", { detail: centre }));
+}

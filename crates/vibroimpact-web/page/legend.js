@@ -1,0 +1,99 @@
+/** The motions in view with their shares; pointing at one lets it alone keep its colour. */
+
+import { element, swatch } from "./dom.js";
+import { percent } from "./ticks.js";
+import { legendText } from "./words.js";
+
+/** Motions told before the others are added up. */
+const SHOWN = 14;
+
+export class Legend {
+  /**
+   * @param {HTMLElement} host
+   * @param {import("./tileview.js").TileView} view
+   * @param {() => number} impacts the budget
+   */
+  constructor(host, view, impacts) {
+    Object.assign(this, { host, view, impacts, pinned: null, all: false, ids: "" });
+    this.list = element("ul", { class: "legend-list" });
+    this.more = element("button", { type: "button", class: "quiet", hidden: true, onclick: () => this.toggleAll() });
+    this.note = element("p", { class: "note" });
+    host.append(this.list, this.more, this.note);
+    this.items = new Map();
+    view.addEventListener("tiles", () => this.soon());
+    view.addEventListener("view", () => this.soon());
+  }
+
+  soon() {
+    if (this.timer) return;
+    this.timer = setTimeout(() => {
+      this.timer = 0;
+      this.refresh();
+    }, 150);
+  }
+
+  toggleAll() {
+    this.all = !this.all;
+    this.refresh();
+  }
+
+  refresh() {
+    if (!this.view.source || !this.view.sized) return;
+    const { counts, coarse } = this.view.shares();
+    const total = [...counts.values()].reduce((sum, n) => sum + n, 0);
+    if (!total) return;
+    const sorted = [...counts].map(([id, n]) => ({ id, share: n / total, ...this.view.source.look(id) }))
+      .sort((a, b) => b.share - a.share);
+    const shown = this.all || sorted.length <= SHOWN + 1 ? sorted : sorted.slice(0, SHOWN);
+    const rest = sorted.slice(shown.length);
+    this.fill(shown);
+    this.more.hidden = !rest.length && !(this.all && sorted.length > SHOWN + 1);
+    const sum = rest.reduce((part, { share }) => part + share, 0);
+    this.more.textContent = rest.length ? `${rest.length} others, ${percent(sum)}` : "fewer";
+    this.note.textContent = coarse ? "Shares of the coarse picture." : "";
+  }
+
+  /** Items are kept while they stay, so that focus is not lost. */
+  fill(shown) {
+    const left = new Map(this.items);
+    this.items.clear();
+    shown.forEach((motion, place) => {
+      const item = left.get(motion.id) ?? this.item(motion);
+      left.delete(motion.id);
+      this.items.set(motion.id, item);
+      item.name.textContent = this.nameOf(motion);
+      item.share.textContent = percent(motion.share);
+      item.patch.style.backgroundColor = motion.colour;
+      if (this.list.children[place] !== item.row) this.list.insertBefore(item.row, this.list.children[place] ?? null);
+    });
+    for (const { row } of left.values()) row.remove();
+  }
+
+  nameOf({ name, variant }) {
+    return legendText(name, this.impacts()) + (variant ? ` (${variant + 1}${["st", "nd", "rd"][variant] ?? "th"})` : "");
+  }
+
+  item({ id, colour }) {
+    const patch = swatch(colour);
+    const name = element("span", { class: "legend-name" });
+    const share = element("span", { class: "legend-share" });
+    const button = element("button", {
+      type: "button", class: "legend-item", "aria-pressed": "false", title: "Show only this motion in its colour",
+      onmouseenter: () => this.point(id), onmouseleave: () => this.point(this.pinned),
+      onfocus: () => this.point(id), onblur: () => this.point(this.pinned),
+      onclick: () => this.pin(id),
+    }, patch, name, share);
+    return { row: element("li", {}, button), patch, name, share, button };
+  }
+
+  pin(id) {
+    this.pinned = this.pinned === id ? null : id;
+    for (const [of, { button }] of this.items) button.setAttribute("aria-pressed", String(of === this.pinned));
+    this.point(this.pinned);
+  }
+
+  point(id) {
+    this.view.highlight = id;
+    this.view.draw();
+  }
+}

@@ -1,0 +1,165 @@
+/** A line in the plane: drawn with the pointer or at the crosshair, and the bifurcation diagram along it. */
+
+import { bifurcation } from "./api.js";
+import { byId, element } from "./dom.js";
+import { Figure } from "./figure.js";
+import { Latest } from "./latest.js";
+import { PARAMETERS, legal } from "./parameters.js";
+import { diagramPlan } from "./plans.js";
+import { digits } from "./ticks.js";
+import { Viewport } from "./viewport.js";
+
+/** A line shorter than this many pixels is a slip. */
+const SHORTEST = 12;
+
+export class LineTool {
+  /**
+   * @param {import("./state.js").Store} store
+   * @param {import("./plane.js").Plane} plane
+   * @param {{failed: (error: Error) => void, say: (text: string) => void, exported: (view: string) => void}} parts
+   */
+  constructor(store, plane, { failed, say, exported }) {
+    Object.assign(this, { store, plane, say, active: false, draft: null });
+    this.button = byId("line-tool");
+    this.button.addEventListener("click", () => this.use(!this.active));
+    this.figure = new Figure("Bifurcation diagram", 0.8, failed, () => exported("line"));
+    this.told = element("p", { class: "place" });
+    this.progress = element("progress", { max: "1", value: "0", hidden: true, "aria-label": "Bifurcation diagram" });
+    this.show = element("select", { id: "show", onchange: (event) => store.set({ show: event.target.value }) },
+      element("option", { value: "velocity", text: "speed of impacts" }),
+      element("option", { value: "strobe", text: "position once a period" }));
+    byId("line").append(this.told, element("label", { class: "row" }, element("span", { text: "shown" }), this.show),
+      this.progress, this.figure.box,
+      element("p", { class: "note", text: "Points: what simulation finds, swept up and down. Lines: branches of orbits, stable solid, unstable dashed." }));
+    this.asked = new Latest((state, signal) => this.fetch(state, signal), (error) => this.refused(error, failed));
+    plane.view.grab = (px, xy) => (this.active ? this.hold(px, xy) : null);
+    plane.view.painters.push((context, viewport) => this.paint(context, viewport));
+    store.on(["line", "show", "panel", "x", "y", ...Object.keys(PARAMETERS), "second"], () => this.refresh());
+  }
+
+  use(active) {
+    this.active = active;
+    this.draft = null;
+    this.button.setAttribute("aria-pressed", String(active));
+    this.plane.view.surface.classList.toggle("draws", active);
+    this.plane.view.entered = active ? (px) => this.entered(px) : null;
+    this.plane.view.draw();
+    if (active) this.say("Line: drag along the plane, or press Enter at the cross for one end and again for the other.");
+  }
+
+  hold(px, xy) {
+    this.draft = { px, from: xy, to: xy };
+    return {
+      move: (at, to) => {
+        this.draft.to = to;
+        this.plane.view.draw();
+      },
+      up: (at, to, moved) => {
+        if (moved && Math.max(Math.abs(at[0] - px[0]), Math.abs(at[1] - px[1])) > SHORTEST) this.finish(xy, to);
+        this.draft = null;
+        this.plane.view.draw();
+      },
+      cancel: () => {
+        this.draft = null;
+        this.plane.view.draw();
+      },
+    };
+  }
+
+  /** One end, then the other, with the keyboard. */
+  entered(px) {
+    const xy = this.plane.view.viewport.toPlane(...px);
+    if (this.draft) {
+      this.finish(this.draft.from, xy);
+      return;
+    }
+    this.draft = { px, from: xy, to: null };
+    this.say("One end of the line. Move with the arrow keys and press Enter for the other.");
+    this.plane.view.draw();
+  }
+
+  /** Snaps to the axis along which the line is longer. */
+  snapped(from, to) {
+    const { viewport: v } = this.plane.view;
+    const { state } = this.store;
+    const flat = Math.abs(to[0] - from[0]) / v.hx >= Math.abs(to[1] - from[1]) / v.hy;
+    const k = flat ? 0 : 1;
+    const [along, h] = flat ? [state.x, v.hx] : [state.y, v.hy];
+    const across = flat ? v.hy : v.hx;
+    const coordinate = PARAMETERS[along];
+    const within = (value) => Math.min(coordinate.most, Math.max(coordinate.open ? h : coordinate.least, Viewport.rounded(value, h)));
+    const ends = [within(from[k]), within(to[k])].sort((a, b) => a - b);
+    return [along, ...ends, Viewport.rounded(from[1 - k], across)];
+  }
+
+  finish(from, to) {
+    const line = this.snapped(from, to);
+    const { state } = this.store;
+    const across = line[0] === state.x ? state.y : state.x;
+    this.use(false);
+    if (line[1] < line[2] && legal(PARAMETERS[across], line[3])) this.store.set({ line, panel: "line" });
+  }
+
+  refresh() {
+    const { state } = this.store;
+    this.plane.view.draw();
+    this.show.value = state.show;
+    if (state.panel !== "line" || !state.line) {
+      this.asked.stop();
+      this.told.textContent = "Choose the tool Line, then drag along the plane.";
+      if (!state.line) this.figure.hide();
+      this.key = null;
+      return;
+    }
+    const [along, from, to, at] = state.line;
+    const across = along === state.x ? state.y : state.x;
+    const pixel = (to - from) / 1000;
+    this.told.textContent = `${PARAMETERS[along].symbol} from ${digits(from, pixel)} to ${digits(to, pixel)} at ${PARAMETERS[across].symbol} ${at}`;
+    const plan = diagramPlan(state);
+    if (JSON.stringify(plan) === this.key) return;
+    this.key = JSON.stringify(plan);
+    this.asked.ask(plan, true);
+  }
+
+  async fetch(plan, signal) {
+    this.progress.hidden = false;
+    this.progress.removeAttribute("value");
+    this.figure.box.hidden = false;
+    try {
+      const { svg } = await bifurcation(plan, this.figure.size, signal, (part) => {
+        this.progress.value = part;
+      });
+      await this.figure.put(svg, `Bifurcation diagram: ${this.told.textContent}`);
+      this.say("Bifurcation diagram drawn.");
+    } finally {
+      this.progress.hidden = true;
+    }
+  }
+
+  refused(error, failed) {
+    this.key = null;
+    failed(error);
+  }
+
+  paint(context, viewport) {
+    const { state } = this.store;
+    const lines = [];
+    if (state.line && state.panel === "line") lines.push(state.line);
+    if (this.draft) lines.push(this.snapped(this.draft.from, this.draft.to ?? viewport.toPlane(viewport.width / 2, viewport.height / 2)));
+    for (const [along, from, to, at] of lines) {
+      const flat = along === state.x;
+      const ends = [from, to].map((value) => (flat ? viewport.toPixel(value, at) : viewport.toPixel(at, value)));
+      for (const [colour, width] of [["#ffffff", 5], ["#b5221b", 2.4]]) {
+        context.strokeStyle = colour;
+        context.lineWidth = width;
+        context.beginPath();
+        for (const end of ends) context.lineTo(...end);
+        for (const [px, py] of ends) {
+          context.moveTo(px - (flat ? 0 : 5), py - (flat ? 5 : 0));
+          context.lineTo(px + (flat ? 0 : 5), py + (flat ? 5 : 0));
+        }
+        context.stroke();
+      }
+    }
+  }
+}

@@ -1,0 +1,53 @@
+/** The quiet strip for what went wrong, and the live region for what is to be heard. */
+
+import { about, ServerGone } from "./api.js";
+import { byId, element } from "./dom.js";
+
+export class Messages {
+  /** @param {() => void} again called when the server answers again, or the reader wants to try once more */
+  constructor(again) {
+    this.again = again;
+    this.strip = byId("strip");
+    this.live = byId("live");
+    this.gone = false;
+  }
+
+  /** @param {Error} error */
+  failed(error) {
+    if (error.name === "AbortError") return;
+    const gone = error instanceof ServerGone;
+    if (this.gone && !gone) return;
+    this.gone = gone;
+    const [first, ...rest] = error.message.split("\n");
+    const text = element("p", {}, element("span", { text: first }));
+    for (const line of rest) text.append(element("span", { class: "hint", text: line }));
+    this.strip.replaceChildren(
+      text,
+      element("button", { type: "button", text: "Retry", onclick: () => this.retry() }),
+      element("button", { type: "button", class: "quiet", text: "Close", onclick: () => this.clear() }),
+    );
+    this.strip.hidden = false;
+  }
+
+  async retry() {
+    try {
+      await about();
+    } catch (error) {
+      this.failed(error);
+      return;
+    }
+    this.clear();
+    this.again();
+  }
+
+  clear() {
+    this.gone = false;
+    this.strip.hidden = true;
+    this.strip.replaceChildren();
+  }
+
+  /** @param {string} text for those who listen */
+  say(text) {
+    this.live.textContent = text;
+  }
+}

@@ -1,0 +1,66 @@
+/**
+ * What can be on an axis: symbol, words, legal range, window shown first.
+ *
+ * @typedef {object} Coordinate
+ * @property {string} symbol as it is written on an axis
+ * @property {string} words what it is
+ * @property {[number, number]} window shown first
+ * @property {number} step size of a pixel at zoom level 0, a power of two
+ * @property {number} least smallest legal value
+ * @property {number} most largest legal value
+ * @property {boolean} [open] whether `least` itself is excluded
+ * @property {[number, number, number]} [slider] ends and step of its slider
+ */
+
+/** @type {Record<string, Coordinate>} Parameters of the oscillator. */
+export const PARAMETERS = {
+  inverse_beta: {
+    symbol: "1/β", words: "inverse frequency ratio", window: [0.375, 2.025], step: 2 ** -9,
+    least: 0, open: true, most: Infinity, slider: [0.05, 3, 0.005],
+  },
+  beta: {
+    symbol: "β", words: "frequency ratio", window: [0.4, 2.8], step: 2 ** -9,
+    least: 0, open: true, most: Infinity, slider: [0.3, 5, 0.005],
+  },
+  gap: {
+    symbol: "δ", words: "gap", window: [0, 5], step: 2 ** -7,
+    least: -Infinity, most: Infinity, slider: [-1, 6, 0.01],
+  },
+  restitution: {
+    symbol: "ε", words: "restitution", window: [0, 1], step: 2 ** -9, least: 0, most: 1, slider: [0, 1, 0.01],
+  },
+  damping: {
+    symbol: "ζ", words: "damping ratio", window: [0, 0.25], step: 2 ** -11,
+    least: 0, most: Infinity, slider: [0, 0.5, 0.005],
+  },
+  second_gap: {
+    symbol: "δ₂", words: "gap of the second stop", window: [0, 5], step: 2 ** -7,
+    least: -Infinity, most: Infinity, slider: [-1, 6, 0.01],
+  },
+  second_restitution: {
+    symbol: "ε₂", words: "restitution of the second stop", window: [0, 1], step: 2 ** -9,
+    least: 0, most: 1, slider: [0, 1, 0.01],
+  },
+};
+
+/** @type {Record<string, Coordinate>} Coordinates of a start. */
+export const START = {
+  x: { symbol: "ξ₀", words: "initial position", window: [-8, 1], step: 2 ** -6, least: -Infinity, most: Infinity },
+  v: { symbol: "u₀", words: "initial velocity", window: [-8, 8], step: 2 ** -6, least: -Infinity, most: Infinity },
+};
+
+/** @param {string} name of a parameter @returns {boolean} whether it belongs to the second stop */
+export const ofSecondStop = (name) => name.startsWith("second_");
+
+/** @param {string} name of a parameter @returns {boolean} whether it is a frequency */
+export const isFrequency = (name) => name === "beta" || name === "inverse_beta";
+
+/**
+ * Whether a coordinate may have a value.
+ * @param {Coordinate} coordinate
+ * @param {number} value
+ */
+export function legal(coordinate, value) {
+  return Number.isFinite(value) && value <= coordinate.most
+    && (coordinate.open ? value > coordinate.least : value >= coordinate.least);
+}

@@ -1,0 +1,170 @@
+/** The plane of two parameters: its source of tiles, what is pointed at, which point is chosen. */
+
+import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
+import { legalRange, mapPlan, room, systemOf } from "./plans.js";
+import { SIDE } from "./tiles.js";
+import { TileView } from "./tileview.js";
+import { digits } from "./ticks.js";
+import { Viewport } from "./viewport.js";
+import { motionsText } from "./words.js";
+
+/** Parts of the state on which the tiles depend. */
+const DEPENDS = ["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts"];
+
+/** Pixels within which a click means a point of the paper. */
+const NEAR = 9;
+
+/** @param {import("./state.js").State} state @returns {Record<string, number | null>} values of both axes at a place */
+export function placed(state, x, y) {
+  const patch = { [state.x]: x, [state.y]: y };
+  if ("beta" in patch) patch.inverse_beta = 1 / patch.beta;
+  else if ("inverse_beta" in patch) patch.beta = null;
+  return patch;
+}
+
+/** @returns {number[]} what the plane shows first */
+export const wholeWindow = (state) => [...PARAMETERS[state.x].window, ...PARAMETERS[state.y].window];
+
+/** @returns {number} the value of a parameter at the chosen point */
+export const valueOf = (state, name) => (name === "beta" ? state.beta ?? 1 / state.inverse_beta : state[name]);
+
+export class Plane {
+  /**
+   * @param {HTMLElement} host
+   * @param {import("./state.js").Store} store
+   * @param {{cache: object, queue: object, failed: (error: Error) => void}} parts
+   */
+  constructor(host, store, parts) {
+    this.store = store;
+    this.view = new TileView(host, { ...parts, label: "Plane of parameters. Arrow keys move, plus and minus zoom, Enter chooses the point at the cross." });
+    this.looks = new Map();
+    this.points = [];
+    this.view.painters.push((context, viewport, frame) => this.paintChosen(context, viewport, frame));
+    this.view.addEventListener("pick", ({ detail }) => this.pick(detail));
+    this.view.addEventListener("view", () => store.set({ view: this.view.viewport.window() }, "replace"));
+    this.view.addEventListener("home", () => store.set({ view: null }));
+    store.on(DEPENDS, (_, changed) => this.refresh(changed));
+    store.on(["view"], () => this.moved());
+    store.on(["point", ...DEPENDS], () => this.view.draw());
+  }
+
+  /** @param {{name: string, inverse_beta: number, gap: number, restitution: number}[]} points of the paper */
+  named(points) {
+    this.points = points;
+    this.view.draw();
+  }
+
+  start() {
+    this.view.show(this.source(), this.store.state.view ?? wholeWindow(this.store.state));
+  }
+
+  refresh(changed) {
+    const { state } = this.store;
+    const axes = changed.has("x") || changed.has("y");
+    const source = this.source();
+    if (source.key === this.view.source.key) return;
+    this.view.show(source, axes ? state.view ?? wholeWindow(state) : null);
+  }
+
+  /** The view of the state is another than that on the screen: after back and forward, or a step of the tour. */
+  moved() {
+    const { view } = this.store.state;
+    const window = view ?? wholeWindow(this.store.state);
+    if (JSON.stringify(window) === JSON.stringify(this.view.viewport.window())) return;
+    this.view.fit(window);
+    this.view.changed();
+  }
+
+  /** @returns {import("./tileview.js").Source} */
+  source() {
+    const state = structuredClone(this.store.state);
+    const free = { [state.x]: 0, [state.y]: 0 };
+    return {
+      key: JSON.stringify([state.x, state.y, systemOf(state, free), state.starts, state.impacts]),
+      x: PARAMETERS[state.x],
+      y: PARAMETERS[state.y],
+      legal: { x: legalRange(state, state.x), y: legalRange(state, state.y) },
+      plan: (overX, overY, refine) => mapPlan(state, overX, overY, refine),
+      look: (id) => this.looks.get(id) ?? { name: "undecided", colour: "#ffffff" },
+      read: ({ header, fields }) => {
+        for (const [code, look] of Object.entries(header.labels)) this.looks.set(Number(code), look);
+        return { classes: fields.label.values, shares: fields.share.values, per: fields.label.per };
+      },
+    };
+  }
+
+  pick(px) {
+    const { state } = this.store;
+    const { viewport } = this.view;
+    const near = this.visiblePoints().find(({ x, y }) => {
+      const [qx, qy] = viewport.toPixel(x, y);
+      return Math.hypot(px[0] - qx, px[1] - qy) < NEAR;
+    });
+    const [x, y] = viewport.toPlane(...px);
+    const values = near ? [near.x, near.y] : [Viewport.rounded(x, viewport.hx), Viewport.rounded(y, viewport.hy)];
+    if (!legal(PARAMETERS[state.x], values[0]) || !legal(PARAMETERS[state.y], values[1])) return;
+    this.choose(placed(state, ...values));
+  }
+
+  /** @param {Partial<import("./state.js").State>} values of the point chosen */
+  choose(values) {
+    const state = { ...this.store.state, ...values };
+    const [lowest, highest] = room(state);
+    const start = state.start && state.start[0] <= highest && state.start[0] >= lowest ? state.start : null;
+    const basin = this.store.state.gap === state.gap ? state.basin : null;
+    this.store.set({ ...values, point: true, panel: "point", start, basin });
+  }
+
+  /** Points of the paper that lie in the plane that is shown, with their place. */
+  visiblePoints() {
+    const { state } = this.store;
+    if (!state.layers.includes("paper") || state.second) return [];
+    const values = (point) => ({ ...point, beta: 1 / point.inverse_beta, damping: 0 });
+    const fixed = ["inverse_beta", "gap", "restitution", "damping"].filter((name) => {
+      const onAxis = [state.x, state.y];
+      return !onAxis.includes(name) && !(name === "inverse_beta" && onAxis.some(isFrequency));
+    });
+    return this.points.map(values)
+      .filter((point) => fixed.every((name) => Math.abs(point[name] - state[name]) < 1e-9))
+      .filter((point) => !ofSecondStop(state.x) && !ofSecondStop(state.y) && point[state.x] !== undefined)
+      .map((point) => ({ name: point.name, x: point[state.x], y: point[state.y] }));
+  }
+
+  paintChosen(context, viewport, frame) {
+    const { state } = this.store;
+    if (!state.point) return;
+    const [px, py] = viewport.toPixel(valueOf(state, state.x), valueOf(state, state.y));
+    const r = 0.5 * frame.em;
+    for (const [width, colour] of [[4.5, "#ffffff"], [2, "#000000"]]) {
+      context.lineWidth = width;
+      context.strokeStyle = colour;
+      context.beginPath();
+      context.arc(px, py, r, 0, 2 * Math.PI);
+      context.moveTo(px + r, py);
+      for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+        context.moveTo(px + r * dx, py + r * dy);
+        context.lineTo(px + 1.9 * r * dx, py + 1.9 * r * dy);
+      }
+      context.stroke();
+    }
+  }
+
+  /**
+   * What is at a pixel, for the line below the plane.
+   * @returns {{place: string, motions: string, colour: string | null}}
+   */
+  tell(px) {
+    const { source, viewport: v } = this.view;
+    const { x, y, found } = this.view.at(...px);
+    const place = `${source.x.symbol} ${digits(x, v.hx)}   ${source.y.symbol} ${digits(y, v.hy)}`;
+    const { state } = this.store;
+    const outside = !legal(PARAMETERS[state.x], x) || !legal(PARAMETERS[state.y], y);
+    const motions = found.length ? motionsText(found, state.impacts) : outside ? "no such oscillator" : "not computed yet";
+    return { place, motions, colour: found[0]?.colour ?? null };
+  }
+
+  /** The tile distance in words, for the export: points of the view at its resolution. */
+  get pointsAcross() {
+    return Math.min(6 * SIDE, Math.round(this.view.viewport.width));
+  }
+}

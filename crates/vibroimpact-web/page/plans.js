@@ -1,0 +1,92 @@
+/** Plans: what the server is asked, made of the state. */
+
+import { PARAMETERS, START } from "./parameters.js";
+
+/** @typedef {import("./state.js").State} State */
+
+/**
+ * The oscillator of the chosen point, with some parameters replaced.
+ * @param {State} state
+ * @param {Record<string, number>} [instead]
+ */
+export function systemOf(state, instead = {}) {
+  const value = (name) => instead[name] ?? state[name];
+  const system = {};
+  if ("beta" in instead) system.beta = instead.beta;
+  else if ("inverse_beta" in instead || state.beta === null) system.inverse_beta = value("inverse_beta");
+  else system.beta = state.beta;
+  system.gap = value("gap");
+  system.restitution = value("restitution");
+  system.damping = value("damping");
+  if (state.second) {
+    system.second_stop = { gap: value("second_gap"), restitution: value("second_restitution") };
+  }
+  return system;
+}
+
+const plan = (system, task) => ({ version: 1, system, task });
+
+/** `first:last:count`, or a list of one value. */
+export const over = (first, last, count) => (count === 1 ? [first] : `${first}:${last}:${count}`);
+
+const firstOf = (values) => (Array.isArray(values) ? values[0] : Number(values.split(":")[0]));
+
+/**
+ * A map of the plane over these values.
+ * @param {State} state
+ * @param {string | number[]} overX
+ * @param {string | number[]} overY
+ * @param {number} [refine]
+ */
+export function mapPlan(state, overX, overY, refine) {
+  const system = systemOf(state, { [state.x]: firstOf(overX), [state.y]: firstOf(overY) });
+  const map = { axes: [{ vary: state.x, over: overX }, { vary: state.y, over: overY }], starts: state.starts, seed: 1 };
+  if (refine) map.refine = refine;
+  if (state.impacts) map.impacts = state.impacts;
+  return plan(system, { map });
+}
+
+/** The basin of the chosen point over these starts. */
+export function basinPlan(state, overX, overY, refine) {
+  const basin = { axes: [{ vary: "x", over: overX }, { vary: "v", over: overY }], start: { phase: startOf(state).phase } };
+  if (refine) basin.refine = refine;
+  if (state.impacts) basin.impacts = state.impacts;
+  return plan(systemOf(state), { basin });
+}
+
+/** @param {State} state @returns {{x: number, v: number, phase: number}} the chosen start, rest by default */
+export function startOf(state) {
+  const [lowest, highest] = room(state);
+  const [x, v, phase] = state.start ?? [0, 0, 0];
+  return { x: Math.min(highest, Math.max(lowest, x)), v, phase };
+}
+
+/** @param {State} state @returns {[number, number]} between which positions the mass can be */
+export const room = (state) => [state.second ? -state.second_gap : -Infinity, state.gap];
+
+export const settlePlan = (state) => plan(systemOf(state), { settle: { start: startOf(state) } });
+
+export const simulatePlan = (state, periods = 20) =>
+  plan(systemOf(state), { simulate: { start: startOf(state), impacts: null, periods } });
+
+export const attractorsPlan = (state) => plan(systemOf(state), { attractors: { starts: 200, seed: 1 } });
+
+export const lyapunovPlan = (state) =>
+  plan(systemOf(state), { lyapunov: { start: startOf(state), impacts: 20000, transient: 1000, points: 2000 } });
+
+/** The orbit diagram along the chosen line. */
+export function diagramPlan(state, count = 400) {
+  const [along, from, to, at] = state.line;
+  const across = along === state.x ? state.y : state.x;
+  const system = systemOf(state, { [along]: from, [across]: at });
+  return plan(system, { diagram: { vary: along, over: over(from, to, count), direction: "both", show: state.show } });
+}
+
+/** Whether a value is legal in the plane, the stops leaving room included. */
+export function legalRange(state, name) {
+  const { least, most } = PARAMETERS[name] ?? START[name];
+  if (!state.second) return [least, most];
+  if (name === "gap") return [state.y === "second_gap" || state.x === "second_gap" ? 0 : -state.second_gap, most];
+  if (name === "second_gap") return [state.x === "gap" || state.y === "gap" ? 0 : -state.gap, most];
+  return [least, most];
+}

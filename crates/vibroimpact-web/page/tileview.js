@@ -1,0 +1,307 @@
+/**
+ * A plane of points on a canvas: tiles where they are known, coarse points where they are not yet, axes round it.
+ *
+ * A `Source` says what is shown; gestures move the viewport; a painter may draw over it.
+ *
+ * @typedef {object} Source
+ * @property {string} key what the points depend on
+ * @property {import("./parameters.js").Coordinate} x
+ * @property {import("./parameters.js").Coordinate} y
+ * @property {{x: [number, number], y: [number, number]}} legal
+ * @property {(overX: string | number[], overY: string | number[], refine?: number) => object} plan
+ * @property {(answer: object) => {classes: Int32Array, shares: Float64Array | null, per: number}} read
+ * @property {(id: number) => {name: string, colour: string}} look
+ */
+
+import { tile as askTile } from "./api.js";
+import { Frame } from "./frame.js";
+import { gestures } from "./gestures.js";
+import { over } from "./plans.js";
+import { SIDE, Tile } from "./tiles.js";
+import { Viewport } from "./viewport.js";
+
+/** Tiles in view at most; beyond, a coarser level does. */
+const MOST_TILES = 200;
+/** Points of the coarse picture, about, and the pixels between them at least. */
+const COARSE_POINTS = 12000;
+const COARSE_PIXELS = 8;
+/** Coarse pictures kept. */
+const COARSE_KEPT = 6;
+
+export class TileView extends EventTarget {
+  /**
+   * @param {HTMLElement} host
+   * @param {{cache: import("./tiles.js").Cache, queue: import("./tiles.js").Queue, label: string,
+   *   failed: (error: Error) => void}} parts
+   */
+  constructor(host, { cache, queue, label, failed }) {
+    super();
+    Object.assign(this, { host, cache, queue, failed });
+    this.picture = document.createElement("canvas");
+    this.picture.setAttribute("aria-hidden", "true");
+    this.surface = document.createElement("canvas");
+    this.surface.tabIndex = 0;
+    this.surface.setAttribute("role", "application");
+    this.surface.setAttribute("aria-label", label);
+    host.append(this.picture, this.surface);
+    this.viewport = new Viewport(1, 1);
+    this.frame = new Frame(this);
+    /** @type {Source | null} */
+    this.source = null;
+    this.ghost = null;
+    this.coarse = [];
+    this.refused = new Set();
+    this.highlight = null;
+    this.stripes = true;
+    this.painters = [];
+    /** @type {((px: number[], xy: number[], touch: boolean) => object | null) | null} takes hold of something instead of panning */
+    this.grab = null;
+    this.pointer = null;
+    this.home = null;
+    gestures(this);
+    new ResizeObserver(() => this.resize()).observe(host);
+  }
+
+  /** Device pixels a pixel, at most two. */
+  get density() {
+    return Math.min(2, Math.max(1, devicePixelRatio || 1));
+  }
+
+  /** @param {Source} source @param {number[] | null} window what to show, null for as before */
+  show(source, window) {
+    const moved = this.source && (this.source.x !== source.x || this.source.y !== source.y);
+    if (source.key !== this.source?.key) {
+      this.ghost = moved ? null : this.source?.key ?? null;
+      this.refused.clear();
+    }
+    if (!this.source || moved) {
+      const { width, height } = this.viewport;
+      this.viewport = Object.assign(new Viewport(source.x.step, source.y.step), { width, height });
+    }
+    this.source = source;
+    if (window) this.fit(window);
+    this.frame.measure();
+    this.changed();
+  }
+
+  fit(window) {
+    this.home = window;
+    this.viewport.fit(window);
+  }
+
+  resize() {
+    const { width, height } = this.host.getBoundingClientRect();
+    if (!width || !height) return;
+    for (const canvas of [this.picture, this.surface]) {
+      canvas.width = Math.round(width * this.density);
+      canvas.height = Math.round(height * this.density);
+    }
+    const first = !this.sized;
+    this.sized = true;
+    this.size = [width, height];
+    this.frame.measure();
+    if (first && this.home) this.viewport.fit(this.home);
+    this.changed();
+  }
+
+  /** The view moved, or what is shown is another. */
+  changed() {
+    this.draw();
+    if (!this.source || !this.sized || this.asking) return;
+    this.asking = true;
+    // one question for all that happens in a frame or two
+    setTimeout(() => {
+      this.asking = false;
+      this.ask();
+    }, 40);
+  }
+
+  /** The level of tiles that suits the view. */
+  level() {
+    let level = Math.ceil(this.viewport.z + Math.log2(this.density) - 1e-6);
+    while (this.grid(level).count > MOST_TILES) level--;
+    return level;
+  }
+
+  /** Which tiles of a level are in view. */
+  grid(level) {
+    const { viewport: v } = this;
+    const wide = v.stepX * 2 ** -level * SIDE;
+    const high = v.stepY * 2 ** -(level + v.shape) * SIDE;
+    const [left, top] = v.toPlane(0, 0);
+    const [right, bottom] = v.toPlane(v.width, v.height);
+    const [{ x: lx, y: ly }, clip] = [this.source.legal, (value, [least, most]) => Math.min(most, Math.max(least, value))];
+    const i = [Math.floor(clip(left, lx) / wide), Math.ceil(clip(right, lx) / wide)];
+    const j = [Math.floor(clip(bottom, ly) / high), Math.ceil(clip(top, ly) / high)];
+    return { i, j, wide, high, count: Math.max(0, i[1] - i[0]) * Math.max(0, j[1] - j[0]) };
+  }
+
+  tileKey(level, i, j) {
+    return `${this.source.key}|${this.viewport.shape}|${level}|${i}|${j}`;
+  }
+
+  /** Wants what is in view and not known: coarse points first, then tiles from the pointer or the centre outwards. */
+  ask() {
+    const { viewport: v } = this;
+    const level = this.level();
+    const { i, j, wide, high } = this.grid(level);
+    const [x, y] = this.pointer ? v.toPlane(...this.pointer) : [v.cx, v.cy];
+    const jobs = [];
+    let known = 0;
+    let all = 0;
+    for (let b = j[0]; b < j[1]; b++) {
+      for (let a = i[0]; a < i[1]; a++) {
+        const key = this.tileKey(level, a, b);
+        all++;
+        if (this.cache.get(key) || this.refused.has(key)) known++;
+        else {
+          const rank = Math.hypot(((a + 0.5) * wide - x) / wide, ((b + 0.5) * high - y) / high);
+          jobs.push({ key, rank: 10 + rank, run: (signal) => this.fetchTile(key, level, a, b, signal) });
+        }
+      }
+    }
+    this.progress = [known, all];
+    if (jobs.length > 0.4 * all) this.wantCoarse(jobs, level);
+    this.queue.want(this, jobs);
+    this.dispatchEvent(new Event("tiles"));
+  }
+
+  wantCoarse(jobs, level) {
+    const window = this.viewport.window().join();
+    const key = `${this.source.key}|coarse|${window}`;
+    if (this.refused.has(key) || this.coarse.some((tile) => tile.key === key)) return;
+    if (this.covered(level - 1)) return;
+    jobs.push({ key, rank: 0, run: (signal) => this.fetchCoarse(key, signal) });
+  }
+
+  /** Whether tiles of a level fill the view. */
+  covered(level) {
+    const { i, j } = this.grid(level);
+    for (let b = j[0]; b < j[1]; b++) {
+      for (let a = i[0]; a < i[1]; a++) if (!this.cache.has(this.tileKey(level, a, b))) return false;
+    }
+    return true;
+  }
+
+  /** The cells of `count` points from `first` on at a distance `h` whose centres are legal. */
+  static clip(first, h, count, [least, most], open) {
+    const centre = (k) => (first + k + 0.5) * h;
+    let [begin, end] = [0, count];
+    while (begin < end && (open ? centre(begin) <= least : centre(begin) < least)) begin++;
+    while (end > begin && centre(end - 1) > most) end--;
+    return { begin, count: end - begin, values: over(centre(begin), centre(end - 1), end - begin) };
+  }
+
+  async fetchTile(key, level, i, j, signal) {
+    const { source, viewport: v } = this;
+    const [hx, hy] = [v.stepX * 2 ** -level, v.stepY * 2 ** -(level + v.shape)];
+    const across = TileView.clip(i * SIDE, hx, SIDE, source.legal.x, source.x.open);
+    const up = TileView.clip(j * SIDE, hy, SIDE, source.legal.y, source.y.open);
+    const [c, r] = [i * SIDE + across.begin, j * SIDE + up.begin];
+    const tile = new Tile({
+      source: source.key, key, level, hx, hy, x0: c * hx, y0: r * hy, columns: across.count, rows: up.count,
+      phase: (((c + r) % 12) + 12) % 12,
+    });
+    await this.fetch(tile, source, [across, up], 8, signal);
+  }
+
+  async fetchCoarse(key, signal) {
+    const { source, viewport: v } = this;
+    const pixels = Math.max(COARSE_PIXELS, Math.sqrt((v.width * v.height) / COARSE_POINTS));
+    const [hx, hy] = [v.hx * pixels, v.hy * pixels];
+    const [left, bottom] = v.toPlane(0, v.height);
+    const [i, j] = [Math.floor(left / hx), Math.floor(bottom / hy)];
+    const across = TileView.clip(i, hx, Math.ceil(v.width / pixels) + 1, source.legal.x, source.x.open);
+    const up = TileView.clip(j, hy, Math.ceil(v.height / pixels) + 1, source.legal.y, source.y.open);
+    const tile = new Tile({
+      source: source.key, key, level: -Infinity, hx, hy, x0: (i + across.begin) * hx, y0: (j + up.begin) * hy,
+      columns: across.count, rows: up.count, phase: 0,
+    });
+    await this.fetch(tile, source, [across, up], undefined, signal);
+  }
+
+  async fetch(tile, source, [across, up], refine, signal) {
+    try {
+      if (tile.columns > 0 && tile.rows > 0) {
+        const plan = source.plan(across.values, up.values, refine);
+        tile.fill(source.read(await askTile(plan, signal)));
+      }
+    } catch (error) {
+      if (signal.aborted) return;
+      this.refused.add(tile.key);
+      this.failed(error);
+      return;
+    }
+    if (tile.level === -Infinity) {
+      this.coarse.push(tile);
+      while (this.coarse.length > COARSE_KEPT) this.coarse.shift();
+    } else this.cache.set(tile.key, tile);
+    if (this.source?.key === source.key) this.arrived();
+  }
+
+  arrived() {
+    this.draw();
+    const { i, j } = this.grid(this.level());
+    let known = 0;
+    for (let b = j[0]; b < j[1]; b++) {
+      for (let a = i[0]; a < i[1]; a++) if (this.cache.has(this.tileKey(this.level(), a, b))) known++;
+    }
+    this.progress = [known, this.progress?.[1] ?? known];
+    this.dispatchEvent(new Event("tiles"));
+  }
+
+  /** Asks again for what was refused. */
+  retry() {
+    this.refused.clear();
+    this.changed();
+  }
+
+  /** @returns {Tile[]} all that is known of a source, in the order in which it is drawn: what suits best comes last */
+  known(source = this.source?.key) {
+    const level = this.level();
+    const order = (tile) => (tile.level === level ? Infinity : tile.level < level ? tile.level : 2000 - tile.level);
+    const tiles = this.cache.of(source).filter((tile) => tile.classes);
+    return [
+      ...this.coarse.filter((tile) => tile.source === source && tile.classes),
+      ...tiles.sort((a, b) => order(a) - order(b)),
+    ];
+  }
+
+  /** @returns {{x: number, y: number, found: {id: number, name: string, colour: string, share: number}[]}} */
+  at(px, py) {
+    const [x, y] = this.viewport.toPlane(px, py);
+    const tile = this.known().findLast((known) => known.contains(x, y));
+    const found = tile ? tile.at(x, y).map((one) => ({ ...one, ...this.source.look(one.id) })) : [];
+    return { x, y, found };
+  }
+
+  /** @returns {{counts: Map<number, number>, coarse: boolean}} how much of the view each motion has */
+  shares() {
+    const counts = new Map();
+    const { viewport: v } = this;
+    const [left, top] = v.toPlane(0, 0);
+    const [right, bottom] = v.toPlane(v.width, v.height);
+    const level = this.level();
+    const known = this.known();
+    const sharp = this.covered(level);
+    const chosen = sharp ? known.filter((tile) => tile.level === level)
+      : known.filter((tile) => tile.level === -Infinity).slice(-1);
+    for (const tile of chosen) {
+      const cut = (low, high, begin, h, count) => [
+        Math.max(0, Math.round((low - begin) / h)), Math.min(count, Math.round((high - begin) / h)),
+      ];
+      tile.count(counts, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows));
+    }
+    return { counts, coarse: !sharp };
+  }
+
+  /** Draws soon. */
+  draw() {
+    if (this.drawing) return;
+    this.drawing = true;
+    requestAnimationFrame(() => {
+      this.drawing = false;
+      if (this.sized && this.source) this.frame.draw();
+    });
+  }
+}

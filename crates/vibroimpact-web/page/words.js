@@ -1,0 +1,75 @@
+/** Verdicts in words. */
+
+import { percent, short } from "./ticks.js";
+
+const NUMBERS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+
+const counted = (n, one) => `${NUMBERS[n] ?? n} ${one}${n === 1 ? "" : "s"}`;
+
+const every = (n) => (n === 1 ? "every forcing period" : `every ${counted(n, "forcing period")}`);
+
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
+
+/** @param {string} label @returns {string} as it is written on the page */
+export const labelText = (label) => label.replace(/^inf\//, "∞/");
+
+/**
+ * A label in a legend.
+ * @param {string} label
+ * @param {number} impacts budget, 0 for everything
+ */
+export function legendText(label, impacts) {
+  if (label === "0") return "no impact";
+  if (label === "undecided") return impacts ? `not settled in ${impacts} impacts` : "undecided";
+  if (label.startsWith("inf/")) return `${labelText(label)} chatter`;
+  return label;
+}
+
+/** @param {object} motion of an answer @returns {string} what it does, a sentence */
+export function meaning(motion) {
+  const { kind, label } = motion;
+  if (kind === "periodic") {
+    const [m, n] = label.split("/");
+    if (m === "0" || n === undefined) return "The steady motion, without impacts.";
+    const rests = motion.rests?.length ?? 0;
+    const rest = rests ? `, and ${counted(rests, "rest")} on the stop` : "";
+    if (m === "inf") return capital(`a complete chatter (infinitely many impacts)${rest} ${every(Number(n))}.`);
+    return capital(`${counted(Number(m), "impact")}${rest} ${every(Number(n))}.`);
+  }
+  if (kind === "no_impact") {
+    const { horizon } = motion;
+    if (horizon?.kind === "periods") return `No impact for at least ${short(horizon.periods)} forcing periods.`;
+    if (horizon?.why === "graze_limit") return "Ever gentler impacts: in the limit it only touches the stop.";
+    if (horizon?.why === "grazing") return "It touches the stop without impact.";
+    return "No more impacts, ever.";
+  }
+  if (kind === "chaotic") return "Impacts that never repeat.";
+  if (kind === "stuck") return "At rest on the stop for ever.";
+  return "Nothing could be shown within the budget of impacts.";
+}
+
+const complex = ([re, im]) => (im ? `${short(re)} ${im < 0 ? "−" : "+"} ${short(Math.abs(im))} i` : short(re));
+
+/** @param {object} motion @returns {string} its multipliers or exponents, empty where there are none */
+export function stability(motion) {
+  const list = motion.multipliers;
+  if (motion.kind === "chaotic") {
+    const { value, error } = motion.lyapunov ?? {};
+    return value === undefined ? "Every single motion in it is unstable."
+      : `Largest Lyapunov exponent ${short(value)} ± ${short(error)} per unit of time.`;
+  }
+  if (!list?.length) return "";
+  const pair = list.length === 2 && list[0][1] !== 0 && list[0][1] === -list[1][1];
+  const [re, im] = list[0];
+  const told = pair ? `${short(re)} ± ${short(Math.abs(im))} i (modulus ${short(Math.hypot(re, im))})`
+    : list.map(complex).join(", ");
+  const word = motion.stable === true ? "Stable" : motion.stable === false ? "Unstable" : "Neutral";
+  return `${word}; multipliers ${told}.`;
+}
+
+/** Which motions a point has, most frequent first. */
+export function motionsText(found, impacts) {
+  const name = (motion) => legendText(motion.name, impacts);
+  if (found.length === 1) return name(found[0]);
+  return found.map((motion) => `${name(motion)} ${percent(motion.share)}`).join(", ");
+}
