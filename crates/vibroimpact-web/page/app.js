@@ -79,6 +79,7 @@ function panels() {
     for (const button of document.querySelectorAll("[data-panel-button]")) {
       button.setAttribute("aria-pressed", String(button.dataset.panelButton === panel));
     }
+    byId("panel-show").hidden = panel !== "none";
     byId("point").hidden = panel !== "point" || !chosen;
     byId("hint").hidden = panel !== "point" || chosen;
     byId("line").hidden = panel !== "line";
@@ -86,6 +87,7 @@ function panels() {
   for (const button of document.querySelectorAll("[data-panel-button]")) {
     button.addEventListener("click", () => store.set({ panel: button.dataset.panelButton }));
   }
+  byId("panel-show").addEventListener("click", () => store.set({ panel: "point" }));
   store.on(["panel", "point"], show);
   show();
 }

@@ -4,7 +4,7 @@ import { byId, debounced, element } from "./dom.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
 import { valueOf } from "./plane.js";
 
-const BUDGETS = [[200, "quick: 200 impacts"], [1000, "1000 impacts"], [20000, "20 000 impacts"], [0, "everything"]];
+const BUDGETS = [[200, "200 impacts, quick"], [1000, "1000 impacts"], [20000, "20 000 impacts"], [0, "as long as it takes"]];
 
 /** @param {import("./state.js").Store} store */
 export function controls(store) {
@@ -22,7 +22,7 @@ export function controls(store) {
   const impacts = choice(store, "impacts", BUDGETS);
   byId("budget").append(
     element("label", { class: "row" }, element("span", { text: "starts per point" }), starts),
-    element("label", { class: "row" }, element("span", { text: "follow for" }), impacts),
+    element("label", { class: "row" }, element("span", { text: "for" }), impacts),
   );
   const show = () => {
     const { state } = store;

@@ -25,7 +25,7 @@ export class Frame {
     view.viewport.height = view.size[1] - this.top - this.bottom;
     const style = getComputedStyle(view.host);
     const colour = (name) => style.getPropertyValue(name).trim();
-    this.colours = { ink: colour("--ink"), soft: colour("--soft"), line: colour("--line"), outside: colour("--outside") };
+    this.colours = Object.fromEntries(["ink", "soft", "line", "outside", "blank"].map((name) => [name, colour(`--${name}`)]));
   }
 
   draw() {
@@ -38,6 +38,8 @@ export class Frame {
     context.beginPath();
     context.rect(...[this.left, this.top, view.viewport.width, view.viewport.height].map((v) => Math.round(v * density)));
     context.clip();
+    context.fillStyle = this.colours.blank;
+    context.fillRect(0, 0, view.picture.width, view.picture.height);
     if (view.ghost) {
       context.globalAlpha = 0.35;
       for (const tile of view.known(view.ghost)) this.tile(context, tile);
@@ -159,7 +161,7 @@ export class Frame {
       const py = Math.round(v.toPixel(v.cx, value)[1]) + 0.5;
       context.moveTo(-1, py);
       context.lineTo(-6, py);
-      if (py > 0.5 * em && py < v.height - 0.3 * em) context.fillText(text, -9, py);
+      context.fillText(text, -9, py);
     }
     context.stroke();
     this.names(context, source, across.offset, up.offset);

@@ -41,7 +41,10 @@ export class Legend {
     if (!this.view.source || !this.view.sized) return;
     const { counts, coarse } = this.view.shares();
     const total = [...counts.values()].reduce((sum, n) => sum + n, 0);
-    if (!total) return;
+    if (!total) {
+      this.note.textContent = "Computing.";
+      return;
+    }
     const sorted = [...counts].map(([id, n]) => ({ id, share: n / total, ...this.view.source.look(id) }))
       .sort((a, b) => b.share - a.share);
     const shown = this.all || sorted.length <= SHOWN + 1 ? sorted : sorted.slice(0, SHOWN);

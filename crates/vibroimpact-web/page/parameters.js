@@ -15,11 +15,11 @@
 /** @type {Record<string, Coordinate>} Parameters of the oscillator. */
 export const PARAMETERS = {
   inverse_beta: {
-    symbol: "1/β", words: "inverse frequency ratio", window: [0.375, 2.025], step: 2 ** -9,
+    symbol: "1/β", words: "inverse frequency", window: [0.375, 2.025], step: 2 ** -9,
     least: 0, open: true, most: Infinity, slider: [0.05, 3, 0.005],
   },
   beta: {
-    symbol: "β", words: "frequency ratio", window: [0.4, 2.8], step: 2 ** -9,
+    symbol: "β", words: "frequency", window: [0.4, 2.8], step: 2 ** -9,
     least: 0, open: true, most: Infinity, slider: [0.3, 5, 0.005],
   },
   gap: {
@@ -30,15 +30,15 @@ export const PARAMETERS = {
     symbol: "ε", words: "restitution", window: [0, 1], step: 2 ** -9, least: 0, most: 1, slider: [0, 1, 0.01],
   },
   damping: {
-    symbol: "ζ", words: "damping ratio", window: [0, 0.25], step: 2 ** -11,
+    symbol: "ζ", words: "damping", window: [0, 0.25], step: 2 ** -11,
     least: 0, most: Infinity, slider: [0, 0.5, 0.005],
   },
   second_gap: {
-    symbol: "δ₂", words: "gap of the second stop", window: [0, 5], step: 2 ** -7,
+    symbol: "δ₂", words: "second gap", window: [0, 5], step: 2 ** -7,
     least: -Infinity, most: Infinity, slider: [-1, 6, 0.01],
   },
   second_restitution: {
-    symbol: "ε₂", words: "restitution of the second stop", window: [0, 1], step: 2 ** -9,
+    symbol: "ε₂", words: "second restitution", window: [0, 1], step: 2 ** -9,
     least: 0, most: 1, slider: [0, 1, 0.01],
   },
 };

@@ -2,7 +2,6 @@
 
 import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
 import { legalRange, mapPlan, room, systemOf } from "./plans.js";
-import { SIDE } from "./tiles.js";
 import { TileView } from "./tileview.js";
 import { digits } from "./ticks.js";
 import { Viewport } from "./viewport.js";
@@ -36,7 +35,10 @@ export class Plane {
    */
   constructor(host, store, parts) {
     this.store = store;
-    this.view = new TileView(host, { ...parts, label: "Plane of parameters. Arrow keys move, plus and minus zoom, Enter chooses the point at the cross." });
+    this.view = new TileView(host, {
+      ...parts,
+      label: "Plane of parameters. Arrow keys move, plus and minus zoom, Enter chooses the point at the cross.",
+    });
     this.looks = new Map();
     this.points = [];
     this.view.painters.push((context, viewport, frame) => this.paintChosen(context, viewport, frame));
@@ -161,10 +163,5 @@ export class Plane {
     const outside = !legal(PARAMETERS[state.x], x) || !legal(PARAMETERS[state.y], y);
     const motions = found.length ? motionsText(found, state.impacts) : outside ? "no such oscillator" : "not computed yet";
     return { place, motions, colour: found[0]?.colour ?? null };
-  }
-
-  /** The tile distance in words, for the export: points of the view at its resolution. */
-  get pointsAcross() {
-    return Math.min(6 * SIDE, Math.round(this.view.viewport.width));
   }
 }

@@ -32,11 +32,11 @@ export class TileView extends EventTarget {
   /**
    * @param {HTMLElement} host
    * @param {{cache: import("./tiles.js").Cache, queue: import("./tiles.js").Queue, label: string,
-   *   failed: (error: Error) => void}} parts
+   *   failed: (error: Error) => void, rank?: number}} parts the rank of its nearest tile in the queue
    */
-  constructor(host, { cache, queue, label, failed }) {
+  constructor(host, { cache, queue, label, failed, rank = 10 }) {
     super();
-    Object.assign(this, { host, cache, queue, failed });
+    Object.assign(this, { host, cache, queue, failed, rank });
     this.picture = document.createElement("canvas");
     this.picture.setAttribute("aria-hidden", "true");
     this.surface = document.createElement("canvas");
@@ -156,7 +156,7 @@ export class TileView extends EventTarget {
         if (this.cache.get(key) || this.refused.has(key)) known++;
         else {
           const rank = Math.hypot(((a + 0.5) * wide - x) / wide, ((b + 0.5) * high - y) / high);
-          jobs.push({ key, rank: 10 + rank, run: (signal) => this.fetchTile(key, level, a, b, signal) });
+          jobs.push({ key, rank: this.rank + rank, run: (signal) => this.fetchTile(key, level, a, b, signal) });
         }
       }
     }

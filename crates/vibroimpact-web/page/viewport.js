@@ -2,8 +2,8 @@
 
 /** Smallest distance of neighbouring points, in units in the last place of the coordinate. */
 const LEAST_ULPS = 8;
-/** Shapes of a pixel are told apart in steps of this power of two, so that a link brings back the same tiles. */
-const SHAPE = 1 / 64;
+/** A shape of the pixel this close to the one before, in powers of two, is the same: a window comes with few digits. */
+const SAME_SHAPE = 1e-3;
 
 /** @param {number} x @returns {number} the distance of neighbouring doubles at `x` */
 export const ulp = (x) => 2 ** (Math.floor(Math.log2(Math.max(Math.abs(x), 2 ** -1000))) - 52);
@@ -28,7 +28,7 @@ export class Viewport {
     this.cy = (bottom + top) / 2;
     const zx = Math.log2((this.stepX * this.width) / (right - left));
     const zy = Math.log2((this.stepY * this.height) / (top - bottom));
-    this.shape = Math.round((zy - zx) / SHAPE) * SHAPE;
+    if (Math.abs(zy - zx - this.shape) > SAME_SHAPE) this.shape = zy - zx;
     this.z = zx;
   }
 
