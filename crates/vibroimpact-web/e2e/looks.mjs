@@ -1,0 +1,106 @@
+/** How it looks: sizes, light and dark, and what axe-core finds. */
+
+import assert from "node:assert/strict";
+import { createRequire } from "node:module";
+import { readFile } from "node:fs/promises";
+import { drawn, sharp, until } from "./page.mjs";
+
+const S = "#point=1&inverse_beta=1.3&gap=0.75";
+const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+async function fits(page, width) {
+  const wide = await page.evaluate(() => [document.documentElement.scrollWidth, document.body.scrollWidth]);
+  assert.ok(Math.max(...wide) <= width, `${wide} pixels in ${width}`);
+}
+
+/** Waits for the figures of the point. */
+const figures = (page) => until("the figures are there", async () =>
+  (await page.$$eval("#point img.paper-figure", (images) => images.filter((image) => !image.hidden).length)) >= 4);
+
+async function shown({ open, folder }, name, viewport, options = {}, hash = S) {
+  const { page } = await open(hash, { viewport, ...options });
+  await drawn(page);
+  await figures(page);
+  if (viewport.width < 2000) await sharp(page);
+  await page.waitForTimeout(500);
+  await fits(page, viewport.width);
+  await page.screenshot({ path: `${folder}/${name}.png` });
+  return page;
+}
+
+export async function at_360_pixels(given) {
+  const page = await shown(given, "360", { width: 360, height: 740 }, { hasTouch: true, isMobile: true });
+  await page.screenshot({ path: `${given.folder}/360-whole.png`, fullPage: true });
+}
+
+export async function at_1000_by_700(given) {
+  await shown(given, "1000x700", { width: 1000, height: 700 });
+}
+
+export async function at_1440_by_900_dark(given) {
+  await shown(given, "1440x900-dark", { width: 1440, height: 900 }, { colorScheme: "dark" });
+}
+
+export async function at_4k(given) {
+  await shown(given, "4k", { width: 3840, height: 2160 });
+}
+
+export async function at_twice_the_density(given) {
+  await shown(given, "1280x800-2x", { width: 1280, height: 800 }, { deviceScaleFactor: 2 });
+}
+
+export async function touch_pans_pinches_and_taps({ open }) {
+  const { page } = await open("", { viewport: { width: 400, height: 800 }, hasTouch: true, isMobile: true });
+  await drawn(page);
+  const box = await page.locator("#plane").boundingBox();
+  const client = await page.context().newCDPSession(page);
+  const touch = (type, points) => client.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await touch("touchStart", [[x - 30, y], [x + 30, y]]);
+  for (let k = 1; k <= 6; k++) await touch("touchMove", [[x - 30 - 10 * k, y], [x + 30 + 10 * k, y]]);
+  await touch("touchEnd", []);
+  const width = async () => {
+    const view = new URLSearchParams((await page.evaluate(() => location.hash)).slice(1)).get("view")?.split(",").map(Number);
+    return view ? view[1] - view[0] : 1.65;
+  };
+  await until("a pinch zooms", async () => Math.abs((await width()) - 1.65 / 3) < 0.08, 5);
+  await page.touchscreen.tap(x, y);
+  await until("a tap chooses", async () => (await page.evaluate(() => location.hash)).includes("point=1"), 5);
+}
+
+export async function the_theme_is_chosen_and_kept({ open }) {
+  const { page } = await open("", { colorScheme: "light" });
+  await drawn(page);
+  const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  const light = await ground();
+  await page.keyboard.press("d");
+  await until("dark", async () => (await ground()) !== light, 5);
+  assert.match(await page.evaluate(() => location.hash), /theme=dark/);
+  await page.reload();
+  assert.notEqual(await ground(), light);
+}
+
+async function faults(page, where) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => globalThis.axe.run());
+  const bad = violations.filter((one) => ["serious", "critical"].includes(one.impact));
+  assert.deepEqual(bad.map((one) => `${where}: ${one.id}: ${one.nodes.map((node) => node.html).slice(0, 3).join(" | ")}`), []);
+}
+
+export async function axe_finds_no_serious_fault({ open }) {
+  for (const colorScheme of ["light", "dark"]) {
+    const { page } = await open(`${S}&tour=6`, { colorScheme });
+    await drawn(page);
+    await figures(page);
+    await faults(page, colorScheme);
+    for (const [key, dialog] of [["?", "#keys"], ["e", "#export"]]) {
+      await page.keyboard.press(key);
+      await page.locator(dialog).waitFor();
+      await faults(page, `${colorScheme} ${dialog}`);
+      await page.keyboard.press("Escape");
+    }
+  }
+  const { page } = await open("#panel=line&line=gap,1.5,2,1.11", { viewport: { width: 360, height: 740 } });
+  await drawn(page);
+  await faults(page, "narrow");
+}

@@ -1,0 +1,52 @@
+/** What the tests know about the page. */
+
+import assert from "node:assert/strict";
+
+/** Waits until a condition holds, and says what it was otherwise. */
+export async function until(what, condition, seconds = 40) {
+  const end = Date.now() + 1000 * seconds;
+  for (;;) {
+    if (await condition()) return;
+    assert.ok(Date.now() < end, `after ${seconds} s still not: ${what}`);
+    await new Promise((again) => setTimeout(again, 100));
+  }
+}
+
+/** The hash of the page as pairs. */
+export const hash = async (page) => new URLSearchParams((await page.evaluate(() => location.hash)).slice(1));
+
+/** The rows of the legend as a map from name to per cent. */
+export const legend = async (page) => new Map(await page.$$eval("#legend .legend-item", (items) => items.map((item) => [
+  item.querySelector(".legend-name").textContent, parseFloat(item.querySelector(".legend-share").textContent.replace("<", "")),
+])));
+
+/** Waits for the first picture of the plane. */
+export const drawn = (page) => until("the legend names motions", async () => (await legend(page)).size > 0);
+
+/** Waits until every tile in view is there. */
+export const sharp = (page) => page.waitForSelector("#plane[data-complete]", { timeout: 120000 });
+
+/** The place of a point of the first view on the screen, by the ticks and frame of the plane as the page lays them out. */
+export async function place(page, x, y, [left, right, bottom, top] = [0.375, 2.025, 0, 5]) {
+  const box = await page.locator("#plane").boundingBox();
+  const em = await page.evaluate(() => parseFloat(getComputedStyle(document.documentElement).fontSize));
+  const narrow = box.width < 26 * em;
+  const [l, b, t, r] = [Math.round(em * (narrow ? 3.2 : 4.2)), Math.round(3.3 * em), Math.round(0.7 * em), Math.round(0.9 * em)];
+  return [
+    box.x + l + ((x - left) / (right - left)) * (box.width - l - r),
+    box.y + t + ((top - y) / (top - bottom)) * (box.height - t - b),
+  ];
+}
+
+/** The verdict in the panel. */
+export const verdict = (page) => page.locator(".verdict .label").textContent();
+
+/** Asks the server itself. */
+export async function answer(address, task, system) {
+  const response = await fetch(`${address}api/answer`, {
+    method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify({ version: 1, system, task }),
+  });
+  const told = await response.json();
+  assert.ok(response.ok, told.error);
+  return told;
+}

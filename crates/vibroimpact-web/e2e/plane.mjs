@@ -1,0 +1,167 @@
+/** The plane: tiles, zoom, hover, settings, address. */
+
+import assert from "node:assert/strict";
+import { answer, drawn, hash, legend, place, sharp, until } from "./page.mjs";
+
+export async function loads_without_a_complaint({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  const shares = await legend(page);
+  assert.ok(shares.get("1/1") > 15 && shares.get("1/1") < 40, `1/1 has ${shares.get("1/1")} %`);
+  assert.ok(shares.get("no impact") > 25, "no impact is common");
+  assert.equal(await page.title(), "vibro explore");
+  assert.ok(await page.locator("#strip").isHidden());
+}
+
+export async function becomes_sharp_and_the_shares_with_it({ open }) {
+  const { page } = await open("", { viewport: { width: 800, height: 600 } });
+  await sharp(page);
+  await until("the note on coarse shares is gone", async () => (await page.locator("#legend .note").textContent()) === "");
+  const sum = [...(await legend(page)).values()].reduce((a, b) => a + b, 0);
+  assert.ok(sum > 90 && sum <= 100.6, `shares add up to ${sum}`);
+}
+
+export async function zooms_ten_levels({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  const tiles = [];
+  page.on("request", (request) => {
+    if (request.url().endsWith("/api/tile")) tiles.push(request.postDataJSON().task.map.axes[0].over);
+  });
+  const [x, y] = await place(page, 1.11, 2.4);
+  await page.mouse.move(x, y);
+  for (let level = 0; level < 10; level++) {
+    await page.mouse.wheel(0, -250);
+    await page.waitForTimeout(60);
+  }
+  await until("the view is in the address", async () => (await hash(page)).has("view"));
+  const [left, right, bottom, top] = (await hash(page)).get("view").split(",").map(Number);
+  assert.ok(Math.abs(1.65 / (right - left) / 1024 - 1) < 0.01, `the view is ${right - left} wide`);
+  assert.ok(left < 1.11 && right > 1.11 && bottom < 2.4 && top > 2.4, "the pointer stays where it is");
+  await until("a sharp tile of that depth", () => tiles.some((over) => {
+    const [from, to, count] = String(over).split(":").map(Number);
+    return count === 128 && (to - from) / 127 < (right - left) / 500;
+  }));
+  await until("1/2 fills the view", async () => (await legend(page)).get("1/2") > 99);
+}
+
+export async function stops_at_the_numeric_limit({ open }) {
+  const { page } = await open("#view=1.1099999999999,1.1100000000001,1.9999999999999,2.0000000000001");
+  await drawn(page);
+  assert.ok(await page.locator("#limit").isHidden());
+  const [x, y] = await place(page, 1.11, 2, [1.1099999999999, 1.1100000000001, 1.9999999999999, 2.0000000000001]);
+  await page.mouse.move(x, y);
+  for (let k = 0; k < 12; k++) await page.mouse.wheel(0, -600);
+  await page.locator("#limit").waitFor();
+  await page.waitForTimeout(500);
+  const [left, right] = (await hash(page)).get("view").split(",").map(Number);
+  assert.ok(right > left, "there is a view");
+  assert.ok(right - left >= 8 * 2 ** -52 * 200, `a view ${right - left} wide has points that differ`);
+}
+
+export async function hover_names_the_motion_the_server_settles_into({ open, address }) {
+  const { page } = await open();
+  await sharp(page);
+  for (const [x, y] of [[1.3, 1.5], [1.8, 0.25], [0.6, 2], [1.15, 2.4], [1.7, 0.6]]) {
+    const { motion } = await answer(address, { settle: { start: {} } }, { inverse_beta: x, gap: y, restitution: 0.5 });
+    await page.mouse.move(...await place(page, x, y));
+    const name = motion.label === "0" ? "no impact" : motion.label;
+    await until(`the readout names ${name} at ${x}, ${y}`, async () =>
+      (await page.locator("#readout").textContent()).endsWith(name), 5);
+    const text = await page.locator("#readout").textContent();
+    const [, told] = text.match(/1\/β ([\d.]+)/);
+    assert.ok(Math.abs(Number(told) - x) < 0.004, text);
+  }
+}
+
+export async function pans_by_drag_and_arrows({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  const [x, y] = await place(page, 1.2, 2);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 100, y + 50, { steps: 5 });
+  await page.mouse.up();
+  const [left, , bottom] = (await hash(page)).get("view").split(",").map(Number);
+  assert.ok(left < 0.375 && bottom > 0, `moved to ${left}, ${bottom}`);
+  assert.ok(!(await hash(page)).has("point"), "a drag chooses nothing");
+  await page.locator("#plane canvas").last().focus();
+  await page.keyboard.press("ArrowRight");
+  await until("the arrow moves the view", async () => Number((await hash(page)).get("view").split(",")[0]) > left);
+}
+
+export async function restitution_changes_the_plane({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  const before = await legend(page);
+  const asked = page.waitForRequest((request) => request.url().endsWith("/api/tile")
+    && request.postDataJSON().system.restitution === 0.8);
+  await page.locator("#field-restitution").fill("0.8");
+  await page.keyboard.press("Enter");
+  await asked;
+  assert.equal((await hash(page)).get("restitution"), "0.8");
+  await until("the shares are others", async () => (await legend(page)).get("1/1") !== before.get("1/1"));
+  await page.locator("#field-restitution").fill("1.5");
+  await page.keyboard.press("Enter");
+  assert.equal(await page.locator("#field-restitution").getAttribute("aria-invalid"), "true");
+  assert.equal((await hash(page)).get("restitution"), "0.8", "an illegal value changes nothing");
+}
+
+export async function axes_change_and_budget_and_starts({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  const asked = page.waitForRequest((request) => {
+    if (!request.url().endsWith("/api/tile")) return false;
+    const { map } = request.postDataJSON().task;
+    return map.axes[0].vary === "restitution" && map.axes[1].vary === "gap";
+  });
+  await page.locator("#axis-x").selectOption("restitution");
+  await asked;
+  assert.ok(await page.locator("#field-inverse_beta").isVisible(), "the frequency is on no axis now");
+  await page.locator("#starts").selectOption("4");
+  await page.locator("#impacts").selectOption("1000");
+  const state = await hash(page);
+  assert.deepEqual([state.get("x"), state.get("starts"), state.get("impacts")], ["restitution", "4", "1000"]);
+}
+
+export async function a_link_brings_everything_back({ open }) {
+  const link = "#view=1,1.5,1.5,2.5&restitution=0.6&starts=2&layers=paper,amplitude&point=1&gap=2&inverse_beta=1.2";
+  const { page } = await open(link);
+  await drawn(page);
+  const { page: other } = await open(await page.evaluate(() => location.hash));
+  await drawn(other);
+  assert.equal(await other.locator("#field-restitution").inputValue(), "0.6");
+  assert.equal(await other.locator("#starts").inputValue(), "2");
+  assert.equal(await other.locator("#point input").first().inputValue(), "1.2");
+  const boxes = await other.$$eval("#layers input", (inputs) => inputs.map((input) => input.checked));
+  assert.deepEqual(boxes, [false, true, true, false]);
+}
+
+export async function layers_are_drawn({ open, folder }) {
+  const { page } = await open("#view=0.9,1.6,1,3&layers=paper,regions,amplitude", { viewport: { width: 900, height: 700 } });
+  const answers = await Promise.all(["regions", "amplitude"].map((kind) =>
+    page.waitForResponse((response) => response.url().endsWith(`/api/layer?kind=${kind}`), { timeout: 120000 })));
+  for (const response of answers) assert.equal(response.status(), 200);
+  await until("no layer is being computed", async () =>
+    (await page.$$eval("#layers .soft", (parts) => parts.map((part) => part.textContent).join(""))) === "", 120);
+  await sharp(page);
+  await page.screenshot({ path: `${folder}/layers.png` });
+}
+
+export async function a_motion_of_the_legend_alone_keeps_its_colour({ open }) {
+  const { page } = await open("", { viewport: { width: 1280, height: 800 } });
+  await sharp(page);
+  const at = await place(page, 1.3, 1.5);
+  const pixel = () => page.evaluate(([x, y]) => {
+    const canvas = document.querySelector("#plane canvas");
+    const box = canvas.getBoundingClientRect();
+    const scale = canvas.width / box.width;
+    return [...canvas.getContext("2d").getImageData((x - box.x) * scale, (y - box.y) * scale, 1, 1).data].join();
+  }, at);
+  await page.mouse.move(5, 5);
+  const before = await pixel();
+  await page.locator(".legend-item", { hasText: "2/1" }).first().hover();
+  await until("1/1 fades", async () => (await pixel()) !== before, 5);
+  await page.locator(".legend-item", { hasText: "1/1" }).first().hover();
+  await until("1/1 has its colour", async () => (await pixel()) === before, 5);
+}

@@ -1,0 +1,121 @@
+/** The chosen point, its starts, and the line. */
+
+import assert from "node:assert/strict";
+import { drawn, hash, place, until, verdict } from "./page.mjs";
+
+const S = "#point=1&inverse_beta=1.3&gap=0.75";
+
+export async function click_shows_the_verdict({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  await page.mouse.click(...await place(page, 1.3, 0.75));
+  await until("the verdict is 2/1", async () => (await verdict(page)) === "2/1");
+  const state = await hash(page);
+  assert.deepEqual([state.get("point"), state.get("panel")], ["1", null]);
+  assert.equal(await page.locator("#point input").nth(0).inputValue(), "1.3", "a click near S means S");
+  await until("two motions coexist", async () => (await page.locator(".bars li").count()) === 2);
+  const shares = await page.locator(".bars .share").allTextContents();
+  assert.ok(Math.abs(parseFloat(shares[0]) + parseFloat(shares[1]) - 100) < 0.2, shares.join());
+  await until("the waveform, the portrait and the multipliers are there", async () =>
+    (await page.$$eval("#point img.paper-figure", (images) => images.filter((image) => !image.hidden && image.naturalWidth > 0).length)) >= 4);
+  assert.match(await page.locator("#live").textContent(), /2\/1|impacts/);
+}
+
+export async function chaos_has_exponents({ open }) {
+  const { page } = await open("#point=1&inverse_beta=1.11&gap=3");
+  await until("the verdict is chaotic", async () => (await verdict(page)) === "chaotic");
+  await until("both exponents are told", async () =>
+    /exponents per unit of time .* and −/.test(await page.locator("#point").textContent()), 90);
+}
+
+export async function a_start_is_dragged({ open }) {
+  const { page } = await open(S);
+  await until("the verdict is 2/1", async () => (await verdict(page)) === "2/1");
+  const box = await page.locator("#basin").boundingBox();
+  const em = await page.evaluate(() => parseFloat(getComputedStyle(document.documentElement).fontSize));
+  const frame = [Math.round(em * (box.width < 26 * em ? 3.2 : 4.2)), Math.round(3.3 * em), Math.round(0.7 * em), Math.round(0.9 * em)];
+  const at = (x, v) => [
+    box.x + frame[0] + ((x + 8) / 9.15) * (box.width - frame[0] - frame[3]),
+    box.y + frame[2] + ((8 - v) / 16) * (box.height - frame[2] - frame[1]),
+  ];
+  const settled = [];
+  page.on("request", (request) => {
+    if (request.url().endsWith("/api/answer") && request.postDataJSON().task.settle) settled.push(request);
+  });
+  await page.locator("#basin").scrollIntoViewIfNeeded();
+  await page.mouse.move(...at(0, 0));
+  await page.mouse.down();
+  await page.mouse.move(...at(-2, -2), { steps: 12 });
+  await until("it is simulated while it is dragged", () => settled.length > 0);
+  await page.mouse.up();
+  await until("the start is in the address", async () => (await hash(page)).has("start"));
+  const [x, v] = (await hash(page)).get("start").split(",").map(Number);
+  assert.ok(Math.abs(x + 2) < 0.15 && Math.abs(v + 2) < 0.2, `the start is ${x}, ${v}`);
+  await until("from there it is 1/1", async () => (await verdict(page)) === "1/1");
+}
+
+export async function back_and_forward({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  await page.mouse.click(...await place(page, 1.3, 0.75));
+  await until("2/1", async () => (await page.locator(".verdict .label").count()) === 1 && (await verdict(page)) === "2/1");
+  await page.mouse.click(...await place(page, 1.8, 0.25));
+  await until("4/1", async () => (await verdict(page)) === "4/1");
+  await page.goBack();
+  await until("2/1 again", async () => (await verdict(page)) === "2/1");
+  await page.goBack();
+  await until("no point", async () => page.locator("#point").isHidden());
+  await page.goForward();
+  await page.goForward();
+  await until("4/1 again", async () => (await verdict(page)) === "4/1");
+}
+
+export async function a_line_gives_a_bifurcation_diagram({ open, folder }) {
+  const { page } = await open();
+  await drawn(page);
+  await page.locator("#line-tool").click();
+  await page.mouse.move(...await place(page, 1.11, 1.5));
+  await page.mouse.down();
+  await page.mouse.move(...await place(page, 1.13, 2.5), { steps: 6 });
+  await page.mouse.up();
+  const line = (await hash(page)).get("line").split(",");
+  assert.equal(line[0], "gap", "it snaps to the gap");
+  const [from, to, at] = line.slice(1).map(Number);
+  assert.ok(Math.abs(from - 1.5) < 0.02 && Math.abs(to - 2.5) < 0.02 && Math.abs(at - 1.11) < 0.004, line.join());
+  const image = page.locator("#line img.paper-figure");
+  await image.waitFor({ timeout: 120000 });
+  assert.match(await image.getAttribute("alt"), /Bifurcation diagram: δ from/);
+  await page.screenshot({ path: `${folder}/line.png` });
+}
+
+export async function with_the_keyboard_alone({ open }) {
+  const { page } = await open();
+  await drawn(page);
+  await page.keyboard.press("p");
+  assert.equal(await page.evaluate(() => document.activeElement.getAttribute("role")), "application");
+  for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("+");
+  await page.waitForTimeout(400);
+  await page.keyboard.press("Enter");
+  await until("a verdict", async () => (await page.locator(".verdict .label").count()) === 1);
+  await until("it is heard", async () => (await page.locator("#live").textContent()).length > 10);
+  await page.keyboard.press("?");
+  assert.ok(await page.locator("#keys").isVisible());
+  await page.keyboard.press("Escape");
+  assert.ok(await page.locator("#keys").isHidden());
+  await page.keyboard.press("l");
+  await page.keyboard.press("Enter");
+  for (let k = 0; k < 4; k++) await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("Enter");
+  await until("a line was drawn", async () => (await hash(page)).has("line"));
+  // everything that can be operated is reached with Tab, and shows it
+  const reached = new Set();
+  await page.evaluate(() => document.body.focus());
+  for (let k = 0; k < 90; k++) {
+    await page.keyboard.press("Tab");
+    reached.add(await page.evaluate(() => document.activeElement.id));
+  }
+  for (const id of ["tour-button", "export-button", "theme-button", "keys-button", "axis-x", "zoom-in", "line-tool", "starts", "impacts", "show"]) {
+    assert.ok(reached.has(id), `Tab reaches ${id}: ${[...reached]}`);
+  }
+}

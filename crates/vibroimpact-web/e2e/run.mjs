@@ -1,0 +1,73 @@
+/**
+ * The tests of the page: `node run.mjs http://127.0.0.1:8411/ [folder for screenshots] [part of a name]`.
+ *
+ * Needs a running `vibro explore` and Chromium, whose path CHROMIUM gives where it is not /usr/bin/chromium.
+ */
+
+import { chromium } from "playwright-core";
+import { mkdir } from "node:fs/promises";
+import * as exporting from "./export.mjs";
+import * as looks from "./looks.mjs";
+import * as plane from "./plane.mjs";
+import * as point from "./point.mjs";
+import * as tour from "./tour.mjs";
+import * as wrong from "./wrong.mjs";
+
+const [address, folder = "screenshots", part = ""] = process.argv.slice(2);
+if (!address) {
+  console.error("usage: node run.mjs ADDRESS [FOLDER] [PART OF A NAME]");
+  process.exit(2);
+}
+
+const QUIET = [
+  "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync",
+];
+
+await mkdir(folder, { recursive: true });
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: QUIET });
+let passed = 0;
+let failed = 0;
+
+/** Everything that the page complains about; a test that expects complaints empties the list. */
+async function open(hash = "", options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(60000);
+  const complaints = [];
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) complaints.push(`${message.type()}: ${message.text()}`);
+  });
+  page.on("pageerror", (error) => complaints.push(String(error.stack)));
+  await page.goto(address + hash);
+  return { page, context, complaints };
+}
+
+for (const module of [plane, point, exporting, tour, wrong, looks]) {
+  for (const [name, test] of Object.entries(module)) {
+    if (!name.includes(part)) continue;
+    const opened = [];
+    const begin = Date.now();
+    try {
+      await test({
+        address, folder,
+        open: async (...given) => {
+          opened.push(await open(...given));
+          return opened.at(-1);
+        },
+      });
+      const complaints = opened.flatMap((one) => one.complaints);
+      if (complaints.length) throw new Error(`the console says\n${complaints.join("\n")}`);
+      passed++;
+      console.log(`ok      ${name}  ${((Date.now() - begin) / 1000).toFixed(1)} s`);
+    } catch (error) {
+      failed++;
+      console.log(`FAILED  ${name}\n${error.stack}`);
+      await opened.at(-1)?.page.screenshot({ path: `${folder}/failed-${name}.png` }).catch(() => {});
+    }
+    for (const { context } of opened) await context.close();
+  }
+}
+await browser.close();
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed || !passed ? 1 : 0);

@@ -1,0 +1,32 @@
+/** What goes wrong is said. */
+
+import assert from "node:assert/strict";
+import { drawn, until } from "./page.mjs";
+
+export async function what_the_server_refuses_is_said({ open }) {
+  // the second stop leaves the mass no room at the chosen point
+  const { page, complaints } = await open("#point=1&gap=0.5&second=1&second_gap=-1");
+  await until("the sentence of the server", async () => /leave the mass no room/.test(await page.locator("#strip").textContent()));
+  await page.locator("#strip button", { hasText: "Close" }).click();
+  assert.ok(await page.locator("#strip").isHidden());
+  // the browser itself notes every answer that is an error
+  complaints.splice(0, complaints.length, ...complaints.filter((one) => !/status of 4\d\d/.test(one)));
+}
+
+export async function a_server_that_is_gone_is_said_and_found_again({ open }) {
+  const { page, complaints } = await open();
+  await drawn(page);
+  await page.route("**/api/**", (route) => route.abort("connectionrefused"));
+  await page.locator("#field-restitution").fill("0.7");
+  await page.keyboard.press("Enter");
+  await until("it is said", async () => (await page.locator("#strip").textContent()).includes("The server has stopped; start `vibro explore` again."));
+  await page.locator("#strip button", { hasText: "Retry" }).click();
+  await page.waitForTimeout(300);
+  assert.ok(await page.locator("#strip").isVisible(), "still gone");
+  await page.unroute("**/api/**");
+  const asked = page.waitForResponse((response) => response.url().endsWith("/api/tile") && response.ok());
+  await page.locator("#strip button", { hasText: "Retry" }).click();
+  await asked;
+  assert.ok(await page.locator("#strip").isHidden());
+  complaints.splice(0, complaints.length, ...complaints.filter((one) => !/ERR_CONNECTION_REFUSED/.test(one)));
+}
