@@ -72,6 +72,15 @@ def test_damage_is_found_and_mended(plan: vi.Plan, tmp_path: Path) -> None:
     assert vi.resume(place).mended == 1 and contents(place) == before and vi.verify(place, sample=42).whole
 
 
+def test_a_complete_store_is_not_written_to(plan: vi.Plan, tmp_path: Path) -> None:
+    place = tmp_path / "basin.zarr"
+    vi.run(plan, place)
+    # the time of a folder tells of every file that was begun in it
+    times = {of: of.stat().st_mtime_ns for of in (place, *place.rglob("*"))}
+    assert vi.run(plan, place).computed == vi.resume(place).computed == 0 and vi.open(place).load().attrs["complete"] == 1
+    assert {of: of.stat().st_mtime_ns for of in (place, *place.rglob("*"))} == times
+
+
 def test_killed_and_resumed(tmp_path: Path, u: vi.Oscillator) -> None:
     plan = vi.Plan.basin(u, {"x": "-4:3:60", "v": "-4:4:60"}, tile=10)
     vi.run(plan, tmp_path / "one.zarr")

@@ -157,6 +157,58 @@ fn two_at_once_do_no_harm() {
     }
 }
 
+/// A folder that can be read, and no more.
+struct ReadOnly(Folder);
+
+impl Shelf for ReadOnly {
+    fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>> {
+        self.0.get(key)
+    }
+    fn put(&self, _: &str, _: &[u8]) -> io::Result<()> {
+        Err(io::ErrorKind::ReadOnlyFilesystem.into())
+    }
+    fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
+        self.0.list(prefix)
+    }
+    fn sweep(&self) -> io::Result<()> {
+        Ok(())
+    }
+    fn name(&self) -> String {
+        self.0.name()
+    }
+}
+
+#[test]
+fn a_complete_store_is_not_written_to() {
+    for plan in [basin(), map()] {
+        let (folder, want) = whole(&plan);
+        let here = || Arc::new(ReadOnly(Folder::new(folder.path())));
+        let tiles = Store::open(here()).unwrap().study().grid().tiles();
+        for store in [Store::create(here(), &plan).unwrap(), Store::open(here()).unwrap()] {
+            let ran = store.run(Part::ALL, &control(2)).unwrap();
+            assert_eq!((ran.computed, ran.found, ran.left), (0, tiles, 0));
+            assert!(store.conclude_if_done().unwrap());
+        }
+        // what the conclusion has written is written again where it is missing or damaged
+        for key in want.keys().filter(|key| key.starts_with("cycle_") || *key == "label/zarr.json") {
+            for damage in [Some("{}"), Some("{"), None] {
+                let path = folder.path().join(key);
+                match damage {
+                    Some(text) => fs::write(&path, text).unwrap(),
+                    None => fs::remove_file(&path).unwrap(),
+                }
+                let refused = match Store::create(here(), &plan) {
+                    Ok(store) => store.run(Part::ALL, &control(1)).map(|ran| ran.left),
+                    Err(refused) => Err(refused),
+                };
+                assert!(refused.is_err(), "{key} {damage:?}: {refused:?}");
+                open(folder.path(), &plan).run(Part::ALL, &control(1)).unwrap();
+                assert!(files(folder.path()) == want, "{key} {damage:?}");
+            }
+        }
+    }
+}
+
 /// A folder in which somebody else begins a store just after it was found empty.
 struct Contested(Folder, Plan, AtomicBool);
 

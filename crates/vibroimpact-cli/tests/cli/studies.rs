@@ -286,6 +286,45 @@ fn refusals_are_one_sentence_and_lose_nothing() {
     assert!(!at.join("study.zarr").exists());
 }
 
+/// A study that is complete is nobody's to write: not where it could be, and not where it cannot.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_complete_study_where_nothing_can_be_written() {
+    let folder = tempfile::tempdir().unwrap();
+    plan(folder.path(), &PLAN.replace(":28\"", ":8\""));
+    let disk = folder.path().join("disk");
+    fs::create_dir(&disk).unwrap();
+    let mount = |options: &str| Command::new("mount").args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(&disk).status();
+    let mounted = mount("size=8m").is_ok_and(|status| status.success());
+    let ran = said(folder.path(), "run study.toml --store disk/s.zarr");
+    // the times of the folders tell of every file that was begun in them
+    let written = || {
+        let times = |path: &Path| fs::metadata(path).unwrap().modified().unwrap();
+        let folders = ["", "label", "status", "share/c/0"].map(|name| times(&disk.join("s.zarr").join(name)));
+        (files(&disk.join("s.zarr")), folders)
+    };
+    let before = written();
+    let locked = mounted && mount("remount,ro").is_ok_and(|status| status.success());
+    let said =
+        ["run study.toml --store disk/s.zarr", "resume disk/s.zarr", "run study.toml --store disk/s.zarr --csv a.csv"]
+            .map(|line| said(folder.path(), line));
+    let after = written();
+    if mounted {
+        Command::new("umount").arg(&disk).status().unwrap();
+    }
+    assert_eq!(ran.0, Some(0), "{}", ran.1);
+    for (code, note) in said {
+        assert!(
+            code == Some(0) && note.contains("disk/s.zarr: 0 of 4 tiles computed, 4 were there; complete"),
+            "{note}"
+        );
+    }
+    assert!(before == after);
+    if !locked {
+        println!("not on a read-only disk: this user may not mount one");
+    }
+}
+
 /// A disk that is full: what is finished is kept, and goes on when there is room.
 #[test]
 #[cfg(target_os = "linux")]

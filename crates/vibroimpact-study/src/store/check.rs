@@ -106,7 +106,7 @@ impl Store {
     }
 
     /// Whether its root says that it was concluded.
-    fn concluded(&self) -> Result<bool, StoreError> {
+    pub(super) fn concluded(&self) -> Result<bool, StoreError> {
         Ok(self.root()?.pointer("/attributes/complete").and_then(serde_json::Value::as_i64) == Some(1))
     }
 

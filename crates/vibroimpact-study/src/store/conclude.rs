@@ -23,14 +23,19 @@ impl Tiles for &Store {
 }
 
 impl Store {
-    /// Adds the tables and the dictionary of labels, and marks the store as complete. Doing it twice changes nothing.
+    /// Adds the tables and the dictionary of labels, and marks the store as complete. What stands there already is not
+    /// written again, so that a store that is complete may lie where nothing can be written.
     pub(super) fn conclude(&self) -> Result<(), StoreError> {
+        if !self.is_ours() && self.concluded()? {
+            // another version may say the same in other words
+            return Ok(());
+        }
         let mut tiles = self;
         let tables = self.study.conclude(&mut tiles)?;
         let mut descriptions = Map::new();
         let mut describe = |array: &Chunked| {
             let description = array.description().map_err(|why| self.defect(&array.name, why))?;
-            self.put(&array.description_key(), &pretty(&description))?;
+            self.settle(&array.description_key(), &pretty(&description))?;
             descriptions.insert(array.name.clone(), description);
             Ok::<(), StoreError>(())
         };
@@ -51,7 +56,7 @@ impl Store {
             let array = array_of_table(table).map_err(|why| self.defect(table.name, why))?;
             let first = vec![0; table.dimensions.len()];
             let bytes = array.encode(&first, &table.values).map_err(|why| self.defect(table.name, why))?;
-            self.put(&array.key(&first), &bytes)?;
+            self.settle(&array.key(&first), &bytes)?;
             describe(&array)?;
         }
         self.write_root(&descriptions, true)?;

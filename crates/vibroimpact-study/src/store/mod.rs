@@ -190,6 +190,11 @@ impl Store {
         self.shelf.put(key, bytes).map_err(failed)
     }
 
+    /// Writes an object unless these very bytes are there.
+    fn settle(&self, key: &str, bytes: &[u8]) -> Result<(), StoreError> {
+        if self.get(key)?.as_deref() == Some(bytes) { Ok(()) } else { self.put(key, bytes) }
+    }
+
     fn get(&self, key: &str) -> Result<Option<Vec<u8>>, StoreError> {
         self.shelf.get(key).map_err(|error| self.unread(key, error))
     }
@@ -247,9 +252,14 @@ impl Store {
         })
     }
 
+    /// Whether this version began it.
+    fn is_ours(&self) -> bool {
+        self.begun_by == VERSION
+    }
+
     /// Refuses to add tiles to a store that another version began.
     fn same_version(&self) -> Result<(), StoreError> {
-        if self.begun_by == VERSION {
+        if self.is_ours() {
             return Ok(());
         }
         let (theirs, ours) = (self.begun_by.clone(), VERSION.to_owned());

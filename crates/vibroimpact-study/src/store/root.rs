@@ -58,7 +58,7 @@ impl Store {
             },
             "consolidated_metadata": { "kind": "inline", "must_understand": false, "metadata": descriptions },
         });
-        self.put(ROOT, &pretty(&root))
+        self.settle(ROOT, &pretty(&root))
     }
 }
 
