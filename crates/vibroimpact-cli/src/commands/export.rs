@@ -11,8 +11,9 @@ use std::process::Command;
 
 /// Write a store as CSV, Parquet or NetCDF
 ///
-/// The table has a row for each point, or each point and motion: the coordinates, then all fields. Parquet and NetCDF
-/// are written by the Python package `vibroimpact`, which has to be installed for them.
+/// The table has a row for each point, or each point and motion: the coordinates, then all fields. That of an orbit diagram is
+/// the table of `vibro diagram`, a row for each impact or state. Parquet holds the same table. Parquet and NetCDF are written by
+/// the Python package `vibroimpact`, which has to be installed for them.
 #[derive(Clone, Debug, Args)]
 #[command(group = clap::ArgGroup::new("format").required(true))]
 pub(crate) struct Export {

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from vibroimpact import _core, _store
+from vibroimpact import _core, _points, _store
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -65,8 +65,11 @@ def _netcdf(ds: "xr.Dataset", path: Path) -> None:
 def table(ds: "xr.Dataset") -> "pd.DataFrame":
     """A row for each point, or each point and motion: the coordinates, then all fields, codes as words.
 
-    The dimension drawn to the right comes first and runs fastest, as in `vibro export --csv`; what is not there is empty.
+    The dimension drawn to the right comes first and runs fastest; what is not there is empty. Columns and rows are those of
+    `vibro export --csv`.
     """
+    if "point" in ds.dims:
+        return _points.table(ds)
     import pandas as pd
 
     along = [str(name).removeprefix("tile_") for name in ds["status"].dims]
@@ -91,7 +94,7 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
         if ds[name].dtype.kind == "i" and words.dtype.kind == "i":
             column = column.astype("Int64").mask(column < 0)
         columns[name] = column
-        if wide and (extra != "point" or words.dtype.kind == "f"):
+        if wide:
             keep |= column.notna().to_numpy().reshape(points, width)
     return pd.DataFrame(columns)[keep.reshape(-1)].reset_index(drop=True)
 
@@ -117,9 +120,11 @@ def _parquet(ds: "xr.Dataset", path: Path) -> None:
 
     whole = pa.Table.from_pandas(table(ds), preserve_index=False)
     told = {name: str(ds.attrs[name]) for name in _TOLD if name in ds.attrs}
+    # the words of an orbit diagram are not the codes of its variables
+    shown = _points.shown(ds) if "point" in ds.dims else {name: str(name) for name in ds.variables}
     fields = []
     for field in whole.schema:
-        attributes = ds[field.name].attrs if field.name in ds.variables else {}
+        attributes = ds[shown[field.name]].attrs if field.name in shown else {}
         said = {name: str(attributes[name]) for name in ("long_name", "units") if name in attributes}
         fields.append(field.with_metadata(said))
     schema = pa.schema(fields, metadata={**(whole.schema.metadata or {}), **told})

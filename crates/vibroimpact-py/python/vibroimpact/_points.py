@@ -1,0 +1,64 @@
+"""The points of an orbit diagram as a table: the columns and rows of `vibro diagram --csv`, which `vibro export` writes too."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+#: Motions by their codes.
+_MOTIONS = np.array(["none", "impact", "stuck", "undecided"], dtype=object)
+#: What a point is, and where, by its code, which is negative for the second stop.
+_POINTS = np.array([None, "impact", "chatter", "chatter", "impact"], dtype=object)
+_SIDES = np.array([None, "upper", "upper", "lower", "lower"], dtype=object)
+#: The variable behind each column of numbers.
+_NUMBERS = {"velocity": {"phase": "impact_phase", "velocity": "velocity"}, "x": {"x": "x", "v": "v"}}
+
+
+def shown(ds: "xr.Dataset") -> dict[str, str]:
+    """The columns of numbers, each with the variable it shows."""
+    vary = str(ds["kind"].dims[1])
+    return {vary: vary, **_numbers(ds)}
+
+
+def _numbers(ds: "xr.Dataset") -> dict[str, str]:
+    return _NUMBERS["velocity" if "velocity" in ds else "x"]
+
+
+def table(ds: "xr.Dataset") -> "pd.DataFrame":
+    """A row for each point, in the order in which they were found; one without numbers for a motion that has none to show."""
+    import pandas as pd
+
+    motion = ds["kind"].values
+    runs, vary = map(str, ds["kind"].dims)
+    values = ds[vary].values
+    # row and column of each motion that is there, in the order of the command
+    if runs == "start":
+        at, run = (places.ravel() for places in np.indices(motion.shape[::-1]))
+        names = np.array([f"start {k + 1}" for k in range(len(motion))], dtype=object)
+    else:
+        ways = ds[runs].values
+        rising = np.argsort(values, kind="stable")
+        at = np.concatenate([rising if way > 0 else rising[::-1] for way in ways])
+        run = np.repeat(np.arange(len(ways)), len(values))
+        names = np.where(ways > 0, "up", "down").astype(object)
+    there = motion[run, at] >= 0
+    run, at = run[there], at[there]
+
+    columns = _numbers(ds)
+    points = {name: ds[of].values[run, at] for name, of in columns.items()}
+    side = ds["side"].values[run, at] if "side" in ds else None
+    known = ~np.isnan(points[next(iter(columns))]) if side is None else side != 0
+    alone = ~known.any(axis=1)
+    known[alone, 0] = True
+    row, _ = np.nonzero(known)
+    kind = _MOTIONS[motion[run, at]][row]
+    out: dict[str, Any] = {vary: values[at][row], "sweep": names[run][row], "kind": kind}
+    if side is not None:
+        side = side[known]
+        out["kind"] = np.where(side == 0, kind, _POINTS[side])
+        out["side"] = _SIDES[side]
+    out.update({name: of[known] for name, of in points.items()})
+    return pd.DataFrame(out)
