@@ -1,4 +1,4 @@
-"""Tiles on real workers, one of them killed."""
+"""Tiles on real workers, any number of them, and some of them killed."""
 
 import os
 import signal
@@ -6,64 +6,132 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from random import Random
 
 import pytest
 
 import vibroimpact as vi
 
+dask = pytest.importorskip("dask")
 distributed = pytest.importorskip("distributed")
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 
 @pytest.fixture(scope="module")
-def client() -> Iterator["distributed.Client"]:
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
-        with distributed.Client(cluster) as client:
-            yield client
+def cluster() -> Iterator["distributed.LocalCluster"]:
+    # so long after a death the cluster gives up a worker of that name that is dead just then: a later victim
+    # and a dead worker is asked again and again for a result that it had
+    settings = {"distributed.deploy.lost-worker-timeout": "1 hour", "distributed.comm.timeouts.connect": "2 s"}
+    with dask.config.set(settings), distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        yield cluster
+
+
+@pytest.fixture
+def client(cluster: "distributed.LocalCluster", workers: int) -> Iterator["distributed.Client"]:
+    cluster.scale(workers)
+    with distributed.Client(cluster) as client:
+        client.wait_for_workers(workers, timeout=60)
+        while len(cluster.scheduler.workers) > workers:
+            time.sleep(0.01)
+        yield client
+
+
+@pytest.fixture
+def workers() -> int:
+    return 2
 
 
 def contents(store: Path) -> dict[str, bytes]:
     return {str(file.relative_to(store)): file.read_bytes() for file in sorted(store.rglob("*")) if file.is_file()}
 
 
-def test_workers_make_the_same_bytes(client: "distributed.Client", s: vi.Oscillator, tmp_path: Path) -> None:
+@pytest.mark.parametrize("workers", [1, 2, 4])
+def test_workers_make_the_same_bytes(
+    client: "distributed.Client", workers: int, s: vi.Oscillator, tmp_path: Path
+) -> None:
     over = {"inverse_beta": "1:1.5:11", "gap": "0:2:9"}
-    plan = vi.Plan.map(s, over, starts=4, tile=3)
+    plan = vi.Plan.map(s, over, starts=16, tile=1)
     vi.run(plan, tmp_path / "one.zarr")
     seen: list[tuple[int, int]] = []
     ds = vi.region_map(
-        s, over, starts=4, tile=3, store=tmp_path / "two.zarr", client=client, progress=lambda *of: seen.append(of)
+        s, over, starts=16, tile=1, store=tmp_path / "two.zarr", client=client, progress=lambda *of: seen.append(of)
     )
     assert contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr")
-    assert dict(ds["label"].sizes) == {"gap": 9, "inverse_beta": 11, "motion": 4} and seen[-1] == (99, 99)
+    assert dict(ds["label"].sizes) == {"gap": 9, "inverse_beta": 11, "motion": 8} and seen[-1] == (99, 99)
+    # all of them had a part in it
+    opened = client.run(lambda: vi.dask._opened.cache_info().currsize)
+    assert len(opened) == workers and all(opened.values())
     # nothing is left to do, and nothing is done
-    assert vi.dask.run(plan, tmp_path / "two.zarr", client) == vi.Ran(0, 12, 0, 0)
+    assert vi.dask.run(plan, tmp_path / "two.zarr", client) == vi.Ran(0, 99, 0, 0)
 
 
-@pytest.mark.parametrize("tiles", [1, 30, 75])
-def test_a_worker_may_be_killed(client: "distributed.Client", u: vi.Oscillator, tmp_path: Path, tiles: int) -> None:
-    client.wait_for_workers(2, timeout=60)
-    plan = vi.Plan.basin(u, {"x": "-4:3:60", "v": "-4:4:60"}, tile=6)
+KILLS = 20
+#: Of these in one run, one in each fifth of it.
+A_RUN = 5
+
+
+@pytest.mark.parametrize("workers", [2])
+def test_a_worker_may_be_killed_at_any_moment(
+    cluster: "distributed.LocalCluster", client: "distributed.Client", u: vi.Oscillator, tmp_path: Path
+) -> None:
+    """Twenty kills -9 of a worker that has a tile in hand, at moments spread by a seed over the whole of a run."""
+    plan = vi.Plan.map(u, {"inverse_beta": "1.1:1.2:10", "gap": "2.5:3:10"}, starts=8, tile=1)
     vi.run(plan, tmp_path / "one.zarr")
-    victims = list(client.run(os.getpid).values())
-    place = tmp_path / "two.zarr"
+    want = contents(tmp_path / "one.zarr")
+    random = Random(1)
+    killed: list[int] = []
+    for number in range(3 * KILLS // A_RUN):
+        place = tmp_path / f"{number}.zarr"
+        over = threading.Event()
+        moments = [random.uniform(k, k + 1) * 98 / A_RUN for k in range(A_RUN)]
+        thread = threading.Thread(target=murder, args=(cluster, place, moments, random, over, killed))
+        thread.start()
+        try:
+            ran = vi.dask.run(plan, place, client)
+        finally:
+            over.set()
+            thread.join()
+        assert ran.left == 0 and contents(place) == want, killed
+        if len(killed) >= KILLS:
+            break
+        client.wait_for_workers(2, timeout=60)
+    # early, late and in between
+    assert len(killed) >= KILLS and {done // 20 for done in killed} == set(range(5)), killed
 
-    done: list[int] = []
 
-    def murder() -> None:
-        while not (place / "zarr.json").exists() or vi.status(place).done < tiles:
-            time.sleep(0.005)
-        os.kill(victims[0], signal.SIGKILL)
-        done.append(vi.status(place).done)
+def murder(
+    cluster: "distributed.LocalCluster",
+    place: Path,
+    moments: list[float],
+    random: Random,
+    over: threading.Event,
+    killed: list[int],
+) -> None:
+    """Kills a worker at each of these moments, given in tiles done; those that come too late are left out."""
+    gone: set[str] = set()
+    for moment in moments:
+        while not (place / "zarr.json").exists() or vi.status(place).done < int(moment):
+            if over.wait(0.002):
+                return
+        # somewhere within the next tile
+        time.sleep(0.02 * (moment % 1))
+        while not (victims := busy(cluster, gone)):
+            if over.wait(0.002):
+                return
+        address, process = random.choice(victims)
+        os.kill(process, signal.SIGKILL)
+        gone.add(address)
+        done = vi.status(place).done
+        if done < 100:
+            killed.append(done)
 
-    thread = threading.Thread(target=murder)
-    thread.start()
-    ran = vi.dask.run(plan, place, client)
-    thread.join()
-    assert tiles <= done[0] < 100, "the work was over before the worker was killed"
-    assert ran.left == 0 and vi.verify(place, sample=5).whole
-    assert contents(place) == contents(tmp_path / "one.zarr")
+
+def busy(cluster: "distributed.LocalCluster", gone: set[str]) -> list[tuple[str, int]]:
+    """Addresses and processes of the workers that have tiles in hand; the scheduler hears of a death some time later."""
+    working = {address for address, of in list(cluster.scheduler.workers.items()) if of.processing} - gone
+    nannies = [nanny for nanny in cluster.workers.values() if nanny.worker_address in working]
+    return [(nanny.worker_address, nanny.pid) for nanny in nannies if nanny.pid]
 
 
 def test_stopped_by_its_callback(client: "distributed.Client", u: vi.Oscillator, tmp_path: Path) -> None:
