@@ -1,6 +1,7 @@
 //! The requests. Each is a plan, and some say in what form its answer is wanted.
 
 mod about;
+mod answer;
 mod layer;
 mod page;
 mod tile;
@@ -24,6 +25,9 @@ pub(crate) fn all() -> Router<Explorer> {
         .route("/assets/{*path}", get(page::asset))
         .route("/api/about", get(about::about))
         .route("/api/tile", post(tile::tile))
+        .route("/api/answer", post(answer::answer))
+        .route("/api/table", post(answer::table))
+        .route("/api/figure", post(answer::figure))
         .route("/api/layer", post(layer::layer))
         .fallback(nothing)
         .method_not_allowed_fallback(wrong_method)

@@ -1,0 +1,154 @@
+//! What the command tells of a plan: as JSON, as a table, as a figure, and the command itself.
+
+use super::{Asked, bytes, wants_events};
+use crate::Explorer;
+use crate::events::{Done, stream};
+use crate::refusal::Refusal;
+use crate::workshop::Bench;
+use axum::body::Bytes;
+use axum::extract::{Query, State};
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::Response;
+use core::sync::atomic::Ordering;
+use serde::Deserialize;
+use vibroimpact_plot::{COLUMN, Figure};
+use vibroimpact_report::{AnswerError, Units, answer as ask};
+use vibroimpact_study::{Control, Plan};
+
+/// The object that `--json` prints; told while it goes on, where the page wants that.
+pub(super) async fn answer(
+    State(explorer): State<Explorer>,
+    headers: HeaderMap,
+    asked: Asked,
+) -> Result<Response, Refusal> {
+    let key = format!("answer {}", asked.plan.hash());
+    let done = Done::default();
+    let told = done.clone();
+    let finished = explorer.finished.clone();
+    let (plan, points) = (asked.plan, asked.points);
+    let work = async move {
+        if let Some(known) = finished.get(&key) {
+            return Ok::<_, Refusal>(known);
+        }
+        let told = move |now| told.store(now, Ordering::Relaxed);
+        let work = move |control: &Control<'_>| Ok(Bytes::from(ask(&plan, Units::default(), control)?.json()));
+        let body = explorer.workshop.run(Bench::Answers, 0, told, work).await?;
+        finished.insert(key, body.clone());
+        Ok(body)
+    };
+    if wants_events(&headers) {
+        let value =
+            async { serde_json::from_slice(&work.await?).map_err(|_| Refusal::fault("an answer that is no JSON")) };
+        return Ok(stream(points, done, value));
+    }
+    Ok(bytes("application/json", work.await?))
+}
+
+/// The table that `--csv` writes.
+pub(super) async fn table(State(explorer): State<Explorer>, asked: Asked) -> Result<Response, Refusal> {
+    let plan = asked.plan;
+    let work = move |control: &Control<'_>| {
+        let answer = ask(&plan, Units::default(), control)?;
+        let table = answer.table().map_err(AnswerError::from)?.ok_or_else(|| nothing("table"))?;
+        let mut text = Vec::new();
+        table.write(&mut text).map_err(|_| Refusal::fault("a table that cannot be written"))?;
+        Ok(Bytes::from(text))
+    };
+    let body = explorer.workshop.run(Bench::Answers, 0, |_| {}, work).await?;
+    Ok(bytes("text/csv; charset=utf-8", body))
+}
+
+/// How a figure is wanted; sizes in its units, of which a text is 20 high.
+#[derive(Deserialize)]
+pub(super) struct Wanted {
+    #[serde(default)]
+    format: Format,
+    width: Option<f64>,
+    height: Option<f64>,
+    kind: Option<Kind>,
+}
+
+#[derive(Clone, Copy, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+enum Format {
+    #[default]
+    Svg,
+    Png,
+}
+
+/// What is drawn of a motion; without it what `--plot` draws.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Kind {
+    Waveform,
+    Phase,
+    Multipliers,
+    Sections,
+}
+
+/// Sizes of figures, in their units.
+const SIZES: core::ops::RangeInclusive<f64> = 200.0..=4000.0;
+/// Pixels of a PNG to a unit.
+const SHARPNESS: f64 = 2.0;
+
+impl Wanted {
+    fn check(&self) -> Result<(), Refusal> {
+        for (name, size) in [("width", self.width), ("height", self.height)] {
+            if let Some(given) = size.filter(|size| !SIZES.contains(size)) {
+                let (least, most) = (SIZES.start(), SIZES.end());
+                return Err(Refusal::bad(format!("{name} = {given} lies outside {least} <= {name} <= {most}")));
+            }
+        }
+        Ok(())
+    }
+
+    fn draw(&self, figure: Figure) -> Result<(&'static str, Bytes), Refusal> {
+        let height = self.height.unwrap_or(figure.height);
+        let width = self.width.unwrap_or_else(|| figure.width.max(COLUMN));
+        let figure = figure.size(width, height);
+        Ok(match self.format {
+            Format::Svg => ("image/svg+xml", Bytes::from(figure.to_svg())),
+            Format::Png => {
+                let png = figure.to_png(SHARPNESS).map_err(|error| Refusal::bad(error.to_string()))?;
+                ("image/png", Bytes::from(png))
+            }
+        })
+    }
+}
+
+/// The figure that `--plot` draws, or one of the kinds.
+pub(super) async fn figure(
+    State(explorer): State<Explorer>,
+    Query(wanted): Query<Wanted>,
+    asked: Asked,
+) -> Result<Response, Refusal> {
+    wanted.check()?;
+    let plan = asked.plan;
+    let work = move |control: &Control<'_>| {
+        let figure = drawn(&plan, wanted.kind, control)?.ok_or_else(|| nothing("figure"))?;
+        wanted.draw(figure)
+    };
+    let (kind, body) = explorer.workshop.run(Bench::Answers, 0, |_| {}, work).await?;
+    Ok(bytes(kind, body))
+}
+
+fn drawn(plan: &Plan, kind: Option<Kind>, control: &Control<'_>) -> Result<Option<Figure>, Refusal> {
+    let answer = ask(plan, Units::default(), control)?;
+    match kind {
+        None | Some(Kind::Waveform) => Ok(answer.figure(control)?),
+        Some(_) => Ok(None),
+    }
+}
+
+fn nothing(what: &str) -> Refusal {
+    Refusal::new(StatusCode::NOT_FOUND, format!("this plan has no such {what}"))
+}
+
+impl From<AnswerError> for Refusal {
+    fn from(error: AnswerError) -> Self {
+        match error {
+            AnswerError::Stopped(stopped) => Self::new(StatusCode::REQUEST_TIMEOUT, stopped.to_string()),
+            other => Self::bad(other.to_string()),
+        }
+    }
+}
