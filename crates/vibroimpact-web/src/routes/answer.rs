@@ -5,13 +5,16 @@ use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;
 use crate::workshop::Bench;
+use axum::Json;
 use axum::body::Bytes;
 use axum::extract::{Query, State};
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
 use core::sync::atomic::Ordering;
 use serde::Deserialize;
+use serde_json::{Value, json};
 use vibroimpact_plot::{COLUMN, Figure};
+use vibroimpact_report::question::{python, shell_line};
 use vibroimpact_report::{AnswerError, Units, answer as ask};
 use vibroimpact_study::{Control, Plan};
 
@@ -56,6 +59,11 @@ pub(super) async fn table(State(explorer): State<Explorer>, asked: Asked) -> Res
     };
     let body = explorer.workshop.run(Bench::Answers, 0, |_| {}, work).await?;
     Ok(bytes("text/csv; charset=utf-8", body))
+}
+
+/// What to type for the same in a shell and in Python; `null` where there are no words for it.
+pub(super) async fn command(asked: Asked) -> Json<Value> {
+    Json(json!({ "vibro": shell_line(&asked.plan), "python": python(&asked.plan) }))
 }
 
 /// How a figure is wanted; sizes in its units, of which a text is 20 high.

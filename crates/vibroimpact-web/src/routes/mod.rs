@@ -27,6 +27,7 @@ pub(crate) fn all() -> Router<Explorer> {
         .route("/api/tile", post(tile::tile))
         .route("/api/answer", post(answer::answer))
         .route("/api/table", post(answer::table))
+        .route("/api/command", post(answer::command))
         .route("/api/figure", post(answer::figure))
         .route("/api/layer", post(layer::layer))
         .fallback(nothing)
