@@ -10,6 +10,7 @@
 //! | the JSON objects of the commands, one file for each | [`json`] |
 //! | the rows of their tables | [`Table`], [`table`] |
 //! | their figures | [`figure`] |
+//! | the same question as a command line and in Python | [`question`] |
 //! | numbers as text | [`number`] |
 //! | what cannot be drawn or tabulated | [`ReportError`] |
 
@@ -18,6 +19,7 @@ mod error;
 pub mod figure;
 pub mod json;
 pub mod number;
+pub mod question;
 pub mod table;
 mod units;
 

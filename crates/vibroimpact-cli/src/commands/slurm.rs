@@ -5,6 +5,7 @@ use crate::exit::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use vibroimpact_report::question::quoted;
 use vibroimpact_study::Study;
 
 /// Print a Slurm script that runs a study as an array of jobs
@@ -86,21 +87,4 @@ pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
 fn whole(path: &Path) -> Result<String, Failure> {
     let whole = std::path::absolute(path);
     whole.map(|path| path.display().to_string()).map_err(|error| Failure::bad(format!("`{}`: {error}", path.display())))
-}
-
-/// A word that a shell takes as it is.
-fn quoted(word: &str) -> String {
-    let plain = |b: u8| b.is_ascii_alphanumeric() || b"/._-+:=@%".contains(&b);
-    if word.bytes().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quoted;
-
-    #[test]
-    fn a_shell_reads_the_word() {
-        assert_eq!(quoted("/a/b-c_1.zarr"), "/a/b-c_1.zarr");
-        assert_eq!(quoted("it's a plan.toml"), r"'it'\''s a plan.toml'");
-    }
 }

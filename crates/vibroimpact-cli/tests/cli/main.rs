@@ -7,6 +7,7 @@ mod diagrams;
 mod files;
 mod lyapunov;
 mod planes;
+mod questions;
 mod refusals;
 mod studies;
 mod told;

@@ -1,0 +1,149 @@
+//! The command line that the library writes for a plan asks that very plan.
+
+use proptest::prelude::*;
+use serde_json::{Value, json};
+use vibroimpact_report::question::{command, shell_line};
+use vibroimpact_study::Plan;
+
+/// The plan that the command for a plan prints.
+fn asked(plan: &Plan) -> Plan {
+    let words = command(plan).expect("a command says it");
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut vibro = assert_cmd::Command::new(env!("CARGO_BIN_EXE_vibro"));
+    vibro.args(&words[1..]).arg("--json").current_dir(&folder).timeout(std::time::Duration::from_secs(60));
+    let output = vibro.output().expect("vibro runs");
+    assert!(output.status.success(), "{words:?}: {}", String::from_utf8_lossy(&output.stderr));
+    let object: Value = serde_json::from_slice(&output.stdout).expect("stdout is one JSON object");
+    serde_json::from_value(object["plan"].clone()).expect("a plan")
+}
+
+fn plan(system: &Value, task: &Value) -> Plan {
+    let plan: Plan = serde_json::from_value(json!({ "version": 1, "system": system, "task": task })).expect("a plan");
+    plan.check().expect("it makes sense");
+    plan
+}
+
+#[test]
+fn of_every_task() {
+    let one = json!({ "inverse_beta": 1.11, "gap": 1.5, "restitution": 0.5 });
+    let two = json!({ "beta": 0.9, "gap": 0.75, "restitution": 0.5, "damping": 0.05, "second_stop": { "gap": 2.0, "restitution": 0.4 } });
+    let over = |parameter: &str, from: f64, to: f64| json!({ "parameter": parameter, "from": from, "to": to });
+    for task in [
+        json!({ "simulate": { "start": { "x": -0.5, "v": 1e-7, "phase": 0.1 }, "impacts": 3, "periods": 2.5 } }),
+        json!({ "settle": { "start": { "v": -1.0 } } }),
+        json!({ "attractors": { "starts": 4, "seed": 0 } }),
+        json!({ "orbit": { "label": " 1/1" } }),
+        json!({ "basin": { "axes": [{ "vary": "x", "over": "-1:0.5:3" }, { "vary": "v", "over": "0.1:1:2:log" }],
+                           "start": { "phase": -1.5 }, "impacts": 50 } }),
+        json!({ "basin": { "axes": [{ "vary": "x", "over": "-1:0.5:3" }, { "vary": "v", "over": "0:1:2" }], "refine": 2 } }),
+        json!({ "map": { "axes": [{ "vary": "gap", "over": "1:2:3" }, { "vary": "restitution", "over": [0.3, 0.2] }],
+                         "starts": 2, "seed": 7, "impacts": 300 } }),
+        json!({ "map": { "axes": [{ "vary": "inverse_beta", "over": "1:1.2:4" }], "starts": 1, "refine": 4 } }),
+        json!({ "diagram": { "vary": "damping", "over": "0:0.1:2", "direction": "down", "transient": 10, "keep": 3 } }),
+        json!({ "diagram": { "vary": "inverse_beta", "over": "1:1.2:2", "show": "strobe", "transient": 9,
+                             "direction": { "scatter": { "starts": 2, "seed": 5 } } } }),
+        json!({ "lyapunov": { "start": { "phase": 3.0 }, "impacts": 1000, "transient": 5 } }),
+        json!({ "lyapunov": { "impacts": 1000, "points": 20 } }),
+    ] {
+        for system in [&one, &two] {
+            let plan = plan(system, &task);
+            let complete = vibroimpact_report::answer::complete(&plan).expect("it was checked");
+            assert_eq!(asked(&plan).hash(), complete.hash(), "{:?}", command(&plan));
+        }
+    }
+    for (system, task) in [
+        (&two, json!({ "diagram": { "vary": "second_restitution", "over": "0.2:0.3:2", "transient": 10, "keep": 3 } })),
+        (&two, json!({ "map": { "axes": [{ "vary": "second_gap", "over": "1:2:2" }], "starts": 1 } })),
+        (
+            &one,
+            json!({ "branch": { "label": "1/1", "vary": "gap", "to": 1.6, "orbit": 1, "follow": 1, "points": 60 } }),
+        ),
+        (
+            &one,
+            json!({ "curve": { "label": "1/1", "kind": "flip", "vary": over("gap", 1.0, 2.0),
+                                  "and": over("inverse_beta", 1.1, 1.12), "orbit": 1, "event": 1 } }),
+        ),
+        (
+            &one,
+            json!({ "region": { "label": "1/1", "across": over("beta", 0.9, 0.91), "up": over("gap", 1.0, 1.1), "grid": 2 } }),
+        ),
+        (
+            &two,
+            json!({ "region": { "label": "1/1", "across": over("gap", 1.0, 1.1),
+                                   "up": over("second_restitution", 0.3, 0.4), "grid": 2 } }),
+        ),
+    ] {
+        let plan = plan(system, &task);
+        let complete = vibroimpact_report::answer::complete(&plan).expect("it was checked");
+        assert_eq!(asked(&plan).hash(), complete.hash(), "{:?}", command(&plan));
+    }
+}
+
+/// Tiles go with a store; and what no flags say has no command, but is run from its plan where it is a study.
+#[test]
+fn stores_and_plans_in_files() {
+    let one = json!({ "inverse_beta": 1.11, "gap": 1.5, "restitution": 0.5 });
+    for task in [
+        json!({ "attractors": { "starts": 4, "seed": 1 } }),
+        json!({ "diagram": { "vary": "gap", "over": "0:1:2", "transient": 10, "keep": 3 } }),
+    ] {
+        let tiled = Plan { tile: Some(2), ..plan(&one, &task) };
+        assert_eq!(asked(&tiled), tiled);
+    }
+    let axes = |axes: Value| json!({ "axes": axes, "starts": 1 });
+    let (gap, beta) = (json!({ "vary": "gap", "over": "1:2:2" }), json!({ "vary": "beta", "over": "1:2:2" }));
+    for task in [
+        json!({ "map": axes(json!([gap, beta])) }),
+        json!({ "map": axes(json!([{ "vary": "gap", "over": [1.0] }])) }),
+        json!({ "basin": { "axes": [{ "vary": "x", "over": [0.0, 0.5] }, { "vary": "v", "over": "0:1:2" }] } }),
+        json!({ "lyapunov": { "axes": [gap], "impacts": 1000 } }),
+    ] {
+        let plan = plan(&one, &task);
+        assert_eq!(command(&plan), None, "{task}");
+        let line = shell_line(&plan).expect("it is a study");
+        let folder = tempfile::tempdir().expect("a folder");
+        let program = std::path::Path::new(env!("CARGO_BIN_EXE_vibro")).parent().expect("a folder");
+        let run = std::process::Command::new("sh")
+            .args(["-c", &format!("{line} --json")])
+            .env("PATH", std::env::join_paths([program, "/usr/bin".as_ref(), "/bin".as_ref()]).expect("a path"))
+            .current_dir(&folder)
+            .output()
+            .expect("there is a shell");
+        let object: Value = serde_json::from_slice(&run.stdout).expect("stdout is one JSON object");
+        assert_eq!(object["plan_hash"], plan.hash(), "{line}");
+    }
+    let over = |parameter: &str| json!({ "parameter": parameter, "from": 1.0, "to": 1.1 });
+    let swapped = plan(&one, &json!({ "region": { "label": "1/1", "across": over("gap"), "up": over("beta") } }));
+    assert_eq!((command(&swapped), shell_line(&swapped)), (None, None));
+}
+
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        -1e3..1e3,
+        -1e-9..1e-9,
+        Just(-0.0),
+        Just(0.0),
+        Just(1.0),
+        any::<f64>().prop_filter("a number", |x| x.is_finite())
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    /// All numbers come back, whatever their size: the flags of the system and of the start.
+    #[test]
+    fn of_any_system(
+        beta in 1e-3..1e3_f64, inverse: bool, restitution in 0.0..=1.0, damping in prop_oneof![Just(0.0), 1e-12..0.5],
+        room in prop_oneof![Just(0.0), 0.0..1e3_f64], second in prop::option::of((1e-9..1e3, 0.0..=1.0)), v in -1e3..1e3, phase in number(),
+    ) {
+        let gap: f64 = 0.1 + room;
+        let mut system = json!({ "gap": gap, "restitution": restitution, "damping": damping });
+        system[if inverse { "inverse_beta" } else { "beta" }] = beta.into();
+        if let Some((gap, restitution)) = second {
+            system["second_stop"] = json!({ "gap": gap, "restitution": restitution });
+        }
+        let plan = plan(&system, &json!({ "simulate": { "start": { "x": 0.1 * gap.min(1.0), "v": v, "phase": phase }, "impacts": 1, "periods": 0.5 } }));
+        prop_assert_eq!(asked(&plan).hash(), plan.hash());
+    }
+}

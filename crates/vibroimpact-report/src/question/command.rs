@@ -1,0 +1,200 @@
+//! A plan as the words of a `vibro` command.
+
+use super::number;
+use crate::answer::complete;
+use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
+use vibroimpact_study::{
+    Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
+    MapPlan, Parameter, Plan, RegionPlan, StartPlan, Stretch, SystemPlan, Task, Values,
+};
+
+/// The words of the `vibro` command that asks a plan, from `vibro` on: its flags give the very plan, in nondimensional units.
+///
+/// Refinement and the size of tiles belong to stores, so with these the results go to a store, `map.zarr` or as the task is called; and
+/// points of the sections of an attractor belong to a figure, so with these one is drawn, `attractor.svg`. `None` where no flags say it: a
+/// basin over anything but position and velocity or over a list of values, a map or region whose parameters are in another order than the
+/// flags, exponents over axes, and a map over a list of one value.
+#[must_use]
+pub fn command(plan: &Plan) -> Option<Vec<String>> {
+    let plan = complete(plan).ok()?;
+    let system = &plan.system;
+    let mut line = match &plan.task {
+        Task::Simulate { start, impacts, periods } => {
+            let line = Line::new("simulate").system(system, &[]).start(start);
+            line.given("impacts", *impacts).given("periods", periods.map(number))
+        }
+        Task::Settle { start } => Line::new("settle").system(system, &[]).start(start),
+        Task::Attractors { starts, seed } => {
+            Line::new("attractors").system(system, &[]).flag("starts", starts).unless("seed", *seed, 1)
+        }
+        Task::Orbit { label } => Line::new("orbit").system(system, &[]).flag("label", label),
+        Task::Basin(task) => basin(system, task)?,
+        Task::Map(task) => map(system, task)?,
+        Task::Diagram(task) => diagram(system, task),
+        Task::Lyapunov(task) => lyapunov(system, task)?,
+        Task::Branch(task) => branch(system, task),
+        Task::Curve(task) => curve(system, task),
+        Task::Region(task) => region(system, task)?,
+    };
+    let (refine, name) = match &plan.task {
+        Task::Map(task) => (task.refine, "map.zarr"),
+        Task::Basin(task) => (task.refine, "basin.zarr"),
+        Task::Attractors { .. } => (None, "attractors.zarr"),
+        Task::Diagram(_) => (None, "diagram.zarr"),
+        // no other has a store
+        _ => return plan.tile.is_none().then_some(line.words),
+    };
+    if refine.is_some() || plan.tile.is_some() {
+        line = line.flag("store", name).given("tile", plan.tile).given("refine", refine);
+    }
+    Some(line.words)
+}
+
+/// A command line that grows.
+struct Line {
+    words: Vec<String>,
+}
+
+impl Line {
+    fn new(command: &str) -> Self {
+        Self { words: vec!["vibro".to_owned(), command.to_owned()] }
+    }
+
+    #[allow(clippy::needless_pass_by_value)] // a number or a word
+    fn flag(mut self, name: &str, value: impl ToString) -> Self {
+        self.words.extend([format!("--{}", name.replace('_', "-")), value.to_string()]);
+        self
+    }
+
+    fn given(self, name: &str, value: Option<impl ToString>) -> Self {
+        match value {
+            Some(value) => self.flag(name, value),
+            None => self,
+        }
+    }
+
+    /// Without what the command takes anyway.
+    fn unless<T: Copy + PartialEq + ToString>(self, name: &str, value: T, usual: T) -> Self {
+        if value == usual { self } else { self.flag(name, value) }
+    }
+
+    /// A number that is 0 when nothing is said.
+    fn zero(self, name: &str, value: f64) -> Self {
+        // minus zero is said
+        if value.to_bits() == 0 { self } else { self.flag(name, number(value)) }
+    }
+
+    /// The parameters of a system, with those that vary in other words, or in none.
+    fn system(mut self, system: &SystemPlan, varied: &[(Parameter, Option<String>)]) -> Self {
+        let second = system.second_stop;
+        let values = [
+            (Parameter::Beta, system.beta),
+            (Parameter::InverseBeta, system.inverse_beta),
+            (Parameter::Gap, Some(system.gap)),
+            (Parameter::Restitution, Some(system.restitution)),
+            (Parameter::Damping, Some(system.damping).filter(|damping| damping.to_bits() != 0)),
+            (Parameter::SecondGap, second.map(|stop| stop.gap)),
+            (Parameter::SecondRestitution, second.map(|stop| stop.restitution)),
+        ];
+        for (parameter, value) in values {
+            self = match varied.iter().find(|(other, _)| *other == parameter) {
+                Some((_, words)) => self.given(parameter.name(), words.clone()),
+                None => self.given(parameter.name(), value.map(number)),
+            };
+        }
+        self
+    }
+
+    fn start(self, start: &StartPlan) -> Self {
+        self.given("x", start.x.map(number)).zero("v", start.v).zero("phase", start.phase)
+    }
+}
+
+fn basin(system: &SystemPlan, task: &BasinPlan) -> Option<Line> {
+    let [x, v] = task.axes.as_slice() else { return None };
+    let plane = x.vary == Coordinate::X && v.vary == Coordinate::V;
+    let (Values::Span(x), Values::Span(v)) = (&x.over, &v.over) else { return None };
+    // a value on an axis as well is another plan, though it counts for nothing
+    if !plane || task.start.x.is_some() || task.start.v.to_bits() != 0 {
+        return None;
+    }
+    let line = Line::new("basin").system(system, &[]).flag("x", x).flag("v", v).zero("phase", task.start.phase);
+    Some(line.given("impacts", task.impacts))
+}
+
+fn map(system: &SystemPlan, task: &MapPlan) -> Option<Line> {
+    let words = |axis: &Axis| {
+        let Coordinate::Parameter(parameter) = axis.vary else { return None };
+        let over = match &axis.over {
+            Values::Span(span) => span.to_string(),
+            Values::Listed(list) if list.len() > 1 => list.iter().map(|x| number(*x)).collect::<Vec<_>>().join(","),
+            Values::Listed(_) => return None,
+        };
+        Some((parameter, Some(over)))
+    };
+    let varied = task.axes.iter().map(words).collect::<Option<Vec<_>>>()?;
+    in_order(varied.iter().map(|(parameter, _)| *parameter))?;
+    let line = Line::new("map").system(system, &varied).flag("starts", task.starts).unless("seed", task.seed, 1);
+    Some(line.given("impacts", task.impacts))
+}
+
+/// Whether parameters are in the order of the flags, the first of which is drawn to the right.
+fn in_order(parameters: impl Iterator<Item = Parameter>) -> Option<()> {
+    let places: Vec<_> =
+        parameters.map(|parameter| Parameter::ALL.into_iter().position(|other| other == parameter)).collect();
+    places.is_sorted().then_some(())
+}
+
+fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
+    let line = Line::new("diagram").system(system, &[(task.vary, None)]);
+    let line = line.flag("vary", task.vary.name().replace('_', "-")).flag("over", task.over);
+    let line = match task.direction {
+        Direction::Both => line,
+        Direction::Up => line.flag("direction", "up"),
+        Direction::Down => line.flag("direction", "down"),
+        Direction::Scatter { starts, seed } => {
+            line.flag("direction", "scatter").flag("starts", starts).flag("seed", seed)
+        }
+    };
+    let line = if task.show == Show::Strobe { line.flag("show", "strobe") } else { line };
+    line.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP)
+}
+
+fn lyapunov(system: &SystemPlan, task: &LyapunovPlan) -> Option<Line> {
+    if !task.axes.is_empty() {
+        return None;
+    }
+    let usual = LyapunovPlan::default();
+    let line = Line::new("lyapunov").system(system, &[]).start(&task.start);
+    let line = line.unless("impacts", task.impacts, usual.impacts).unless("transient", task.transient, usual.transient);
+    Some(match task.points {
+        Some(points) => line.flag("points", points).flag("plot", "attractor.svg"),
+        None => line,
+    })
+}
+
+fn branch(system: &SystemPlan, task: &BranchPlan) -> Line {
+    let line = Line::new("branch").system(system, &[]).flag("label", &task.label);
+    let line = line.flag("vary", task.vary.name().replace('_', "-")).flag("to", number(task.to));
+    let line = line.given("orbit", task.orbit).unless("follow", task.follow, 0);
+    line.unless("points", task.points, DEFAULT_BRANCH_POINTS)
+}
+
+fn range(stretch: &Stretch) -> String {
+    format!("{}:{}", number(stretch.from), number(stretch.to))
+}
+
+fn curve(system: &SystemPlan, task: &CurvePlan) -> Line {
+    let over = |stretch: &Stretch| format!("{}={}", stretch.parameter.name().replace('_', "-"), range(stretch));
+    let line = Line::new("curve").system(system, &[]).flag("label", &task.label).flag("kind", task.kind.name());
+    let line = line.flag("vary", over(&task.vary)).flag("and", over(&task.and));
+    line.given("orbit", task.orbit).given("event", task.event)
+}
+
+fn region(system: &SystemPlan, task: &RegionPlan) -> Option<Line> {
+    let plane = [&task.across, &task.up];
+    in_order(plane.iter().map(|stretch| stretch.parameter))?;
+    let varied = plane.map(|stretch| (stretch.parameter, Some(range(stretch))));
+    let line = Line::new("region").flag("label", &task.label).system(system, &varied);
+    Some(line.unless("grid", task.grid, DEFAULT_GRID))
+}

@@ -1,0 +1,15 @@
+//! The same question in other words: as a command line, and as a call in Python.
+
+mod command;
+mod python;
+mod shell;
+
+pub use command::command;
+pub use python::python;
+pub use shell::{quoted, shell_line};
+
+/// A number that reads back as the same double, in Rust, Python and the shell.
+fn number(x: f64) -> String {
+    let text = format!("{x:?}");
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}

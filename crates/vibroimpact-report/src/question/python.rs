@@ -1,0 +1,257 @@
+//! A plan as a call of the Python package.
+
+use super::number;
+use crate::answer::complete;
+use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
+use vibroimpact_study::{
+    Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, Plan, StartPlan,
+    Stretch, SystemPlan, Task, Values,
+};
+
+/// A few lines of Python that ask a plan, in nondimensional units; `None` for a plan that makes no sense.
+///
+/// Grids are computed in memory, refined where that is asked for, and the size of tiles is left out, as no result depends on it. Exponents
+/// over axes are a study, which goes to a store, `lyapunov.zarr`.
+#[must_use]
+pub fn python(plan: &Plan) -> Option<String> {
+    let plan = complete(plan).ok()?;
+    let (name, call) = match &plan.task {
+        Task::Simulate { start, impacts, periods } => {
+            let call = Call::new("simulate").start(start);
+            ("motion", call.given("impacts", *impacts).given("periods", periods.map(number)))
+        }
+        Task::Settle { start } => ("motion", Call::new("settle").start(start)),
+        Task::Attractors { starts, seed } => {
+            ("motions", Call::new("attractors").named("starts", starts).unless("seed", *seed, 1))
+        }
+        Task::Orbit { label } => ("orbits", Call::new("orbits").then(text(label))),
+        Task::Basin(task) => ("basin", basin(task)),
+        Task::Map(task) => {
+            let call = Call::new("region_map").then(axes(&task.axes)).named("starts", task.starts);
+            let call = call.unless("seed", task.seed, 1).given("refine", task.refine);
+            ("motions", call.given("impacts", task.impacts))
+        }
+        Task::Diagram(task) => ("diagram", diagram(task)),
+        Task::Lyapunov(task) => ("exponents", lyapunov(task)),
+        Task::Branch(task) => {
+            let call = Call::new("branch").then(text(&task.label)).then(text(task.vary.name())).then(number(task.to));
+            let call = call.given("orbit", task.orbit).unless("follow", task.follow, 0);
+            ("branch", call.unless("points", task.points, DEFAULT_BRANCH_POINTS))
+        }
+        Task::Curve(task) => {
+            let call = Call::new("curve").then(text(&task.label)).then(text(task.kind.name()));
+            let call = call.then(plane(&task.vary, &task.and));
+            ("curve", call.given("orbit", task.orbit).given("event", task.event))
+        }
+        Task::Region(task) => {
+            let call = Call::new("region").then(text(&task.label)).then(plane(&task.across, &task.up));
+            ("region", call.unless("grid", task.grid, DEFAULT_GRID))
+        }
+    };
+    let told = match &plan.task {
+        Task::Lyapunov(task) if !task.axes.is_empty() => {
+            format!("plan = {}\nvi.run(plan, \"lyapunov.zarr\")\n{name} = vi.open(\"lyapunov.zarr\")\n", call.text())
+        }
+        _ => format!("{name} = {}\n", call.text()),
+    };
+    Some(format!("import vibroimpact as vi\n\nosc = {}\n{told}", oscillator(&plan.system)))
+}
+
+/// A call whose arguments are gathered; the first is the oscillator.
+struct Call {
+    function: &'static str,
+    arguments: Vec<String>,
+}
+
+impl Call {
+    fn new(function: &'static str) -> Self {
+        Self { function, arguments: vec!["osc".to_owned()] }
+    }
+
+    fn then(mut self, argument: String) -> Self {
+        self.arguments.push(argument);
+        self
+    }
+
+    #[allow(clippy::needless_pass_by_value)] // a number or a word
+    fn named(self, name: &str, value: impl ToString) -> Self {
+        self.then(format!("{name}={}", value.to_string()))
+    }
+
+    fn given(self, name: &str, value: Option<impl ToString>) -> Self {
+        match value {
+            Some(value) => self.named(name, value),
+            None => self,
+        }
+    }
+
+    /// Without what the function takes anyway.
+    fn unless<T: Copy + PartialEq + ToString>(self, name: &str, value: T, usual: T) -> Self {
+        if value == usual { self } else { self.named(name, value) }
+    }
+
+    fn zero(self, name: &str, value: f64) -> Self {
+        // minus zero is said
+        if value.to_bits() == 0 { self } else { self.named(name, number(value)) }
+    }
+
+    fn start(self, start: &StartPlan) -> Self {
+        self.given("x", start.x.map(number)).zero("v", start.v).zero("phase", start.phase)
+    }
+
+    fn text(&self) -> String {
+        format!("vi.{}({})", self.function, self.arguments.join(", "))
+    }
+}
+
+fn oscillator(system: &SystemPlan) -> String {
+    let second = system.second_stop;
+    let parts = [
+        ("beta", system.beta),
+        ("inverse_beta", system.inverse_beta),
+        ("gap", Some(system.gap)),
+        ("restitution", Some(system.restitution)),
+        ("damping", Some(system.damping).filter(|damping| damping.to_bits() != 0)),
+        ("second_gap", second.map(|stop| stop.gap)),
+        ("second_restitution", second.map(|stop| stop.restitution)),
+    ];
+    let given = parts.into_iter().filter_map(|(name, value)| Some(format!("{name}={}", number(value?))));
+    format!("vi.Oscillator({})", given.collect::<Vec<_>>().join(", "))
+}
+
+/// A text, quoted; JSON writes it as Python reads it.
+fn text(of: &str) -> String {
+    serde_json::Value::from(of).to_string()
+}
+
+fn values(of: &Values) -> String {
+    match of {
+        Values::Span(span) => text(&span.to_string()),
+        Values::Listed(list) => format!("[{}]", list.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+fn mapping(entries: impl Iterator<Item = (&'static str, String)>) -> String {
+    let entries: Vec<String> = entries.map(|(name, value)| format!("{}: {value}", text(name))).collect();
+    format!("{{{}}}", entries.join(", "))
+}
+
+fn axes(of: &[Axis]) -> String {
+    mapping(of.iter().map(|axis| (axis.vary.name(), values(&axis.over))))
+}
+
+fn plane(one: &Stretch, two: &Stretch) -> String {
+    let range = |of: &Stretch| (of.parameter.name(), format!("({}, {})", number(of.from), number(of.to)));
+    mapping([range(one), range(two)].into_iter())
+}
+
+/// Coordinates of the start by name where they come first and in their order, which is how the function orders them.
+fn basin(task: &BasinPlan) -> Call {
+    let place = |axis: &Axis| [Coordinate::X, Coordinate::V, Coordinate::Phase].iter().position(|c| *c == axis.vary);
+    let by_name = task.axes.iter().take_while(|axis| place(axis).is_some()).count();
+    let (named, others) = task.axes.split_at(by_name);
+    let orderly = named.is_sorted_by_key(&place) && others.iter().all(|axis| place(axis).is_none());
+    let mut call = Call::new("basin");
+    if !orderly {
+        call = call.then(axes(&task.axes));
+    } else if !others.is_empty() {
+        call = call.then(axes(others));
+    }
+    for axis in named.iter().filter(|_| orderly) {
+        call = call.named(axis.vary.name(), values(&axis.over));
+    }
+    let varies = |coordinate| task.axes.iter().any(|axis| axis.vary == coordinate);
+    let start = &task.start;
+    // a value of what is on an axis counts for nothing
+    let call = call.given("x", start.x.filter(|_| !varies(Coordinate::X)).map(number));
+    let call = if varies(Coordinate::V) { call } else { call.zero("v", start.v) };
+    let call = if varies(Coordinate::Phase) { call } else { call.zero("phase", start.phase) };
+    call.given("refine", task.refine).given("impacts", task.impacts)
+}
+
+fn diagram(task: &DiagramPlan) -> Call {
+    let call = Call::new("orbit_diagram").then(text(task.vary.name())).then(text(&task.over.to_string()));
+    let call = match task.direction {
+        Direction::Both => call,
+        Direction::Up => call.named("direction", text("up")),
+        Direction::Down => call.named("direction", text("down")),
+        Direction::Scatter { starts, seed } => {
+            call.named("direction", text("scatter")).named("starts", starts).named("seed", seed)
+        }
+    };
+    let call = if task.show == Show::Strobe { call.named("show", text("strobe")) } else { call };
+    call.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP)
+}
+
+fn lyapunov(task: &LyapunovPlan) -> Call {
+    let usual = LyapunovPlan::default();
+    let call = if task.axes.is_empty() {
+        Call::new("lyapunov").start(&task.start)
+    } else {
+        Call::new("Plan.lyapunov").then(axes(&task.axes)).start(&task.start)
+    };
+    let call = call.unless("impacts", task.impacts, usual.impacts).unless("transient", task.transient, usual.transient);
+    if task.axes.is_empty() { call.given("points", task.points) } else { call }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lines after the import, for a task of S.
+    fn lines(task: &str) -> String {
+        let system = r#"{"inverse_beta":1.3,"gap":0.75,"restitution":0.5,"second_stop":{"gap":2.0,"restitution":0.4}}"#;
+        let plan: Plan = serde_json::from_str(&format!(r#"{{"version":1,"system":{system},"task":{task}}}"#)).unwrap();
+        plan.check().unwrap();
+        let said = python(&plan).unwrap();
+        let body = said.strip_prefix("import vibroimpact as vi\n\n").unwrap();
+        let osc =
+            "osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5, second_gap=2, second_restitution=0.4)\n";
+        body.strip_prefix(osc).unwrap_or(body).to_owned()
+    }
+
+    #[test]
+    fn every_task_has_its_call() {
+        for (task, said) in [
+            (r#"{"simulate":{"start":{"v":1}}}"#, "motion = vi.simulate(osc, v=1, impacts=100)\n"),
+            (r#"{"settle":{"start":{"x":-1.5,"phase":1e-7}}}"#, "motion = vi.settle(osc, x=-1.5, phase=1e-7)\n"),
+            (r#"{"attractors":{"starts":9,"seed":2}}"#, "motions = vi.attractors(osc, starts=9, seed=2)\n"),
+            (r#"{"orbit":{"label":"2/1"}}"#, "orbits = vi.orbits(osc, \"2/1\")\n"),
+            (
+                r#"{"basin":{"axes":[{"vary":"x","over":"-1:0.75:4"},{"vary":"v","over":[0,1.5]}],"start":{"phase":1},"refine":2}}"#,
+                "basin = vi.basin(osc, x=\"-1:0.75:4\", v=[0, 1.5], phase=1, refine=2)\n",
+            ),
+            (
+                r#"{"basin":{"axes":[{"vary":"v","over":"0:1:2"},{"vary":"x","over":"0:0.7:2"}],"start":{"v":1}}}"#,
+                "basin = vi.basin(osc, {\"v\": \"0:1:2\", \"x\": \"0:0.7:2\"})\n",
+            ),
+            (
+                r#"{"diagram":{"vary":"damping","over":"0:0.1:3","direction":{"scatter":{"starts":3,"seed":0}},"show":"strobe"}}"#,
+                "diagram = vi.orbit_diagram(osc, \"damping\", \"0:0.1:3\", direction=\"scatter\", starts=3, seed=0, show=\"strobe\")\n",
+            ),
+            (r#"{"lyapunov":{"impacts":2000,"points":50}}"#, "exponents = vi.lyapunov(osc, impacts=2000, points=50)\n"),
+            (
+                r#"{"lyapunov":{"axes":[{"vary":"x","over":"0:0.5:2"}]}}"#,
+                "plan = vi.Plan.lyapunov(osc, {\"x\": \"0:0.5:2\"})\nvi.run(plan, \"lyapunov.zarr\")\nexponents = vi.open(\"lyapunov.zarr\")\n",
+            ),
+            (
+                r#"{"branch":{"label":"1/1","vary":"second_gap","to":3,"orbit":2}}"#,
+                "branch = vi.branch(osc, \"1/1\", \"second_gap\", 3, orbit=2)\n",
+            ),
+            (
+                r#"{"curve":{"label":"1/1","kind":"flip","vary":{"parameter":"gap","from":0,"to":3},"and":{"parameter":"damping","from":0,"to":0.1}}}"#,
+                "curve = vi.curve(osc, \"1/1\", \"flip\", {\"gap\": (0, 3), \"damping\": (0, 0.1)})\n",
+            ),
+        ] {
+            assert_eq!(lines(task), said);
+        }
+        let map = r#"{"map":{"axes":[{"vary":"restitution","over":"0.2:0.9:3"}],"starts":4,"seed":1,"impacts":200}}"#;
+        assert!(
+            lines(map)
+                .ends_with("motions = vi.region_map(osc, {\"restitution\": \"0.2:0.9:3\"}, starts=4, impacts=200)\n")
+        );
+        let region = r#"{"region":{"label":"1/1","across":{"parameter":"gap","from":1,"to":2},"up":{"parameter":"beta","from":0.5,"to":0.6}}}"#;
+        assert!(lines(region).starts_with("osc = vi.Oscillator(beta=0.5, gap=1, "), "{}", lines(region));
+        assert!(lines(region).ends_with("region = vi.region(osc, \"1/1\", {\"gap\": (1, 2), \"beta\": (0.5, 0.6)})\n"));
+    }
+}

@@ -1,0 +1,45 @@
+//! A command line as one types it.
+
+use super::command;
+use vibroimpact_study::{Plan, Study};
+
+/// A word that a shell takes as it is.
+#[must_use]
+pub fn quoted(word: &str) -> String {
+    let plain = |b: u8| b.is_ascii_alphanumeric() || b"/._-+:=@%,".contains(&b);
+    if !word.is_empty() && word.bytes().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// What to type for a plan: its [`command`], or, for a study that no flags say, its plan into a file and `vibro run`. `None` where
+/// there is neither: a plane of regions whose parameters are in another order than the flags.
+#[must_use]
+pub fn shell_line(plan: &Plan) -> Option<String> {
+    if let Some(words) = command(plan) {
+        return Some(words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" "));
+    }
+    let text = serde_json::to_string(plan).ok().filter(|_| Study::new(plan).is_ok())?;
+    Some(format!("echo {} > plan.json && vibro run plan.json", quoted(&text)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shell_reads_the_word() {
+        assert_eq!(quoted("/a/b-c_1.zarr"), "/a/b-c_1.zarr");
+        assert_eq!(quoted("it's a plan.toml"), r"'it'\''s a plan.toml'");
+        assert_eq!(quoted(""), "''");
+    }
+
+    #[test]
+    fn a_study_without_flags_is_run_from_its_plan() {
+        let text = r#"{"version":1,"system":{"inverse_beta":1.3,"gap":1.0,"restitution":0.5,"damping":0.0},"task":{"lyapunov":{"axes":[{"vary":"gap","over":"1:2:3"}],"start":{"v":0.0,"phase":0.0},"impacts":1000,"transient":100}}}"#;
+        let plan: Plan = serde_json::from_str(text).unwrap();
+        assert_eq!(shell_line(&plan).unwrap(), format!("echo '{text}' > plan.json && vibro run plan.json"));
+    }
+}
