@@ -15,7 +15,7 @@ async function fits(page, width) {
 
 /** Waits for the figures of the point. */
 const figures = (page) => until("the figures are there", async () =>
-  (await page.$$eval("#point img.paper-figure", (images) => images.filter((image) => !image.hidden).length)) >= 4);
+  (await page.$$eval("#point .sheet img", (images) => images.filter((image) => !image.hidden).length)) >= 4);
 
 async function shown({ open, folder }, name, viewport, options = {}, hash = S) {
   const { page } = await open(hash, { viewport, ...options });

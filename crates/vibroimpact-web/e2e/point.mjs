@@ -17,7 +17,7 @@ export async function click_shows_the_verdict({ open }) {
   const shares = await page.locator(".bars .share").allTextContents();
   assert.ok(Math.abs(parseFloat(shares[0]) + parseFloat(shares[1]) - 100) < 0.2, shares.join());
   await until("the waveform, the portrait and the multipliers are there", async () =>
-    (await page.$$eval("#point img.paper-figure", (images) => images.filter((image) => !image.hidden && image.naturalWidth > 0).length)) >= 4);
+    (await page.$$eval("#point .sheet img", (images) => images.filter((image) => !image.hidden && image.naturalWidth > 0).length)) >= 4);
   assert.match(await page.locator("#live").textContent(), /2\/1|impacts/);
 }
 
@@ -31,6 +31,7 @@ export async function chaos_has_exponents({ open }) {
 export async function a_start_is_dragged({ open }) {
   const { page } = await open(S);
   await until("the verdict is 2/1", async () => (await verdict(page)) === "2/1");
+  await page.locator("#basin").scrollIntoViewIfNeeded();
   const box = await page.locator("#basin").boundingBox();
   const em = await page.evaluate(() => parseFloat(getComputedStyle(document.documentElement).fontSize));
   const frame = [Math.round(em * (box.width < 26 * em ? 3.2 : 4.2)), Math.round(3.3 * em), Math.round(0.7 * em), Math.round(0.9 * em)];
@@ -42,7 +43,6 @@ export async function a_start_is_dragged({ open }) {
   page.on("request", (request) => {
     if (request.url().endsWith("/api/answer") && request.postDataJSON().task.settle) settled.push(request);
   });
-  await page.locator("#basin").scrollIntoViewIfNeeded();
   await page.mouse.move(...at(0, 0));
   await page.mouse.down();
   await page.mouse.move(...at(-2, -2), { steps: 12 });
@@ -82,7 +82,7 @@ export async function a_line_gives_a_bifurcation_diagram({ open, folder }) {
   assert.equal(line[0], "gap", "it snaps to the gap");
   const [from, to, at] = line.slice(1).map(Number);
   assert.ok(Math.abs(from - 1.5) < 0.02 && Math.abs(to - 2.5) < 0.02 && Math.abs(at - 1.11) < 0.004, line.join());
-  const image = page.locator("#line img.paper-figure");
+  const image = page.locator("#line .sheet img");
   await image.waitFor({ timeout: 120000 });
   assert.match(await image.getAttribute("alt"), /Bifurcation diagram: δ from/);
   await page.screenshot({ path: `${folder}/line.png` });

@@ -1,6 +1,7 @@
 /** Puts the page together. */
 
 import { about } from "./api.js";
+import { learn } from "./colours.js";
 import { controls } from "./controls.js";
 import { byId, debounced, swatch } from "./dom.js";
 import { Export } from "./export.js";
@@ -63,7 +64,8 @@ greet();
 /** The points of the paper come from the server. */
 async function greet() {
   try {
-    const { points, version } = await about();
+    const { points, version, groups } = await about();
+    learn(groups ?? []);
     plane.named(points);
     byId("version").textContent = version;
   } catch (error) {

@@ -99,7 +99,7 @@ function axes(store) {
   const selects = ["x", "y"].map((axis) => element("select", {
     id: `axis-${axis}`, "aria-label": axis === "x" ? "Parameter to the right" : "Parameter upwards",
     onchange: (event) => turn(store, axis, event.target.value),
-  }, ...Object.entries(PARAMETERS).map(([value, { symbol, words }]) => element("option", { value, text: `${symbol}  ${words}` }))));
+  }, ...Object.entries(PARAMETERS).map(([value, { symbol, words }]) => element("option", { value, text: `${symbol} ${words}` }))));
   byId("axes").append(selects[0], element("span", { class: "times", text: "×" }), selects[1]);
   const show = () => {
     const { state } = store;

@@ -1,6 +1,6 @@
 /** A figure drawn by the server, of the size of its place; of several asked for quickly the newest is shown. */
 
-import { figure as askFigure } from "./api.js";
+import { ServerError, figure as askFigure } from "./api.js";
 import { element } from "./dom.js";
 import { Latest } from "./latest.js";
 
@@ -17,14 +17,16 @@ export class Figure {
    */
   constructor(title, ratio, failed, exported = null) {
     this.ratio = ratio;
-    this.image = element("img", { alt: "", class: "paper-figure", hidden: true });
+    this.image = element("img", { alt: "", hidden: true });
+    this.sheet = element("div", { class: "sheet" }, this.image);
+    this.sheet.style.setProperty("--shape", String(1 / ratio));
     this.said = element("p", { class: "note" });
     this.title = title;
     const button = exported && element("button", {
       type: "button", class: "quiet", text: "Export", "aria-label": `Export ${title.toLowerCase()}`, onclick: exported,
     });
     this.box = element("figure", { class: "figure" },
-      element("figcaption", {}, element("h3", { text: title }), button), this.image, this.said);
+      element("figcaption", {}, element("h3", { text: title }), button), this.sheet, this.said);
     this.asked = new Latest((question, signal) => this.fetch(question, signal), (error) => this.refused(error, failed));
   }
 
@@ -65,13 +67,15 @@ export class Figure {
     this.image.src = address;
     this.image.alt = alt;
     this.image.hidden = false;
+    this.sheet.hidden = false;
     this.said.textContent = "";
     if (last) URL.revokeObjectURL(last);
   }
 
   refused(error, failed) {
-    if (error.constructor.name !== "ServerError") failed(error);
+    if (!(error instanceof ServerError)) failed(error);
     this.clear();
+    this.sheet.hidden = true;
     this.said.textContent = error.message.split("\n")[0];
   }
 

@@ -1,6 +1,7 @@
 /** The motions in view with their shares; pointing at one lets it alone keep its colour. */
 
 import { element, swatch } from "./dom.js";
+import { shares } from "./shares.js";
 import { percent } from "./ticks.js";
 import { legendText } from "./words.js";
 
@@ -39,7 +40,7 @@ export class Legend {
 
   refresh() {
     if (!this.view.source || !this.view.sized) return;
-    const { counts, coarse } = this.view.shares();
+    const { counts, coarse } = shares(this.view);
     const total = [...counts.values()].reduce((sum, n) => sum + n, 0);
     if (!total) {
       this.note.textContent = "Computing.";
@@ -53,7 +54,7 @@ export class Legend {
     this.more.hidden = !rest.length && !(this.all && sorted.length > SHOWN + 1);
     const sum = rest.reduce((part, { share }) => part + share, 0);
     this.more.textContent = rest.length ? `${rest.length} others, ${percent(sum)}` : "fewer";
-    this.note.textContent = coarse ? "Shares of the coarse picture." : "";
+    this.note.textContent = coarse ? "Shares so far, from the coarse picture." : "";
   }
 
   /** Items are kept while they stay, so that focus is not lost. */

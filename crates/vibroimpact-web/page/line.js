@@ -106,7 +106,7 @@ export class LineTool {
     this.show.value = state.show;
     if (state.panel !== "line" || !state.line) {
       this.asked.stop();
-      this.told.textContent = "Choose “Draw a line”, then drag along the plane, to the right or upwards.";
+      this.told.textContent = "Choose the tool Line above the plane, then drag along the plane, to the right or upwards.";
       if (!state.line) this.figure.hide();
       this.key = null;
       return;

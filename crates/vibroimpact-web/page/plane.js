@@ -1,5 +1,6 @@
 /** The plane of two parameters: its source of tiles, what is pointed at, which point is chosen. */
 
+import { learn } from "./colours.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
 import { legalRange, mapPlan, room, systemOf } from "./plans.js";
 import { TileView } from "./tileview.js";
@@ -90,6 +91,7 @@ export class Plane {
       look: (id) => this.looks.get(id) ?? { name: "undecided", colour: "#ffffff" },
       read: ({ header, fields }) => {
         for (const [code, look] of Object.entries(header.labels)) this.looks.set(Number(code), look);
+        learn(Object.values(header.labels));
         return { classes: fields.label.values, shares: fields.share.values, per: fields.label.per };
       },
     };

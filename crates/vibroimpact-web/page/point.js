@@ -2,6 +2,7 @@
 
 import { answer } from "./api.js";
 import { Basin } from "./basin.js";
+import { colourOf } from "./colours.js";
 import { byId, element, swatch } from "./dom.js";
 import { Figure } from "./figure.js";
 import { Latest } from "./latest.js";
@@ -153,7 +154,7 @@ export class Point {
   async settle(state, signal) {
     const { motion } = await answer(settlePlan(state), signal);
     this.motion = motion;
-    const colour = [...this.plane.looks.values()].find((look) => look.name === motion.label)?.colour;
+    const colour = colourOf(motion.label);
     this.verdict.replaceChildren(
       element("p", { class: "label" }, colour ? swatch(colour) : null, motion.kind === "no_impact" ? "0" : labelText(motion.label)),
       element("div", {}, element("p", { text: meaning(motion) }), element("p", { class: "soft", text: stability(motion) })),
@@ -191,10 +192,9 @@ export class Point {
 
   tellCoexisting({ motions, starts }) {
     const rows = motions.map((motion) => {
-      const colour = [...this.plane.looks.values()].find((look) => look.name === motion.label)?.colour ?? "#9a9a9a";
       const fill = element("span", { class: "fill" });
       fill.style.width = `${100 * motion.share}%`;
-      fill.style.backgroundColor = colour;
+      fill.style.backgroundColor = colourOf(motion.label) ?? "#9a9a9a";
       return element("li", {},
         element("span", { class: "name", text: motion.kind === "no_impact" ? "no impact" : labelText(motion.label) }),
         element("span", { class: "bar", "aria-hidden": "true" }, fill),

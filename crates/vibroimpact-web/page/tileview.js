@@ -275,26 +275,6 @@ export class TileView extends EventTarget {
     return { x, y, found };
   }
 
-  /** @returns {{counts: Map<number, number>, coarse: boolean}} how much of the view each motion has */
-  shares() {
-    const counts = new Map();
-    const { viewport: v } = this;
-    const [left, top] = v.toPlane(0, 0);
-    const [right, bottom] = v.toPlane(v.width, v.height);
-    const level = this.level();
-    const known = this.known();
-    const sharp = this.covered(level);
-    const chosen = sharp ? known.filter((tile) => tile.level === level)
-      : known.filter((tile) => tile.level === -Infinity).slice(-1);
-    for (const tile of chosen) {
-      const cut = (low, high, begin, h, count) => [
-        Math.max(0, Math.round((low - begin) / h)), Math.min(count, Math.round((high - begin) / h)),
-      ];
-      tile.count(counts, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows));
-    }
-    return { counts, coarse: !sharp };
-  }
-
   /** Draws soon. */
   draw() {
     if (this.drawing) return;

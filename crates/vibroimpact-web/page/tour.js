@@ -60,9 +60,9 @@ export const STEPS = [
   {
     title: "Figure 10. From an unstable motion to a stable one, at T",
     text: [
-      "At T the motion 1/1 exists but is unstable, and 1/2 is stable. This start lies close to 1/1, about one per cent off: for a while the impacts look like 1/1, the error grows by a factor of 1.16 at each of them and changes its sign, and the motion goes over to 1/2.",
+      "At T the motion 1/1 exists but is unstable, and 1/2 is stable. This start lies close to 1/1, a few per cent off: for a while the impacts look like 1/1, then the error, which grows by a factor of 1.16 from one to the next and changes its sign, takes the motion over to 1/2.",
     ],
-    state: { ...PAPER, inverse_beta: 1.11, gap: 2, start: [2, -0.8, 1.5], view: [0.8, 1.6, 1, 3.6], basin: starts(2) },
+    state: { ...PAPER, inverse_beta: 1.11, gap: 2, start: [2, -0.82, 1.54], view: [0.8, 1.6, 1, 3.6], basin: starts(2) },
   },
   {
     title: "Figure 11. Impacts that never settle, at U",

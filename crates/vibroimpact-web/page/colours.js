@@ -1,0 +1,21 @@
+/** Colours of labels, as the server gives them: by the label itself where a tile had it, else by its group. */
+
+const byLabel = new Map();
+
+/** The group of a label in the legends of all figures. */
+function group(label) {
+  const [m, n] = label.split("/");
+  if (n === undefined || byLabel.has(label)) return label;
+  if (m === "inf") return "inf/n";
+  if (n === "1") return "m/1";
+  if (m === "1") return "1/n";
+  return m === n ? "k/k" : "m/n";
+}
+
+/** @param {{name: string, colour: string}[]} looks that are known from now on */
+export function learn(looks) {
+  for (const { name, colour } of looks) byLabel.set(name, colour);
+}
+
+/** @param {string} label @returns {string | null} */
+export const colourOf = (label) => byLabel.get(group(label)) ?? null;

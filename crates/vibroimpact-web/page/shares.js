@@ -1,0 +1,55 @@
+/** How much of a view each motion has. */
+
+/** Places of a view at which it is looked up while its tiles are not all there. */
+const ACROSS = 120;
+const UP = 90;
+
+/**
+ * @param {import("./tileview.js").TileView} view
+ * @returns {{counts: Map<number, number>, coarse: boolean}} points by motion; coarse before all tiles are there
+ */
+export function shares(view) {
+  const level = view.level();
+  const counts = new Map();
+  if (!view.covered(level)) {
+    sample(view, counts);
+    return { counts, coarse: true };
+  }
+  const { left, right, bottom, top } = ends(view.viewport);
+  const cut = (low, high, begin, h, count) => [
+    Math.max(0, Math.round((low - begin) / h)), Math.min(count, Math.round((high - begin) / h)),
+  ];
+  for (const tile of view.known().filter((known) => known.level === level)) {
+    tile.count(counts, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows));
+  }
+  return { counts, coarse: false };
+}
+
+function ends(viewport) {
+  const [left, top] = viewport.toPlane(0, 0);
+  const [right, bottom] = viewport.toPlane(viewport.width, viewport.height);
+  return { left, right, bottom, top };
+}
+
+/** Looks places up in what suits best of what is known. */
+function sample(view, counts) {
+  const { left, right, bottom, top } = ends(view.viewport);
+  const [wide, high] = [(right - left) / ACROSS, (top - bottom) / UP];
+  const taken = new Uint8Array(ACROSS * UP);
+  const cut = (low, begin, end, h, count) => [
+    Math.max(0, Math.ceil((begin - low) / h - 0.5)), Math.min(count, Math.ceil((end - low) / h - 0.5)),
+  ];
+  for (const tile of view.known().reverse()) {
+    const [c0, c1] = cut(left, tile.x0, tile.x0 + tile.columns * tile.hx, wide, ACROSS);
+    const [r0, r1] = cut(bottom, tile.y0, tile.y0 + tile.rows * tile.hy, high, UP);
+    for (let row = r0; row < r1; row++) {
+      for (let column = c0; column < c1; column++) {
+        if (taken[row * ACROSS + column]) continue;
+        taken[row * ACROSS + column] = 1;
+        for (const { id, share } of tile.at(left + (column + 0.5) * wide, bottom + (row + 0.5) * high)) {
+          counts.set(id, (counts.get(id) ?? 0) + share);
+        }
+      }
+    }
+  }
+}
