@@ -7,6 +7,7 @@
 mod bench_peers;
 mod command;
 mod docs;
+mod explorer;
 mod figures;
 mod licences;
 mod line;
@@ -36,6 +37,7 @@ usage: cargo xtask COMMAND
   python                  the Python package, into an environment under target/
   licences                the licence of every dependency against the allow-list
   links                   every relative link in the Markdown files
+  explorer                the explorer's page in a browser, against the server
   s3                      studies in buckets, against a server that it installs in target/s3-venv
 ";
 
@@ -61,6 +63,7 @@ fn main() -> ExitCode {
         ["python"] => finish(python::install(&root)),
         ["licences"] => finish(licences::check(&root)),
         ["links"] => finish(links::check(&root)),
+        ["explorer"] => finish(explorer::test(&root)),
         ["s3"] => finish(s3::test(&root)),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");

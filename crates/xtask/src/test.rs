@@ -94,6 +94,7 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::command("lints", "cargo clippy --workspace --all-targets -- -D warnings").fast(),
         Step::tests("tests", tests).fast(),
         Step::tests("doc tests", "cargo test --workspace --doc --no-fail-fast"),
+        Step::tests("explorer", "cargo xtask explorer"),
         Step::tests("buckets", "cargo xtask s3"),
         Step::check("documentation", "cargo xtask docs", docs::build),
         Step::check("Python package", "cargo xtask python", python::install),

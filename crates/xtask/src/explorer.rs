@@ -1,0 +1,92 @@
+//! `cargo xtask explorer`: the explorer's page in a real browser, against the server itself.
+//!
+//! What the tests need comes from npm, pinned, into a folder under the target folder. A machine without Node.js or Chromium
+//! skips them, and says so.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Stdio};
+
+use crate::command;
+
+/// The tests and what they need.
+const TESTS: &str = "crates/vibroimpact-web/e2e";
+/// The variable that names the browser where it is none of these.
+const VARIABLE: &str = "CHROMIUM";
+const BROWSERS: [&str; 2] = ["/usr/bin/chromium", "/usr/bin/chromium-browser"];
+
+/// Builds the command, serves the page and runs the tests in the browser; their screenshots stay under the target folder.
+///
+/// # Errors
+/// The sentence that says what failed.
+pub(crate) fn test(root: &Path) -> Result<String, String> {
+    if !command::succeeds(root, "node --version") || !command::succeeds(root, "npm --version") {
+        return Ok(skipped("there is no Node.js with npm to drive a browser"));
+    }
+    let Some(browser) = browser() else {
+        return Ok(skipped("there is no Chromium; its path may be given as CHROMIUM"));
+    };
+    let target = command::target(root)?;
+    let folder = target.join("explorer");
+    copy(&root.join(TESTS), &folder)?;
+    let mut install = command::words(root, "npm ci --no-audit --no-fund --silent");
+    install.current_dir(&folder);
+    command::run(install)?;
+    command::run(command::words(root, "cargo build --package vibroimpact-cli"))?;
+    let (_server, url) = serve(root, &target.join("debug/vibro"))?;
+    let mut tests = command::words(root, "node run.mjs");
+    tests.current_dir(&folder).args([url.as_str(), "screenshots"]).env(VARIABLE, browser);
+    tests.env("NO_PROXY", "127.0.0.1");
+    command::run(tests)?;
+    Ok(format!("the page works; its screenshots are in {}", folder.join("screenshots").display()))
+}
+
+fn browser() -> Option<PathBuf> {
+    let given = std::env::var_os(VARIABLE).map(PathBuf::from);
+    given.into_iter().chain(BROWSERS.map(PathBuf::from)).find(|path| path.exists())
+}
+
+/// Copies the files of a folder that has no folders.
+fn copy(from: &Path, to: &Path) -> Result<(), String> {
+    let failed = |error: std::io::Error| format!("cannot copy {} to {}: {error}", from.display(), to.display());
+    std::fs::create_dir_all(to).map_err(failed)?;
+    for entry in std::fs::read_dir(from).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        if entry.path().is_file() {
+            std::fs::copy(entry.path(), to.join(entry.file_name())).map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
+/// A server that ends with the tests, however they end.
+struct Server(Child);
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Starts the explorer on a free port.
+fn serve(root: &Path, vibro: &Path) -> Result<(Server, String), String> {
+    let failed = |error: std::io::Error| format!("cannot start {}: {error}", vibro.display());
+    let mut explore = command::words(root, &vibro.display().to_string());
+    let explore = explore.args(["explore", "--no-open", "--port", "0"]).stdout(Stdio::piped());
+    let mut server = Server(explore.spawn().map_err(failed)?);
+    let mut url = String::new();
+    if let Some(out) = server.0.stdout.take() {
+        BufReader::new(out).read_line(&mut url).map_err(failed)?;
+    }
+    if url.starts_with("http://") {
+        Ok((server, url.trim().to_owned()))
+    } else {
+        Err("the explorer gave no address".to_owned())
+    }
+}
+
+/// A line that [`totals`](crate::totals) can read.
+fn skipped(why: &str) -> String {
+    format!("test result: skipped, {why}. 0 passed; 0 failed")
+}
