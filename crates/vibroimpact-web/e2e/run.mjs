@@ -69,5 +69,5 @@ for (const module of [plane, point, exporting, tour, wrong, looks]) {
   }
 }
 await browser.close();
-console.log(`${passed} passed, ${failed} failed`);
+console.log(`test result: ${failed ? "FAILED" : "ok"}. ${passed} passed; ${failed} failed`);
 process.exit(failed || !passed ? 1 : 0);
