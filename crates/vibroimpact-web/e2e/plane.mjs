@@ -75,6 +75,47 @@ export async function hover_names_the_motion_the_server_settles_into({ open, add
   }
 }
 
+export async function at_most_three_tiles_are_under_way_and_those_out_of_view_are_given_up({ open }) {
+  const { page } = await open();
+  let [under, most, given] = [0, 0, 0];
+  const ended = (request) => {
+    if (request.url().endsWith("/api/tile")) under--;
+  };
+  page.on("request", (request) => {
+    if (request.url().endsWith("/api/tile")) most = Math.max(most, ++under);
+  });
+  page.on("requestfinished", ended);
+  page.on("requestfailed", (request) => {
+    if (request.failure().errorText.includes("ERR_ABORTED")) given++;
+    ended(request);
+  });
+  await drawn(page);
+  for (let k = 0; k < 6; k++) {
+    await page.locator("#zoom-in").click();
+    await page.waitForTimeout(350);
+  }
+  await page.locator("#whole").click();
+  await page.waitForTimeout(1500);
+  assert.ok(most >= 2 && most <= 3, `${most} at a time`);
+  assert.ok(given > 0, "nothing was given up");
+}
+
+export async function what_was_seen_is_not_asked_again({ open }) {
+  const { page } = await open("#view=1.05,1.15,2.2,2.5", { viewport: { width: 800, height: 600 } });
+  await sharp(page);
+  await page.locator("#zoom-in").click();
+  await until("another level", async () => (await hash(page)).get("view") !== "1.05,1.15,2.2,2.5");
+  await sharp(page);
+  const asked = [];
+  page.on("request", (request) => {
+    if (request.url().endsWith("/api/tile")) asked.push(request);
+  });
+  await page.locator("#zoom-out").click();
+  await page.waitForTimeout(1000);
+  await sharp(page);
+  assert.equal(asked.length, 0);
+}
+
 export async function pans_by_drag_and_arrows({ open }) {
   const { page } = await open();
   await drawn(page);

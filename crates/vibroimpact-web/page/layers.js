@@ -7,10 +7,10 @@ import { PARAMETERS } from "./parameters.js";
 import { mapPlan, over, systemOf } from "./plans.js";
 
 const NAMES = {
-  regions: "regions of simple motions",
-  amplitude: "amplitude |f| without stops",
+  regions: "regions of stability",
+  amplitude: "free amplitude |f|",
   paper: "points of the 1971 paper",
-  stripes: "coexisting motions as stripes",
+  stripes: "stripes for coexistence",
 };
 
 /** A layer is asked for again when the view is this much smaller than what it was computed for. */

@@ -23,7 +23,7 @@ export class Point {
    * @param {(view: string) => void} exported opens the export of a view
    */
   constructor(store, plane, parts, say, exported) {
-    Object.assign(this, { store, plane, say, failed: parts.failed, motion: null });
+    Object.assign(this, { store, plane, say });
     const figure = (title, ratio, view) => new Figure(title, ratio, parts.failed, () => exported(view));
     this.wave = figure("Waveform", 0.42, "waveform");
     this.phase = figure("Phase portrait of the steady motion", 0.8, "phase");
@@ -152,8 +152,10 @@ export class Point {
   }
 
   async settle(state, signal) {
-    const { motion } = await answer(settlePlan(state), signal);
-    this.motion = motion;
+    const { motion } = await answer(settlePlan(state), signal).catch((error) => {
+      this.verdict.replaceChildren(element("p", { class: "soft", text: "No verdict." }));
+      throw error;
+    });
     const colour = colourOf(motion.label);
     this.verdict.replaceChildren(
       element("p", { class: "label" }, colour ? swatch(colour) : null, motion.kind === "no_impact" ? "0" : labelText(motion.label)),

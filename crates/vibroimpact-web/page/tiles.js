@@ -4,7 +4,7 @@
 export const SIDE = 128;
 
 /** Pixels after which the stripes of coexisting motions repeat. */
-const STRIPE = 12;
+export const STRIPE = 12;
 
 /** @param {string} hex `#rrggbb` @returns {number} as a pixel of a canvas */
 const pixelOf = (hex) => {

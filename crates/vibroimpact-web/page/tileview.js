@@ -13,18 +13,14 @@
  * @property {(id: number) => {name: string, colour: string}} look
  */
 
-import { tile as askTile } from "./api.js";
+import { askCoarse, askTile } from "./asking.js";
 import { Frame } from "./frame.js";
 import { gestures } from "./gestures.js";
-import { over } from "./plans.js";
-import { SIDE, Tile } from "./tiles.js";
+import { SIDE } from "./tiles.js";
 import { Viewport } from "./viewport.js";
 
 /** Tiles in view at most; beyond, a coarser level does. */
 const MOST_TILES = 200;
-/** Points of the coarse picture, about, and the pixels between them at least. */
-const COARSE_POINTS = 12000;
-const COARSE_PIXELS = 8;
 /** Coarse pictures kept. */
 const COARSE_KEPT = 6;
 
@@ -60,6 +56,8 @@ export class TileView extends EventTarget {
     this.home = null;
     gestures(this);
     new ResizeObserver(() => this.resize()).observe(host);
+    // another screen may have another density
+    addEventListener("resize", () => this.resize());
   }
 
   /** Device pixels a pixel, at most two. */
@@ -86,7 +84,7 @@ export class TileView extends EventTarget {
 
   fit(window) {
     this.home = window;
-    this.viewport.fit(window);
+    this.viewport.fit(window, this.density);
   }
 
   resize() {
@@ -100,7 +98,7 @@ export class TileView extends EventTarget {
     this.sized = true;
     this.size = [width, height];
     this.frame.measure();
-    if (first && this.home) this.viewport.fit(this.home);
+    if (first && this.home) this.viewport.fit(this.home, this.density);
     this.changed();
   }
 
@@ -156,7 +154,7 @@ export class TileView extends EventTarget {
         if (this.cache.get(key) || this.refused.has(key)) known++;
         else {
           const rank = Math.hypot(((a + 0.5) * wide - x) / wide, ((b + 0.5) * high - y) / high);
-          jobs.push({ key, rank: this.rank + rank, run: (signal) => this.fetchTile(key, level, a, b, signal) });
+          jobs.push({ key, rank: this.rank + rank, run: (signal) => this.take(askTile(this, key, level, [a, b], signal), signal) });
         }
       }
     }
@@ -171,81 +169,45 @@ export class TileView extends EventTarget {
     const key = `${this.source.key}|coarse|${window}`;
     if (this.refused.has(key) || this.coarse.some((tile) => tile.key === key)) return;
     if (this.covered(level - 1)) return;
-    jobs.push({ key, rank: 0, run: (signal) => this.fetchCoarse(key, signal) });
+    jobs.push({ key, rank: 0, run: (signal) => this.take(askCoarse(this, key, signal), signal) });
+  }
+
+  /** The keys of a level's tiles in view. */
+  *keys(level) {
+    const { i, j } = this.grid(level);
+    for (let b = j[0]; b < j[1]; b++) {
+      for (let a = i[0]; a < i[1]; a++) yield this.tileKey(level, a, b);
+    }
   }
 
   /** Whether tiles of a level fill the view. */
   covered(level) {
-    const { i, j } = this.grid(level);
-    for (let b = j[0]; b < j[1]; b++) {
-      for (let a = i[0]; a < i[1]; a++) if (!this.cache.has(this.tileKey(level, a, b))) return false;
-    }
+    for (const key of this.keys(level)) if (!this.cache.has(key)) return false;
     return true;
   }
 
-  /** The cells of `count` points from `first` on at a distance `h` whose centres are legal. */
-  static clip(first, h, count, [least, most], open) {
-    const centre = (k) => (first + k + 0.5) * h;
-    let [begin, end] = [0, count];
-    while (begin < end && (open ? centre(begin) <= least : centre(begin) < least)) begin++;
-    while (end > begin && centre(end - 1) > most) end--;
-    return { begin, count: end - begin, values: over(centre(begin), centre(end - 1), end - begin) };
-  }
-
-  async fetchTile(key, level, i, j, signal) {
-    const { source, viewport: v } = this;
-    const [hx, hy] = [v.stepX * 2 ** -level, v.stepY * 2 ** -(level + v.shape)];
-    const across = TileView.clip(i * SIDE, hx, SIDE, source.legal.x, source.x.open);
-    const up = TileView.clip(j * SIDE, hy, SIDE, source.legal.y, source.y.open);
-    const [c, r] = [i * SIDE + across.begin, j * SIDE + up.begin];
-    const tile = new Tile({
-      source: source.key, key, level, hx, hy, x0: c * hx, y0: r * hy, columns: across.count, rows: up.count,
-      phase: (((c + r) % 12) + 12) % 12,
-    });
-    await this.fetch(tile, source, [across, up], 8, signal);
-  }
-
-  async fetchCoarse(key, signal) {
-    const { source, viewport: v } = this;
-    const pixels = Math.max(COARSE_PIXELS, Math.sqrt((v.width * v.height) / COARSE_POINTS));
-    const [hx, hy] = [v.hx * pixels, v.hy * pixels];
-    const [left, bottom] = v.toPlane(0, v.height);
-    const [i, j] = [Math.floor(left / hx), Math.floor(bottom / hy)];
-    const across = TileView.clip(i, hx, Math.ceil(v.width / pixels) + 1, source.legal.x, source.x.open);
-    const up = TileView.clip(j, hy, Math.ceil(v.height / pixels) + 1, source.legal.y, source.y.open);
-    const tile = new Tile({
-      source: source.key, key, level: -Infinity, hx, hy, x0: (i + across.begin) * hx, y0: (j + up.begin) * hy,
-      columns: across.count, rows: up.count, phase: 0,
-    });
-    await this.fetch(tile, source, [across, up], undefined, signal);
-  }
-
-  async fetch(tile, source, [across, up], refine, signal) {
+  /** Takes what was asked for, or notes that it was refused. */
+  async take(asked, signal) {
+    const { key, source } = asked;
     try {
-      if (tile.columns > 0 && tile.rows > 0) {
-        const plan = source.plan(across.values, up.values, refine);
-        tile.fill(source.read(await askTile(plan, signal)));
-      }
+      const tile = await asked.tile;
+      if (tile.level === -Infinity) {
+        this.coarse.push(tile);
+        while (this.coarse.length > COARSE_KEPT) this.coarse.shift();
+      } else this.cache.set(key, tile);
     } catch (error) {
       if (signal.aborted) return;
-      this.refused.add(tile.key);
+      this.refused.add(key);
       this.failed(error);
       return;
     }
-    if (tile.level === -Infinity) {
-      this.coarse.push(tile);
-      while (this.coarse.length > COARSE_KEPT) this.coarse.shift();
-    } else this.cache.set(tile.key, tile);
     if (this.source?.key === source.key) this.arrived();
   }
 
   arrived() {
     this.draw();
-    const { i, j } = this.grid(this.level());
-    let known = 0;
-    for (let b = j[0]; b < j[1]; b++) {
-      for (let a = i[0]; a < i[1]; a++) if (this.cache.has(this.tileKey(this.level(), a, b))) known++;
-    }
+    const level = this.level();
+    const known = [...this.keys(level)].filter((key) => this.cache.has(key)).length;
     this.progress = [known, this.progress?.[1] ?? known];
     this.dispatchEvent(new Event("tiles"));
   }

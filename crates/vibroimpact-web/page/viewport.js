@@ -22,14 +22,18 @@ export class Viewport {
     return this.stepY * 2 ** -(this.z + this.shape);
   }
 
-  /** @param {number[]} window left, right, bottom, top: what is shown from now on */
-  fit([left, right, bottom, top]) {
+  /**
+   * @param {number[]} window left, right, bottom, top: what is shown from now on
+   * @param {number} density device pixels a pixel
+   */
+  fit([left, right, bottom, top], density) {
     this.cx = (left + right) / 2;
     this.cy = (bottom + top) / 2;
     const zx = Math.log2((this.stepX * this.width) / (right - left));
     const zy = Math.log2((this.stepY * this.height) / (top - bottom));
     if (Math.abs(zy - zx - this.shape) > SAME_SHAPE) this.shape = zy - zx;
     this.z = zx;
+    this.z = Math.min(zx, this.deepest(density));
   }
 
   /** @returns {number[]} left, right, bottom, top, with as many digits as a pixel needs */
