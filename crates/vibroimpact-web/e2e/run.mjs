@@ -10,6 +10,7 @@ import * as exporting from "./export.mjs";
 import * as looks from "./looks.mjs";
 import * as plane from "./plane.mjs";
 import * as point from "./point.mjs";
+import * as quiet from "./quiet.mjs";
 import * as tour from "./tour.mjs";
 import * as wrong from "./wrong.mjs";
 
@@ -43,7 +44,7 @@ async function open(hash = "", options = {}) {
   return { page, context, complaints };
 }
 
-for (const module of [plane, point, exporting, tour, wrong, looks]) {
+for (const module of [plane, point, exporting, tour, wrong, looks, quiet]) {
   for (const [name, test] of Object.entries(module)) {
     if (!name.includes(part)) continue;
     const opened = [];

@@ -33,9 +33,11 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     install.current_dir(&folder);
     command::run(install)?;
     command::run(command::words(root, "cargo build --package vibroimpact-cli"))?;
-    let (_server, url) = serve(root, &target.join("debug/vibro"))?;
+    let (server, url) = serve(root, &target.join("debug/vibro"))?;
     let mut tests = command::words(root, "node run.mjs");
     tests.current_dir(&folder).args([url.as_str(), "screenshots"]).env(VARIABLE, browser);
+    // one test looks whether the server is idle
+    tests.env("VIBRO_PID", server.0.id().to_string());
     tests.env("NO_PROXY", "127.0.0.1");
     command::run(tests)?;
     Ok(format!("the page works; its screenshots are in {}", folder.join("screenshots").display()))

@@ -1,0 +1,78 @@
+/** Nothing runs away: half a minute of zooming and clicking at random, then silence. */
+
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+
+/** The process of the server, where whoever started it says which it is. */
+const PID = process.env.VIBRO_PID;
+/** Clock ticks of /proc in a second, on Linux. */
+const TICKS = 100;
+
+/** Processor seconds the server has used. */
+async function used() {
+  const text = await readFile(`/proc/${PID}/stat`, "utf8");
+  const fields = text.slice(text.lastIndexOf(")") + 2).split(" ");
+  return (Number(fields[11]) + Number(fields[12])) / TICKS;
+}
+
+/** Megabytes the server holds. */
+async function held() {
+  const text = await readFile(`/proc/${PID}/status`, "utf8");
+  return Number(/VmRSS:\s+(\d+)/.exec(text)[1]) / 1024;
+}
+
+/** The same numbers every time. */
+function dice(seed) {
+  let state = seed;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
+}
+
+const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+/** Seconds until the server has been idle for a quarter of a second. */
+async function untilIdle(patience) {
+  const begin = Date.now();
+  while (Date.now() - begin < 1000 * patience) {
+    const before = await used();
+    await pause(250);
+    if ((await used()) - before <= 0.03) return (Date.now() - begin) / 1000 - 0.25;
+  }
+  return Infinity;
+}
+
+export async function is_quiet_after_half_a_minute_of_zooming_and_clicking({ open }) {
+  if (!PID) {
+    console.log("        skipped: VIBRO_PID does not say which process the server is");
+    return;
+  }
+  const { page, context } = await open();
+  const box = await page.locator("canvas").first().boundingBox();
+  const roll = dice(7);
+  const end = Date.now() + 30_000;
+  let acts = 0;
+  while (Date.now() < end) {
+    const at = [box.x + box.width * (0.15 + 0.7 * roll()), box.y + box.height * (0.1 + 0.7 * roll())];
+    await page.mouse.move(...at);
+    const kind = roll();
+    if (kind < 0.55) await page.mouse.wheel(0, roll() < 0.6 ? -400 : 400);
+    else if (kind < 0.8) await page.mouse.click(...at);
+    else {
+      await page.mouse.down();
+      await page.mouse.move(at[0] + 120 * (roll() - 0.5), at[1] + 120 * (roll() - 0.5), { steps: 4 });
+      await page.mouse.up();
+    }
+    acts++;
+    await pause(40 + 120 * roll());
+  }
+  assert.ok(acts > 50, `${acts} acts`);
+  await page.goto("about:blank");
+  await context.close();
+  const idle = await untilIdle(20);
+  const memory = await held();
+  console.log(`        ${acts} acts; idle ${idle.toFixed(2)} s after the page went, ${memory.toFixed(0)} MB held`);
+  assert.ok(idle <= 1, `the server was busy for ${idle} s after the page went`);
+  assert.ok(memory < 600, `the server holds ${memory} MB`);
+}
