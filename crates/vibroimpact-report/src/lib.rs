@@ -10,6 +10,7 @@
 //! | the JSON objects of the commands, one file for each | [`json`] |
 //! | the rows of their tables | [`Table`], [`table`] |
 //! | their figures | [`figure`] |
+//! | small pictures beside them: phase portrait, multipliers, a diagram with branches over it | [`scene`] |
 //! | the same question as a command line and in Python | [`question`] |
 //! | numbers as text | [`number`] |
 //! | what cannot be drawn or tabulated | [`ReportError`] |
@@ -20,6 +21,7 @@ pub mod figure;
 pub mod json;
 pub mod number;
 pub mod question;
+pub mod scene;
 pub mod table;
 mod units;
 

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
 use vibroimpact_study::diagram::Diagram;
-use vibroimpact_study::{Branches, Parameter, Span};
+use vibroimpact_study::{Branches, Followed, Parameter, Span};
 
 /// What simulation finds.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -38,6 +38,21 @@ pub fn figure(
     show_virtual: bool,
     asked: &Asked,
 ) -> Result<Figure, ReportError> {
+    draw(&found.followed, vary, (from, to), behind, show_virtual, asked)
+}
+
+/// The same of any branches in one parameter.
+///
+/// # Errors
+/// As [`figure`].
+pub fn draw(
+    followed: &[Followed],
+    vary: Parameter,
+    (from, to): (f64, f64),
+    behind: Option<&Diagram>,
+    show_virtual: bool,
+    asked: &Asked,
+) -> Result<Figure, ReportError> {
     let (unit, speed) = (asked.units.of(vary), asked.units.velocity());
     let mut panel = Panel::new(
         Axis::new(named(vary, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
@@ -51,8 +66,8 @@ pub fn figure(
             panel.add(dots);
         }
     }
-    let curves: Vec<Curves> = found.followed.iter().map(|branch| velocities(&branch.points)).collect();
-    let colours = colours(found);
+    let curves: Vec<Curves> = followed.iter().map(|branch| velocities(&branch.points)).collect();
+    let colours = colours(followed);
     let mut looks: Vec<Look> = Vec::new();
     for ((label, look), (xs, ys)) in curves.into_iter().flatten() {
         if look == Look::Virtual && !show_virtual {
@@ -83,7 +98,7 @@ pub fn figure(
         let (width, dash) = pen(look);
         legend = legend.line(Stroke::new(Colour::BLACK).width(width).dash(dash), name);
     }
-    for (kind, points) in marks(found, show_virtual, unit, speed) {
+    for (kind, points) in marks(followed, show_virtual, unit, speed) {
         legend = legend.points(&points, kind);
         panel.add(points);
     }
@@ -103,11 +118,11 @@ const fn pen(look: Look) -> (f64, Dash) {
 }
 
 /// A colour for each label, in the order in which the branches come to them.
-fn colours(found: &Branches) -> Vec<(String, Colour)> {
+fn colours(followed: &[Followed]) -> Vec<(String, Colour)> {
     // without black, the colour of marks, and yellow, which is too light for a thin line
     const USABLE: usize = 6;
     let mut labels: Vec<String> = Vec::new();
-    for point in found.followed.iter().flat_map(|branch| &branch.points) {
+    for point in followed.iter().flat_map(|branch| &branch.points) {
         let label = point.cycle.label.to_string();
         if !labels.contains(&label) {
             labels.push(label);
@@ -118,9 +133,9 @@ fn colours(found: &Branches) -> Vec<(String, Colour)> {
 }
 
 /// The marks of events by kind.
-fn marks(found: &Branches, show_virtual: bool, unit: f64, speed: f64) -> BTreeMap<&'static str, Points> {
+fn marks(followed: &[Followed], show_virtual: bool, unit: f64, speed: f64) -> BTreeMap<&'static str, Points> {
     let mut places: BTreeMap<&'static str, (Shape, Vec<f64>, Vec<f64>)> = BTreeMap::new();
-    for point in found.followed.iter().flat_map(|branch| &branch.points) {
+    for point in followed.iter().flat_map(|branch| &branch.points) {
         let Some((shape, velocities)) = point.event.and_then(|event| mark(point, &event)) else { continue };
         if !point.physical && !show_virtual {
             continue;

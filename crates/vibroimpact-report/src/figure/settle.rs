@@ -29,7 +29,7 @@ pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) 
 }
 
 /// The state after the last event up to a time, and the time of that event.
-fn last_event(osc: &Oscillator, start: Start, until: f64) -> (Start, f64) {
+pub(crate) fn last_event(osc: &Oscillator, start: Start, until: f64) -> (Start, f64) {
     let (mut state, mut time) = (start, 0.0);
     for event in Motion::new(osc, start).take_while(|event| event.time <= until) {
         let at_stop = ImpactState { phase: event.phase, velocity: 0.0, side: event.side };

@@ -54,7 +54,7 @@ pub fn figure(osc: &Oscillator, start: Start, (from, until): (f64, f64), units: 
 }
 
 /// A range that shows the motion and a strip of each stop it comes near.
-fn extremes(osc: &Oscillator, ys: &[f64], length: f64) -> (f64, f64) {
+pub(crate) fn extremes(osc: &Oscillator, ys: &[f64], length: f64) -> (f64, f64) {
     let low = ys.iter().copied().fold(f64::INFINITY, f64::min);
     let high = ys.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let size = (high - low).max(1e-12 * low.abs().max(high.abs()));

@@ -1,0 +1,142 @@
+//! The bifurcation diagram along a parameter: the branches of several labels over what simulation finds.
+
+use crate::figure::branch::draw;
+use crate::{AnswerError, Asked};
+use core::sync::atomic::Ordering;
+use std::collections::BTreeMap;
+use vibroimpact::Label;
+use vibroimpact::verdict::{Count, Verdict};
+use vibroimpact_plot::Figure;
+use vibroimpact_study::diagram::Show;
+use vibroimpact_study::{
+    Axis, BranchPlan, Control, DiagramPlan, Followed, MapPlan, Span, Stopped, branches, diagram, map,
+};
+
+/// Values at which orbits of a label are looked for.
+const LOOKS: u32 = 25;
+/// Further branches from each orbit at most.
+const FOLLOW: u32 = 3;
+/// Points of each branch at most.
+const POINTS: u32 = 3_000;
+/// Starts at each value to see which labels there are.
+const STARTS: u64 = 4;
+/// Values closer than this part of the range to a branch are on it.
+const NEAR: f64 = 1e-9;
+
+/// The impact velocities that a diagram's plan asks for, and over them the branches of these labels, stable solid and unstable
+/// dashed: from each orbit found on a grid of values, both ways to the ends of the range, through their events; and of the branches
+/// that begin at their flips and branch points those that come to one of these labels.
+///
+/// What neither a value of the grid nor such an event leads to is missed. It is stopped between orbits, not while a branch is followed.
+///
+/// # Errors
+/// [`AnswerError`] for a plan or label that makes no sense, or when stopped.
+pub fn bifurcation(
+    asked: &Asked,
+    plan: &DiagramPlan,
+    labels: &[String],
+    control: &Control<'_>,
+) -> Result<Figure, AnswerError> {
+    let plan = DiagramPlan { show: Show::Velocity, ..*plan };
+    let behind = diagram(&asked.system, &plan, control)?;
+    let mut followed = Vec::new();
+    for label in labels {
+        follow(asked, &plan, label, &mut followed, control)?;
+    }
+    let known = |branch: &Followed| branch.points.iter().any(|point| labels.contains(&point.cycle.label.to_string()));
+    followed.retain(known);
+    Ok(draw(&followed, plan.vary, plan.over.ends(), Some(&behind), false, asked)?)
+}
+
+/// Adds the branches of a label, unless one that is there passes through its orbit.
+fn follow(
+    asked: &Asked,
+    plan: &DiagramPlan,
+    label: &str,
+    followed: &mut Vec<Followed>,
+    control: &Control<'_>,
+) -> Result<(), AnswerError> {
+    let name: Label = label.parse().map_err(vibroimpact_study::PlanError::from)?;
+    let (from, to) = plan.over.ends();
+    let looks = if from == to { return Ok(()) } else { Span::new(from, to, LOOKS)? };
+    for (k, value) in (0_u64..).zip(looks.values()) {
+        if control.stop.load(Ordering::Relaxed) {
+            return Err(Stopped { done: k, total: u64::from(LOOKS) }.into());
+        }
+        if followed.iter().any(|branch| passes(branch, name, value, NEAR * (to - from).abs())) {
+            continue;
+        }
+        let system = asked.system.with(plan.vary, value)?;
+        for end in [from, to].into_iter().filter(|end| *end != value) {
+            let (label, vary) = (label.to_owned(), plan.vary);
+            let task = BranchPlan { label, vary, to: end, orbit: None, follow: FOLLOW, points: POINTS };
+            // no orbit there is no fault: the label exists along a part of the line
+            if let Ok(found) = branches(&system, &task) {
+                followed.extend(found.followed);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a branch has a cycle of this label at a value.
+fn passes(branch: &Followed, label: Label, value: f64, near: f64) -> bool {
+    let points = branch.points.windows(2);
+    points.filter(|pair| pair[0].cycle.label == label && pair[1].cycle.label == label).any(|pair| {
+        let (a, b) = (pair[0].value, pair[1].value);
+        a.min(b) - near <= value && value <= a.max(b) + near
+    })
+}
+
+/// The labels of the cycles along a diagram's line, those that most starts lead to first: at `count` values, from a few starts each.
+///
+/// # Errors
+/// [`AnswerError`] for a plan that makes no sense, or when stopped.
+pub fn labels(
+    asked: &Asked,
+    plan: &DiagramPlan,
+    count: u32,
+    control: &Control<'_>,
+) -> Result<Vec<String>, AnswerError> {
+    let (from, to) = plan.over.ends();
+    let over = if from == to { plan.over } else { Span::new(from, to, count.max(2))? };
+    let axes = vec![Axis::parameter(plan.vary, over)];
+    let task = MapPlan { axes, starts: STARTS, seed: 1, refine: None, impacts: None };
+    let mut shares: BTreeMap<String, f64> = BTreeMap::new();
+    for motion in map(&asked.system, &task, control)?.points.iter().flat_map(|point| &point.motions) {
+        // what has no impacts, or infinitely many, is no branch of impacts
+        if let Verdict::Periodic(cycle) = &motion.verdict
+            && matches!(cycle.label.impacts, Count::Finite(1..))
+        {
+            *shares.entry(cycle.label.to_string()).or_default() += motion.share;
+        }
+    }
+    let mut list: Vec<(String, f64)> = shares.into_iter().collect();
+    list.sort_by(|a, b| b.1.total_cmp(&a.1));
+    Ok(list.into_iter().map(|(label, _)| label).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Units;
+    use vibroimpact_study::{Parameter, SystemPlan};
+
+    #[test]
+    fn the_branches_of_the_labels_on_a_line() {
+        let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
+        let (asked, control) = (Asked { system, units: Units::default() }, Control::default());
+        let task = r#"{"vary":"gap","over":"1.5:2.2:15","transient":100,"keep":8}"#;
+        let plan: DiagramPlan = serde_json::from_str(task).unwrap();
+        assert_eq!(plan.vary, Parameter::Gap);
+        let found = labels(&asked, &plan, 8, &control).unwrap();
+        assert!(found.iter().any(|label| label == "1/1"), "{found:?}");
+        let svg = bifurcation(&asked, &plan, &["1/1".into(), "2/2".into()], &control).unwrap().to_svg();
+        // 1/1 is stable up to its flip at 1.829, where 2/2 begins, which ends as 1/2
+        for word in ["1/1", "2/2", "1/2", ">stable<", ">unstable<", ">flip<", ">simulation<"] {
+            assert!(svg.contains(word), "{word}");
+        }
+        let bad = bifurcation(&asked, &plan, &["1/0".into()], &control);
+        assert!(matches!(bad, Err(AnswerError::Plan(_))), "{bad:?}");
+    }
+}
