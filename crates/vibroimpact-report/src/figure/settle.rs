@@ -14,18 +14,30 @@ const SHOWN: f64 = 6.0;
 #[must_use]
 pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> Figure {
     let (from, time) = last_event(osc, start, settled.time);
-    let periods = match &settled.verdict {
+    let periods = shown(settled);
+    let label = label(&settled.verdict.label());
+    let name = format!("{}: {label}", title(&asked.system));
+    let span = (time, periods * osc.period());
+    waveform::figure(osc, from, span, &asked.units, name)
+}
+
+/// Forcing periods in which the steady motion shows itself.
+fn shown(settled: &Settled) -> f64 {
+    match &settled.verdict {
         Verdict::Periodic(cycle) => {
             let n = f64::from(cycle.label.periods);
             n * (SHOWN / n).ceil().max(2.0)
         }
         Verdict::Chaotic(_) | Verdict::Undecided(_) => 4.0 * SHOWN,
         _ => SHOWN,
-    };
-    let label = label(&settled.verdict.label());
-    let name = format!("{}: {label}", title(&asked.system));
-    let span = (time, periods * osc.period());
-    waveform::figure(osc, from, span, &asked.units, name)
+    }
+}
+
+/// The times between which the steady motion that the figure shows is gone through.
+#[must_use]
+pub fn steady(osc: &Oscillator, start: Start, settled: &Settled) -> (f64, f64) {
+    let (_, time) = last_event(osc, start, settled.time);
+    (time, time + shown(settled) * osc.period())
 }
 
 /// The state after the last event up to a time, and the time of that event.

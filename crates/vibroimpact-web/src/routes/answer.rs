@@ -14,8 +14,10 @@ use core::sync::atomic::Ordering;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use vibroimpact_plot::{COLUMN, Figure};
+use vibroimpact_report::answer::Found;
+use vibroimpact_report::figure::settle::steady;
 use vibroimpact_report::question::{python, shell_line};
-use vibroimpact_report::{AnswerError, Units, answer as ask};
+use vibroimpact_report::{AnswerError, Units, answer as ask, scene};
 use vibroimpact_study::{Control, Plan};
 
 /// The object that `--json` prints; told while it goes on, where the page wants that.
@@ -94,13 +96,15 @@ pub(crate) enum Kind {
     Sections,
 }
 
+/// Impacts and states of a section.
+const SECTION: u64 = 2000;
 /// Sizes of figures, in their units.
 const SIZES: core::ops::RangeInclusive<f64> = 200.0..=4000.0;
 /// Pixels of a PNG to a unit.
 const SHARPNESS: f64 = 2.0;
 
 impl Wanted {
-    fn check(&self) -> Result<(), Refusal> {
+    pub(super) fn check(&self) -> Result<(), Refusal> {
         for (name, size) in [("width", self.width), ("height", self.height)] {
             if let Some(given) = size.filter(|size| !SIZES.contains(size)) {
                 let (least, most) = (SIZES.start(), SIZES.end());
@@ -110,7 +114,7 @@ impl Wanted {
         Ok(())
     }
 
-    fn draw(&self, figure: Figure) -> Result<(&'static str, Bytes), Refusal> {
+    pub(super) fn draw(&self, figure: Figure) -> Result<(&'static str, Bytes), Refusal> {
         let height = self.height.unwrap_or(figure.height);
         let width = self.width.unwrap_or_else(|| figure.width.max(COLUMN));
         let figure = figure.size(width, height);
@@ -142,10 +146,23 @@ pub(super) async fn figure(
 
 fn drawn(plan: &Plan, kind: Option<Kind>, control: &Control<'_>) -> Result<Option<Figure>, Refusal> {
     let answer = ask(plan, Units::default(), control)?;
-    match kind {
-        None | Some(Kind::Waveform) => Ok(answer.figure(control)?),
-        Some(_) => Ok(None),
-    }
+    let (asked, osc) = (&answer.asked, &answer.osc);
+    Ok(match (&answer.found, kind) {
+        (_, None | Some(Kind::Waveform)) | (Found::Lyapunov(..), Some(Kind::Sections)) => answer.figure(control)?,
+        (Found::Simulate(start, found), Some(Kind::Phase)) => {
+            Some(scene::phase_portrait(asked, osc, *start, (0.0, found.shown_until(osc))))
+        }
+        (Found::Settle(start, found), Some(Kind::Phase)) => {
+            Some(scene::phase_portrait(asked, osc, *start, steady(osc, *start, found)))
+        }
+        (Found::Settle(start, found), Some(Kind::Sections)) => {
+            Some(scene::sections(asked, osc, *start, found, SECTION))
+        }
+        (Found::Settle(_, found), Some(Kind::Multipliers)) => {
+            found.verdict.multipliers(osc).map(|both| scene::multipliers(&both))
+        }
+        _ => None,
+    })
 }
 
 fn nothing(what: &str) -> Refusal {

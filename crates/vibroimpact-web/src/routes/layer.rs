@@ -17,7 +17,7 @@ use vibroimpact_study::{
     Axis, Control, Coordinate, MapPlan, Parameter, RegionPlan, Stretch, SystemPlan, Task, regions,
 };
 
-/// Motions whose regions are drawn: those of the 1971 paper, and what they double into.
+/// Motions whose regions are drawn where nobody names any: those of the 1971 paper, and what they double into.
 const LABELS: [&str; 9] = ["1/1", "2/1", "3/1", "4/1", "1/2", "1/3", "2/2", "3/2", "2/4"];
 /// Points of the grid at which orbits are looked for.
 const GRID: u32 = 20;
@@ -34,6 +34,8 @@ enum Kind {
 #[derive(Deserialize)]
 pub(super) struct Wanted {
     kind: Kind,
+    /// Motions with commas between, whose regions are wanted.
+    labels: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -72,6 +74,11 @@ pub(super) async fn layer(
     let Task::Map(map) = &asked.plan.task else { return Err(Refusal::bad("a layer lies over a map")) };
     let plane = Plane::new(asked.plan.system, map)?;
     let kind = wanted.kind;
+    let labels: Vec<String> = match wanted.labels {
+        Some(list) => list.split(',').map(|label| label.trim().to_owned()).collect(),
+        None => LABELS.map(str::to_owned).to_vec(),
+    };
+    let total = labels.len() as u64;
     let done = Done::default();
     let (told, workshop) = (done.clone(), explorer.workshop);
     let work = async move {
@@ -81,23 +88,23 @@ pub(super) async fn layer(
                 0,
                 |_| {},
                 move |control| match kind {
-                    Kind::Regions => edges(&plane, control, &told),
+                    Kind::Regions => edges(&plane, &labels, control, &told),
                     Kind::Amplitude => Ok(json!({ "curves": amplitude(&plane) })),
                 },
             )
             .await
     };
     if wants_events(&headers) {
-        return Ok(stream(LABELS.len() as u64, done, work));
+        return Ok(stream(total, done, work));
     }
     Ok(Json(work.await?).into_response())
 }
 
 /// The polygons in which each motion is stable.
-fn edges(plane: &Plane, control: &Control<'_>, done: &Done) -> Result<Value, Refusal> {
+fn edges(plane: &Plane, labels: &[String], control: &Control<'_>, done: &Done) -> Result<Value, Refusal> {
     let mut found = Vec::new();
-    for label in LABELS {
-        let plan = RegionPlan { label: label.to_owned(), across: plane.across, up: plane.up, grid: GRID };
+    for label in labels {
+        let plan = RegionPlan { label: label.clone(), across: plane.across, up: plane.up, grid: GRID };
         let polygons = regions(&plane.system, &plan, control)?.stability.polygons;
         let ring = |vertices: &[vibroimpact::continuation::Vertex]| vertices.iter().map(|v| v.values).collect();
         let rings: Vec<_> = polygons.iter().map(|polygon| ring(&polygon.vertices)).collect();

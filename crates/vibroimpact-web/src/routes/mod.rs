@@ -2,6 +2,7 @@
 
 mod about;
 mod answer;
+mod bifurcation;
 mod layer;
 mod page;
 mod tile;
@@ -29,6 +30,7 @@ pub(crate) fn all() -> Router<Explorer> {
         .route("/api/table", post(answer::table))
         .route("/api/command", post(answer::command))
         .route("/api/figure", post(answer::figure))
+        .route("/api/bifurcation", post(bifurcation::diagram))
         .route("/api/layer", post(layer::layer))
         .fallback(nothing)
         .method_not_allowed_fallback(wrong_method)

@@ -1,0 +1,68 @@
+//! The bifurcation diagram along a line: the orbit diagram, and the branches of its motions over it.
+
+use super::answer::Wanted;
+use super::{Asked, bytes, wants_events};
+use crate::Explorer;
+use crate::events::{Done, stream};
+use crate::refusal::Refusal;
+use crate::workshop::Bench;
+use axum::extract::{Query, State};
+use axum::http::HeaderMap;
+use axum::response::Response;
+use core::sync::atomic::Ordering;
+use serde::Deserialize;
+use serde_json::json;
+use vibroimpact_report::Units;
+use vibroimpact_report::scene::{bifurcation, labels};
+use vibroimpact_study::Task;
+
+/// Values along the line at which its motions are looked for.
+const LOOKS: u32 = 24;
+/// Motions whose branches are followed where nobody names any: those that most starts lead to.
+const MOST_LABELS: usize = 6;
+
+/// Motions with commas between; those found on the line where there are none.
+#[derive(Deserialize)]
+pub(super) struct Which {
+    labels: Option<String>,
+}
+
+pub(super) async fn diagram(
+    State(explorer): State<Explorer>,
+    Query(which): Query<Which>,
+    Query(wanted): Query<Wanted>,
+    headers: HeaderMap,
+    asked: Asked,
+) -> Result<Response, Refusal> {
+    wanted.check()?;
+    let Task::Diagram(diagram) = asked.plan.task.clone() else {
+        return Err(Refusal::bad("a bifurcation diagram is drawn along the line of a diagram"));
+    };
+    let (done, points) = (Done::default(), asked.points);
+    // what varies has its first value
+    let system = asked.plan.canonical()?.system;
+    let asked = vibroimpact_report::Asked { system, units: Units::default() };
+    let told = done.clone();
+    let work = async move {
+        let tell = move |now| told.store(now, Ordering::Relaxed);
+        explorer
+            .workshop
+            .run(Bench::Answers, 0, tell, move |control| {
+                let named = match which.labels {
+                    Some(list) => list.split(',').map(|label| label.trim().to_owned()).collect(),
+                    None => labels(&asked, &diagram, LOOKS, control)?.into_iter().take(MOST_LABELS).collect::<Vec<_>>(),
+                };
+                wanted.draw(bifurcation(&asked, &diagram, &named, control)?)
+            })
+            .await
+    };
+    if wants_events(&headers) {
+        let value = async {
+            let (_, body) = work.await?;
+            Ok(json!({ "svg": String::from_utf8_lossy(&body) }))
+        };
+        return Ok(stream(points, done, value));
+    }
+    let (kind, body) = work.await?;
+    Ok(bytes(kind, body))
+}

@@ -1,0 +1,108 @@
+//! Every kind of request, asked as the page asks it, gives what it names.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use axum::body::{Body, to_bytes};
+use axum::http::{Request, StatusCode, header};
+use serde_json::Value;
+use tower::ServiceExt;
+use vibroimpact_report::{Units, answer};
+use vibroimpact_study::{Control, Plan};
+use vibroimpact_web::{Explorer, app};
+
+const PORT: u16 = 8411;
+const SETTLE: &str = r#""settle":{"start":{}}"#;
+const SIMULATE: &str = r#""simulate":{"start":{"v":1},"impacts":null,"periods":20}"#;
+const LYAPUNOV: &str = r#""lyapunov":{"start":{},"impacts":2000,"transient":200,"points":300}"#;
+const DIAGRAM: &str = r#""diagram":{"vary":"gap","over":"0.5:1.5:41","direction":"both","show":"velocity"}"#;
+const BASIN: &str = r#""basin":{"axes":[{"vary":"x","over":"-2:0.75:12"},{"vary":"v","over":"-2:2:10"}],"start":{}}"#;
+const MAP: &str = r#""map":{"axes":[{"vary":"inverse_beta","over":"1:1.5:9"},{"vary":"gap","over":"0.5:2.5:9"}],"starts":2,"seed":1}"#;
+
+fn plan(task: &str) -> String {
+    format!(r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{{task}}}}}"#)
+}
+
+async fn ask(path: &str, task: &str) -> (StatusCode, String, Vec<u8>) {
+    let request = Request::post(path)
+        .header(header::HOST, format!("127.0.0.1:{PORT}"))
+        .header(header::CONTENT_TYPE, "application/json")
+        .body(Body::from(plan(task)));
+    let response = app(Explorer::new(PORT, 0)).oneshot(request.unwrap()).await.unwrap();
+    let kind = response.headers().get(header::CONTENT_TYPE).map_or("", |kind| kind.to_str().unwrap()).to_owned();
+    (response.status(), kind, to_bytes(response.into_body(), usize::MAX).await.unwrap().to_vec())
+}
+
+#[tokio::test]
+async fn answers_are_those_of_the_command() {
+    for task in [SETTLE, SIMULATE, LYAPUNOV, BASIN, MAP, r#""attractors":{"starts":20,"seed":1}"#] {
+        let (status, _, body) = ask("/api/answer", task).await;
+        assert_eq!(status, 200);
+        let text: Plan = serde_json::from_str(&plan(task)).unwrap();
+        let command = answer(&text, Units::default(), &Control::default()).unwrap().json();
+        assert_eq!(String::from_utf8(body).unwrap(), command);
+    }
+}
+
+#[tokio::test]
+async fn figures_of_every_kind() {
+    for (query, task) in [
+        ("?kind=waveform", SETTLE),
+        ("?kind=phase&width=500&height=400", SETTLE),
+        ("?kind=multipliers", SETTLE),
+        ("?kind=sections", SETTLE),
+        ("", SIMULATE),
+        ("?kind=phase", SIMULATE),
+        ("?kind=sections", LYAPUNOV),
+        ("", BASIN),
+        ("", MAP),
+        ("", DIAGRAM),
+    ] {
+        let (status, kind, body) = ask(&format!("/api/figure{query}"), task).await;
+        assert_eq!((status.as_u16(), kind.as_str()), (200, "image/svg+xml"), "{query} {task}");
+        let svg = String::from_utf8(body).unwrap();
+        assert!(svg.starts_with("<svg") && svg.contains("</svg>"), "{query} {task}");
+        if query.contains("width=500") {
+            assert!(svg.contains(r#"viewBox="0 0 500"#), "{}", &svg[..200]);
+        }
+    }
+    let (status, kind, png) = ask("/api/figure?format=png&kind=phase", SETTLE).await;
+    assert_eq!((status.as_u16(), kind.as_str(), &png[1..4]), (200, "image/png", b"PNG".as_slice()));
+    let (status, _, body) = ask("/api/figure?kind=multipliers", BASIN).await;
+    assert_eq!(status, 404, "{}", String::from_utf8_lossy(&body));
+}
+
+/// A diagram with the branches found on its line, and with those that were named.
+#[tokio::test]
+async fn a_bifurcation_diagram() {
+    for query in ["", "?labels=1/1,2/1&width=900&height=500"] {
+        let (status, kind, body) = ask(&format!("/api/bifurcation{query}"), DIAGRAM).await;
+        assert_eq!((status.as_u16(), kind.as_str()), (200, "image/svg+xml"));
+        assert!(String::from_utf8(body).unwrap().contains("unstable"), "{query}");
+    }
+    assert_eq!(ask("/api/bifurcation?labels=3/0", DIAGRAM).await.0, 400);
+    assert_eq!(ask("/api/bifurcation", SETTLE).await.0, 400);
+}
+
+#[tokio::test]
+async fn tables_commands_and_layers() {
+    let (status, kind, body) = ask("/api/table", BASIN).await;
+    assert_eq!((status.as_u16(), kind.as_str()), (200, "text/csv; charset=utf-8"));
+    let text = String::from_utf8(body).unwrap();
+    assert!(text.starts_with("x,v,label\n-2,-2,") && text.lines().count() == 121, "{text}");
+    assert_eq!(ask("/api/table", SETTLE).await.0, 404);
+
+    let told: Value = serde_json::from_slice(&ask("/api/command", SETTLE).await.2).unwrap();
+    assert_eq!(told["vibro"], "vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5");
+    assert!(told["python"].as_str().unwrap().contains("settle("), "{told}");
+
+    let layer: Value = serde_json::from_slice(&ask("/api/layer?kind=amplitude", MAP).await.2).unwrap();
+    let line = layer["curves"][0].as_array().unwrap();
+    for point in line {
+        let (x, gap) = (point[0].as_f64().unwrap(), point[1].as_f64().unwrap());
+        assert!((gap * (1.0 - 1.0 / (x * x)).abs() - 1.0).abs() < 1e-12, "{x} {gap}");
+    }
+    let regions: Value = serde_json::from_slice(&ask("/api/layer?kind=regions&labels=1/1", MAP).await.2).unwrap();
+    let one = regions["regions"].as_array().unwrap().iter().find(|region| region["name"] == "1/1").unwrap();
+    assert!(one["rings"][0].as_array().unwrap().len() > 3 && one["colour"].as_str().unwrap().starts_with('#'));
+    assert_eq!(ask("/api/layer?kind=regions", SETTLE).await.0, 400);
+    assert_eq!(ask("/api/layer?kind=regions&labels=1/0", MAP).await.0, 400);
+}
