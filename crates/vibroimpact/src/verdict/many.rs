@@ -103,6 +103,9 @@ struct Part {
 }
 
 const OPEN: u32 = u32::MAX;
+/// Starts that are followed one by one where nothing is known beforehand: lanes gain nothing with so few of them, as the last motions
+/// of a batch fly with most of its lanes empty.
+const FEW: usize = 32;
 
 impl Part {
     fn number(&mut self, verdict: &Verdict, index: u64) -> usize {
@@ -176,7 +179,9 @@ impl Question<'_> {
     fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, atlas: &Atlas) -> Part {
         let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
         let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
-        let batch = Batch::new(self.osc, ABREAST.min(count), self.width).filter(|batch| {
+        let alone = count < FEW && atlas.known.is_empty();
+        let batch = if alone { None } else { Batch::new(self.osc, ABREAST.min(count), self.width) };
+        let batch = batch.filter(|batch| {
             batch.longest() < self.options.limits.horizon(self.osc).min(chaos::LIMITS.horizon(self.osc))
         });
         let mut releases = atlas.releases.clone();
@@ -421,6 +426,9 @@ mod tests {
                 for atlas in [&none, &atlas] {
                     let got = settle_many(&osc, 0..60, start, atlas, &options, width, &|| false);
                     assert_eq!(got, expected, "{osc:?} {width:?}");
+                    // few are followed one by one
+                    let few = settle_many(&osc, 0..20, start, atlas, &options, width, &|| false);
+                    assert_eq!(few.cells, expected.cells[..20], "{osc:?} {width:?}");
                 }
             }
         }
