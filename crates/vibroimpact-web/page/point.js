@@ -3,7 +3,7 @@
 import { answer } from "./api.js";
 import { Basin } from "./basin.js";
 import { colourOf } from "./colours.js";
-import { byId, element, swatch } from "./dom.js";
+import { byId, debounced, element, swatch } from "./dom.js";
 import { Figure } from "./figure.js";
 import { Latest } from "./latest.js";
 import { Legend } from "./legend.js";
@@ -40,6 +40,11 @@ export class Point {
     });
     this.legend = new Legend(this.basinLegend, this.basin.view, () => store.state.impacts);
     this.basin.view.addEventListener("hover", ({ detail }) => this.hoverBasin(detail));
+    const spoken = debounced((px) => {
+      const { place, motions } = this.basin.tell(px);
+      say(`${place}: ${motions}`);
+    }, 400);
+    this.basin.view.addEventListener("crosshair", ({ detail }) => spoken(detail));
     this.settled = new Latest((state, signal) => this.settle(state, signal), parts.failed);
     this.heavy = new Latest((state, signal) => this.weigh(state, signal), parts.failed);
     store.on(["point", "panel", "start", "impacts", "basin", ...SYSTEM], (_, changed) => this.refresh(changed));
