@@ -57,11 +57,10 @@ panels();
 tour(store, say);
 toolbar();
 readout();
-point.refresh(null);
 line.refresh();
-greet();
+greet().finally(() => point.refresh(null));
 
-/** The points of the paper come from the server. */
+/** The points of the paper and the colours of motions come from the server. */
 async function greet() {
   try {
     const { points, version, groups } = await about();

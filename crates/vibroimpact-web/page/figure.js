@@ -6,7 +6,7 @@ import { Latest } from "./latest.js";
 
 /** Height of text in a figure's own units, and on the page in parts of the page's text. */
 const TEXT = 20;
-const SMALLER = 0.85;
+const SMALLER = 0.77;
 
 export class Figure {
   /**
