@@ -242,7 +242,8 @@ impl Answer {
     }
 
     /// The table that the command writes with `--csv`; of a simulation the waveform, a hundredth of the forcing period apart.
-    /// What a motion settles into, attractors and orbits have none.
+    /// Of what a motion settles into it is the steady motion over time, of attractors a row for each; the commands write neither.
+    /// Orbits have none.
     ///
     /// # Errors
     /// [`ReportError`] for what cannot be tabulated.
@@ -252,9 +253,13 @@ impl Answer {
             Found::Simulate(start, found) => {
                 table::waveform::table(osc, *start, (found.shown_until(osc), osc.period() / 100.0), *units)?
             }
-            Found::Settle(..) | Found::Attractors(..) | Found::Orbit(_) | Found::Lyapunov(_, _, _, None) => {
-                return Ok(None);
+            Found::Settle(start, found) => {
+                let (from, time) = figure::settle::last_event(osc, *start, found.time);
+                let until = figure::settle::steady(osc, *start, found).1 - time;
+                table::waveform::table(osc, from, (until, osc.period() / 100.0), *units)?
             }
+            Found::Attractors(_, found) => table::attractors::table(found, osc),
+            Found::Orbit(_) | Found::Lyapunov(_, _, _, None) => return Ok(None),
             Found::Basin(found) => table::basin::table(found, units)?,
             Found::Map(found) => table::map::table(found),
             Found::Diagram(found) => table::diagram::table(found, *units)?,

@@ -27,9 +27,9 @@ export class Point {
     const figure = (title, ratio, view) => new Figure(title, ratio, parts.failed, () => exported(view));
     this.wave = figure("Waveform", 0.58, "waveform");
     this.phase = figure("Phase portrait of the steady motion", 0.85, "phase");
-    this.circle = figure("Multipliers", 0.85, "multipliers");
-    this.sections = figure("Impact map and stroboscopic section", 0.8, "sections");
-    this.exponents = figure("Attractor and Lyapunov exponents", 0.8, "lyapunov");
+    this.circle = figure("Multipliers", 1.02, "multipliers");
+    this.sections = figure("Impact map and stroboscopic section", 1.05, "sections");
+    this.exponents = figure("Attractor and Lyapunov exponents", 1.05, "lyapunov");
     this.exponentsText = element("p", { class: "note" });
     this.exponents.box.append(this.exponentsText);
     this.verdict = element("div", { class: "verdict" });

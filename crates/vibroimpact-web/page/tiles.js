@@ -21,12 +21,12 @@ const faded = (pixel) => {
 /**
  * Points on a grid, each with the motions found there.
  *
- * `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell; `classes` holds `per` numbers of
+ * `look` says what its numbers stand for, which another plane may number otherwise. `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell; `classes` holds `per` numbers of
  * motions for each point, -1 for none, rows from below; `shares` as many shares, or null.
  */
 export class Tile {
-  constructor({ source, key, level, x0, y0, hx, hy, columns, rows, phase }) {
-    Object.assign(this, { source, key, level, x0, y0, hx, hy, columns, rows, phase });
+  constructor({ source, look, key, level, x0, y0, hx, hy, columns, rows, phase }) {
+    Object.assign(this, { source, look, key, level, x0, y0, hx, hy, columns, rows, phase });
     Object.assign(this, { classes: null, shares: null, per: 1, canvas: null, painted: "" });
   }
 

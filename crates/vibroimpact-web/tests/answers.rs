@@ -88,7 +88,11 @@ async fn tables_commands_and_layers() {
     assert_eq!((status.as_u16(), kind.as_str()), (200, "text/csv; charset=utf-8"));
     let text = String::from_utf8(body).unwrap();
     assert!(text.starts_with("x,v,label\n-2,-2,") && text.lines().count() == 121, "{text}");
-    assert_eq!(ask("/api/table", SETTLE).await.0, 404);
+    let steady = String::from_utf8(ask("/api/table", SETTLE).await.2).unwrap();
+    assert!(steady.starts_with("t,x,v\n0,0.75,") && steady.lines().count() > 500, "{steady}");
+    let motions = String::from_utf8(ask("/api/table", r#""attractors":{"starts":200,"seed":1}"#).await.2).unwrap();
+    assert!(motions.contains("\n2/1,0.64,128,0.4437") && motions.lines().count() == 3, "{motions}");
+    assert_eq!(ask("/api/table", r#""orbit":{"label":"1/1"}"#).await.0, 404);
 
     let told: Value = serde_json::from_slice(&ask("/api/command", SETTLE).await.2).unwrap();
     assert_eq!(told["vibro"], "vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5");

@@ -1,5 +1,6 @@
 //! Tables: a header, commas, a line feed after each row; numbers in the shortest form that reads back as the same double.
 
+pub mod attractors;
 pub mod basin;
 pub mod branch;
 pub mod curve;
