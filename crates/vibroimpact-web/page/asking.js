@@ -5,7 +5,7 @@ import { over } from "./plans.js";
 import { SIDE, STRIPE, Tile } from "./tiles.js";
 
 /** Points of the coarse picture, about, and the pixels between them at least. */
-const COARSE_POINTS = 12000;
+const COARSE_POINTS = 9000;
 const COARSE_PIXELS = 8;
 
 /** Points between which a tile is refined: every so many-th is computed first. */

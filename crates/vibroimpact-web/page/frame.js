@@ -62,7 +62,8 @@ export class Frame {
     const [x0, y1] = this.place(tile.x0, tile.y0);
     const [x1, y0] = this.place(tile.x0 + tile.columns * tile.hx, tile.y0 + tile.rows * tile.hy);
     if (x1 <= 0 || y1 <= 0 || x0 >= view.picture.width || y0 >= view.picture.height) return;
-    tile.paint((id) => tile.look(id).colour, view.highlight, view.stripes);
+    // stripes of coarse cells would look like motions
+    tile.paint(view.highlight, view.stripes && tile.level !== -Infinity);
     context.imageSmoothingEnabled = x1 - x0 < tile.columns;
     context.imageSmoothingQuality = "high";
     context.drawImage(tile.canvas, x0, y0, x1 - x0, y1 - y0);

@@ -21,8 +21,8 @@ const faded = (pixel) => {
 /**
  * Points on a grid, each with the motions found there.
  *
- * `look` says what its numbers stand for, which another plane may number otherwise. `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell; `classes` holds `per` numbers of
- * motions for each point, -1 for none, rows from below; `shares` as many shares, or null.
+ * `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell; `classes` holds `per` numbers of
+ * motions for each point, -1 for none, rows from below; `shares` as many shares, or null. `look` gives a motion's colour.
  */
 export class Tile {
   constructor({ source, look, key, level, x0, y0, hx, hy, columns, rows, phase }) {
@@ -64,11 +64,10 @@ export class Tile {
 
   /**
    * Paints the tile where it is not painted so already.
-   * @param {(id: number) => string} colour
    * @param {number | null} highlight the motion that alone keeps its colour
    * @param {boolean} stripes whether coexisting motions share a point's neighbourhood
    */
-  paint(colour, highlight, stripes) {
+  paint(highlight, stripes) {
     const how = `${highlight}|${stripes}`;
     if (this.painted === how) return;
     this.painted = how;
@@ -79,7 +78,7 @@ export class Tile {
     const palette = new Map();
     const paintOf = (id) => {
       if (!palette.has(id)) {
-        const pixel = pixelOf(colour(id));
+        const pixel = pixelOf(this.look(id).colour);
         palette.set(id, highlight === null || id === highlight ? pixel : faded(pixel));
       }
       return palette.get(id);

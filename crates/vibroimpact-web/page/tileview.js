@@ -159,17 +159,16 @@ export class TileView extends EventTarget {
       }
     }
     this.progress = [known, all];
-    if (jobs.length > 0.4 * all) this.wantCoarse(jobs, level);
-    this.queue.want(this, jobs);
+    const coarse = jobs.length > 0.4 * all ? this.coarseJob(level) : null;
+    this.queue.want(this, coarse ? [coarse] : jobs);
     this.dispatchEvent(new Event("tiles"));
   }
 
-  wantCoarse(jobs, level) {
-    const window = this.viewport.window().join();
-    const key = `${this.source.key}|coarse|${window}`;
-    if (this.refused.has(key) || this.coarse.some((tile) => tile.key === key)) return;
-    if (this.covered(level - 1)) return;
-    jobs.push({ key, rank: 0, run: (signal) => this.take(askCoarse(this, key, signal), signal) });
+  /** The coarse picture comes alone, before any tile; null where it is there, or finer than that is. */
+  coarseJob(level) {
+    const key = `${this.source.key}|coarse|${this.viewport.window().join()}`;
+    if (this.refused.has(key) || this.coarse.some((tile) => tile.key === key) || this.covered(level - 1)) return null;
+    return { key, rank: 0, run: (signal) => this.take(askCoarse(this, key, signal), signal) };
   }
 
   /** The keys of a level's tiles in view. */
@@ -199,9 +198,10 @@ export class TileView extends EventTarget {
       if (signal.aborted) return;
       this.refused.add(key);
       this.failed(error);
-      return;
     }
     if (this.source?.key === source.key) this.arrived();
+    // the next ones, now that the coarse picture is there or was refused
+    if (key.includes("|coarse|")) this.changed();
   }
 
   arrived() {

@@ -20,7 +20,7 @@ export const STEPS = [
       "The plane of the paper: 1/β to the right, the gap δ upwards, restitution 0.5, no damping. Each colour is a motion m/n, m impacts in n forcing periods; the orders 1/1, 2/1, 3/1 follow one another towards smaller gaps.",
       "Black lines bound the regions in which the simple motions are stable. Dashed: |f|, the amplitude that the mass would have without a stop. Below it every start ends in impacts; above it that depends on the start.",
     ],
-    state: { ...PAPER, point: false, layers: ["paper", "stripes", "regions", "amplitude"], starts: 3 },
+    state: { ...PAPER, point: false, layers: ["paper", "stripes", "regions", "amplitude"], starts: 2, impacts: 1000 },
   },
   {
     title: "Figure 5. A motion of order four, at N",
