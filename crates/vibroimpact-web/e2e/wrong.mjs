@@ -30,3 +30,12 @@ export async function a_server_that_is_gone_is_said_and_found_again({ open }) {
   assert.ok(await page.locator("#strip").isHidden());
   complaints.splice(0, complaints.length, ...complaints.filter((one) => !/ERR_CONNECTION_REFUSED/.test(one)));
 }
+
+export async function a_second_stop_leaves_the_layers_a_legal_window({ open }) {
+  const { page } = await open("#second=1&second_gap=0.2&layers=amplitude");
+  await drawn(page);
+  await until("the curve is there", async () =>
+    (await page.$$eval("#layers .soft", (parts) => parts.map((part) => part.textContent).join(""))) === "");
+  await page.waitForTimeout(800);
+  assert.ok(await page.locator("#strip").isHidden(), await page.locator("#strip").textContent());
+}

@@ -47,7 +47,7 @@ class Cycles {
 /** @param {import("./state.js").State} state @returns {number[]} what the basin shows first */
 export function basinWindow(state) {
   const [lowest, highest] = room(state);
-  if (Number.isFinite(lowest)) {
+  if (Number.isFinite(lowest) && lowest < highest) {
     const air = 0.05 * (highest - lowest);
     return [lowest - air, highest + air, ...START.v.window];
   }

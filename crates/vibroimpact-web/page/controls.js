@@ -15,7 +15,7 @@ export function controls(store) {
   });
   byId("parameters").append(
     ...rows.slice(0, 5).map((row) => row.box),
-    element("label", { class: "check" }, second, " second stop, at ξ = −δ₂"),
+    element("label", { class: "check" }, second, element("span", { text: "second stop, at ξ = −δ₂" })),
     ...rows.slice(5).map((row) => row.box),
   );
   const starts = choice(store, "starts", Array.from({ length: 16 }, (_, k) => [k + 1, String(k + 1)]));

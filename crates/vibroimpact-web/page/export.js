@@ -4,7 +4,7 @@ import * as api from "./api.js";
 import { byId, element } from "./dom.js";
 import { Latest } from "./latest.js";
 import {
-  attractorsPlan, basinPlan, diagramPlan, lyapunovPlan, mapPlan, over, settlePlan, simulatePlan,
+  attractorsPlan, basinPlan, diagramPlan, lyapunovPlan, mapPlan, over, settlePlan, simulatePlan, within,
 } from "./plans.js";
 import { attractorsTable, impactsTable, multipliersTable } from "./tables.js";
 
@@ -61,8 +61,7 @@ export class Export {
     const span = (view, make) => {
       const [l, r, b, t] = view.viewport.window();
       const { legal, x, y } = view.source;
-      const cut = ([least, most], { open }, low, high) =>
-        over(Math.max(open ? (high - low) / n : least, low, least), Math.min(most, high), n);
+      const cut = (range, coordinate, low, high) => over(...within(range, coordinate, low, high), n);
       return make(state, cut(legal.x, x, l, r), cut(legal.y, y, b, t));
     };
     const views = { plane: { name: "plane of parameters", plan: () => span(this.views.plane.view, mapPlan), points: true } };

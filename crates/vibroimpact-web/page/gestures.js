@@ -16,6 +16,9 @@ export function gestures(view) {
     return [event.clientX - box.left - view.frame.left, event.clientY - box.top - view.frame.top];
   };
   const settled = () => view.dispatchEvent(new Event("view"));
+  view.addEventListener("view", () => {
+    view.unmoved = false;
+  });
   const hover = (px) => {
     view.pointer = px;
     view.dispatchEvent(new CustomEvent("hover", { detail: px }));

@@ -4,7 +4,7 @@ import { layer } from "./api.js";
 import { byId, debounced, element } from "./dom.js";
 import { Latest } from "./latest.js";
 import { PARAMETERS } from "./parameters.js";
-import { mapPlan, over, systemOf } from "./plans.js";
+import { mapPlan, over, systemOf, within } from "./plans.js";
 
 const NAMES = {
   regions: "regions of stability",
@@ -40,7 +40,7 @@ export class Layers {
   box(name) {
     const input = element("input", { type: "checkbox", onchange: (event) => this.toggle(name, event.target.checked) });
     const progress = element("span", { class: "soft" });
-    byId("layers").append(element("label", { class: "check" }, input, ` ${NAMES[name]} `, progress));
+    byId("layers").append(element("label", { class: "check" }, input, element("span", { text: NAMES[name] }), progress));
     return { input, progress };
   }
 
@@ -81,12 +81,11 @@ export class Layers {
   wanted() {
     const [left, right, bottom, top] = this.plane.view.viewport.window();
     const { legal, x, y } = this.plane.view.source;
-    const within = ([least, most], { open }, low, high) => {
+    const part = (range, coordinate, low, high) => {
       const air = MARGIN * (high - low);
-      const floor = open ? least + 1e-3 * (high - low) : least;
-      return [Math.max(floor, low - air), Math.min(most, high + air)];
+      return within(range, coordinate, low - air, high + air);
     };
-    return [...within(legal.x, x, left, right), ...within(legal.y, y, bottom, top)];
+    return [...part(legal.x, x, left, right), ...part(legal.y, y, bottom, top)];
   }
 
   fits(kind) {

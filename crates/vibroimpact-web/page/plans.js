@@ -90,3 +90,16 @@ export function legalRange(state, name) {
   if (name === "second_gap") return [state.x === "gap" || state.y === "gap" ? 0 : -state.gap, most];
   return [least, most];
 }
+
+/**
+ * The part of a window that is legal along one axis; ends that are not legal themselves are kept away from.
+ * @param {[number, number]} range as `legalRange` gives it
+ * @param {import("./parameters.js").Coordinate} coordinate
+ * @param {number} low
+ * @param {number} high
+ * @returns {[number, number]}
+ */
+export function within([least, most], coordinate, low, high) {
+  const open = coordinate.open || least !== coordinate.least;
+  return [Math.max(low, open ? least + 1e-3 * (high - low) : least), Math.min(most, high)];
+}

@@ -84,6 +84,7 @@ export class TileView extends EventTarget {
 
   fit(window) {
     this.home = window;
+    this.unmoved = true;
     this.viewport.fit(window, this.density);
   }
 
@@ -94,11 +95,10 @@ export class TileView extends EventTarget {
       canvas.width = Math.round(width * this.density);
       canvas.height = Math.round(height * this.density);
     }
-    const first = !this.sized;
     this.sized = true;
     this.size = [width, height];
     this.frame.measure();
-    if (first && this.home) this.viewport.fit(this.home, this.density);
+    if (this.unmoved) this.fit(this.home);
     this.changed();
   }
 
