@@ -6,7 +6,6 @@ import { Latest } from "./latest.js";
 import {
   attractorsPlan, basinPlan, diagramPlan, lyapunovPlan, mapPlan, over, settlePlan, simulatePlan, within,
 } from "./plans.js";
-import { attractorsTable, impactsTable, multipliersTable } from "./tables.js";
 
 /** Figures as on a page of a paper, in the units of the server. */
 const WIDTH = 1000;
@@ -70,11 +69,11 @@ export class Export {
       Object.assign(views, {
         waveform: { name: "waveform", plan: () => simulatePlan(state), kind: "waveform" },
         basin: { name: "basin: which start leads where", plan: () => span(this.views.basin().view, basinPlan), points: true, needs: () => this.views.basin().view.source },
-        attractors: { name: "motions that coexist", plan: () => attractorsPlan(state), tableOnly: true, table: attractorsTable },
-        steady: { name: "steady motion", plan: settle, kind: "waveform", table: impactsTable },
-        phase: { name: "phase portrait", plan: settle, kind: "phase", table: impactsTable },
-        multipliers: { name: "multipliers", plan: settle, kind: "multipliers", table: multipliersTable },
-        sections: { name: "impact map and section", plan: settle, kind: "sections", table: impactsTable },
+        attractors: { name: "motions that coexist", plan: () => attractorsPlan(state), tableOnly: true },
+        steady: { name: "steady motion", plan: settle, kind: "waveform" },
+        phase: { name: "phase portrait", plan: settle, kind: "phase" },
+        multipliers: { name: "multipliers", plan: settle, kind: "multipliers" },
+        sections: { name: "impact map and section", plan: settle, kind: "sections" },
         lyapunov: { name: "Lyapunov exponents and attractor", plan: () => lyapunovPlan(state), kind: "sections" },
       });
     }
@@ -122,8 +121,7 @@ export class Export {
   }
 
   async blob(format, plan) {
-    const { table } = this.view;
-    if (format === "csv") return table ? table(await api.answer(plan)) : api.table(plan);
+    if (format === "csv") return api.table(plan);
     if (this.choice.value === "line" && format === "svg") {
       const { svg } = await api.bifurcation(plan, { width: WIDTH, height: 0.7 * WIDTH });
       return new Blob([svg], { type: "image/svg+xml" });
