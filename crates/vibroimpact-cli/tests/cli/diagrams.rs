@@ -92,3 +92,39 @@ fn a_machine_in_physical_units() {
         assert!((number(&s[5]) - 0.1 * number(&p[5])).abs() < 1e-9, "{s:?} {p:?}");
     }
 }
+
+/// Values in equal ratios are equally far apart on the page, as dots and as the cells of a picture of many.
+#[test]
+fn a_logarithmic_span_has_a_logarithmic_axis() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn = |line: &str| -> String {
+        let place = folder.path().join("a.svg");
+        let output = vibro(&format!("diagram --restitution 0.5 --vary gap {line} --force --plot")).arg(&place).output();
+        let output = output.expect("vibro runs");
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        std::fs::read_to_string(place).expect("a figure is text")
+    };
+    // the path of the dots, or of the cells, in the first colour: where each piece of it begins
+    let pieces = |figure: &str| -> Vec<f64> {
+        let path = figure.lines().find(|line| line.starts_with("<path d=\"M") && line.contains("#0072b2"));
+        let path = path.expect("a path").split('"').nth(1).expect("its data");
+        path.split('M').skip(1).map(|piece| number(piece.split(' ').next().expect("a number"))).collect()
+    };
+    for over in ["0.02:2:5:log", "2:0.02:5:log"] {
+        let mut xs = pieces(&drawn(&format!("--inverse-beta 1.11 --over {over} --direction up --keep 1")));
+        xs.sort_by(f64::total_cmp);
+        assert!(
+            xs.len() == 5 && xs.windows(2).all(|pair| (pair[1] - pair[0] - (xs[4] - xs[0]) / 4.0).abs() < 0.02),
+            "{xs:?}"
+        );
+    }
+    // chaos in most of it, and so many dots that they become cells: no column is narrower than another
+    let figure = drawn("--inverse-beta 1.11 --over 2.2:4.4:700:log --direction up --keep 900 --transient 100");
+    assert!(figure.contains("crispEdges"), "still dots");
+    let mut xs = pieces(&figure);
+    xs.sort_by(f64::total_cmp);
+    xs.dedup();
+    let column = (xs[xs.len() - 1] - xs[0]) / 699.0;
+    let narrowest = xs.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::MAX, f64::min);
+    assert!(column > 0.5 && narrowest > 0.9 * column, "{narrowest} {column}");
+}

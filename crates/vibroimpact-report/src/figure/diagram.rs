@@ -3,15 +3,11 @@
 //! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other and both colours
 //! are seen. What does not repeat itself has small dots in both.
 
-use crate::figure::{
-    named,
-    plane::{axis, half_cell},
-    symbol, title_without,
-};
+use crate::figure::{named, plane::Side, symbol, title_without};
 use crate::units::shown_span;
 use crate::{Asked, ReportError};
 use std::collections::HashSet;
-use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Points, Raster, SERIES};
+use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Points, Raster, Rects, SERIES};
 use vibroimpact_study::Span;
 use vibroimpact_study::diagram::{Diagram, Direction, Point, Show, Step, Sweep};
 
@@ -47,10 +43,11 @@ pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
         thin(&mut cloud.small, range);
     }
     let vary = found.plan.vary;
-    let panel = Panel::new(axis(&named(vary, &asked.units), over), ordinate(found, asked).range(range.0, range.1));
+    let side = Side::new(named(vary, &asked.units), &(*over).into())?;
+    let panel = Panel::new(side.axis(), ordinate(found, asked).range(range.0, range.1));
     let dots: usize = clouds.iter().map(|cloud| cloud.large.len() + cloud.small.len()).sum();
     let (panel, legend) =
-        if dots > MOST_DOTS { as_cells(panel, &clouds, over, range)? } else { as_dots(panel, clouds, over) };
+        if dots > MOST_DOTS { as_cells(panel, &clouds, (over, &side), range)? } else { as_dots(panel, clouds, over) };
     Ok(Figure::new(panel).title(title_without(&asked.system, &[vary])).legend(legend))
 }
 
@@ -149,23 +146,40 @@ fn as_dots(mut panel: Panel, clouds: Vec<Cloud>, over: &Span) -> (Panel, Legend)
     (panel, legend)
 }
 
+/// The number of value `k` among all in rising order, and the other way round.
+fn rising(over: &Span, k: usize) -> usize {
+    let (a, b) = over.ends();
+    if a <= b { k } else { over.count() as usize - 1 - k }
+}
+
 /// The same as a picture of cells, as many columns as there are values, or a whole part of them.
-fn as_cells(panel: Panel, clouds: &[Cloud], over: &Span, range: (f64, f64)) -> Result<(Panel, Legend), ReportError> {
+fn as_cells(
+    panel: Panel,
+    clouds: &[Cloud],
+    (over, side): (&Span, &Side),
+    range: (f64, f64),
+) -> Result<(Panel, Legend), ReportError> {
     let values = over.count() as usize;
     let (columns, rows) = (values / values.div_ceil(MOST_COLUMNS), CELL_ROWS);
     let mut cells = vec![(u16::MAX, false); columns * rows];
-    let (a, b) = over.ends();
-    let across = (a.min(b) - half_cell(over), a.max(b) + half_cell(over));
+    let across = side.range();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss)] // a few hundred
     let place = |at: f64, (low, high): (f64, f64), count: usize| {
         ((((at - low) / (high - low)) * count as f64) as usize).min(count - 1)
+    };
+    let column = |k: u32| {
+        if side.logarithmic() {
+            rising(over, k as usize) * columns / values
+        } else {
+            place(over.at(k), across, columns)
+        }
     };
     let mut legend = Legend::below();
     for (class, cloud) in (0_u16..).zip(clouds) {
         for (dots, small) in [(&cloud.large, false), (&cloud.small, true)] {
             let reach = usize::from(!small);
             for (k, y) in dots {
-                let (i, j) = (place(over.at(*k), across, columns), place(*y, range, rows));
+                let (i, j) = (column(*k), place(*y, range, rows));
                 for j in j.saturating_sub(reach)..(j + reach + 1).min(rows) {
                     for i in i.saturating_sub(reach)..(i + reach + 1).min(columns) {
                         let cell = &mut cells[j * columns + i];
@@ -181,5 +195,25 @@ fn as_cells(panel: Panel, clouds: &[Cloud], over: &Span, range: (f64, f64)) -> R
     }
     let colours: Vec<Colour> = clouds.iter().map(|cloud| cloud.colour).collect();
     let classes: Vec<u16> = cells.into_iter().map(|(class, _)| class).collect();
+    if side.logarithmic() {
+        // columns of like width on the page are not alike in the parameter
+        let edge = |i: usize| match (i * values).div_ceil(columns) {
+            first if first < values => side.cell(rising(over, first)).0,
+            _ => across.1,
+        };
+        let height = |j: usize| range.0 + (range.1 - range.0) * j as f64 / rows as f64;
+        let mut rects = Rects::new(colours.into_iter().map(ClassStyle::plain).collect::<Vec<_>>());
+        for (j, row) in classes.chunks(columns).enumerate() {
+            let mut i = 0;
+            for run in row.chunk_by(|a, b| a == b) {
+                let next = i + run.len();
+                if run[0] != u16::MAX {
+                    rects.cell((edge(i), edge(next)), (height(j), height(j + 1)), &[usize::from(run[0])]);
+                }
+                i = next;
+            }
+        }
+        return Ok((panel.with(rects), legend));
+    }
     Ok((panel.with(Raster::new(across, range, (columns, rows), classes, colours)?), legend))
 }

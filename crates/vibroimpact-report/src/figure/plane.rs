@@ -4,7 +4,7 @@ use crate::figure::symbol;
 use crate::units::shown;
 use crate::{ReportError, Units};
 use vibroimpact_plot::Axis;
-use vibroimpact_study::{Axis as Along, Coordinate, Parameter, Span, Values, is_length};
+use vibroimpact_study::{Axis as Along, Coordinate, Parameter, Values, is_length};
 
 /// Points a figure of a plane can show along one axis.
 const MOST: usize = 16_384;
@@ -101,7 +101,7 @@ impl Side {
         }
     }
 
-    fn logarithmic(&self) -> bool {
+    pub(crate) fn logarithmic(&self) -> bool {
         matches!(&self.values, Values::Span(span) if span.is_logarithmic())
     }
 
@@ -124,26 +124,19 @@ impl Side {
         (before.min(after), before.max(after))
     }
 
+    /// From the outer edge of one outermost cell to that of the other.
+    pub(crate) fn range(&self) -> (f64, f64) {
+        let (first, last) = (self.cell(0), self.cell(self.count() - 1));
+        (first.0.min(last.0), first.1.max(last.1))
+    }
+
     /// An axis that shows the outermost cells whole.
     #[must_use]
     pub fn axis(&self) -> Axis {
-        let (first, last) = (self.cell(0), self.cell(self.count() - 1));
-        let axis = Axis::new(self.name.clone()).range(first.0.min(last.0), first.1.max(last.1));
+        let (low, high) = self.range();
+        let axis = Axis::new(self.name.clone()).range(low, high);
         if self.logarithmic() { axis.log10() } else { axis }
     }
-}
-
-/// An axis that shows the cells around the first and last value whole.
-pub(crate) fn axis(name: &str, span: &Span) -> Axis {
-    let (a, b) = span.ends();
-    let half = half_cell(span);
-    Axis::new(name).range(a.min(b) - half, a.max(b) + half)
-}
-
-/// Half the distance of two values.
-pub(crate) fn half_cell(span: &Span) -> f64 {
-    let (a, b) = span.ends();
-    if span.count() > 1 { (b / 2.0 - a / 2.0).abs() / f64::from(span.count() - 1) } else { 0.5 }
 }
 
 #[cfg(test)]
