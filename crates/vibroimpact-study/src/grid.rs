@@ -1,7 +1,10 @@
 //! A grid of points, cut into tiles of equal shape; those at the far edges may be smaller.
 
 use crate::field::Column;
-use core::ops::Range;
+use core::ops::{Deref, Range};
+
+/// Dimensions of a grid at most: as many as a plan has axes.
+const MOST: usize = 4;
 
 /// One dimension of a grid.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,6 +29,22 @@ pub struct Grid {
 pub struct Block {
     /// The ranges, the slowest dimension first.
     pub ranges: Vec<Range<usize>>,
+}
+
+/// The indices of a point in its grid, the slowest dimension first; a slice of them. Basins ask for millions: it is no list on
+/// the heap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Index {
+    of: [usize; MOST],
+    dimensions: usize,
+}
+
+impl Deref for Index {
+    type Target = [usize];
+
+    fn deref(&self) -> &[usize] {
+        &self.of[..self.dimensions]
+    }
 }
 
 impl Grid {
@@ -93,22 +112,16 @@ impl Block {
         self.ranges.iter().map(ExactSizeIterator::len).product()
     }
 
-    /// The indices in the grid of its point number `k`, the slowest dimension first.
+    /// The indices in the grid of its point number `k`, of a grid with four dimensions at most.
     #[must_use]
-    pub fn index(&self, k: usize) -> Vec<usize> {
-        let mut rest = k;
-        let mut index: Vec<usize> = self
-            .ranges
-            .iter()
-            .rev()
-            .map(|range| {
-                let here = range.start + rest % range.len();
-                rest /= range.len();
-                here
-            })
-            .collect();
-        index.reverse();
-        index
+    pub fn index(&self, k: usize) -> Index {
+        let (mut rest, dimensions) = (k, self.ranges.len());
+        let mut of = [0; MOST];
+        for (here, range) in of[..dimensions].iter_mut().zip(&self.ranges).rev() {
+            *here = range.start + rest % range.len();
+            rest /= range.len();
+        }
+        Index { of, dimensions }
     }
 
     /// Copies the column of this block into that of a larger one, with `width` numbers a point.
