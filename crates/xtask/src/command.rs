@@ -34,6 +34,13 @@ pub(crate) fn words(root: &Path, line: &str) -> Command {
     let mut words = line.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or_default());
     command.args(words).current_dir(root).stdin(Stdio::null());
+    // what cargo says of this program is nothing to another cargo: some build scripts would run again for it
+    for (name, _) in std::env::vars_os() {
+        let plain = name.to_string_lossy();
+        if plain.starts_with("CARGO_PKG_") || plain.starts_with("CARGO_MANIFEST_") {
+            command.env_remove(&name);
+        }
+    }
     command
 }
 

@@ -16,7 +16,7 @@ pub(crate) fn build(root: &Path) -> Result<String, String> {
     if !header.is_file() {
         return Err(format!("{HEADER} is missing; the formulas of the documentation need it"));
     }
-    let mut command = command::words(root, "cargo doc --workspace --no-deps");
+    let mut command = command::words(root, "cargo doc --workspace --all-features --no-deps");
     // rustdoc needs the absolute path, and the encoded form allows blanks in it
     let flags = ["-D", "warnings", "--html-in-header", &header.to_string_lossy()].join("\u{1f}");
     command.env("CARGO_ENCODED_RUSTDOCFLAGS", flags);

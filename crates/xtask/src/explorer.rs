@@ -15,7 +15,7 @@ const TESTS: &str = "crates/vibroimpact-web/e2e";
 const VARIABLE: &str = "CHROMIUM";
 const BROWSERS: [&str; 2] = ["/usr/bin/chromium", "/usr/bin/chromium-browser"];
 
-/// Builds the command, serves the page and runs the tests in the browser; their screenshots stay under the target folder.
+/// Builds the command, as the other tests did, serves the page and runs the tests in the browser; their screenshots stay under the target folder.
 ///
 /// # Errors
 /// The sentence that says what failed.
@@ -32,7 +32,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     let mut install = command::words(root, "npm ci --no-audit --no-fund --silent");
     install.current_dir(&folder);
     command::run(install)?;
-    command::run(command::words(root, "cargo build --package vibroimpact-cli"))?;
+    command::run(command::words(root, "cargo build --workspace --all-features --bin vibro"))?;
     let (server, url) = serve(root, &target.join("debug/vibro"))?;
     let mut tests = command::words(root, "node run.mjs");
     tests.current_dir(&folder).args([url.as_str(), "screenshots"]).env(VARIABLE, browser);

@@ -80,24 +80,26 @@ impl Step {
 /// All steps, the quickest to fail first. A test program of another language is one more line:
 /// what it prints last must be known to [`totals`].
 fn steps(nextest: bool, python: bool) -> Vec<Step> {
+    // with all features in all steps: others would have the crates that derive built anew, and all that depends on them;
+    // the Python package is built without any, as its users build it
     // the library of the Python package has no tests of Rust, and `--lib` would ask for them
     let tests = if nextest {
-        "cargo nextest run --workspace --no-fail-fast"
+        "cargo nextest run --workspace --all-features --no-fail-fast"
     } else {
-        "cargo test --workspace --exclude vibroimpact-py --lib --bins --tests --examples --no-fail-fast"
+        "cargo test --workspace --exclude vibroimpact-py --all-features --lib --bins --tests --examples --no-fail-fast"
     };
     let mut steps = vec![
         Step::check("tools", "rustup component add rustfmt clippy", tools::ensure).fast(),
         Step::command("format", "cargo fmt --all --check").fast(),
         Step::check("licences", "cargo xtask licences", licences::check),
         Step::check("links", "cargo xtask links", links::check),
-        Step::command("lints", "cargo clippy --workspace --all-targets -- -D warnings").fast(),
+        Step::command("lints", "cargo clippy --workspace --all-targets --all-features -- -D warnings").fast(),
         Step::tests("tests", tests).fast(),
-        Step::tests("doc tests", "cargo test --workspace --doc --no-fail-fast"),
+        Step::tests("doc tests", "cargo test --workspace --all-features --doc --no-fail-fast"),
         Step::tests("explorer", "cargo xtask explorer"),
-        Step::tests("buckets", "cargo xtask s3"),
         Step::check("documentation", "cargo xtask docs", docs::build),
         Step::check("Python package", "cargo xtask python", python::install),
+        Step::tests("buckets", "cargo xtask s3"),
     ];
     if python {
         steps.push(Step::tests("Python tests", python::TESTS));
