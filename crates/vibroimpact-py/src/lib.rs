@@ -51,6 +51,11 @@ mod _core {
     #[pymodule_export]
     use crate::store::Store;
 
+    /// Whether this build reaches buckets.
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "its name in Python")]
+    const reaches_buckets: bool = crate::store::BUCKETS;
+
     /// Version of the package.
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "its name in Python")]

@@ -6,7 +6,20 @@ use crate::plan::{points, read};
 use crate::simulate::text;
 use pyo3::prelude::*;
 use std::sync::Arc;
-use vibroimpact_study::store::{Part, Ran, shelf};
+use vibroimpact_study::store::{Part, Ran, Shelf, shelf};
+
+/// Whether this build reaches buckets.
+pub(crate) const BUCKETS: bool = cfg!(feature = "s3");
+
+/// The place of a store; where it is a bucket, only in a build for that.
+fn place_of(name: &str) -> Result<Arc<dyn Shelf>, Trouble> {
+    if !BUCKETS && name.starts_with("s3://") {
+        return Err(Trouble::Store(format!(
+            "{name}: this build of the package reaches folders only\nhint: `pip install . --config-settings build-args=\"--features s3\"` in the repository builds one that reaches buckets"
+        )));
+    }
+    Ok(shelf(name)?)
+}
 
 /// A store that is open: cheap to hold, so that one process opens it once.
 #[pyclass(frozen, module = "vibroimpact._core")]
@@ -56,7 +69,7 @@ impl Store {
     fn new(py: Python<'_>, place: String, plan: Option<&str>) -> Result<Self, Trouble> {
         let plan = plan.map(read).transpose()?;
         let store = door::run(py, Watch::alone("opening a store"), move |_| {
-            let shelf = shelf(&place)?;
+            let shelf = place_of(&place)?;
             Ok(match plan {
                 Some(plan) => vibroimpact_study::Store::create(shelf, &plan)?,
                 None => vibroimpact_study::Store::open(shelf)?,

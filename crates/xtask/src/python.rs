@@ -8,6 +8,8 @@ use crate::command;
 
 /// The environment, from the root of the repository.
 const ENVIRONMENT: &str = "target/python";
+/// The Python in it.
+pub(crate) const PYTHON: &str = "target/python/bin/python";
 /// The oldest Python in which all tests run: zarr 3 needs it. The package itself asks for less.
 const OLDEST: (u32, u32) = (3, 11);
 /// Why the tests are not run.

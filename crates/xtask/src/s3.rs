@@ -1,18 +1,24 @@
 //! `cargo xtask s3`: the tests of studies in buckets, which need a server that speaks S3 and a build with the feature.
 //!
 //! The server is a program from PyPI in an environment of its own under the target folder. The tests are built for the whole
-//! workspace, so that what the other tests have built already serves.
+//! workspace with all features, as in the other steps, so that what those have built already serves; so is the compiled part of
+//! the Python package, which is put beside its other part and run in the environment of [`python`].
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
-use crate::{command, tools, venv};
+use crate::{command, python, tools, venv};
 
 /// How the server is started by a shell.
 const SERVER: &str = "-m moto.server -H 127.0.0.1 -p $PORT";
 /// The variable by which the tests learn of it; they fail where it names a server that does not start.
 const VARIABLE: &str = "VIBROIMPACT_S3_SERVER";
 /// What is built and run.
-const TESTS: &str = "--workspace --features vibroimpact-study/s3 --test s3 --no-fail-fast";
+const TESTS: &str = "--workspace --all-features --test s3 --no-fail-fast";
+/// What builds the compiled part of the Python package beside it; the tests are named for the features of what they depend on.
+const COMPILED: &str = "cargo build --workspace --all-features --profile test --lib --tests";
+/// The tests in Python.
+const PYTHON_TESTS: &str = "-m pytest -q crates/vibroimpact-py/tests/test_s3.py";
 
 /// Installs the server and runs the tests; without Python says so, in a line that counts no test.
 ///
@@ -26,13 +32,47 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     let python = venv::ready(root, &command::target(root)?.join("s3-venv"), &pins).map_err(|why| {
         format!("{why}\nhint: the server needs Python 3.10 or later with venv, and for the first run access to PyPI")
     })?;
+    let run = |line: &str, packages: Option<PathBuf>| {
+        let mut tests = command::words(root, line);
+        tests.env(VARIABLE, format!("'{}' {SERVER}", python.display()));
+        // a proxy knows nothing of a server on this machine
+        tests.env("NO_PROXY", "127.0.0.1");
+        tests.envs(packages.map(|folder| ("PYTHONPATH", folder)));
+        command::run(tests)
+    };
     let cargo = if tools::has_nextest(root) { "cargo nextest run" } else { "cargo test" };
-    let mut tests = command::words(root, &format!("{cargo} {TESTS}"));
-    tests.env(VARIABLE, format!("'{}' {SERVER}", python.display()));
-    // a proxy knows nothing of a server on this machine
-    tests.env("NO_PROXY", "127.0.0.1");
-    command::run(tests)?;
+    run(&format!("{cargo} {TESTS}"), None)?;
+    if python::found(root).is_some() {
+        run(&format!("{} {PYTHON_TESTS}", python::PYTHON), Some(package(root)?))?;
+    }
     Ok("studies in buckets are as those in folders".to_owned())
+}
+
+/// A folder with the Python package as it is with all features, for an environment that has what it needs.
+fn package(root: &Path) -> Result<PathBuf, String> {
+    if !root.join(python::PYTHON).is_file() {
+        python::install(root)?;
+    }
+    command::run(command::words(root, COMPILED))?;
+    let target = command::target(root)?;
+    let built = |end: &str| target.join("debug").join(format!("lib_core.{end}"));
+    let compiled = if cfg!(target_os = "macos") { built("dylib") } else { built("so") };
+    let all = target.join("s3-package");
+    let folder = all.join("vibroimpact");
+    let copied = || {
+        fs::create_dir_all(&folder)?;
+        for entry in fs::read_dir(root.join("crates/vibroimpact-py/python/vibroimpact"))? {
+            let file = entry?.path();
+            if let Some(name) = file.file_name().filter(|_| file.is_file()) {
+                fs::copy(&file, folder.join(name))?;
+            }
+        }
+        fs::copy(&compiled, folder.join("_core.abi3.so")).map(drop)
+    };
+    copied().map_err(|error: std::io::Error| {
+        format!("the package cannot be put together in {}: {error}", folder.display())
+    })?;
+    Ok(all)
 }
 
 /// A line that [`totals`](crate::totals) can read.

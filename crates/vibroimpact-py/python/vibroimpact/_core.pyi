@@ -39,9 +39,11 @@ __all__ = [
     "simulate",
     "waveform",
     "__version__",
+    "reaches_buckets",
 ]
 
 __version__: str
+reaches_buckets: bool
 
 class QuestionError(ValueError): ...
 class StoppedError(Exception): ...

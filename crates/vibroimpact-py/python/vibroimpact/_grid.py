@@ -1,7 +1,7 @@
 """Studies over grids as xarray Datasets: in memory, or in a store."""
 
 from collections.abc import Mapping
-from os import PathLike
+from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,6 +34,8 @@ def computed(
             )
         with watched(progress, "points") as tell:
             return _dataset(plan, *_core.fill(plan.json, threads, tell))
+    # what is to be read in the end has to be readable before hours are spent
+    _store.need_readers(fspath(store))
     if client is None:
         _store.run(plan, store, threads=threads, progress=progress)
     else:

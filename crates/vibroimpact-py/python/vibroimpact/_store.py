@@ -1,8 +1,10 @@
 """Studies in stores: run, resumed, looked at, verified, opened."""
 
+import os
 from dataclasses import dataclass
+from importlib.util import find_spec
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vibroimpact import _core
 from vibroimpact._plan import Plan
@@ -82,7 +84,7 @@ def run(
     plan : Plan
         The study.
     store : path
-        A folder of its own, begun where there is none.
+        A folder of its own, begun where there is none; "s3://BUCKET/PREFIX" where the package was built with the feature `s3`.
     part : (int, int)
         (i, n): every n-th tile only, i from 1 to n, for job arrays.
     threads : int
@@ -174,7 +176,7 @@ def verify(
 def open(store: str | PathLike[str]) -> "xr.Dataset":
     """The Dataset of a store, read from it when it is looked at; `ds.vibro` draws it.
 
-    xarray opens a store without help too: `xarray.open_zarr(store)`.
+    xarray opens a store without help too: `xarray.open_zarr(store)`. One in a bucket is read by s3fs.
 
     Examples
     --------
@@ -193,13 +195,19 @@ def open(store: str | PathLike[str]) -> "xr.Dataset":
 
     place = fspath(store)
     _core.Store(place)
-    _need_zarr()
-    ds: xr.Dataset = xr.open_zarr(place)
+    need_readers(place)
+    ds: xr.Dataset = xr.open_zarr(place, storage_options=_bucket() if place.startswith("s3://") else None)
     return ds
 
 
-def _need_zarr() -> None:
-    """Says what is missing where there is no zarr that reads version 3 of the format."""
+def _bucket() -> dict[str, Any]:
+    """What s3fs does not read in the environment for itself."""
+    region = os.environ.get("AWS_REGION")
+    return {"client_kwargs": {"region_name": region}} if region else {}
+
+
+def need_readers(place: str) -> None:
+    """Says what is missing where there is no zarr that reads version 3 of the format, or nothing that reads a bucket."""
     from importlib.metadata import PackageNotFoundError, version
 
     try:
@@ -211,4 +219,9 @@ def _need_zarr() -> None:
         raise ImportError(
             f"reading a store as a Dataset needs zarr 3 or later, and {here} installed\n"
             "hint: pip install 'zarr>=3', which needs Python 3.11; `vibro export STORE --csv FILE` reads the store without it"
+        )
+    if place.startswith("s3://") and not find_spec("s3fs"):
+        raise ImportError(
+            "reading a store in a bucket as a Dataset needs s3fs, which is not installed\n"
+            "hint: pip install s3fs; runs, `status` and `verify` do without it"
         )
