@@ -242,7 +242,6 @@ impl Answer {
     }
 
     /// The table that the command writes with `--csv`; of a simulation the waveform, a hundredth of the forcing period apart.
-    /// Of what a motion settles into it is the steady motion over time, of attractors a row for each; the commands write neither.
     /// Orbits have none.
     ///
     /// # Errors
@@ -253,11 +252,7 @@ impl Answer {
             Found::Simulate(start, found) => {
                 table::waveform::table(osc, *start, (found.shown_until(osc), osc.period() / 100.0), *units)?
             }
-            Found::Settle(start, found) => {
-                let (from, time) = figure::settle::last_event(osc, *start, found.time);
-                let until = figure::settle::steady(osc, *start, found).1 - time;
-                table::waveform::table(osc, from, (until, osc.period() / 100.0), *units)?
-            }
+            Found::Settle(start, found) => table::waveform::steady(osc, *start, found, *units)?,
             Found::Attractors(_, found) => table::attractors::table(found, osc),
             Found::Orbit(_) | Found::Lyapunov(_, _, _, None) => return Ok(None),
             Found::Basin(found) => table::basin::table(found, units)?,

@@ -7,9 +7,11 @@ use crate::exit::Failure;
 use crate::report::text::{self, multipliers};
 use crate::session::Session;
 use clap::Args;
+use std::path::PathBuf;
 use vibroimpact::verdict::{SettleOptions, StartBox};
 use vibroimpact_report::json::attractors::document;
 use vibroimpact_report::number::{percent, short};
+use vibroimpact_report::table::attractors::table;
 use vibroimpact_study::store::Part;
 use vibroimpact_study::{Plan, Task, attractors};
 
@@ -37,6 +39,10 @@ pub(crate) struct Attractors {
     #[command(flatten)]
     store: StoreArgs,
 
+    /// Write one row a motion to this file; - for stdout. Columns: label, share, starts, real and imaginary part of both multipliers
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -46,8 +52,8 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed };
     let plan = args.store.tiled(Plan::new(asked.system, task))?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), None, args.json, session)?;
     if let Some(place) = &args.store.store {
-        let outputs = Outputs::reserve(None, None, args.json, session)?;
         return stored::run(&plan, place, Part::ALL, outputs, session);
     }
     let osc = asked.system.oscillator()?;
@@ -58,6 +64,11 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
         attractors(&osc, area, starts, &SettleOptions::default(), control)
     })?;
 
+    let to_stdout = outputs.table_on_stdout();
+    outputs.write(session, || Ok(table(&census, &osc)), || Err(Failure::bad("attractors have no figure")))?;
+    if to_stdout {
+        return Ok(());
+    }
     let found = census.by_share();
     let units = &asked.units;
     if args.json {

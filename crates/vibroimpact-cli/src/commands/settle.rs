@@ -1,8 +1,8 @@
 //! `vibro settle`: what the motion from one start settles into.
 
 use crate::args::{StartArgs, SystemArgs};
+use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
-use crate::picture::Picture;
 use crate::report::text;
 use crate::session::Session;
 use crate::signal;
@@ -12,6 +12,7 @@ use vibroimpact::verdict::{PaperRule, PaperVerdict, SettleOptions, paper_rule, s
 use vibroimpact_report::figure::settle::figure;
 use vibroimpact_report::json::settle::document;
 use vibroimpact_report::number::short;
+use vibroimpact_report::table::waveform::steady;
 use vibroimpact_study::{Plan, Task};
 
 /// What the motion from a start settles into, and why that is so
@@ -46,6 +47,10 @@ pub(crate) struct Settle {
     #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Rule")]
     limit: Option<u32>,
 
+    /// Write the steady motion to this file, one row a point, columns t, x, v; - for stdout
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -71,14 +76,20 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let osc = asked.system.oscillator()?;
     let start = start.start(&osc)?;
     let rule = args.paper_rule()?;
-    let picture = args.plot.as_deref().map(|path| Picture::reserve(path, session.force)).transpose()?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let to_stdout = outputs.table_on_stdout();
 
     let (settled, paper) = signal::interruptible("settling", move || {
         let settled = settle(&osc, start, &SettleOptions::default());
         (settled, rule.map(|rule| (rule, paper_rule(&osc, start, rule))))
     })?;
-    if let Some(picture) = picture {
-        picture.write(&figure(&osc, start, &settled, &asked))?;
+    outputs.write(
+        session,
+        || Ok(steady(&osc, start, &settled, asked.units)?),
+        || Ok(figure(&osc, start, &settled, &asked)),
+    )?;
+    if to_stdout {
+        return Ok(());
     }
     if args.json {
         return session.print_json(&document(&asked, &plan, (&osc, &start), &settled, paper));

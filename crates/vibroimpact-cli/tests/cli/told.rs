@@ -25,7 +25,7 @@ fn same(line: &str) {
     let task = line.split_whitespace().next().expect("a command");
     let mut command = vibro(line);
     command.arg("--json");
-    if !["settle", "attractors", "orbit"].contains(&task) {
+    if task != "orbit" {
         command.arg("--csv").arg(&csv);
     }
     if !["attractors", "orbit"].contains(&task) {

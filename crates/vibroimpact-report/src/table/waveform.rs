@@ -1,9 +1,11 @@
 //! A motion over time: one row a point.
 
 use super::Table;
+use crate::figure::{self, settle::last_event};
 use crate::number::Number;
 use crate::{ReportError, Units};
 use vibroimpact::motion::sample;
+use vibroimpact::verdict::Settled;
 use vibroimpact::{Oscillator, Start};
 
 /// Points of a waveform at most.
@@ -33,4 +35,14 @@ pub fn table(
         )
     });
     Ok(Table::new("t,x,v".to_owned(), rows))
+}
+
+/// The table of `vibro settle`: the steady motion from its last event before it was recognised, for as long as the figure shows it.
+///
+/// # Errors
+/// [`ReportError::Points`] for more than ten million points.
+pub fn steady(osc: &Oscillator, start: Start, settled: &Settled, units: Units) -> Result<Table<'static>, ReportError> {
+    let (from, time) = last_event(osc, start, settled.time);
+    let until = figure::settle::steady(osc, start, settled).1 - time;
+    table(osc, from, (until, osc.period() / 100.0), units)
 }
