@@ -35,8 +35,10 @@ pub(crate) struct Meter<'a> {
     total: u64,
 }
 
-/// Points between two tellings.
+/// Points between two tellings, where there are many.
 const TELL: u64 = 64;
+/// So few that each is told: they are large.
+const FEW: u64 = 512;
 
 impl<'a> Meter<'a> {
     /// `done` of `total` points are done already.
@@ -47,7 +49,7 @@ impl<'a> Meter<'a> {
     /// One more; says whether to stop.
     pub(crate) fn tick(&self) -> bool {
         let now = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        if now.is_multiple_of(TELL) || now == self.total {
+        if self.total <= FEW || now.is_multiple_of(TELL) || now == self.total {
             (self.control.progress)(now);
         }
         self.control.stopping()

@@ -21,7 +21,7 @@
 //! | a branch of periodic orbits in one parameter, and those that begin on it | [`BranchPlan`], [`branches`] |
 //! | which orbit it begins with; what an event on it has to tell | [`Chosen`], [`Told`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`curve`](curve()) |
-//! | where a motion exists and where it is stable | [`RegionPlan`], [`regions`] |
+//! | where a motion exists and where it is stable | [`RegionPlan`], [`regions`], [`stable_regions`] |
 //! | a parameter and its range | [`Stretch`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 
@@ -65,7 +65,7 @@ pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use map::{MapPlan, MapPoint, RegionMap, Share, map};
 pub use parameter::{Parameter, is_length};
 pub use plan::{PLAN_VERSION, Plan, SecondStop, StartPlan, SystemPlan, Task};
-pub use region::{DEFAULT_GRID, RegionPlan, Regions, regions};
+pub use region::{DEFAULT_GRID, RegionPlan, Regions, regions, stable_regions};
 pub use simulate::{Simulated, most_impacts, simulate};
 pub use span::Span;
 pub use store::{Store, StoreError};

@@ -54,27 +54,60 @@ pub struct Regions {
     pub stability: Region,
 }
 
+/// One region of a motion; `None` if stopped.
+fn found(
+    system: &SystemPlan,
+    plan: &RegionPlan,
+    kind: RegionKind,
+    control: &Control<'_>,
+) -> Result<Option<Region>, PlanError> {
+    let (p, q) = (&plan.across, &plan.up);
+    let osc = system.with(p.parameter, p.from)?.with(q.parameter, q.from)?.oscillator()?;
+    let label = followable(&plan.label)?;
+    let (frame, options) = (p.frame(q), RegionOptions { grid: (plan.grid, plan.grid), ..RegionOptions::default() });
+    Ok(region_while(&osc, label, kind, &frame, options, &|| !control.stop.load(Ordering::Relaxed)))
+}
+
+/// Where each of several motions exists and is stable, side by side on all threads.
+///
+/// # Errors
+/// As [`regions`].
+pub fn stable_regions(
+    system: &SystemPlan,
+    plans: &[RegionPlan],
+    control: &Control<'_>,
+) -> Result<Vec<Region>, RunError> {
+    plans.iter().try_for_each(|plan| plan.check(system))?;
+    let each = tiles(plans.len() as u64, 1, control, |range, tick| {
+        // one plan a tile
+        let plan = &plans[usize::try_from(range.start).unwrap_or(0)];
+        let found = found(system, plan, RegionKind::Stability, control);
+        if matches!(&found, Ok(Some(_)) | Err(_)) {
+            tick();
+        }
+        found
+    })?;
+    let each = each.into_iter().collect::<Result<Option<Vec<_>>, _>>()?;
+    Ok(each.unwrap_or_default())
+}
+
 /// Finds both regions, each on a thread of its own.
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, or when stopped, which is asked for at every point of the grid and every step.
 pub fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
     plan.check(system)?;
-    let (p, q) = (&plan.across, &plan.up);
-    let osc = system.with(p.parameter, p.from)?.with(q.parameter, q.from)?.oscillator()?;
-    let label = followable(&plan.label)?;
-    let (frame, options) = (p.frame(q), RegionOptions { grid: (plan.grid, plan.grid), ..RegionOptions::default() });
-    let found = tiles(2, 1, control, |range, tick| {
+    let both = tiles(2, 1, control, |range, tick| {
         let kind = if range.start == 0 { RegionKind::Existence } else { RegionKind::Stability };
-        let go_on = || !control.stop.load(Ordering::Relaxed);
-        let found = region_while(&osc, label, kind, &frame, options, &go_on);
-        if found.is_some() {
+        let found = found(system, plan, kind, control);
+        if matches!(&found, Ok(Some(_)) | Err(_)) {
             tick();
         }
         found
     })?;
-    let mut found = found.into_iter().flatten();
-    let mut next = || found.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
+    let both = both.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut both = both.into_iter().flatten();
+    let mut next = || both.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
     Ok(Regions { existence: next(), stability: next() })
 }
 
@@ -100,6 +133,10 @@ mod tests {
             assert_eq!(found.stability.contains((1.11, gap)), stable, "{gap}");
         }
         assert_eq!(regions(&system, &plan, &Control { threads: 2, ..Control::default() }).unwrap(), found);
+        let two = [plan.clone(), RegionPlan { label: "1/2".into(), ..plan }];
+        let stable = stable_regions(&system, &two, &Control::default()).unwrap();
+        assert_eq!(stable[0], found.stability);
+        assert!(stable[1].contains((1.11, 2.0)) && !stable[1].contains((1.11, 1.5)));
     }
 
     #[test]

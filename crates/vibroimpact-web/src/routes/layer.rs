@@ -13,8 +13,9 @@ use axum::response::{IntoResponse, Response};
 use core::sync::atomic::Ordering;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use vibroimpact::continuation::{Polygon, Region};
 use vibroimpact_study::{
-    Axis, Control, Coordinate, MapPlan, Parameter, RegionPlan, Stretch, SystemPlan, Task, regions,
+    Axis, Control, Coordinate, MapPlan, Parameter, RegionPlan, Stretch, SystemPlan, Task, stable_regions,
 };
 
 /// Motions whose regions are drawn where nobody names any: those of the 1971 paper, and what they double into.
@@ -102,18 +103,17 @@ pub(super) async fn layer(
 
 /// The polygons in which each motion is stable.
 fn edges(plane: &Plane, labels: &[String], control: &Control<'_>, done: &Done) -> Result<Value, Refusal> {
-    let mut found = Vec::new();
-    for label in labels {
-        let plan = RegionPlan { label: label.clone(), across: plane.across, up: plane.up, grid: GRID };
-        let polygons = regions(&plane.system, &plan, control)?.stability.polygons;
-        let ring = |vertices: &[vibroimpact::continuation::Vertex]| vertices.iter().map(|v| v.values).collect();
-        let rings: Vec<_> = polygons.iter().map(|polygon| ring(&polygon.vertices)).collect();
-        if !rings.is_empty() {
-            found.push(Edge { motion: Named::new(label), rings });
-        }
-        done.fetch_add(1, Ordering::Relaxed);
-    }
-    Ok(json!({ "regions": found }))
+    let plan = |label: &String| RegionPlan { label: label.clone(), across: plane.across, up: plane.up, grid: GRID };
+    let plans: Vec<_> = labels.iter().map(plan).collect();
+    let tell = |now| done.store(now, Ordering::Relaxed);
+    let found = stable_regions(&plane.system, &plans, &Control { progress: &tell, ..*control })?;
+    let ring = |polygon: &Polygon| polygon.vertices.iter().map(|vertex| vertex.values).collect();
+    let edge = |(label, region): (&String, Region)| Edge {
+        motion: Named::new(label),
+        rings: region.polygons.iter().map(ring).collect(),
+    };
+    let edges = labels.iter().zip(found).map(edge).filter(|edge| !edge.rings.is_empty());
+    Ok(json!({ "regions": edges.collect::<Vec<_>>() }))
 }
 
 /// Where the gap equals the amplitude of the motion without stops: lines over a plane with a gap axis.
