@@ -19,7 +19,7 @@ pub const PORT: u16 = 8411;
 const NEXT: u16 = 20;
 /// How long a client may take to send its head, and a connection rest between two requests.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// How long a client may take to read an answer, or to send a body.
+/// How long a connection lasts, and then how long its last answer may take to be read.
 const EXCHANGE: Duration = Duration::from_secs(300);
 /// Between two looks whether it is to end.
 const PULSE: Duration = Duration::from_millis(50);
@@ -105,8 +105,16 @@ async fn accept(bound: Bound, threads: usize) -> io::Result<()> {
             builder.http1().timer(TokioTimer::new()).header_read_timeout(PATIENCE).max_buf_size(64 << 10);
             let answer = tower::service_fn(move |request: hyper::Request<hyper::body::Incoming>| service.call(request));
             let connection = builder.serve_connection(TokioIo::new(stream), TowerToHyperService::new(answer));
-            // a client that breaks off is no fault
-            let _ = tokio::time::timeout(EXCHANGE, connection).await;
+            tokio::pin!(connection);
+            tokio::select! {
+                // a client that breaks off is no fault
+                _ = &mut connection => {}
+                () = tokio::time::sleep(EXCHANGE) => {
+                    // what is under way is still answered, but no reader may take for ever
+                    connection.as_mut().graceful_shutdown();
+                    let _ = tokio::time::timeout(EXCHANGE, connection).await;
+                }
+            }
         });
     }
 }
