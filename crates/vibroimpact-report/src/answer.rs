@@ -234,7 +234,7 @@ impl Answer {
             Found::Lyapunov(_, _, _, Some(points)) => figure::section::figure(points, osc, asked),
             Found::Branch(task, found) => {
                 let behind = diagram(&asked.system, &task.diagram(&asked.system)?, control)?;
-                figure::branch::figure(found, task.vary, self.ends(task), Some(&behind), false, asked)?
+                figure::branch::figure(&found.followed, task.vary, self.ends(task), Some(&behind), false, asked)?
             }
             Found::Curve(task, found) => figure::curve::figure(found, task, asked),
             Found::Region(task, found) => figure::region::figure(found, task, asked),

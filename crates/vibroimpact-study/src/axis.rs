@@ -303,6 +303,11 @@ pub(crate) fn check(
     Ok(())
 }
 
+/// Points of their grid; as many as a count can hold, where there are more.
+pub(crate) fn points(axes: &[Axis]) -> u64 {
+    axes.iter().fold(1, |points, axis| u64::saturating_mul(points, axis.over.count() as u64))
+}
+
 /// All points of the axes; the first axis runs fastest.
 pub(crate) fn whole(axes: &[Axis]) -> Block {
     Block { ranges: axes.iter().rev().map(|axis| 0..axis.over.count()).collect() }

@@ -1,6 +1,7 @@
 //! Why a plan makes no sense.
 
 use crate::Axis;
+use crate::axis;
 use crate::plan::MOST_CELLS;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
@@ -306,9 +307,8 @@ pub enum PlanError {
 impl PlanError {
     /// More results than fit any memory, on these axes.
     pub(crate) fn too_many(what: &'static str, axes: &[Axis]) -> Self {
-        let count = |axis: &Axis| axis.over.count() as u64;
-        let columns = axes.first().map_or(1, count);
-        let rows = axes.iter().skip(1).map(count).product();
+        let (first, others) = axes.split_at(axes.len().min(1));
+        let (columns, rows) = (axis::points(first), axis::points(others));
         Self::Size { what, columns, rows, most: MOST_CELLS }
     }
 }

@@ -47,11 +47,16 @@ impl Deref for Index {
     }
 }
 
+/// Of counts; as many as a count can hold, where there are more.
+fn product(counts: impl IntoIterator<Item = usize>) -> u64 {
+    counts.into_iter().fold(1, |product, count| u64::saturating_mul(product, count as u64))
+}
+
 impl Grid {
     /// Points in all.
     #[must_use]
     pub fn points(&self) -> u64 {
-        self.dimensions.iter().map(|d| d.count as u64).product()
+        product(self.dimensions.iter().map(|d| d.count))
     }
 
     /// Tiles along each dimension.
@@ -63,7 +68,7 @@ impl Grid {
     /// Tiles in all.
     #[must_use]
     pub fn tiles(&self) -> u64 {
-        self.tiles_along().iter().map(|n| *n as u64).product()
+        product(self.tiles_along())
     }
 
     /// Where tile number `k` stands among the tiles, dimension by dimension; tiles are counted in row-major order too.

@@ -68,7 +68,27 @@ fn found(
     Ok(region_while(&osc, label, kind, &frame, options, &|| !control.stop.load(Ordering::Relaxed)))
 }
 
-/// Where each of several motions exists and is stable, side by side on all threads.
+/// Several regions side by side, each on a thread of its own.
+fn side_by_side(
+    system: &SystemPlan,
+    wanted: &[(&RegionPlan, RegionKind)],
+    control: &Control<'_>,
+) -> Result<Vec<Region>, RunError> {
+    wanted.iter().try_for_each(|(plan, _)| plan.check(system))?;
+    let each = tiles(wanted.len() as u64, 1, control, |range, tick| {
+        // one region a tile
+        let (plan, kind) = wanted[usize::try_from(range.start).unwrap_or(0)];
+        let found = found(system, plan, kind, control);
+        if !matches!(found, Ok(None)) {
+            tick();
+        }
+        found
+    })?;
+    // none is missing, or they would be fewer than asked for
+    Ok(each.into_iter().collect::<Result<Option<Vec<_>>, _>>()?.unwrap_or_default())
+}
+
+/// Where each of several motions exists and is stable.
 ///
 /// # Errors
 /// As [`regions`].
@@ -77,36 +97,17 @@ pub fn stable_regions(
     plans: &[RegionPlan],
     control: &Control<'_>,
 ) -> Result<Vec<Region>, RunError> {
-    plans.iter().try_for_each(|plan| plan.check(system))?;
-    let each = tiles(plans.len() as u64, 1, control, |range, tick| {
-        // one plan a tile
-        let plan = &plans[usize::try_from(range.start).unwrap_or(0)];
-        let found = found(system, plan, RegionKind::Stability, control);
-        if matches!(&found, Ok(Some(_)) | Err(_)) {
-            tick();
-        }
-        found
-    })?;
-    let each = each.into_iter().collect::<Result<Option<Vec<_>>, _>>()?;
-    Ok(each.unwrap_or_default())
+    let wanted: Vec<_> = plans.iter().map(|plan| (plan, RegionKind::Stability)).collect();
+    side_by_side(system, &wanted, control)
 }
 
-/// Finds both regions, each on a thread of its own.
+/// Finds both regions.
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, or when stopped, which is asked for at every point of the grid and every step.
 pub fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
-    plan.check(system)?;
-    let both = tiles(2, 1, control, |range, tick| {
-        let kind = if range.start == 0 { RegionKind::Existence } else { RegionKind::Stability };
-        let found = found(system, plan, kind, control);
-        if matches!(&found, Ok(Some(_)) | Err(_)) {
-            tick();
-        }
-        found
-    })?;
-    let both = both.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let mut both = both.into_iter().flatten();
+    let both = side_by_side(system, &[(plan, RegionKind::Existence), (plan, RegionKind::Stability)], control)?;
+    let mut both = both.into_iter();
     let mut next = || both.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
     Ok(Regions { existence: next(), stability: next() })
 }

@@ -107,8 +107,13 @@ export const layer = (kind, plan, signal, onProgress) =>
  * @param {AbortSignal} [signal]
  * @returns {Promise<Blob>}
  */
-export const figure = async (plan, query, signal) =>
-  whole((await ask(withQuery("/api/figure", query), { body: plan, signal })).blob());
+export const figure = (plan, query, signal) => drawn("/api/figure", plan, query, signal);
+
+/** The same of the orbit diagram with its branches. */
+export const bifurcationFigure = (plan, query, signal) => drawn("/api/bifurcation", plan, query, signal);
+
+const drawn = async (path, plan, query, signal) =>
+  whole((await ask(withQuery(path, query), { body: plan, signal })).blob());
 
 export const table = async (plan, signal) => whole((await ask("/api/table", { body: plan, signal })).blob());
 

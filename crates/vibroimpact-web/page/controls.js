@@ -1,8 +1,7 @@
 /** Sliders and fields of what is on no axis, axes, starts, budget. */
 
 import { byId, debounced, element } from "./dom.js";
-import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
-import { valueOf } from "./plane.js";
+import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
 
 const BUDGETS = [[200, "200 impacts, quick"], [1000, "1000 impacts"], [20000, "20 000 impacts"], [0, "as long as it takes"]];
 
@@ -50,13 +49,8 @@ function choice(store, name, options) {
 /** The slider and field of a parameter; shown where it is on no axis. */
 function parameter(store, name) {
   const { symbol, words, slider: [from, to, step], least, most } = PARAMETERS[name];
-  const patch = (value) => {
-    if (name === "inverse_beta") return { inverse_beta: value, beta: null };
-    if (name === "beta") return { beta: value, inverse_beta: 1 / value };
-    return { [name]: value };
-  };
-  const live = debounced((value) => store.set(patch(value), "quiet"), 60);
-  const commit = (value) => store.set(patch(value));
+  const live = debounced((value) => store.set(patchOf(name, value), "quiet"), 60);
+  const commit = (value) => store.set(patchOf(name, value));
   const range = element("input", {
     type: "range", min: from, max: to, step, "aria-label": `${words} ${symbol}`,
     oninput: (event) => {

@@ -122,10 +122,7 @@ export class Export {
 
   async blob(format, plan) {
     if (format === "csv") return api.table(plan);
-    if (this.choice.value === "line" && format === "svg") {
-      const { svg } = await api.bifurcation(plan, { width: WIDTH, height: 0.7 * WIDTH });
-      return new Blob([svg], { type: "image/svg+xml" });
-    }
+    if (this.choice.value === "line") return api.bifurcationFigure(plan, { format, width: WIDTH, height: 0.7 * WIDTH });
     return api.figure(plan, { format, width: WIDTH, kind: this.view.kind });
   }
 

@@ -64,3 +64,17 @@ export function legal(coordinate, value) {
   return Number.isFinite(value) && value <= coordinate.most
     && (coordinate.open ? value > coordinate.least : value >= coordinate.least);
 }
+
+/** @param {object} state @param {string} name @returns {number} the value of a parameter at the chosen point */
+export const valueOf = (state, name) => (name === "beta" ? state.beta ?? 1 / state.inverse_beta : state[name]);
+
+/**
+ * What changes of the state with a parameter: a frequency is kept as it was given.
+ * @param {string} name
+ * @param {number} value
+ */
+export function patchOf(name, value) {
+  if (name === "inverse_beta") return { inverse_beta: value, beta: null };
+  if (name === "beta") return { beta: value, inverse_beta: 1 / value };
+  return { [name]: value };
+}

@@ -1,7 +1,7 @@
 /** The plane of two parameters: its source of tiles, what is pointed at, which point is chosen. */
 
 import { learn } from "./colours.js";
-import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
+import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
 import { legalRange, mapPlan, room, systemOf } from "./plans.js";
 import { TileView } from "./tileview.js";
 import { digits } from "./ticks.js";
@@ -15,18 +15,10 @@ const DEPENDS = ["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impa
 const NEAR = 9;
 
 /** @param {import("./state.js").State} state @returns {Record<string, number | null>} values of both axes at a place */
-export function placed(state, x, y) {
-  const patch = { [state.x]: x, [state.y]: y };
-  if ("beta" in patch) patch.inverse_beta = 1 / patch.beta;
-  else if ("inverse_beta" in patch) patch.beta = null;
-  return patch;
-}
+export const placed = (state, x, y) => ({ ...patchOf(state.x, x), ...patchOf(state.y, y) });
 
 /** @returns {number[]} what the plane shows first */
 export const wholeWindow = (state) => [...PARAMETERS[state.x].window, ...PARAMETERS[state.y].window];
-
-/** @returns {number} the value of a parameter at the chosen point */
-export const valueOf = (state, name) => (name === "beta" ? state.beta ?? 1 / state.inverse_beta : state[name]);
 
 export class Plane {
   /**

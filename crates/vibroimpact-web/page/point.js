@@ -7,7 +7,7 @@ import { byId, debounced, element, swatch } from "./dom.js";
 import { Figure } from "./figure.js";
 import { Latest } from "./latest.js";
 import { Legend } from "./legend.js";
-import { PARAMETERS, legal } from "./parameters.js";
+import { PARAMETERS, legal, patchOf, valueOf } from "./parameters.js";
 import { attractorsPlan, lyapunovPlan, settlePlan, simulatePlan, startOf, systemOf } from "./plans.js";
 import { percent, short } from "./ticks.js";
 import { labelText, meaning, stability } from "./words.js";
@@ -103,9 +103,7 @@ export class Point {
           onchange: (event) => {
             const value = Number(event.target.value);
             if (event.target.value === "" || !legal(PARAMETERS[name], value)) return;
-            const patch = name === "beta" ? { beta: value, inverse_beta: 1 / value }
-              : name === "inverse_beta" ? { inverse_beta: value, beta: null } : { [name]: value };
-            this.plane.choose(patch);
+            this.plane.choose(patchOf(name, value));
           },
         });
         return { name, input };
@@ -114,7 +112,7 @@ export class Point {
         element("label", {}, element("i", { class: "math", text: PARAMETERS[name].symbol }), input)));
     }
     for (const { name, input } of this.planeInputs) {
-      input.value = String(name === "beta" ? state.beta ?? 1 / state.inverse_beta : state[name]);
+      input.value = String(valueOf(state, name));
     }
   }
 

@@ -12,11 +12,11 @@ pub(crate) const MOST_IMPACTS: u64 = 2_000_000;
 /// Forcing periods of one waveform.
 const MOST_PERIODS: f64 = 10_000.0;
 
-/// The points of a plan, for progress; [`Refusal`] for more than is computed here at once.
-pub(crate) fn points(plan: &Plan) -> Result<u64, Refusal> {
+/// Refuses a plan of more than is computed here at once.
+pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
     let within = |what: &str, given: u64, most: u64| {
         if given <= most {
-            return Ok(given);
+            return Ok(());
         }
         Err(Refusal::too_much(format!(
             "{what} = {given} is more than the explorer computes at once, {most}\nhint: `vibro run` computes studies of any size, and resumes them"
@@ -24,24 +24,20 @@ pub(crate) fn points(plan: &Plan) -> Result<u64, Refusal> {
     };
     match &plan.task {
         Task::Map(map) => {
-            let points = within("points", map.points(), MOST_POINTS)?;
-            within("starts", points.saturating_mul(map.starts), MOST_STARTS)?;
-            Ok(points)
+            within("points", map.points(), MOST_POINTS)?;
+            within("starts", map.points().saturating_mul(map.starts), MOST_STARTS)
         }
         Task::Basin(basin) => within("starts", basin.starts(), MOST_POINTS),
         Task::Attractors { starts, .. } => within("starts", *starts, 100_000),
         Task::Diagram(diagram) => {
             let motions = u64::from(diagram.over.count()).saturating_mul(diagram.runs());
             within("motions", motions, 20_000)?;
-            within("impacts", motions.saturating_mul(diagram.transient + diagram.keep), 20 * MOST_IMPACTS)?;
-            Ok(motions)
+            within("impacts", motions.saturating_mul(diagram.transient + diagram.keep), 20 * MOST_IMPACTS)
         }
         Task::Lyapunov(lyapunov) => {
-            let points: u64 = lyapunov.axes.iter().map(|axis| axis.over.count() as u64).product();
-            let impacts =
-                lyapunov.impacts.saturating_add(lyapunov.transient).saturating_add(lyapunov.points.unwrap_or(0));
-            within("impacts", points.saturating_mul(impacts), MOST_IMPACTS)?;
-            Ok(points)
+            // over axes they are a study, which is refused
+            let impacts = lyapunov.impacts.saturating_add(lyapunov.transient);
+            within("impacts", impacts.saturating_add(lyapunov.points.unwrap_or(0)), MOST_IMPACTS)
         }
         Task::Simulate { impacts, periods, .. } => {
             within("impacts", impacts.unwrap_or(0), 100_000)?;
@@ -49,12 +45,12 @@ pub(crate) fn points(plan: &Plan) -> Result<u64, Refusal> {
                 Some(given) => Err(Refusal::too_much(format!(
                     "periods = {given} is more than the explorer follows at once, {MOST_PERIODS}"
                 ))),
-                None => Ok(1),
+                None => Ok(()),
             }
         }
-        Task::Branch(branch) => within("points", u64::from(branch.points), 20_000).map(|_| 1),
-        Task::Region(region) => within("grid", u64::from(region.grid), 100).map(|_| 2),
-        Task::Settle { .. } | Task::Orbit { .. } | Task::Curve(_) => Ok(1),
+        Task::Branch(branch) => within("points", u64::from(branch.points), 20_000),
+        Task::Region(region) => within("grid", u64::from(region.grid), 100),
+        Task::Settle { .. } | Task::Orbit { .. } | Task::Curve(_) => Ok(()),
     }
 }
 
@@ -66,7 +62,7 @@ mod tests {
         let text = format!(
             r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{{task}}}}}"#
         );
-        points(&Plan::from_text(&text).unwrap()).err().map(|refusal| refusal.status.as_u16())
+        check(&Plan::from_text(&text).unwrap()).err().map(|refusal| refusal.status.as_u16())
     }
 
     #[test]
@@ -80,6 +76,9 @@ mod tests {
         assert_eq!(status(&map(1000, 1000, 1)), Some(422), "a million points");
         assert_eq!(status(&map(1000, 700, 4)), Some(422));
         assert_eq!(status(&map(1_000_000, 1_000_000, 1_000_000_000)), Some(422), "a product beyond 64 bits");
+        let axis = |vary: &str| format!(r#"{{"vary":"{vary}","over":"0.1:0.9:65536"}}"#);
+        let four = ["inverse_beta", "gap", "restitution", "damping"].map(axis).join(",");
+        assert_eq!(status(&format!(r#""map":{{"axes":[{four}],"starts":1}}"#)), Some(422), "points beyond 64 bits");
         assert_eq!(status(r#""attractors":{"starts":1000000000,"seed":1}"#), Some(422));
         assert_eq!(status(r#""simulate":{"start":{},"impacts":null,"periods":1e8}"#), Some(422));
         assert_eq!(status(r#""settle":{"start":{}}"#), None);

@@ -36,8 +36,10 @@ use axum::extract::DefaultBodyLimit;
 use axum::{Router, middleware};
 use quick_cache::Weighter;
 use quick_cache::sync::Cache;
+use refusal::Refusal;
 use std::sync::Arc;
-use workshop::Workshop;
+use vibroimpact_study::Control;
+use workshop::{Bench, Workshop};
 
 /// Bytes of finished answers that are kept.
 const CACHE: u64 = 96 << 20;
@@ -68,6 +70,22 @@ impl Explorer {
         // about so many answers fit, of the size of a tile
         let finished = Cache::with_weighter(2000, CACHE, Weight);
         Self { port, workshop: Arc::new(Workshop::with_threads(threads)), finished: Arc::new(finished) }
+    }
+
+    /// What is known under a name already, or else the work that makes it, as [`Workshop::run`] does it.
+    async fn once(
+        &self,
+        name: String,
+        (bench, threads): (Bench, usize),
+        progress: impl Fn(u64) + Send + Sync + 'static,
+        work: impl FnOnce(&Control<'_>) -> Result<Bytes, Refusal> + Send + 'static,
+    ) -> Result<Bytes, Refusal> {
+        if let Some(known) = self.finished.get(&name) {
+            return Ok(known);
+        }
+        let body = self.workshop.run(bench, threads, progress, work).await?;
+        self.finished.insert(name, body.clone());
+        Ok(body)
     }
 }
 

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
 
 use crate::command;
+use crate::totals::skipped;
 
 /// The tests and what they need.
 const TESTS: &str = "crates/vibroimpact-web/e2e";
@@ -86,9 +87,4 @@ fn serve(root: &Path, vibro: &Path) -> Result<(Server, String), String> {
     } else {
         Err("the explorer gave no address".to_owned())
     }
-}
-
-/// A line that [`totals`](crate::totals) can read.
-fn skipped(why: &str) -> String {
-    format!("test result: skipped, {why}. 0 passed; 0 failed")
 }

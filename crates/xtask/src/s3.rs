@@ -7,6 +7,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::totals::skipped;
 use crate::{command, python, tools, venv};
 
 /// How the server is started by a shell.
@@ -73,20 +74,4 @@ fn package(root: &Path) -> Result<PathBuf, String> {
         format!("the package cannot be put together in {}: {error}", folder.display())
     })?;
     Ok(all)
-}
-
-/// A line that [`totals`](crate::totals) can read.
-fn skipped(why: &str) -> String {
-    format!("test result: skipped, {why}. 0 passed; 0 failed")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::totals::{Totals, in_line};
-
-    #[test]
-    fn what_is_skipped_counts_as_nothing() {
-        assert_eq!(in_line(&skipped("there is no server")), Some(Totals::default()));
-    }
 }

@@ -32,6 +32,11 @@ pub(crate) fn in_line(line: &str) -> Option<Totals> {
     nextest(line.trim_start()).or_else(|| libtest(line)).or_else(|| pytest(line))
 }
 
+/// A line that says why a step ran no test, and that [`in_line`] reads.
+pub(crate) fn skipped(why: &str) -> String {
+    format!("test result: skipped, {why}. 0 passed; 0 failed")
+}
+
 fn nextest(line: &str) -> Option<Totals> {
     let (_, after) = line.strip_prefix("Summary [")?.split_once(']')?;
     let (run, counts) = after.split_once(':')?;
@@ -103,6 +108,11 @@ fn without_brackets(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_skipped_counts_as_nothing() {
+        assert_eq!(in_line(&skipped("there is no server")), Some(Totals::default()));
+    }
 
     fn check(line: &str, expected: Option<(u64, u64)>) {
         let expected = expected.map(|(passed, failed)| Totals { passed, failed });

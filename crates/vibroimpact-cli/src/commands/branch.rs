@@ -117,7 +117,7 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     outputs.write(
         session,
         || Ok(table(&found, vary, &asked.units)),
-        || Ok(figure(&found, vary, ends, behind.as_ref(), args.show_virtual, &asked)?),
+        || Ok(figure(&found.followed, vary, ends, behind.as_ref(), args.show_virtual, &asked)?),
     )?;
     if args.json {
         return session.print_json(&document(&asked, &plan, &osc, &found, (vary, ends)));

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
 use vibroimpact_study::diagram::Diagram;
-use vibroimpact_study::{Branches, Followed, Parameter, Span};
+use vibroimpact_study::{Followed, Parameter, Span};
 
 /// What simulation finds.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -25,27 +25,12 @@ const NAMED: usize = 12;
 /// Colour of the others.
 const OTHERS: Colour = Colour::hex(0x50_5050);
 
-/// The figure of `vibro branch`: a parameter followed between these values, with simulation behind, and with solutions that are
+/// The figure of `vibro branch`: branches in a parameter between these values, with simulation behind, and with solutions that are
 /// no motions where they are asked for.
 ///
 /// # Errors
 /// [`ReportError::Plan`] where the values of the parameter leave the range of numbers in these units.
 pub fn figure(
-    found: &Branches,
-    vary: Parameter,
-    (from, to): (f64, f64),
-    behind: Option<&Diagram>,
-    show_virtual: bool,
-    asked: &Asked,
-) -> Result<Figure, ReportError> {
-    draw(&found.followed, vary, (from, to), behind, show_virtual, asked)
-}
-
-/// The same of any branches in one parameter.
-///
-/// # Errors
-/// As [`figure`].
-pub fn draw(
     followed: &[Followed],
     vary: Parameter,
     (from, to): (f64, f64),

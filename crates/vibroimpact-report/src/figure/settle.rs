@@ -13,11 +13,9 @@ const SHOWN: f64 = 6.0;
 /// The figure of `vibro settle`: the motion once it has settled.
 #[must_use]
 pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> Figure {
-    let (from, time) = last_event(osc, start, settled.time);
-    let periods = shown(settled);
+    let (from, span) = steady(osc, start, settled);
     let label = label(&settled.verdict.label());
     let name = format!("{}: {label}", title(&asked.system));
-    let span = (time, periods * osc.period());
     waveform::figure(osc, from, span, &asked.units, name)
 }
 
@@ -33,11 +31,12 @@ fn shown(settled: &Settled) -> f64 {
     }
 }
 
-/// The times between which the steady motion that the figure shows is gone through.
+/// The steady motion that the figure shows: its state after the last event of the transient, the time of that event, and how long it
+/// is shown.
 #[must_use]
-pub fn steady(osc: &Oscillator, start: Start, settled: &Settled) -> (f64, f64) {
-    let (_, time) = last_event(osc, start, settled.time);
-    (time, time + shown(settled) * osc.period())
+pub fn steady(osc: &Oscillator, start: Start, settled: &Settled) -> (Start, (f64, f64)) {
+    let (from, time) = last_event(osc, start, settled.time);
+    (from, (time, shown(settled) * osc.period()))
 }
 
 /// The state after the last event up to a time, and the time of that event.

@@ -49,8 +49,12 @@ pub fn figure(osc: &Oscillator, start: Start, (from, until): (f64, f64), units: 
         legend = legend.points(&impacts, "impact");
         panel.add(impacts);
     }
-    let wall = ClassStyle { colour: Colour::GREY.alpha(0.12), hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)) };
-    Figure::new(panel).size(1000.0, 400.0).title(title).legend(legend.patch(wall, "stop"))
+    Figure::new(panel).size(1000.0, 400.0).title(title).legend(legend.patch(stop_key(), "stop"))
+}
+
+/// A stop in a legend.
+pub(crate) fn stop_key() -> ClassStyle {
+    ClassStyle { colour: Colour::GREY.alpha(0.12), hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)) }
 }
 
 /// A range that shows the motion and a strip of each stop it comes near.

@@ -1,6 +1,6 @@
 //! The bifurcation diagram along a parameter: the branches of several labels over what simulation finds.
 
-use crate::figure::branch::draw;
+use crate::figure::branch::figure;
 use crate::{AnswerError, Asked};
 use core::sync::atomic::Ordering;
 use std::collections::BTreeMap;
@@ -45,7 +45,7 @@ pub fn bifurcation(
     }
     let known = |branch: &Followed| branch.points.iter().any(|point| labels.contains(&point.cycle.label.to_string()));
     followed.retain(known);
-    Ok(draw(&followed, plan.vary, plan.over.ends(), Some(&behind), false, asked)?)
+    Ok(figure(&followed, plan.vary, plan.over.ends(), Some(&behind), false, asked)?)
 }
 
 /// Adds the branches of a label, unless one that is there passes through its orbit.

@@ -3,12 +3,10 @@
 use crate::Asked;
 use crate::figure::settle::last_event;
 use crate::figure::title;
-use crate::figure::waveform::extremes;
+use crate::figure::waveform::{extremes, stop_key};
 use vibroimpact::motion::{Sample, sample};
 use vibroimpact::{Oscillator, Side, Start};
-use vibroimpact_plot::{
-    Axis, ClassStyle, Colour, Dash, Figure, Hatch, Legend, Line, Panel, Pattern, Points, SERIES, Wall,
-};
+use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Wall};
 
 /// Samples at most.
 const MOST: usize = 200_000;
@@ -77,8 +75,7 @@ pub fn phase_portrait(asked: &Asked, osc: &Oscillator, start: Start, (from, unti
         legend = legend.points(&at, "start");
         panel.add(at);
     }
-    let wall = ClassStyle { colour: Colour::GREY.alpha(0.12), hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)) };
-    Figure::new(panel).size(680.0, 560.0).title(title(&asked.system)).legend(legend.patch(wall, "stop"))
+    Figure::new(panel).size(680.0, 560.0).title(title(&asked.system)).legend(legend.patch(stop_key(), "stop"))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A motion over time: one row a point.
 
 use super::Table;
-use crate::figure::{self, settle::last_event};
+use crate::figure;
 use crate::number::Number;
 use crate::{ReportError, Units};
 use vibroimpact::motion::sample;
@@ -42,7 +42,6 @@ pub fn table(
 /// # Errors
 /// [`ReportError::Points`] for more than ten million points.
 pub fn steady(osc: &Oscillator, start: Start, settled: &Settled, units: Units) -> Result<Table<'static>, ReportError> {
-    let (from, time) = last_event(osc, start, settled.time);
-    let until = figure::settle::steady(osc, start, settled).1 - time;
-    table(osc, from, (until, osc.period() / 100.0), units)
+    let (from, (_, shown)) = figure::settle::steady(osc, start, settled);
+    table(osc, from, (shown, osc.period() / 100.0), units)
 }

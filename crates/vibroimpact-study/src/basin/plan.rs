@@ -65,7 +65,7 @@ impl BasinPlan {
     /// Starts in all.
     #[must_use]
     pub fn starts(&self) -> u64 {
-        self.axes.iter().map(|axis| axis.over.count() as u64).product()
+        axis::points(&self.axes)
     }
 
     /// Whether all starts are of one system.

@@ -91,7 +91,7 @@ impl MapPlan {
     /// Points in all.
     #[must_use]
     pub fn points(&self) -> u64 {
-        self.axes.iter().map(|axis| axis.over.count() as u64).product()
+        axis::points(&self.axes)
     }
 
     /// The oscillator at a point, given by the place on each axis; everything else as in `system`.

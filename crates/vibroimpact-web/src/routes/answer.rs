@@ -13,7 +13,7 @@ use axum::response::Response;
 use core::sync::atomic::Ordering;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use vibroimpact_plot::{COLUMN, Figure};
+use vibroimpact_plot::Figure;
 use vibroimpact_report::answer::Found;
 use vibroimpact_report::figure::settle::steady;
 use vibroimpact_report::question::{python, shell_line};
@@ -26,20 +26,14 @@ pub(super) async fn answer(
     headers: HeaderMap,
     asked: Asked,
 ) -> Result<Response, Refusal> {
-    let key = format!("answer {}", asked.plan.hash());
+    let name = format!("answer {}", asked.plan.hash());
     let done = Done::default();
     let told = done.clone();
-    let finished = explorer.finished.clone();
     let (plan, points) = (asked.plan, asked.points);
     let work = async move {
-        if let Some(known) = finished.get(&key) {
-            return Ok::<_, Refusal>(known);
-        }
         let told = move |now| told.store(now, Ordering::Relaxed);
         let work = move |control: &Control<'_>| Ok(Bytes::from(ask(&plan, Units::default(), control)?.json()));
-        let body = explorer.workshop.run(Bench::Answers, 0, told, work).await?;
-        finished.insert(key, body.clone());
-        Ok(body)
+        explorer.once(name, (Bench::Answers, 0), told, work).await
     };
     if wants_events(&headers) {
         let value =
@@ -115,8 +109,9 @@ impl Wanted {
     }
 
     pub(super) fn draw(&self, figure: Figure) -> Result<(&'static str, Bytes), Refusal> {
-        let height = self.height.unwrap_or(figure.height);
-        let width = self.width.unwrap_or_else(|| figure.width.max(COLUMN));
+        // a width alone keeps the proportions
+        let width = self.width.unwrap_or(figure.width);
+        let height = self.height.unwrap_or(figure.height * width / figure.width);
         let figure = figure.size(width, height);
         Ok(match self.format {
             Format::Svg => ("image/svg+xml", Bytes::from(figure.to_svg())),
@@ -153,7 +148,8 @@ fn drawn(plan: &Plan, kind: Option<Kind>, control: &Control<'_>) -> Result<Optio
             Some(scene::phase_portrait(asked, osc, *start, (0.0, found.shown_until(osc))))
         }
         (Found::Settle(start, found), Some(Kind::Phase)) => {
-            Some(scene::phase_portrait(asked, osc, *start, steady(osc, *start, found)))
+            let (_, (from, shown)) = steady(osc, *start, found);
+            Some(scene::phase_portrait(asked, osc, *start, (from, from + shown)))
         }
         (Found::Settle(start, found), Some(Kind::Sections)) => {
             Some(scene::sections(asked, osc, *start, found, SECTION))

@@ -1,7 +1,7 @@
 //! The bifurcation diagram along a line: the orbit diagram, and the branches of its motions over it.
 
 use super::answer::Wanted;
-use super::{Asked, bytes, wants_events};
+use super::{Asked, bytes, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;
@@ -49,8 +49,8 @@ pub(super) async fn diagram(
             .workshop
             .run(Bench::Answers, 0, tell, move |control| {
                 let named = match which.labels {
-                    Some(list) => list.split(',').map(|label| label.trim().to_owned()).collect(),
-                    None => labels(&asked, &diagram, LOOKS, control)?.into_iter().take(MOST_LABELS).collect::<Vec<_>>(),
+                    Some(list) => listed(&list),
+                    None => labels(&asked, &diagram, LOOKS, control)?.into_iter().take(MOST_LABELS).collect(),
                 };
                 wanted.draw(bifurcation(&asked, &diagram, &named, control)?)
             })

@@ -1,6 +1,6 @@
 //! Lines over a plane: the edges of the regions in which motions are stable, and where the motion without stops touches one.
 
-use super::{Asked, wants_events};
+use super::{Asked, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::packed::Named;
@@ -75,25 +75,20 @@ pub(super) async fn layer(
     let Task::Map(map) = &asked.plan.task else { return Err(Refusal::bad("a layer lies over a map")) };
     let plane = Plane::new(asked.plan.system, map)?;
     let kind = wanted.kind;
-    let labels: Vec<String> = match wanted.labels {
-        Some(list) => list.split(',').map(|label| label.trim().to_owned()).collect(),
+    let labels = match wanted.labels {
+        Some(list) => listed(&list),
         None => LABELS.map(str::to_owned).to_vec(),
     };
     let total = labels.len() as u64;
     let done = Done::default();
     let (told, workshop) = (done.clone(), explorer.workshop);
     let work = async move {
-        workshop
-            .run(
-                Bench::Answers,
-                0,
-                |_| {},
-                move |control| match kind {
-                    Kind::Regions => edges(&plane, &labels, control, &told),
-                    Kind::Amplitude => Ok(json!({ "curves": amplitude(&plane) })),
-                },
-            )
-            .await
+        let tell = move |now| told.store(now, Ordering::Relaxed);
+        let work = move |control: &Control<'_>| match kind {
+            Kind::Regions => edges(&plane, &labels, control),
+            Kind::Amplitude => Ok(json!({ "curves": amplitude(&plane) })),
+        };
+        workshop.run(Bench::Answers, 0, tell, work).await
     };
     if wants_events(&headers) {
         return Ok(stream(total, done, work));
@@ -102,11 +97,10 @@ pub(super) async fn layer(
 }
 
 /// The polygons in which each motion is stable.
-fn edges(plane: &Plane, labels: &[String], control: &Control<'_>, done: &Done) -> Result<Value, Refusal> {
+fn edges(plane: &Plane, labels: &[String], control: &Control<'_>) -> Result<Value, Refusal> {
     let plan = |label: &String| RegionPlan { label: label.clone(), across: plane.across, up: plane.up, grid: GRID };
     let plans: Vec<_> = labels.iter().map(plan).collect();
-    let tell = |now| done.store(now, Ordering::Relaxed);
-    let found = stable_regions(&plane.system, &plans, &Control { progress: &tell, ..*control })?;
+    let found = stable_regions(&plane.system, &plans, control)?;
     let ring = |polygon: &Polygon| polygon.vertices.iter().map(|vertex| vertex.values).collect();
     let edge = |(label, region): (&String, Region)| Edge {
         motion: Named::new(label),

@@ -17,6 +17,7 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use core::time::Duration;
+use vibroimpact_report::answer::work;
 use vibroimpact_study::Plan;
 
 /// All of them.
@@ -65,13 +66,19 @@ impl<S: Send + Sync> FromRequest<S> for Asked {
         let text = core::str::from_utf8(&body).map_err(|_| Refusal::bad("the plan is no text"))?;
         let plan: Plan = serde_json::from_str(text).map_err(|why| Refusal::bad(format!("this is no plan: {why}")))?;
         plan.check()?;
-        Ok(Self { points: bounds::points(&plan)?, plan })
+        bounds::check(&plan)?;
+        Ok(Self { points: work(&plan).map_or(1, |(points, _)| points), plan })
     }
 }
 
 /// Whether the page wants to be told how far it is.
 fn wants_events(headers: &HeaderMap) -> bool {
     headers.get(header::ACCEPT).is_some_and(|kind| kind.as_bytes().starts_with(b"text/event-stream"))
+}
+
+/// Labels with commas between.
+fn listed(labels: &str) -> Vec<String> {
+    labels.split(',').map(|label| label.trim().to_owned()).collect()
 }
 
 /// Bytes of a kind; nothing is kept by the browser but what the page keeps.

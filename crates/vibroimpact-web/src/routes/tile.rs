@@ -8,7 +8,7 @@ use axum::body::Bytes;
 use axum::extract::State;
 use axum::response::Response;
 use vibroimpact_study::study::in_memory;
-use vibroimpact_study::{Study, Task};
+use vibroimpact_study::{Control, Study, Task};
 
 /// Points from which a piece is worth more than one thread: several tiles of this size are made side by side anyway.
 const LARGE: u64 = 17_000;
@@ -22,26 +22,16 @@ pub(super) async fn tile(State(explorer): State<Explorer>, asked: Asked) -> Resu
         Task::Basin(basin) => basin.refine.is_some(),
         _ => return Err(Refusal::bad("a tile is a piece of a map or of a basin")),
     };
-    let key = format!("tile {}", plan.hash());
-    if let Some(known) = explorer.finished.get(&key) {
-        return Ok(bytes(KIND, known));
-    }
+    let name = format!("tile {}", plan.hash());
     // points of one thread are refined together; those without refinement may be divided as one likes
     let alone = refined && points <= LARGE;
     plan.tile = plan.tile.or(Some(if alone { 4096 } else { SIDE }));
     let threads = usize::from(alone);
-    let work = explorer.workshop.run(
-        Bench::Tiles,
-        threads,
-        |_| {},
-        move |control| {
-            let sheet = in_memory(Study::new(&plan)?, control)?;
-            Ok(Bytes::from(packed::pack(&sheet)))
-        },
-    );
-    let body = work.await?;
-    explorer.finished.insert(key, body.clone());
-    Ok(bytes(KIND, body))
+    let work = move |control: &Control<'_>| {
+        let sheet = in_memory(Study::new(&plan)?, control)?;
+        Ok(Bytes::from(packed::pack(&sheet)))
+    };
+    Ok(bytes(KIND, explorer.once(name, (Bench::Tiles, threads), |_| {}, work).await?))
 }
 
 const KIND: &str = "application/octet-stream";
