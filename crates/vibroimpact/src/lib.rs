@@ -70,7 +70,7 @@ pub mod scenario;
 pub mod system;
 pub mod verdict;
 
-pub use system::{Frequency, Machine, Oscillator, Parameter, Scales, Side, Start, Stop, SystemError};
+pub use system::{Frequency, Machine, Oscillator, Parameter, Scales, Side, Start, Stop, SystemError, Varying};
 pub use verdict::Label;
 
 /// The listings of the README are compiled and run.

@@ -1,11 +1,11 @@
-//! The branch of a cycle in one parameter, point by point, through its events.
+//! The branch of a cycle in one parameter, or along a line through two, point by point, through its events.
 
 use super::course::Course;
 use super::options::{BranchError, BranchOptions, Direction};
 use super::point::Point;
 use super::resting::Resting;
 use crate::orbit::Cycle;
-use crate::system::{Oscillator, Parameter};
+use crate::system::{Oscillator, Varying};
 use core::ops::RangeInclusive;
 
 /// A branch: an iterator over its points, events among them, that ends with an event that [ends](super::BranchEvent::ends) it.
@@ -35,7 +35,8 @@ enum Way {
 }
 
 impl Branch {
-    /// The branch of `cycle`, a cycle of `osc`, in `parameter` over `range`, beginning in `direction`.
+    /// The branch of `cycle`, a cycle of `osc`, in a [`Parameter`](crate::Parameter) over `range`, beginning in `direction`; or in
+    /// two of them along a line, where `range` is that of the first.
     ///
     /// A cycle that rests on a stop is followed by its release, any other one by the equations of its impacts.
     ///
@@ -44,15 +45,16 @@ impl Branch {
     pub fn new(
         osc: &Oscillator,
         cycle: &Cycle,
-        parameter: Parameter,
+        varying: impl Into<Varying>,
         range: RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
     ) -> Result<Self, BranchError> {
+        let varying = varying.into();
         if cycle.rests.is_empty() {
-            return Course::new(osc, cycle, parameter, range, direction, options).map(Self::from);
+            return Course::new(osc, cycle, varying, range, direction, options).map(Self::from);
         }
-        let resting = Resting::new(osc, cycle, parameter, range, direction, options)?;
+        let resting = Resting::new(osc, cycle, varying, range, direction, options)?;
         Ok(Self(Way::Resting(Box::new(resting))))
     }
 }

@@ -11,7 +11,7 @@ use super::point::{BranchEvent, Point};
 use super::varied::Varied;
 use super::watch::{Place, Watch};
 use crate::orbit::{Cycle, Orbit, Ring, ring_cycle, solve};
-use crate::system::{Oscillator, Parameter};
+use crate::system::{Oscillator, SystemError, Varying};
 use core::f64::consts::TAU;
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
@@ -45,22 +45,22 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// That of `cycle`, a cycle of `osc` without rests, in `parameter` over `range`, beginning in `direction`.
+    /// That of `cycle`, a cycle of `osc` without rests, in what varies over `range`, beginning in `direction`.
     pub(super) fn new(
         osc: &Oscillator,
         cycle: &Cycle,
-        parameter: Parameter,
+        varying: Varying,
         range: RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
     ) -> Result<Self, BranchError> {
-        let value = parameter.get(osc).ok_or(BranchError::NoSuchParameter(parameter.name()))?;
+        let value = place(osc, varying)?;
         let ring = Ring::of(osc, cycle).ok_or(BranchError::Rests)?;
         if ring.len() == 0 && osc.damping() == 0.0 {
             return Err(BranchError::Undamped);
         }
         let (ring, _) = solve(osc, ring).ok_or(BranchError::NoCycle)?;
-        let equations = Self::equations(osc, parameter, &range, value, &ring)?;
+        let equations = Self::equations(osc, varying, &range, value, &ring)?;
         let w = Varied::join(&ring, value);
         let mut row = equations.parameter_row();
         if direction == Direction::Down {
@@ -72,12 +72,12 @@ impl Course {
 
     pub(super) fn equations(
         osc: &Oscillator,
-        parameter: Parameter,
+        varying: Varying,
         range: &RangeInclusive<f64>,
         value: f64,
         ring: &Ring,
     ) -> Result<Varied, BranchError> {
-        Ok(Varied::new(osc, parameter, ring, scale(range, value)?))
+        Ok(Varied::new(osc, varying, ring, scale(range, value)?))
     }
 
     /// From a solution `w` along the tangent `along`.
@@ -219,6 +219,14 @@ impl Iterator for Course {
         }
         self.pending.pop_front()
     }
+}
+
+/// The place of an oscillator among what varies.
+pub(super) fn place(osc: &Oscillator, varying: Varying) -> Result<f64, BranchError> {
+    varying.get(osc).map_err(|error| match error {
+        SystemError::NoSecondStop(name) => BranchError::NoSuchParameter(name),
+        _ => BranchError::NoCycle,
+    })
 }
 
 /// A change of the parameter that counts as much as one of all phases by a radian: a quarter of the range, which has to be

@@ -180,7 +180,7 @@ impl Equations for Plane {
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
         let width = w.len();
-        let mut rows = slopes(&osc, &ring, &flights, &[self.parameters.0, self.parameters.1])?;
+        let mut rows = slopes(&osc, &ring, &flights, &[self.parameters.0.into(), self.parameters.1.into()])?;
         let mut miss: Vec<f64> = flights.iter().flat_map(|b| b.miss).collect();
         let last = (width - 2) * width;
         rows[last..last + width].copy_from_slice(&self.gradient(self.condition, w)?);

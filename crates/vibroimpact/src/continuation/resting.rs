@@ -5,13 +5,13 @@
 //! of a chatter are listed before its sum does not count. Where no step is short enough, something happens: what is found
 //! out in `resting_event`.
 
-use super::course::scale;
+use super::course::{place, scale};
 use super::likeness::{Likeness, likeness};
 use super::options::{BranchError, BranchOptions, Direction};
 use super::point::{BranchEvent, Change, Point};
 use super::resting_event::Found;
 use crate::orbit::{Cycle, DEFAULT_EVENTS, Excursion};
-use crate::system::{Oscillator, Parameter, Side};
+use crate::system::{Oscillator, Side, Varying};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 
@@ -19,7 +19,7 @@ use std::collections::VecDeque;
 #[derive(Clone, Debug)]
 pub(super) struct Resting {
     osc: Oscillator,
-    parameter: Parameter,
+    varying: Varying,
     /// Stop whose release a cycle begins with.
     side: Side,
     pub(super) direction: Direction,
@@ -43,12 +43,12 @@ impl Resting {
     pub(super) fn new(
         osc: &Oscillator,
         cycle: &Cycle,
-        parameter: Parameter,
+        varying: Varying,
         range: RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
     ) -> Result<Self, BranchError> {
-        let value = parameter.get(osc).ok_or(BranchError::NoSuchParameter(parameter.name()))?;
+        let value = place(osc, varying)?;
         let scale = scale(&range, value)?;
         let side = cycle.rests.last().map_or(Side::Upper, |rest| rest.side);
         let excursion = Excursion::new(osc, side, DEFAULT_EVENTS, f64::INFINITY).ok_or(BranchError::NoCycle)?;
@@ -64,7 +64,7 @@ impl Resting {
         }
         let mut branch = Self {
             osc: *osc,
-            parameter,
+            varying,
             side,
             direction,
             end: if direction == Direction::Up { *range.end() } else { *range.start() },
@@ -84,7 +84,7 @@ impl Resting {
 
     /// The oscillator at a value of the parameter; `None` where there is none.
     pub(super) fn at(&self, value: f64) -> Option<Oscillator> {
-        self.parameter.set(&self.osc, value).ok()
+        self.varying.set(&self.osc, value).ok()
     }
 
     /// What follows the release there, for as many forcing periods as the cycle here takes and half of one more.

@@ -7,12 +7,12 @@ use super::options::{BranchError, BranchOptions};
 use super::point::{BranchEvent, Point};
 use super::varied::Varied;
 use crate::orbit::{Block, Floquet, Ring, blocks, solve};
-use crate::system::{Oscillator, Parameter};
+use crate::system::{Oscillator, Varying};
 use core::ops::RangeInclusive;
 
 impl Branch {
     /// The branch of twice the period that begins or ends at `flip`, a [flip](BranchEvent::Flip) of a branch of `osc` in
-    /// `parameter`.
+    /// what varies.
     ///
     /// It leaves along the direction that a turn reverses. Of its two ends at the flip, one is the other one shifted by a
     /// period, so there is only one way.
@@ -22,20 +22,21 @@ impl Branch {
     pub fn from_flip(
         osc: &Oscillator,
         flip: &Point,
-        parameter: Parameter,
+        varying: impl Into<Varying>,
         range: RangeInclusive<f64>,
         options: BranchOptions,
     ) -> Result<Self, BranchError> {
         if flip.event != Some(BranchEvent::Flip) {
             return Err(BranchError::NotThere);
         }
-        let (osc, ring, flights) = solved(osc, flip, parameter)?;
+        let varying = varying.into();
+        let (osc, ring, flights) = solved(osc, flip, varying)?;
         let once = carried(&osc, &ring, &flights, -1.0).ok_or(BranchError::NoCycle)?;
         let direction: Vec<f64> = once.iter().copied().chain(once.iter().map(|d| -d)).collect();
-        leave(&osc, &ring.repeated(2), (parameter, flip.value), range, direction, options)
+        leave(&osc, &ring.repeated(2), (varying, flip.value), range, direction, options)
     }
 
-    /// The two branches that leave the branch of `osc` in `parameter` at a [branch point](BranchEvent::BranchPoint), to
+    /// The two branches that leave the branch of `osc` in the same parameters at a [branch point](BranchEvent::BranchPoint), to
     /// either side.
     ///
     /// # Errors
@@ -43,28 +44,25 @@ impl Branch {
     pub fn from_branch_point(
         osc: &Oscillator,
         point: &Point,
-        parameter: Parameter,
+        varying: impl Into<Varying>,
         range: RangeInclusive<f64>,
         options: BranchOptions,
     ) -> Result<[Self; 2], BranchError> {
         if point.event != Some(BranchEvent::BranchPoint) {
             return Err(BranchError::NotThere);
         }
-        let (osc, ring, flights) = solved(osc, point, parameter)?;
+        let varying = varying.into();
+        let (osc, ring, flights) = solved(osc, point, varying)?;
         let direction = carried(&osc, &ring, &flights, 1.0).ok_or(BranchError::NoCycle)?;
         let back: Vec<f64> = direction.iter().map(|d| -d).collect();
-        let at = (parameter, point.value);
+        let at = (varying, point.value);
         Ok([leave(&osc, &ring, at, range.clone(), direction, options)?, leave(&osc, &ring, at, range, back, options)?])
     }
 }
 
 /// The oscillator and the solution of the equations at a point of a branch.
-fn solved(
-    osc: &Oscillator,
-    point: &Point,
-    parameter: Parameter,
-) -> Result<(Oscillator, Ring, Vec<Block>), BranchError> {
-    let osc = parameter.set(osc, point.value).map_err(|_| BranchError::NoCycle)?;
+fn solved(osc: &Oscillator, point: &Point, varying: Varying) -> Result<(Oscillator, Ring, Vec<Block>), BranchError> {
+    let osc = varying.set(osc, point.value).map_err(|_| BranchError::NoCycle)?;
     let ring = Ring::of(&osc, &point.cycle).ok_or(BranchError::Rests)?;
     // at a branch point the equations are singular and the point is as good as it gets
     let solved = solve(&osc, ring.clone());
@@ -127,12 +125,12 @@ const MAX_SECANTS: u32 = 12;
 fn leave(
     osc: &Oscillator,
     ring: &Ring,
-    (parameter, value): (Parameter, f64),
+    (varying, value): (Varying, f64),
     range: RangeInclusive<f64>,
     mut direction: Vec<f64>,
     options: BranchOptions,
 ) -> Result<Branch, BranchError> {
-    let equations = Course::equations(osc, parameter, &range, value, ring)?;
+    let equations = Course::equations(osc, varying, &range, value, ring)?;
     direction.push(0.0);
     let length = equations.length(&direction);
     direction.iter_mut().for_each(|d| *d /= length);

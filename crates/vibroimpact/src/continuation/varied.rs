@@ -1,15 +1,15 @@
-//! The equations of a cycle with one parameter among the unknowns.
+//! The equations of a cycle with one parameter among the unknowns, or a line through two.
 
 use super::arc::Equations;
 use crate::orbit::{Block, Ring, blocks, by_parameter, fill};
-use crate::system::{Oscillator, Parameter, Side};
+use crate::system::{Oscillator, Side, Varying};
 
 /// The equations of the cycles with a given signature - which stop each impact is on, and how many forcing periods - in
 /// the phases and speeds of the impacts and one parameter, the last unknown.
 #[derive(Clone, Debug)]
 pub(super) struct Varied {
     osc: Oscillator,
-    parameter: Parameter,
+    varying: Varying,
     sides: Vec<Side>,
     periods: u32,
     weights: Vec<f64>,
@@ -18,16 +18,16 @@ pub(super) struct Varied {
 
 impl Varied {
     /// For rings like `ring`; a change of the parameter by `scale` counts as much as one of all phases by a radian.
-    pub(super) fn new(osc: &Oscillator, parameter: Parameter, ring: &Ring, scale: f64) -> Self {
+    pub(super) fn new(osc: &Oscillator, varying: Varying, ring: &Ring, scale: f64) -> Self {
         let m = ring.len();
         let mut weights = vec![1.0 / m as f64; 2 * m];
         weights.push(1.0 / (scale * scale));
-        Self { osc: *osc, parameter, sides: ring.sides.clone(), periods: ring.periods, weights, scale }
+        Self { osc: *osc, varying, sides: ring.sides.clone(), periods: ring.periods, weights, scale }
     }
 
     /// The same for another signature.
     pub(super) fn with(&self, ring: &Ring) -> Self {
-        Self::new(&self.osc, self.parameter, ring, self.scale)
+        Self::new(&self.osc, self.varying, ring, self.scale)
     }
 
     /// Impacts.
@@ -59,7 +59,7 @@ impl Varied {
     /// The oscillator and the ring that unknowns stand for; `None` for an impossible parameter value.
     pub(super) fn split(&self, w: &[f64]) -> Option<(Oscillator, Ring)> {
         let (value, unknowns) = w.split_last()?;
-        let osc = self.parameter.set(&self.osc, *value).ok()?;
+        let osc = self.varying.set(&self.osc, *value).ok()?;
         Some((osc, Ring { sides: self.sides.clone(), unknowns: unknowns.to_vec(), periods: self.periods }))
     }
 
@@ -85,21 +85,23 @@ impl Equations for Varied {
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
-        let rows = slopes(&osc, &ring, &flights, &[self.parameter])?;
+        let rows = slopes(&osc, &ring, &flights, &[self.varying])?;
         Some((flights.iter().flat_map(|b| b.miss).collect(), rows))
     }
 }
 
-/// The derivatives of what flights miss by, in a square matrix, row by row: by the phases and speeds of the impacts, then by
-/// these parameters. A row for each parameter is left at the end, for what else is asked.
-pub(super) fn slopes(osc: &Oscillator, ring: &Ring, flights: &[Block], parameters: &[Parameter]) -> Option<Vec<f64>> {
+/// The derivatives of what flights miss by, in a square matrix, row by row: by the phases and speeds of the impacts, then along
+/// these lines through the parameters. A row for each line is left at the end, for what else is asked.
+pub(super) fn slopes(osc: &Oscillator, ring: &Ring, flights: &[Block], lines: &[Varying]) -> Option<Vec<f64>> {
     let impacts = 2 * ring.len();
-    let width = impacts + parameters.len();
+    let width = impacts + lines.len();
     let mut rows = vec![0.0; width * width];
     fill(&mut rows, width, flights);
-    for (k, parameter) in parameters.iter().enumerate() {
-        for (row, slope) in by_parameter(osc, ring, *parameter)?.into_iter().enumerate() {
-            rows[row * width + impacts + k] = slope;
+    for (k, line) in lines.iter().enumerate() {
+        for (parameter, rate) in line.rates() {
+            for (row, slope) in by_parameter(osc, ring, parameter)?.into_iter().enumerate() {
+                rows[row * width + impacts + k] += rate * slope;
+            }
         }
     }
     Some(rows)

@@ -38,6 +38,17 @@ pub enum SystemError {
     /// A parameter of a second stop, where there is none.
     #[error("{0} is a parameter of the second stop, and there is only one stop\nhint: give the second stop first")]
     NoSecondStop(&'static str),
+    /// Two parameters on one line that are one and the same.
+    #[error("{0} and {1} cannot vary together: a line goes through two different parameters")]
+    Together(&'static str, &'static str),
+    /// A parameter that would vary at no finite rate along a line.
+    #[error("{name} would change by {rate} for a change of the other parameter by 1, which is not a finite number")]
+    Rate {
+        /// Which parameter.
+        name: &'static str,
+        /// The rate.
+        rate: f64,
+    },
     /// A start beyond a stop.
     #[error("start x = {x} lies beyond the stop: x must be in [{lowest}, {highest}]")]
     BeyondStop {

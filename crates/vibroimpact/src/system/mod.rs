@@ -4,6 +4,7 @@
 //! |---|---|
 //! | checked parameters of one oscillator | [`Oscillator`] |
 //! | its parameters by name, read and changed | [`Parameter`] |
+//! | a line through them | [`Varying`] |
 //! | a starting point allowed by the stops | [`Start`] |
 //! | kilograms, newtons and millimetres to nondimensional numbers and back | [`Machine`] |
 //! | angles of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
@@ -14,9 +15,11 @@ mod parameter;
 pub mod phase;
 mod start;
 mod units;
+mod varying;
 
 pub use error::SystemError;
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
 pub use start::Start;
 pub use units::{Frequency, Machine, Scales};
+pub use varying::Varying;

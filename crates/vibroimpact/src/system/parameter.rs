@@ -56,6 +56,12 @@ impl Parameter {
         }
     }
 
+    /// Whether it says how fast the force changes.
+    #[must_use]
+    pub const fn is_frequency(self) -> bool {
+        matches!(self, Self::Beta | Self::InverseBeta)
+    }
+
     /// Its value; `None` for one of a second stop that is not there.
     #[must_use]
     pub fn get(self, osc: &Oscillator) -> Option<f64> {
@@ -110,8 +116,7 @@ mod tests {
             let changed = parameter.set(&osc, 0.25).unwrap();
             assert_eq!(parameter.get(&changed), Some(0.25));
             for other in Parameter::ALL {
-                let frequency = |p| matches!(p, Parameter::Beta | Parameter::InverseBeta);
-                if other != parameter && !(frequency(other) && frequency(parameter)) {
+                if other != parameter && !(other.is_frequency() && parameter.is_frequency()) {
                     assert_eq!(other.get(&changed), other.get(&osc), "{} moved {}", parameter.name(), other.name());
                 }
             }

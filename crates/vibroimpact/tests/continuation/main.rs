@@ -9,6 +9,7 @@
 //! | the steady motion without impacts, and what begins where it touches | `free` |
 //! | every event between 1/beta = 1.11, delta = 0 and loss of contact, confirmed by simulation | `line` |
 //! | where 1/1 exists and where it is stable, against motions inside, outside and beside the edge | `regions` |
+//! | lines through two parameters, against each of them alone | `oblique` |
 //! | cycles that rest on a stop: where they change and end | `resting` |
 //! | two stops alike: symmetry lost and found | `symmetric` |
 //! | a damped oscillator at resonance, down to its grazing | `grazing` |
@@ -21,6 +22,7 @@ mod events;
 mod free;
 mod grazing;
 mod line;
+mod oblique;
 mod regions;
 mod resting;
 mod symmetric;

@@ -1,0 +1,119 @@
+//! What varies along a straight line through the parameters.
+
+use super::{Oscillator, Parameter, SystemError};
+
+/// A parameter that varies, and where asked another one that varies with it in proportion: a straight line through the
+/// parameters, on which the value of the first tells the place.
+///
+/// It is a direction: the line in which an oscillator varies is the one that passes through it.
+///
+/// ```
+/// use vibroimpact::{Oscillator, Parameter, Varying};
+/// let osc = Oscillator::from_inverse_beta(1.0, 0.5, 0.8)?;
+/// // the gap grows twice as fast as 1/beta
+/// let line = Varying::from(Parameter::InverseBeta).with(Parameter::Gap, 2.0)?;
+/// let further = line.set(&osc, 1.25)?;
+/// assert_eq!((further.beta(), further.gap()), (0.8, 1.0));
+/// assert_eq!(line.set(&further, 1.0)?, osc);
+/// assert!(line.with(Parameter::Beta, 1.0).is_err(), "the frequency varies already");
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Varying {
+    parameter: Parameter,
+    /// The other, and how much it changes with a change of the first by 1.
+    also: Option<(Parameter, f64)>,
+}
+
+impl From<Parameter> for Varying {
+    fn from(parameter: Parameter) -> Self {
+        Self { parameter, also: None }
+    }
+}
+
+impl Varying {
+    /// The same with `other` changing by `rate` when the first parameter changes by 1; it replaces another one before.
+    ///
+    /// # Errors
+    /// [`SystemError::Together`] for a parameter that varies already, [`SystemError::Rate`] for a rate that is not finite.
+    pub fn with(self, other: Parameter, rate: f64) -> Result<Self, SystemError> {
+        if self.parameter == other || (self.parameter.is_frequency() && other.is_frequency()) {
+            return Err(SystemError::Together(self.parameter.name(), other.name()));
+        }
+        if !rate.is_finite() {
+            return Err(SystemError::Rate { name: other.name(), rate });
+        }
+        Ok(Self { also: Some((other, rate)), ..self })
+    }
+
+    /// The parameter whose value tells the place on the line.
+    #[must_use]
+    pub const fn parameter(self) -> Parameter {
+        self.parameter
+    }
+
+    /// What varies, and how much each changes when the first changes by 1.
+    pub fn rates(self) -> impl Iterator<Item = (Parameter, f64)> {
+        core::iter::once((self.parameter, 1.0)).chain(self.also)
+    }
+
+    /// The place of an oscillator on its line.
+    ///
+    /// # Errors
+    /// [`SystemError::NoSecondStop`] for a parameter of a second stop that is not there.
+    pub fn get(self, osc: &Oscillator) -> Result<f64, SystemError> {
+        let value = |parameter: Parameter| parameter.get(osc).ok_or(SystemError::NoSecondStop(parameter.name()));
+        self.also.map_or(Ok(0.0), |(other, _)| value(other))?;
+        value(self.parameter)
+    }
+
+    /// The oscillator at a place of the line through `osc`.
+    ///
+    /// # Errors
+    /// As for [`Parameter::set`], for either parameter.
+    pub fn set(self, osc: &Oscillator, value: f64) -> Result<Oscillator, SystemError> {
+        let Some((other, rate)) = self.also else { return self.parameter.set(osc, value) };
+        let from = self.get(osc)?;
+        let second = other.get(osc).ok_or(SystemError::NoSecondStop(other.name()))? + rate * (value - from);
+        // halfway two stops may leave no room, but not both ways round
+        match self.parameter.set(osc, value) {
+            Ok(halfway) => other.set(&halfway, second),
+            Err(_) => self.parameter.set(&other.set(osc, second)?, value),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_parameters_in_proportion() {
+        let osc = Oscillator::new(0.9, 0.5, 0.6).unwrap().with_second_stop(1.0, 0.7).unwrap();
+        let line = Varying::from(Parameter::Gap).with(Parameter::Restitution, -0.25).unwrap();
+        let there = line.set(&osc, 1.5).unwrap();
+        assert_eq!((there.gap(), there.restitution(), there.beta()), (1.5, 0.35, 0.9));
+        assert_eq!(line.rates().collect::<Vec<_>>(), [(Parameter::Gap, 1.0), (Parameter::Restitution, -0.25)]);
+        assert_eq!(line.get(&there), Ok(1.5));
+        assert!(matches!(line.set(&osc, 4.0), Err(SystemError::Restitution(_))));
+        // the stops move to the same side, so that one of them passes where the other one was
+        for way in [1.0, -1.0] {
+            let aside = Varying::from(Parameter::Gap).with(Parameter::SecondGap, -1.0).unwrap();
+            let moved = aside.set(&osc, 0.5 + 3.0 * way).unwrap();
+            assert_eq!((moved.gap(), Parameter::SecondGap.get(&moved)), (0.5 + 3.0 * way, Some(1.0 - 3.0 * way)));
+        }
+    }
+
+    #[test]
+    fn what_is_no_line_is_refused() {
+        let gap = Varying::from(Parameter::Gap);
+        assert_eq!(gap.with(Parameter::Gap, 1.0), Err(SystemError::Together("gap", "gap")));
+        assert!(matches!(gap.with(Parameter::Beta, f64::NAN), Err(SystemError::Rate { name: "beta", .. })));
+        let frequency = Varying::from(Parameter::Beta).with(Parameter::InverseBeta, 1.0);
+        assert_eq!(frequency, Err(SystemError::Together("beta", "inverse_beta")));
+        let osc = Oscillator::new(0.9, 0.5, 0.6).unwrap();
+        let second = gap.with(Parameter::SecondGap, 1.0).unwrap();
+        assert_eq!(second.get(&osc), Err(SystemError::NoSecondStop("second_gap")));
+        assert_eq!(second.set(&osc, 1.0), Err(SystemError::NoSecondStop("second_gap")));
+    }
+}
