@@ -1,4 +1,4 @@
-//! A branch of periodic orbits in one parameter, and those that begin on it.
+//! A branch of periodic orbits in one parameter or along a line through two, and those that begin on it.
 
 use crate::axis::parameter;
 use crate::columns::{Impacts, column, complex, named, pairs};
@@ -11,7 +11,7 @@ use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact::orbit::Cycle;
-use vibroimpact_study::{BranchPlan, Followed, Plan, Task, Told, branches};
+use vibroimpact_study::{BranchPlan, Cut, Followed, Plan, Target, Task, Told, branches};
 
 /// Cycles one after another, and where each begins.
 #[derive(IntoPyObject)]
@@ -44,6 +44,8 @@ impl<'py> Cycles<'py> {
 #[derive(IntoPyObject)]
 pub(crate) struct Fields<'py> {
     parameter: Bound<'py, PyArray1<f64>>,
+    /// Values of the second parameter of a line.
+    second: Option<Bound<'py, PyArray1<f64>>>,
     label: Vec<String>,
     stable: Bound<'py, PyArray1<bool>>,
     physical: Bound<'py, PyArray1<bool>>,
@@ -57,6 +59,8 @@ pub(crate) struct Fields<'py> {
 struct Event {
     kind: &'static str,
     parameter: f64,
+    /// Of both parameters of a line.
+    values: Option<(f64, f64)>,
     point: usize,
     ends: bool,
     label_before: String,
@@ -71,12 +75,13 @@ struct Event {
 }
 
 impl Event {
-    fn new(place: usize, point: &Point, event: &BranchEvent) -> Self {
+    fn new(place: usize, point: &Point, event: &BranchEvent, cut: &Cut) -> Self {
         let Told { kind, ends, label_before, label_after, change, impact, side, phase, turns, also } =
             Told::of(point, event);
         Self {
             kind,
             parameter: point.value,
+            values: second(cut, point).map(|second| (point.value, second)),
             point: place,
             ends,
             label_after,
@@ -92,17 +97,18 @@ impl Event {
 }
 
 impl<'py> Fields<'py> {
-    fn new(py: Python<'py>, branch: &Followed) -> PyResult<Self> {
+    fn new(py: Python<'py>, branch: &Followed, cut: &Cut) -> PyResult<Self> {
         let points = || branch.points.iter();
         Ok(Self {
             parameter: column(py, points().map(|point| point.value)),
+            second: cut.also.map(|_| column(py, points().filter_map(|point| second(cut, point)))),
             label: points().map(|point| point.cycle.label.to_string()).collect(),
             stable: column(py, points().map(Point::stable)),
             physical: column(py, points().map(|point| point.physical)),
             cycles: Cycles::new(py, &points().map(|point| &point.cycle))?,
             events: points()
                 .enumerate()
-                .filter_map(|(k, point)| Some(Event::new(k, point, point.event.as_ref()?)))
+                .filter_map(|(k, point)| Some(Event::new(k, point, point.event.as_ref()?, cut)))
                 .collect(),
             origin: branch.origin.as_ref().map(|origin| {
                 let kind = origin.point.event.map_or("", |event| event.name());
@@ -112,6 +118,11 @@ impl<'py> Fields<'py> {
     }
 }
 
+/// The value of the second parameter of a line.
+fn second(cut: &Cut, point: &Point) -> Option<f64> {
+    cut.values(point.value).nth(1).map(|(_, value)| value)
+}
+
 /// The fields of all branches.
 #[derive(IntoPyObject)]
 pub(crate) struct Found<'py> {
@@ -119,6 +130,8 @@ pub(crate) struct Found<'py> {
     /// Number of the orbit it began with, and how many there are.
     orbit: (u32, u32),
     from: f64,
+    /// The second parameter of a line, and its values at the ends.
+    also: Option<(&'static str, f64, f64)>,
     label: String,
     plan: String,
 }
@@ -132,20 +145,23 @@ pub(crate) fn branch<'py>(
     label: String,
     vary: &str,
     to: f64,
+    also: Option<(String, f64)>,
     orbit: Option<u32>,
     follow: u32,
     points: u32,
 ) -> Result<Found<'py>, Trouble> {
-    let task = BranchPlan { label, vary: parameter(vary)?, to, orbit, follow, points };
+    let also = also.map(|(name, to)| Ok::<_, Trouble>(Target { parameter: parameter(&name)?, to })).transpose()?;
+    let task = BranchPlan { label, vary: parameter(vary)?, to, also, orbit, follow, points };
     let plan = Plan::new(osc.plan, Task::Branch(task.clone()));
     plan.check()?;
-    let from = osc.plan.value(task.vary)?;
+    let cut = task.cut(&osc.plan)?;
     let system = osc.plan;
     let found = door::run(py, Watch::alone("following a branch"), move |_| Ok(branches(&system, &task)?))?;
     Ok(Found {
-        branches: found.followed.iter().map(|branch| Fields::new(py, branch)).collect::<PyResult<_>>()?,
+        branches: found.followed.iter().map(|branch| Fields::new(py, branch, &cut)).collect::<PyResult<_>>()?,
         orbit: (found.chosen.number, found.chosen.count),
-        from,
+        from: cut.ends.0,
+        also: cut.also.map(|also| (also.parameter.name(), also.from, also.to)),
         label: found.chosen.orbit.cycle.label.to_string(),
         plan: text(&plan)?,
     })

@@ -48,8 +48,8 @@ fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
     let grid: Vec<(String, usize)> =
         sheet.study.grid().dimensions.iter().map(|along| (along.name.clone(), along.count)).collect();
     let coordinates = sheet.study.coordinates().into_iter().map(|along| Variable {
-        dimensions: vec![(along.dimension.clone(), along.values.len())],
-        name: along.dimension,
+        dimensions: vec![(along.dimension, along.values.len())],
+        name: along.name,
         values: along.values.into_pyarray(py).into_any(),
         long_name: along.long_name,
         units: along.units,

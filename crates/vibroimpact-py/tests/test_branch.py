@@ -60,3 +60,15 @@ def test_a_branch_may_reach_the_motion_without_impacts() -> None:
     assert graze and graze[-1].label_after == "0" and found.label[-1] == "0" and found.speed[-1] == 0
     # the steady motion just reaches the stop: gap = |f| = 1/(2 zeta)
     assert abs(graze[-1].parameter - 10) < 1e-9
+
+
+def test_a_line_through_two_parameters() -> None:
+    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
+    found = vi.branch(osc, "1/1", "gap", 2.5, also={"inverse_beta": 1.05})
+    assert found.also == ("inverse_beta", 1.11, 1.05) and found.second is not None
+    np.testing.assert_allclose(found.second, 1.11 - 0.06 * (found.parameter - 1.5), atol=1e-15)
+    flip = next(event for event in found.events if event.kind == "flip")
+    assert flip.values is not None and flip.values == (flip.parameter, found.second[flip.point])
+    assert abs(flip.parameter - flip_of_1_1(flip.values[1], 0.5)) < 1e-11
+    assert found.to_dict()["also"] == {"parameter": "inverse_beta", "from": 1.11, "to": 1.05}
+    assert "with $1/\\beta$ from 1.11 to 1.05" in found.plot(diagram=True).get_xlabel()

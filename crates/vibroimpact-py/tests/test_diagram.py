@@ -1,6 +1,7 @@
 """Orbit diagrams as Datasets."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -51,3 +52,30 @@ def test_sweeps_and_what_is_shown(s: vi.Oscillator) -> None:
     assert {"x", "v"} <= set(strobe) and strobe["x"].max() <= s.gap
     with pytest.raises(vi.QuestionError, match="is no variable of this diagram; there are x, v"):
         strobe.vibro.plot(which="velocity")
+
+
+def test_a_line_through_two_parameters(s: vi.Oscillator) -> None:
+    line = vi.orbit_diagram(s, "inverse_beta", "1.2:1.4:3", also={"gap": (1, 0.5)}, direction="scatter", starts=3)
+    assert line["gap"].dims == ("inverse_beta",) and line["gap"].values.tolist() == [1.0, 0.75, 0.5]
+    for k, gap in enumerate(line["gap"].values):
+        osc = s.replace(inverse_beta=float(line["inverse_beta"][k]))
+        alone = vi.orbit_diagram(osc, "gap", f"{gap}:{gap}:1", direction="scatter", starts=3)
+        np.testing.assert_array_equal(line["velocity"].values[:, k], alone["velocity"].values[:, 0])
+    ax = line.vibro.plot()
+    assert ax.get_xlabel() == r"$1/\beta$, with $\delta$ from 1 to 0.5"
+    with pytest.raises(vi.QuestionError, match="gap and gap cannot vary together"):
+        vi.orbit_diagram(s, "gap", "0:1:3", also={"gap": (0, 1)})
+    with pytest.raises(TypeError, match="also is one parameter with its values"):
+        vi.orbit_diagram(s, "gap", "0:1:3", also={"damping": (0, 1), "beta": (1, 2)})
+
+
+def test_a_logarithmic_span_has_a_logarithmic_axis(s: vi.Oscillator) -> None:
+    ds = vi.orbit_diagram(s, "damping", (0.001, 0.1, 5, "log"))
+    assert ds.vibro.plot().get_xscale() == "log"
+
+
+def test_a_line_survives_its_store(s: vi.Oscillator, tmp_path: Path) -> None:
+    place = tmp_path / "line.zarr"
+    line = vi.orbit_diagram(s, "inverse_beta", "1.2:1.4:3", also={"gap": (1, 0.5)}, store=place)
+    with xr.open_zarr(place) as stored:
+        assert set(stored.coords) == set(line.coords) and stored["gap"].values.tolist() == [1.0, 0.75, 0.5]

@@ -10,7 +10,7 @@ use vibroimpact::verdict::{Census, SettleOptions, Settled, StartBox, settle};
 use vibroimpact::{Label, Oscillator, Start};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{
-    Basin, BranchPlan, Branches, Control, CurvePlan, Diagram, EventCurve, Plan, PlanError, RegionMap, RegionPlan,
+    Basin, BranchPlan, Branches, Control, CurvePlan, Cut, Diagram, EventCurve, Plan, PlanError, RegionMap, RegionPlan,
     Regions, RunError, Simulated, Stopped, StoreError, Task, attractors, basin, branches, curve, diagram, map,
     most_impacts, regions, simulate,
 };
@@ -48,7 +48,7 @@ pub enum Found {
     /// Exponents, what the motion is, and its sections where points of them were asked for.
     Lyapunov(Start, Settled, Exponents, Option<Section>),
     /// A branch and those that begin on it.
-    Branch(BranchPlan, Branches),
+    Branch(BranchPlan, Cut, Branches),
     /// A curve of events.
     Curve(CurvePlan, EventCurve),
     /// Where a motion exists and is stable.
@@ -173,7 +173,7 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
             going(2, 3)?;
             Found::Lyapunov(start, settled, exponents(&osc, start, &task.options()), points)
         }
-        Task::Branch(task) => Found::Branch(task.clone(), branches(&system, task)?),
+        Task::Branch(task) => Found::Branch(task.clone(), task.cut(&system)?, branches(&system, task)?),
         Task::Curve(task) => Found::Curve(task.clone(), curve(&system, task)?),
         Task::Region(task) => Found::Region(task.clone(), regions(&system, task, control)?),
     };
@@ -196,10 +196,7 @@ impl Serialize for Answer {
             Found::Lyapunov(start, settled, found, _) => {
                 json::lyapunov::document(asked, plan, (osc, start), (&settled.verdict, found)).serialize(to)
             }
-            Found::Branch(task, found) => {
-                let varied = (task.vary, self.ends(task));
-                json::branch::document(asked, plan, osc, found, varied).serialize(to)
-            }
+            Found::Branch(_, cut, found) => json::branch::document(asked, plan, osc, found, cut).serialize(to),
             Found::Curve(task, found) => json::curve::document(asked, plan, osc, (task, found)).serialize(to),
             Found::Region(task, found) => json::region::document(asked, plan, (task, found)).serialize(to),
         }
@@ -232,9 +229,9 @@ impl Answer {
             Found::Map(found) => figure::map::figure(found, &asked.system)?,
             Found::Diagram(found) => figure::diagram::figure(found, asked)?,
             Found::Lyapunov(_, _, _, Some(points)) => figure::section::figure(points, osc, asked),
-            Found::Branch(task, found) => {
+            Found::Branch(task, cut, found) => {
                 let behind = diagram(&asked.system, &task.diagram(&asked.system)?, control)?;
-                figure::branch::figure(&found.followed, task.vary, self.ends(task), Some(&behind), false, asked)?
+                figure::branch::figure(&found.followed, cut, Some(&behind), false, asked)?
             }
             Found::Curve(task, found) => figure::curve::figure(found, task, asked),
             Found::Region(task, found) => figure::region::figure(found, task, asked),
@@ -259,16 +256,10 @@ impl Answer {
             Found::Map(found) => table::map::table(found),
             Found::Diagram(found) => table::diagram::table(found, *units)?,
             Found::Lyapunov(_, _, _, Some(points)) => table::section::table(points, osc, *units),
-            Found::Branch(task, found) => table::branch::table(found, task.vary, units),
+            Found::Branch(_, cut, found) => table::branch::table(found, cut, units),
             Found::Curve(task, found) => table::curve::table(found, task, units),
             Found::Region(task, found) => table::region::table(found, task, units),
         }))
-    }
-
-    /// The ends of the range of a branch.
-    fn ends(&self, task: &BranchPlan) -> (f64, f64) {
-        // a plan that was run has the parameter
-        (self.asked.system.value(task.vary).unwrap_or(f64::NAN), task.to)
     }
 }
 

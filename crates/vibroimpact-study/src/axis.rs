@@ -288,8 +288,7 @@ pub(crate) fn check(
     if !(least..=most).contains(&axes.len()) {
         return Err(PlanError::Axes { given: axes.len(), task, least, most });
     }
-    let frequency =
-        |c| matches!(c, Coordinate::Parameter(Parameter::Beta) | Coordinate::Parameter(Parameter::InverseBeta));
+    let frequency = |c| matches!(c, Coordinate::Parameter(parameter) if parameter.is_frequency());
     for (k, axis) in axes.iter().enumerate() {
         if !allowed(axis.vary) {
             return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known });

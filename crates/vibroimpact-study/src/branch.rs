@@ -1,13 +1,13 @@
-//! Branches of periodic orbits in one parameter, and those that begin where one loses its stability.
+//! Branches of periodic orbits in one parameter or along a line through two, and those that begin where one loses its stability.
 
 use crate::begin::{Chosen, choose};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction as Sweep, Show};
-use crate::{DiagramPlan, Parameter, PlanError, Span, SystemPlan};
+use crate::{Cut, DiagramPlan, Parameter, PlanError, Span, Stretch, SystemPlan, Target};
 use core::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, Point};
 use vibroimpact::verdict::Count;
-use vibroimpact::{Label, Oscillator};
+use vibroimpact::{Label, Oscillator, Varying};
 
 /// Points of a branch at most, where no number is given.
 pub const DEFAULT_BRANCH_POINTS: u32 = 5_000;
@@ -18,7 +18,7 @@ const MOST_FOLLOWED: u32 = 100;
 /// Values of the orbit diagram behind a branch.
 const DIAGRAM_VALUES: u32 = 401;
 
-/// An orbit that is followed in one parameter.
+/// An orbit that is followed in one parameter, or along a line through two.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BranchPlan {
@@ -30,6 +30,9 @@ pub struct BranchPlan {
     pub vary: Parameter,
     /// The other end of its range.
     pub to: f64,
+    /// A second parameter that varies with it, in proportion, from its value in the system.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub also: Option<Target>,
     /// Which of the orbits, counted from 1, the fastest last; when absent the stable one, else the fastest motion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orbit: Option<u32>,
@@ -52,9 +55,9 @@ impl BranchPlan {
     /// [`PlanError`] names the first value that makes no sense.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let _: Label = self.label.parse()?;
-        let from = system.value(self.vary)?;
-        system.with(self.vary, self.to)?.oscillator()?;
-        if from == self.to {
+        let cut = self.cut(system)?;
+        cut.check(system)?;
+        if cut.ends.0 == self.to {
             return Err(PlanError::Nowhere { name: self.vary.name(), value: self.to });
         }
         if self.follow > MOST_FOLLOWED {
@@ -66,14 +69,26 @@ impl BranchPlan {
         Ok(())
     }
 
+    /// The line along which it is followed.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a system that makes no sense, or a parameter of a second stop that is not there.
+    pub fn cut(&self, system: &SystemPlan) -> Result<Cut, PlanError> {
+        let from = |Target { parameter, to }| system.value(parameter).map(|from| Stretch { parameter, from, to });
+        let also = self.also.map(from).transpose()?;
+        Ok(Cut { vary: self.vary, ends: (system.value(self.vary)?, self.to), also })
+    }
+
     /// The orbit diagram over the same range.
     ///
     /// # Errors
     /// [`PlanError`] for a plan that makes no sense.
     pub fn diagram(&self, system: &SystemPlan) -> Result<DiagramPlan, PlanError> {
+        let Cut { vary, ends, also } = self.cut(system)?;
         Ok(DiagramPlan {
-            vary: self.vary,
-            over: Span::new(system.value(self.vary)?, self.to, DIAGRAM_VALUES)?,
+            vary,
+            over: Span::new(ends.0, ends.1, DIAGRAM_VALUES)?,
+            also,
             show: Show::Velocity,
             direction: Sweep::Both,
             transient: DEFAULT_TRANSIENT,
@@ -118,15 +133,16 @@ pub struct Branches {
 pub fn branches(system: &SystemPlan, plan: &BranchPlan) -> Result<Branches, PlanError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
-    let from = plan.vary.get(&osc).ok_or(PlanError::NoSecondStop(plan.vary.name()))?;
+    let vary = plan.cut(system)?.varying()?;
+    let from = vary.get(&osc)?;
     let chosen = choose(&osc, plan.label.parse()?, plan.orbit)?;
     let range = from.min(plan.to)..=from.max(plan.to);
     let direction = if plan.to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
-    let first = Branch::new(&osc, &chosen.orbit.cycle, plan.vary, range.clone(), direction, options)?;
+    let first = Branch::new(&osc, &chosen.orbit.cycle, vary, range.clone(), direction, options)?;
     let mut all =
         Branches { chosen, followed: vec![Followed { origin: None, points: first.collect() }], lost: Vec::new() };
-    let ground = Ground { osc, vary: plan.vary, range, options };
+    let ground = Ground { osc, vary, range, options };
     all.follow(&ground, plan.follow as usize);
     Ok(all)
 }
@@ -134,7 +150,7 @@ pub fn branches(system: &SystemPlan, plan: &BranchPlan) -> Result<Branches, Plan
 /// What all branches of a plan have in common.
 struct Ground {
     osc: Oscillator,
-    vary: Parameter,
+    vary: Varying,
     range: RangeInclusive<f64>,
     options: BranchOptions,
 }
@@ -203,8 +219,15 @@ mod tests {
 
     fn plan() -> (SystemPlan, BranchPlan) {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
-        let branch =
-            BranchPlan { label: "1/1".into(), vary: Parameter::Gap, to: 2.5, orbit: None, follow: 0, points: 5000 };
+        let branch = BranchPlan {
+            label: "1/1".into(),
+            vary: Parameter::Gap,
+            to: 2.5,
+            also: None,
+            orbit: None,
+            follow: 0,
+            points: 5000,
+        };
         (system, branch)
     }
 
@@ -220,6 +243,25 @@ mod tests {
         assert_eq!((origin.branch, origin.point.value), (0, flip.value));
         assert_eq!(second.points[1].cycle.label, Label::new(2, 2));
         assert!(second.points.last().unwrap().event.unwrap().ends());
+    }
+
+    #[test]
+    fn along_a_line_through_two_parameters() {
+        let (system, plan) = plan();
+        let also = Some(Target { parameter: Parameter::InverseBeta, to: 1.05 });
+        let line = BranchPlan { also, ..plan };
+        let flip_on = |system: &SystemPlan, plan: &BranchPlan| {
+            let found = branches(system, plan).unwrap();
+            found.followed[0].points.iter().find(|p| p.event == Some(BranchEvent::Flip)).unwrap().value
+        };
+        let value = flip_on(&system, &line);
+        // the same doubling as in the gap alone, at the frequency the line has there
+        let there = line.cut(&system).unwrap().system(&system, value).unwrap();
+        let below = SystemPlan { gap: value - 0.1, ..there };
+        assert!((flip_on(&below, &BranchPlan { also: None, ..line.clone() }) - value).abs() < 1e-11);
+        assert!(there.inverse_beta.is_some_and(|x| x > 1.05 && x < 1.11));
+        let behind = line.diagram(&system).unwrap();
+        assert_eq!(behind.cut(), line.cut(&system).unwrap());
     }
 
     #[test]

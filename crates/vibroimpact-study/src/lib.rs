@@ -22,7 +22,7 @@
 //! | which orbit it begins with; what an event on it has to tell | [`Chosen`], [`Told`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`curve`](curve()) |
 //! | where a motion exists and where it is stable | [`RegionPlan`], [`regions`], [`stable_regions`] |
-//! | a parameter and its range | [`Stretch`] |
+//! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 
 mod attractors;
@@ -32,6 +32,7 @@ mod begin;
 mod branch;
 mod control;
 mod curve;
+mod cut;
 pub mod diagram;
 mod error;
 mod field;
@@ -57,6 +58,7 @@ pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin, 
 pub(crate) use control::Meter;
 pub use control::{Control, Stopped, tiles};
 pub use curve::{CurvePlan, EventCurve, EventKind, curve};
+pub use cut::{Cut, Target};
 pub use diagram::{Diagram, DiagramPlan, diagram};
 pub use error::PlanError;
 pub use field::{Column, Extra, Field, Kind};

@@ -3,7 +3,7 @@
 //! Threads, output files and progress bars are no part of it. Absent fields have one meaning each, stated here; unknown
 //! fields are errors, so that a misspelt parameter cannot be ignored.
 
-use crate::{BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, PlanError, RegionPlan};
+use crate::{BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, Parameter, PlanError, RegionPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Label, Oscillator, Start};
 
@@ -55,7 +55,10 @@ impl Plan {
             Task::Map(map) => format!("motions of an impact oscillator over {}", over(&map.axes)),
             Task::Basin(basin) => format!("motions an impact oscillator settles into over {}", over(&basin.axes)),
             Task::Attractors { .. } => "motions an impact oscillator settles into from scattered starts".to_owned(),
-            Task::Diagram(diagram) => format!("orbit diagram of an impact oscillator over {}", diagram.vary.name()),
+            Task::Diagram(diagram) => {
+                let names: Vec<_> = diagram.cut().parameters().map(Parameter::name).collect();
+                format!("orbit diagram of an impact oscillator over {}", names.join(" and "))
+            }
             Task::Lyapunov(_) => "Lyapunov exponents of an impact oscillator".to_owned(),
             _ => "an impact oscillator".to_owned(),
         }

@@ -5,7 +5,7 @@ use core::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::Frame;
 
-/// A parameter from one value to a larger one.
+/// A parameter from one value to another; as the side of a plane, to a larger one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stretch {
@@ -13,9 +13,9 @@ pub struct Stretch {
     #[serde(with = "crate::parameter")]
     #[schemars(with = "crate::parameter::Name")]
     pub parameter: Parameter,
-    /// Its smallest value.
+    /// Its first value.
     pub from: f64,
-    /// Its largest value.
+    /// Its last value.
     pub to: f64,
 }
 
@@ -44,9 +44,8 @@ pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> 
             return Err(PlanError::Stretch { name, from: stretch.from, to: stretch.to });
         }
     }
-    let frequency = |parameter| matches!(parameter, Parameter::Beta | Parameter::InverseBeta);
     let (p, q) = (one.parameter, two.parameter);
-    if p == q || (frequency(p) && frequency(q)) {
+    if p == q || (p.is_frequency() && q.is_frequency()) {
         return Err(PlanError::SameParameter(p.name(), q.name()));
     }
     for x in [one.from, one.to] {

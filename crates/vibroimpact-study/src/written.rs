@@ -58,7 +58,7 @@ impl Task {
             Self::Map(map) => on(&map.axes),
             Self::Basin(basin) => on(&basin.axes),
             Self::Lyapunov(lyapunov) => on(&lyapunov.axes),
-            Self::Diagram(diagram) => vec![(diagram.vary, diagram.over.at(0))],
+            Self::Diagram(diagram) => diagram.cut().values(diagram.over.at(0)).collect(),
             _ => Vec::new(),
         }
     }

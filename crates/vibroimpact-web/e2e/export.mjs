@@ -11,7 +11,7 @@ async function saved(page, format) {
 }
 
 export async function exports_each_format({ open }) {
-  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=gap,1,2,1.3", { acceptDownloads: true });
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2", { acceptDownloads: true });
   await drawn(page);
   await until("a verdict", async () => (await page.locator(".verdict .label").count()) === 1 && (await verdict(page)) === "2/1");
   await page.locator("#export-button").click();

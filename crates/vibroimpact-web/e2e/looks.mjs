@@ -100,7 +100,7 @@ export async function axe_finds_no_serious_fault({ open }) {
       await page.keyboard.press("Escape");
     }
   }
-  const { page } = await open("#panel=line&line=gap,1.5,2,1.11", { viewport: { width: 360, height: 740 } });
+  const { page } = await open("#panel=line&line=1.11,1.5,1.11,2", { viewport: { width: 360, height: 740 } });
   await drawn(page);
   await faults(page, "narrow");
 }

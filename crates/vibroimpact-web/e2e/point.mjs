@@ -73,19 +73,29 @@ export async function back_and_forward({ open }) {
 export async function a_line_gives_a_bifurcation_diagram({ open, folder }) {
   const { page } = await open();
   await drawn(page);
-  await page.locator("#line-tool").click();
-  await page.mouse.move(...await place(page, 1.11, 1.5));
-  await page.mouse.down();
-  await page.mouse.move(...await place(page, 1.13, 2.5), { steps: 6 });
-  await page.mouse.up();
-  const line = (await hash(page)).get("line").split(",");
-  assert.equal(line[0], "gap", "it snaps to the gap");
-  const [from, to, at] = line.slice(1).map(Number);
-  assert.ok(Math.abs(from - 1.5) < 0.02 && Math.abs(to - 2.5) < 0.02 && Math.abs(at - 1.11) < 0.004, line.join());
+  const draw = async (from, to) => {
+    await page.locator("#line-tool").click();
+    await page.mouse.move(...await place(page, ...from));
+    await page.mouse.down();
+    await page.mouse.move(...await place(page, ...to), { steps: 6 });
+    await page.mouse.up();
+    return (await hash(page)).get("line").split(",").map(Number);
+  };
+  const near = (line, wanted) => line.every((value, k) => Math.abs(value - wanted[k]) < 0.02);
+  const upright = await draw([1.11, 1.5], [1.112, 2.5]);
+  assert.ok(near(upright, [1.11, 1.5, 1.11, 2.5]) && upright[0] === upright[2], `it is upright: ${upright}`);
   const image = page.locator("#line .sheet img");
   await image.waitFor({ timeout: 120000 });
-  assert.match(await image.getAttribute("alt"), /Bifurcation diagram: δ from/);
+  assert.match(await image.getAttribute("alt"), /Bifurcation diagram: δ from .* 1\/β = 1\.11/);
   await page.screenshot({ path: `${folder}/line.png` });
+  // any other direction, and back to the first
+  const oblique = await draw([1.3, 2.5], [1, 1]);
+  assert.ok(near(oblique, [1.3, 2.5, 1, 1]), `as it was drawn: ${oblique}`);
+  await until("the diagram of the oblique line", async () =>
+    /δ from 1.* 1\/β from (0\.9|1)/.test(await image.getAttribute("alt")), 120);
+  await page.screenshot({ path: `${folder}/oblique.png` });
+  await page.goBack();
+  await until("the first line again", async () => (await hash(page)).get("line") === upright.join(), 10);
 }
 
 export async function with_the_keyboard_alone({ open }) {

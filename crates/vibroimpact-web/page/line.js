@@ -4,13 +4,15 @@ import { bifurcation } from "./api.js";
 import { byId, element } from "./dom.js";
 import { Figure } from "./figure.js";
 import { Latest } from "./latest.js";
-import { PARAMETERS, legal } from "./parameters.js";
-import { diagramPlan } from "./plans.js";
+import { PARAMETERS } from "./parameters.js";
+import { alongLine, diagramPlan } from "./plans.js";
 import { digits } from "./ticks.js";
 import { Viewport } from "./viewport.js";
 
 /** A line shorter than this many pixels is a slip. */
 const SHORTEST = 12;
+/** A line this close to level or upright, height to length, is meant to be so. */
+const LEVEL = 0.05;
 
 export class LineTool {
   /**
@@ -44,7 +46,7 @@ export class LineTool {
     this.plane.view.surface.classList.toggle("draws", active);
     this.plane.view.entered = active ? (px) => this.entered(px) : null;
     this.plane.view.draw();
-    if (active) this.say("Line: drag along the plane, or press Enter at the cross for one end and again for the other.");
+    if (active) this.say("Line: drag along the plane in any direction, or press Enter at the cross for one end and again for the other.");
   }
 
   hold(px, xy) {
@@ -78,26 +80,23 @@ export class LineTool {
     this.plane.view.draw();
   }
 
-  /** Snaps to the axis along which the line is longer. */
+  /** With values as a pixel needs them, and level or upright where that is meant. */
   snapped(from, to) {
     const { viewport: v } = this.plane.view;
     const { state } = this.store;
-    const flat = Math.abs(to[0] - from[0]) / v.hx >= Math.abs(to[1] - from[1]) / v.hy;
-    const k = flat ? 0 : 1;
-    const [along, h] = flat ? [state.x, v.hx] : [state.y, v.hy];
-    const across = flat ? v.hy : v.hx;
-    const coordinate = PARAMETERS[along];
-    const within = (value) => Math.min(coordinate.most, Math.max(coordinate.open ? h : coordinate.least, Viewport.rounded(value, h)));
-    const ends = [within(from[k]), within(to[k])].sort((a, b) => a - b);
-    return [along, ...ends, Viewport.rounded(from[1 - k], across)];
+    const within = (name, value, pixel) => {
+      const { least, most, open } = PARAMETERS[name];
+      return Math.min(most, Math.max(open ? pixel : least, Viewport.rounded(value, pixel)));
+    };
+    const [x0, y0, x1, y1] = [from, to].flatMap(([x, y]) => [within(state.x, x, v.hx), within(state.y, y, v.hy)]);
+    const [wide, high] = [Math.abs(x1 - x0) / v.hx, Math.abs(y1 - y0) / v.hy];
+    return [x0, y0, wide < LEVEL * high ? x0 : x1, high < LEVEL * wide ? y0 : y1];
   }
 
   finish(from, to) {
     const line = this.snapped(from, to);
-    const { state } = this.store;
-    const across = line[0] === state.x ? state.y : state.x;
     this.use(false);
-    if (line[1] < line[2] && legal(PARAMETERS[across], line[3])) this.store.set({ line, panel: "line" });
+    if (line[0] !== line[2] || line[1] !== line[3]) this.store.set({ line, panel: "line" });
   }
 
   refresh() {
@@ -106,15 +105,17 @@ export class LineTool {
     this.show.value = state.show;
     if (state.panel !== "line" || !state.line) {
       this.asked.stop();
-      this.told.textContent = "Choose the tool Line above the plane, then drag along the plane, to the right or upwards.";
+      this.told.textContent = "Choose the tool Line above the plane, then drag along the plane, in any direction.";
       if (!state.line) this.figure.hide();
       this.key = null;
       return;
     }
-    const [along, from, to, at] = state.line;
-    const across = along === state.x ? state.y : state.x;
-    const pixel = (to - from) / 1000;
-    this.told.textContent = `${PARAMETERS[along].symbol} from ${digits(from, pixel)} to ${digits(to, pixel)} at ${PARAMETERS[across].symbol} ${at}`;
+    const parts = alongLine(state).map(({ parameter, from, to }) => {
+      const pixel = Math.abs(to - from) / 1000;
+      const { symbol } = PARAMETERS[parameter];
+      return pixel ? `${symbol} from ${digits(from, pixel)} to ${digits(to, pixel)}` : `${symbol} = ${from}`;
+    });
+    this.told.textContent = parts.join(", ");
     const plan = diagramPlan(state);
     if (JSON.stringify(plan) === this.key) return;
     this.key = JSON.stringify(plan);
@@ -146,17 +147,20 @@ export class LineTool {
     const lines = [];
     if (state.line && state.panel === "line") lines.push(state.line);
     if (this.draft) lines.push(this.snapped(this.draft.from, this.draft.to ?? viewport.toPlane(viewport.width / 2, viewport.height / 2)));
-    for (const [along, from, to, at] of lines) {
-      const flat = along === state.x;
-      const ends = [from, to].map((value) => (flat ? viewport.toPixel(value, at) : viewport.toPixel(at, value)));
+    for (const [x0, y0, x1, y1] of lines) {
+      const ends = [viewport.toPixel(x0, y0), viewport.toPixel(x1, y1)];
+      const [dx, dy] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
+      const length = Math.hypot(dx, dy) || 1;
+      // a short stroke across each end
+      const [sx, sy] = [(-5 * dy) / length, (5 * dx) / length];
       for (const [colour, width] of [["#ffffff", 5], ["#b5221b", 2.4]]) {
         context.strokeStyle = colour;
         context.lineWidth = width;
         context.beginPath();
         for (const end of ends) context.lineTo(...end);
         for (const [px, py] of ends) {
-          context.moveTo(px - (flat ? 0 : 5), py - (flat ? 5 : 0));
-          context.lineTo(px + (flat ? 0 : 5), py + (flat ? 5 : 0));
+          context.moveTo(px - sx, py - sy);
+          context.lineTo(px + sx, py + sy);
         }
         context.stroke();
       }

@@ -74,12 +74,30 @@ export const attractorsPlan = (state) => plan(systemOf(state), { attractors: { s
 export const lyapunovPlan = (state) =>
   plan(systemOf(state), { lyapunov: { start: startOf(state), impacts: 20000, transient: 1000, points: 2000 } });
 
+/**
+ * The parameter along which the chosen line is longer, rising, and the other one.
+ * @param {State} state
+ * @returns {{parameter: string, from: number, to: number}[]}
+ */
+export function alongLine(state) {
+  const [x0, y0, x1, y1] = state.line;
+  const across = { parameter: state.x, from: x0, to: x1 };
+  const up = { parameter: state.y, from: y0, to: y1 };
+  const length = ({ parameter, from, to }) => {
+    const [low, high] = PARAMETERS[parameter].window;
+    return Math.abs(to - from) / (high - low);
+  };
+  const both = length(across) >= length(up) ? [across, up] : [up, across];
+  return both[0].from < both[0].to ? both : both.map(({ parameter, from, to }) => ({ parameter, from: to, to: from }));
+}
+
 /** The orbit diagram along the chosen line. */
 export function diagramPlan(state, count = 400) {
-  const [along, from, to, at] = state.line;
-  const across = along === state.x ? state.y : state.x;
-  const system = systemOf(state, { [along]: from, [across]: at });
-  return plan(system, { diagram: { vary: along, over: over(from, to, count), direction: "both", show: state.show } });
+  const [first, second] = alongLine(state);
+  const system = systemOf(state, { [first.parameter]: first.from, [second.parameter]: second.from });
+  const diagram = { vary: first.parameter, over: over(first.from, first.to, count), direction: "both", show: state.show };
+  if (second.from !== second.to) diagram.also = second;
+  return plan(system, { diagram });
 }
 
 /** Whether a value is legal in the plane, the stops leaving room included. */

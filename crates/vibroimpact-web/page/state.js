@@ -20,7 +20,7 @@
  * @property {number[] | null} basin what the basin shows
  * @property {string[]} layers switched on
  * @property {string} panel `point`, `line` or `none`
- * @property {(string | number)[] | null} line along which parameter, from, to, the other parameter's value
+ * @property {number[] | null} line across and up where it begins, and where it ends
  * @property {string} show of the line: `velocity` or `strobe`
  * @property {number} tour step, 0 for none
  * @property {string | null} theme `light` or `dark` where chosen
@@ -46,6 +46,8 @@ const numbers = (text, count) => {
 
 const interval = (list) => (list && list[0] < list[1] && list[2] < list[3] ? list : null);
 
+const segment = (list) => (list && (list[0] !== list[2] || list[1] !== list[3]) ? list : null);
+
 const number = (name) => (text) => (text !== "" && legal(PARAMETERS[name], Number(text)) ? Number(text) : undefined);
 const oneOf = (...names) => (text) => (names.includes(text) ? text : undefined);
 const count = (least, most) => (text) => {
@@ -53,12 +55,6 @@ const count = (least, most) => (text) => {
   return Number.isInteger(n) && n >= least && n <= most ? n : undefined;
 };
 const flag = (text) => text === "1";
-
-function line(text) {
-  const [along, ...rest] = text.split(",");
-  const values = rest.map(Number);
-  return along in PARAMETERS && values.length === 3 && values.every(Number.isFinite) ? [along, ...values] : null;
-}
 
 /** How each part of the state is read; `undefined` is no value. */
 const READ = {
@@ -74,7 +70,7 @@ const READ = {
   basin: (text) => interval(numbers(text, 4)),
   layers: (text) => text.split(",").filter((name) => LAYERS.includes(name)),
   panel: oneOf("point", "line", "none"),
-  line,
+  line: (text) => segment(numbers(text, 4)),
   show: oneOf("velocity", "strobe"),
   tour: count(0, 20),
   theme: oneOf("light", "dark"),

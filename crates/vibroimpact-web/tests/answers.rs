@@ -78,6 +78,11 @@ async fn a_bifurcation_diagram() {
         assert_eq!((status.as_u16(), kind.as_str()), (200, "image/svg+xml"));
         assert!(String::from_utf8(body).unwrap().contains("unstable"), "{query}");
     }
+    let line =
+        DIAGRAM.replace("\"direction\"", r#""also":{"parameter":"inverse_beta","from":1.2,"to":1.3},"direction""#);
+    let (status, _, body) = ask("/api/bifurcation", &line).await;
+    let svg = String::from_utf8(body).unwrap();
+    assert!(status == 200 && svg.contains("unstable") && svg.contains("1.2 to 1.3"), "{status}");
     assert_eq!(ask("/api/bifurcation?labels=3/0", DIAGRAM).await.0, 400);
     assert_eq!(ask("/api/bifurcation", SETTLE).await.0, 400);
 }

@@ -9,7 +9,7 @@ mod system;
 mod vary;
 
 pub(crate) use output::Globals;
-pub(crate) use plane::{Over, Place};
+pub(crate) use plane::{Ends, Named, Over, Place};
 pub(crate) use ranged::Ranged;
 pub(crate) use start::StartArgs;
 pub(crate) use store::{StoreArgs, Tiles};

@@ -12,11 +12,9 @@ impl FromStr for Interval {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let bad = || format!("`{}` is not A:B with finite A < B", text.chars().take(60).collect::<String>());
-        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(bad);
-        let (a, b) = text.split_once(':').ok_or_else(bad)?;
-        let (a, b) = (number(a)?, number(b)?);
-        if a < b { Ok(Self(a, b)) } else { Err(bad()) }
+        let bad = |_| format!("`{}` is not A:B with finite A < B", text.chars().take(60).collect::<String>());
+        let Ends(a, b) = text.parse().map_err(bad)?;
+        if a < b { Ok(Self(a, b)) } else { Err(bad(String::new())) }
     }
 }
 
@@ -58,11 +56,29 @@ impl FromStr for Place {
     }
 }
 
-/// `PARAMETER=A:B`.
+/// `A:B`, either way round.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Over(pub(crate) Parameter, pub(crate) Interval);
+pub(crate) struct Ends(pub(crate) f64, pub(crate) f64);
 
-impl FromStr for Over {
+impl FromStr for Ends {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let bad = || format!("`{}` is not A:B with finite numbers", text.chars().take(60).collect::<String>());
+        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(bad);
+        let (a, b) = text.split_once(':').ok_or_else(bad)?;
+        Ok(Self(number(a)?, number(b)?))
+    }
+}
+
+/// `PARAMETER=...`, what is said of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Named<T>(pub(crate) Parameter, pub(crate) T);
+
+/// `PARAMETER=A:B`.
+pub(crate) type Over = Named<Interval>;
+
+impl<T: FromStr<Err: core::fmt::Display>> FromStr for Named<T> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -70,9 +86,12 @@ impl FromStr for Over {
         let parameter = Parameter::ALL.into_iter().find(|parameter| flag(*parameter) == name.trim());
         let parameter = parameter.ok_or_else(|| {
             let known = Parameter::ALL.map(flag).join(", ");
-            format!("`{}` is not PARAMETER=A:B; parameters: {known}", text.chars().take(60).collect::<String>())
+            format!(
+                "`{}` does not begin with PARAMETER=; parameters: {known}",
+                text.chars().take(60).collect::<String>()
+            )
         })?;
-        Ok(Self(parameter, range.parse()?))
+        Ok(Self(parameter, range.trim().parse().map_err(|error: T::Err| error.to_string())?))
     }
 }
 
@@ -85,7 +104,12 @@ mod tests {
         assert_eq!("-1:5".parse(), Ok(Interval(-1.0, 5.0)));
         assert_eq!("0.5".parse(), Ok(Place::At(0.5)));
         assert_eq!("0.4:2".parse(), Ok(Place::Over(Interval(0.4, 2.0))));
-        assert_eq!("second-gap=1:2".parse(), Ok(Over(Parameter::SecondGap, Interval(1.0, 2.0))));
+        assert_eq!("second-gap=1:2".parse(), Ok(Named(Parameter::SecondGap, Interval(1.0, 2.0))));
+        assert_eq!("gap=2:1".parse(), Ok(Named(Parameter::Gap, Ends(2.0, 1.0))));
+        assert_eq!("gap= -0.5".parse(), Ok(Named(Parameter::Gap, -0.5)));
+        for bad in ["gap=1:2:3", "gap=1", "gap=1:nan", "1:2"] {
+            assert!(bad.parse::<Named<Ends>>().is_err(), "{bad}");
+        }
         for bad in ["", ":", "2:1", "1:1", "1:nan", "1:2:3", "a:b", "1:inf"] {
             assert!(bad.parse::<Interval>().is_err(), "{bad}");
         }

@@ -4,7 +4,7 @@ use super::SystemArgs;
 use crate::exit::Failure;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vibroimpact_report::Asked;
-use vibroimpact_study::Parameter;
+use vibroimpact_study::{Parameter, SystemPlan};
 
 /// A parameter by the name of its flag.
 pub(crate) fn parameter() -> impl TypedValueParser<Value = Parameter> {
@@ -41,31 +41,39 @@ const fn meaning(parameter: Parameter) -> &'static str {
 }
 
 impl SystemArgs {
-    /// The system with `first` for the parameter that varies, which has no value of its own. A machine in physical units
-    /// is given whole, because its units need all of it; its value is replaced.
-    pub(crate) fn varied(&self, parameter: Parameter, first: f64) -> Result<Asked, Failure> {
-        let frequency = [Parameter::Beta, Parameter::InverseBeta];
-        let same =
-            |other: &Parameter| *other == parameter || frequency.contains(other) && frequency.contains(&parameter);
+    /// The system with their first values for the parameters that vary, which have no values of their own; each with the
+    /// flags that say that it varies, and over what. A machine in physical units is given whole, because its units need all of
+    /// it; its values are replaced.
+    pub(crate) fn varied(&self, varied: &[(Parameter, f64, [&str; 2])]) -> Result<Asked, Failure> {
         let mut args = *self;
-        if let Some(given) = frequency.into_iter().chain([parameter]).filter(same).find(|p| args.slot(*p).is_some()) {
-            return Err(Failure::bad(format!(
-                "--{} cannot go together with --vary {}\nhint: leave it out, --over has its values",
-                flag(given),
-                flag(parameter)
-            )));
+        for (parameter, _, [varies, over]) in varied {
+            let same = |other: &Parameter| other == parameter || other.is_frequency() && parameter.is_frequency();
+            if let Some(given) = Parameter::ALL.into_iter().filter(same).find(|p| args.slot(*p).is_some()) {
+                return Err(Failure::bad(format!(
+                    "--{} cannot go together with --{varies} {}\nhint: leave it out, --{over} has its values",
+                    flag(given),
+                    flag(*parameter)
+                )));
+            }
+            if *parameter == Parameter::Restitution && args.second_stop_follows() {
+                return Err(Failure::bad(
+                    "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
+                ));
+            }
         }
-        if parameter == Parameter::Restitution && args.second_stop_follows() {
-            return Err(Failure::bad(
-                "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
-            ));
-        }
-        let restitution = [Parameter::Restitution, Parameter::SecondRestitution].contains(&parameter);
-        if restitution || !args.is_machine() {
-            *args.slot(parameter) = Some(first);
-            return args.asked();
+        // of a machine the values are replaced, in its units
+        let machine = args.is_machine();
+        let replaced = |parameter: Parameter| {
+            machine && ![Parameter::Restitution, Parameter::SecondRestitution].contains(&parameter)
+        };
+        for (parameter, first, _) in varied.iter().filter(|(parameter, ..)| !replaced(*parameter)) {
+            *args.slot(*parameter) = Some(*first);
         }
         let asked = args.asked()?;
-        Ok(Asked { system: asked.system.with(parameter, first / asked.units.of(parameter))?, ..asked })
+        let set = |system: SystemPlan, (parameter, first, _): &(Parameter, f64, _)| {
+            system.with(*parameter, first / asked.units.of(*parameter))
+        };
+        let mut own = varied.iter().filter(|(parameter, ..)| replaced(*parameter));
+        Ok(Asked { system: own.try_fold(asked.system, set)?, ..asked })
     }
 }

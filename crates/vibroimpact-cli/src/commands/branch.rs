@@ -1,6 +1,6 @@
 //! `vibro branch`: an orbit followed in one parameter, through its events.
 
-use crate::args::{SystemArgs, parameter};
+use crate::args::{Named, SystemArgs, parameter};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::branch::text;
@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use vibroimpact_report::figure::branch::figure;
 use vibroimpact_report::json::branch::document;
 use vibroimpact_report::table::branch::table;
-use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Task, branches, diagram};
+use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Target, Task, branches, diagram};
 
 /// An orbit followed in one parameter, stable or not, with every event on the way
 ///
@@ -30,7 +30,9 @@ use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Task
     after_help = "Examples:\n  \
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5\n  \
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5 \\\n    \
-        --follow 3 --csv branch.csv --plot branch.png"
+        --follow 3 --csv branch.csv --plot branch.png\n  \
+        vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5 \\\n    \
+        --also inverse-beta=1.05"
 )]
 pub(crate) struct Branch {
     #[command(flatten)]
@@ -52,6 +54,11 @@ pub(crate) struct Branch {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, help_heading = "Branch")]
     to: f64,
 
+    /// A second parameter that varies with it in proportion, from its value in the system to this one when the first is at --to:
+    /// the branch along any line through two parameters
+    #[arg(long, value_name = "PARAMETER=VALUE", allow_hyphen_values = true, help_heading = "Branch")]
+    also: Option<Named<f64>>,
+
     /// Follow up to so many of the branches that begin at flips and branch points, 0 to 100
     #[arg(long, value_name = "N", default_value_t = 0, allow_hyphen_values = true, help_heading = "Branch")]
     follow: u32,
@@ -60,7 +67,7 @@ pub(crate) struct Branch {
     #[arg(long, value_name = "N", default_value_t = DEFAULT_BRANCH_POINTS, allow_hyphen_values = true, help_heading = "Branch")]
     points: u32,
 
-    /// Write one row a point to this file; - for stdout. Columns: branch, the parameter, label, physical, stable, event,
+    /// Write one row a point to this file; - for stdout. Columns: branch, the parameter, that of --also, label, physical, stable, event,
     /// real and imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
@@ -93,6 +100,7 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
         label: args.label.clone(),
         vary,
         to: args.to / asked.units.of(vary),
+        also: args.also.map(|Named(parameter, to)| Target { parameter, to: to / asked.units.of(parameter) }),
         orbit: args.orbit,
         follow: args.follow,
         points: args.points,
@@ -100,7 +108,7 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let plan = Plan::new(asked.system, Task::Branch(task.clone()));
     plan.check()?;
     let osc = asked.system.oscillator()?;
-    let ends = (asked.system.value(vary)?, task.to);
+    let cut = task.cut(&asked.system)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     let to_stdout = outputs.table_on_stdout();
 
@@ -116,14 +124,14 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
 
     outputs.write(
         session,
-        || Ok(table(&found, vary, &asked.units)),
-        || Ok(figure(&found.followed, vary, ends, behind.as_ref(), args.show_virtual, &asked)?),
+        || Ok(table(&found, &cut, &asked.units)),
+        || Ok(figure(&found.followed, &cut, behind.as_ref(), args.show_virtual, &asked)?),
     )?;
     if args.json {
-        return session.print_json(&document(&asked, &plan, &osc, &found, (vary, ends)));
+        return session.print_json(&document(&asked, &plan, &osc, &found, &cut));
     }
     if to_stdout {
         return Ok(());
     }
-    session.print(&(words::system(&asked, &osc) + "\n" + &text(&found, vary, ends, &asked.units)))
+    session.print(&(words::system(&asked, &osc) + "\n" + &text(&found, &cut, &asked.units)))
 }

@@ -1,6 +1,6 @@
 //! `vibro curve`: a fold, flip or grazing of an orbit over a plane of two parameters.
 
-use crate::args::{Over, SystemArgs};
+use crate::args::{Named, Over, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::curve::text;
@@ -85,7 +85,7 @@ enum Kind {
 
 impl Curve {
     fn plan(&self, units: &Units) -> CurvePlan {
-        let stretch = |Over(parameter, range): &Over| {
+        let stretch = |Named(parameter, range): &Over| {
             let unit = units.of(*parameter);
             Stretch { parameter: *parameter, from: range.0 / unit, to: range.1 / unit }
         };

@@ -1,6 +1,6 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
-use crate::args::{StoreArgs, SystemArgs, parameter};
+use crate::args::{Ends, Named, StoreArgs, SystemArgs, parameter};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
@@ -14,9 +14,9 @@ use vibroimpact_report::number::short;
 use vibroimpact_report::table::diagram::table;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
 use vibroimpact_study::store::Part;
-use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Task, diagram};
+use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Stretch, Task, diagram};
 
-/// The orbit diagram: impacts or states after the transient, at each value of one parameter
+/// The orbit diagram: impacts or states after the transient, at each value of one parameter, or along a line through two
 ///
 /// The system is given without the parameter that varies (a machine in physical units whole: its value is replaced).
 ///
@@ -38,7 +38,8 @@ use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Task, diagram};
         vibro diagram --gap 0 --restitution 0.8 --vary beta --over 2.5:3:401 \\\n    \
         --direction scatter --starts 20 --plot beta.png\n  \
         vibro diagram --beta 0.9 --gap 2 --damping 0.05 --vary restitution --over 0:1:201 \\\n    \
-        --show strobe --csv strobe.csv"
+        --show strobe --csv strobe.csv\n  \
+        vibro diagram --restitution 0.5 --vary inverse-beta --over 1.05:1.15:401 --also gap=1.5:3 --plot line.png"
 )]
 pub(crate) struct Diagram {
     #[command(flatten)]
@@ -51,6 +52,11 @@ pub(crate) struct Diagram {
     /// Its values: N from A to B, both included
     #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Sweep")]
     over: Span,
+
+    /// A second parameter that varies with it in proportion, from A at its first value to B at its last: the diagram along any
+    /// line through two parameters
+    #[arg(long, value_name = "PARAMETER=A:B", allow_hyphen_values = true, help_heading = "Sweep")]
+    also: Option<Named<Ends>>,
 
     /// From which starts
     #[arg(long, value_enum, value_name = "DIRECTION", default_value_t = Way::Both, help_heading = "Sweep")]
@@ -79,8 +85,8 @@ pub(crate) struct Diagram {
     #[command(flatten)]
     store: StoreArgs,
 
-    /// Write one row a point to this file; - for stdout. Columns: the parameter, sweep, kind, side, phase, velocity; for
-    /// strobe the parameter, sweep, kind, x, v
+    /// Write one row a point to this file; - for stdout. Columns: the parameter, that of --also, sweep, kind, side, phase,
+    /// velocity; for strobe the parameters, sweep, kind, x, v
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -128,11 +134,18 @@ impl Diagram {
 }
 
 pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
-    let asked = args.system.varied(args.vary, args.over.ends().0)?;
+    let first = (args.vary, args.over.ends().0, ["vary", "over"]);
+    let also = args.also.map(|Named(parameter, ends)| (parameter, ends.0, ["also", "also"]));
+    let asked = args.system.varied(&[first].into_iter().chain(also).collect::<Vec<_>>())?;
     let (units, vary) = (asked.units, args.vary);
+    let stretch = |Named(parameter, Ends(from, to)): Named<Ends>| {
+        let unit = units.of(parameter);
+        Stretch { parameter, from: from / unit, to: to / unit }
+    };
     let task = DiagramPlan {
         vary,
         over: args.over.scaled(units.of(vary))?,
+        also: args.also.map(stretch),
         show: match args.show {
             What::Velocity => Show::Velocity,
             What::Strobe => Show::Strobe,
@@ -174,8 +187,11 @@ fn summary(args: &Diagram, sweeps: &[Counts]) -> String {
             core::iter::once(c.sweep.to_owned()).chain(counts.map(|n| n.to_string())).collect()
         })
         .collect();
+    let also = args.also.map_or_else(String::new, |Named(parameter, Ends(from, to))| {
+        format!(", {} from {} to {}", parameter.name().replace('_', " "), short(from), short(to))
+    });
     format!(
-        "{} values of {name} from {} to {}\n\n{}",
+        "{} values of {name} from {} to {}{also}\n\n{}",
         args.over.count(),
         short(from),
         short(to),

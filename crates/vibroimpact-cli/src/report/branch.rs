@@ -7,7 +7,7 @@ use vibroimpact::orbit::Cycle;
 use vibroimpact::{Label, Parameter};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{precise, short};
-use vibroimpact_study::{Branches, Chosen, Followed};
+use vibroimpact_study::{Branches, Chosen, Cut, Followed};
 
 /// `gap`, `inverse beta`: a parameter in a sentence.
 pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
@@ -27,15 +27,19 @@ pub(crate) fn chosen(chosen: &Chosen) -> String {
 }
 
 /// Every branch: its events, and how it ends.
-pub(crate) fn text(found: &Branches, vary: Parameter, (from, to): (f64, f64), units: &Units) -> String {
-    let (unit, name) = (units.of(vary), named(vary, units));
+pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
+    let (unit, name, (from, to)) = (units.of(cut.vary), named(cut.vary, units), cut.ends);
+    let also = cut.also.map_or_else(String::new, |also| {
+        let unit = units.of(also.parameter);
+        format!(", {} from {} to {}", named(also.parameter, units), short(also.from * unit), short(also.to * unit))
+    });
     let mut text = String::new();
     for (k, branch) in found.followed.iter().enumerate() {
         let origin = branch.origin.as_ref().and_then(|origin| Some((origin, origin.point.event?)));
         let _ = match origin {
             None => writeln!(
                 text,
-                "branch 1: {} ({}), {name} from {} to {}, {} points",
+                "branch 1: {} ({}), {name} from {} to {}{also}, {} points",
                 found.chosen.orbit.cycle.label,
                 chosen(&found.chosen),
                 short(from * unit),

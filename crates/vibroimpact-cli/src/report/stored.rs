@@ -108,7 +108,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
         (0..all.len()).filter(|k| long || !has_short(&all) || SHORT.contains(&all[*k].name)).collect();
     // scattered starts are told by their coordinates
     let along: Vec<Option<Vec<f64>>> = (study.grid().dimensions.iter())
-        .map(|d| study.coordinates().into_iter().find(|along| along.dimension == d.name).map(|along| along.values))
+        .map(|d| study.coordinates().into_iter().find(|along| along.name == d.name).map(|along| along.values))
         .collect();
     let extra = all.iter().find_map(|field| field.extra.first());
     let mut head: Vec<&str> = study.grid().dimensions.iter().rev().map(|d| d.name.as_str()).collect();

@@ -251,3 +251,26 @@ fn a_machine_in_physical_units() {
     assert!((velocity(&si) - 0.1 * velocity(&plain)).abs() < 1e-12);
     assert_eq!(si["to"], 0.0125);
 }
+
+/// Along a line through two parameters: each event has both values, and is that of the gap alone at its frequency.
+#[test]
+fn a_line_through_two_parameters() {
+    let answer = json(&format!("{DOUBLING} --to 2.5 --also inverse-beta=1.05"));
+    let flip = events(&answer, "flip")[0];
+    let (gap, inverse) = (number(&flip["values"][0]), number(&flip["values"][1]));
+    assert_eq!(flip["values"][0], flip["parameter"]);
+    assert!((inverse - (1.11 - 0.06 * (gap - 1.5))).abs() < 1e-15, "{inverse}");
+    let alone = format!("branch --inverse-beta {inverse} --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5");
+    assert!((number(&events(&json(&alone), "flip")[0]["parameter"]) - gap).abs() < 1e-11);
+    assert_eq!(answer["also"], serde_json::json!({ "parameter": "inverse_beta", "from": 1.11, "to": 1.05 }));
+    let said = vibro(&format!("{DOUBLING} --to 2.5 --also inverse-beta=1.05")).output().expect("vibro runs");
+    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    assert!(text.contains("gap from 1.5 to 2.5, inverse beta from 1.11 to 1.05"), "{text}");
+    let table = vibro(&format!("{DOUBLING} --to 2.5 --also inverse-beta=1.05 --csv -")).output().expect("vibro runs");
+    assert!(table.stdout.starts_with(b"branch,gap,inverse_beta,label,"));
+    for (also, sentence) in [("gap=2", "gap and gap cannot vary together"), ("restitution=2", "restitution eps = 2")] {
+        let refused = vibro(&format!("{DOUBLING} --to 2.5 --also {also}")).output().expect("vibro runs");
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(refused.status.code() == Some(2) && said.contains(sentence), "{said}");
+    }
+}

@@ -128,3 +128,32 @@ fn a_logarithmic_span_has_a_logarithmic_axis() {
     let narrowest = xs.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::MAX, f64::min);
     assert!(column > 0.5 && narrowest > 0.9 * column, "{narrowest} {column}");
 }
+
+/// Along a line through two parameters: a second column, and at both ends the motions of the systems there.
+#[test]
+fn a_line_through_two_parameters() {
+    let line = "diagram --restitution 0.5 --direction scatter --starts 3 --over 1.2:1.4:3 --vary inverse-beta";
+    let rows = table(&format!("{line} --also gap=1:0.5"));
+    assert!(rows.iter().all(|row| row.len() == 7));
+    for (inverse, gap) in [("1.2", "1"), ("1.2999999999999998", "0.75"), ("1.4", "0.5")] {
+        let here: Vec<_> = rows.iter().filter(|row| row[0] == inverse).collect();
+        assert!(!here.is_empty() && here.iter().all(|row| row[1] == gap), "{inverse}: {rows:?}");
+        let alone = table(&format!(
+            "diagram --restitution 0.5 --direction scatter --starts 3 --over {gap}:{gap}:1 --vary gap --inverse-beta {inverse}"
+        ));
+        let shown =
+            |rows: &[&Vec<String>], skip: usize| rows.iter().map(|row| row[skip..].to_vec()).collect::<Vec<_>>();
+        assert_eq!(shown(&here, 2), shown(&alone.iter().collect::<Vec<_>>(), 1));
+    }
+    let answer = json(&format!("{line} --also gap=1:0.5"));
+    assert_eq!(answer["also"], serde_json::json!({ "parameter": "gap", "from": 1.0, "to": 0.5 }));
+    assert_eq!(answer["columns"][1], "gap");
+    // in metres
+    let machine = "diagram --mass-kg 2 --stiffness-n-per-m 8000 --force-n 40 --frequency-hz 10 --gap-m 0.004 \
+                   --restitution 0.7 --units si --vary damping --over 0.01:0.02:2 --also gap-m=0.004:0.005";
+    let refused = vibro(machine).output().expect("vibro runs");
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("does not begin with PARAMETER=; parameters: beta"));
+    let rows = table(&machine.replace("gap-m=", "gap="));
+    let pairs: Vec<(&str, &str)> = rows.iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();
+    assert!(pairs.iter().all(|pair| [("0.01", "0.004"), ("0.02", "0.005")].contains(pair)), "{pairs:?}");
+}

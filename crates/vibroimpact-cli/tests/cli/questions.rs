@@ -42,6 +42,7 @@ fn of_every_task() {
         json!({ "diagram": { "vary": "damping", "over": "0:0.1:2", "direction": "down", "transient": 10, "keep": 3 } }),
         json!({ "diagram": { "vary": "inverse_beta", "over": "1:1.2:2", "show": "strobe", "transient": 9,
                              "direction": { "scatter": { "starts": 2, "seed": 5 } } } }),
+        json!({ "diagram": { "vary": "inverse_beta", "over": "1:1.2:3", "also": over("damping", 0.1, -0.0), "keep": 3 } }),
         json!({ "lyapunov": { "start": { "phase": 3.0 }, "impacts": 1000, "transient": 5 } }),
         json!({ "lyapunov": { "impacts": 1000, "points": 20 } }),
     ] {
@@ -57,6 +58,11 @@ fn of_every_task() {
         (
             &one,
             json!({ "branch": { "label": "1/1", "vary": "gap", "to": 1.6, "orbit": 1, "follow": 1, "points": 60 } }),
+        ),
+        (
+            &one,
+            json!({ "branch": { "label": "1/1", "vary": "gap", "to": 1.6, "points": 60,
+                                "also": { "parameter": "inverse_beta", "to": 1.1 } } }),
         ),
         (
             &one,

@@ -1,7 +1,7 @@
 """Values along an axis and ranges of parameters, as people write them."""
 
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +12,8 @@ from vibroimpact import _core
 Axis: TypeAlias = str | tuple[float, float, int] | tuple[float, float, int, str] | Sequence[float] | NDArray[np.float64]
 #: `"A:B"` or `(a, b)`.
 Interval: TypeAlias = str | tuple[float, float]
+
+_T = TypeVar("_T")
 
 #: What spacing may be off by, relative to the values: the rounding of `numpy.linspace` and `numpy.arange`.
 _EVEN = 1e-9
@@ -80,7 +82,8 @@ def _whole(count: float) -> int:
     return int(count)
 
 
-def _interval(given: Interval) -> tuple[float, float]:
+def interval(given: Interval) -> tuple[float, float]:
+    """A range, either way round."""
     parts: Sequence[object] = given.split(":") if isinstance(given, str) else given
     try:
         low, high = (float(part) for part in parts)  # type: ignore[arg-type]
@@ -98,5 +101,14 @@ def plane(over: Mapping[str, Interval]) -> tuple[tuple[str, float, float], tuple
             f"a plane has two parameters, and {len(over)} are given\n"
             'hint: {"gap": (0, 5), "inverse_beta": (0.4, 2)}'
         )
-    first, second = ((name, *_interval(range_)) for name, range_ in over.items())
+    first, second = ((name, *interval(range_)) for name, range_ in over.items())
     return first, second
+
+
+def beside(also: Mapping[str, _T] | None) -> tuple[str, _T] | None:
+    """The second parameter of a line, and what is said of it."""
+    if also is None:
+        return None
+    if not isinstance(also, Mapping) or len(also) != 1:
+        raise TypeError('also is one parameter with its values, as {"gap": (0.5, 1.5)} for a diagram, {"gap": 1.5} for a branch')
+    return next(iter(also.items()))

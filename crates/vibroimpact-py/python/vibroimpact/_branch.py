@@ -1,6 +1,7 @@
-"""A periodic orbit over one parameter, through its events, and the branches that begin on it."""
+"""A periodic orbit over one parameter or along a line through two, through its events, and the branches that begin on it."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -8,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact import _core
+from vibroimpact._axis import beside
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import Cycles, pairs
 
@@ -39,6 +41,8 @@ class BranchEvent:
     turns: bool | None = None
     #: With two stops alike the touch of the other one: impact, side and phase.
     also: tuple[int | None, str, float] | None = None
+    #: Of both parameters, on a line through two.
+    values: tuple[float, float] | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The fields of the command's JSON."""
@@ -47,6 +51,8 @@ class BranchEvent:
         if self.also is not None:
             also = dict(zip(("impact", "side", "phase"), self.also))
             fields["also"] = {name: value for name, value in also.items() if value is not None}
+        if self.values is not None:
+            fields["values"] = list(self.values)
         return {name: value for name, value in fields.items() if name in always or value is not None}
 
 
@@ -70,6 +76,10 @@ class Branch:
     vary : str
         The parameter that varies.
     parameter : ndarray
+        Its value at each point.
+    also : (str, float, float) or None
+        The parameter that varies with it along a line, and its values at the ends of the range.
+    second : ndarray or None
         Its value at each point.
     label : list of str
         m/n at each point.
@@ -96,7 +106,9 @@ class Branch:
     osc: Oscillator
     vary: str
     ends: tuple[float, float]
+    also: tuple[str, float, float] | None
     parameter: NDArray[np.float64]
+    second: NDArray[np.float64] | None
     label: list[str]
     stable: NDArray[np.bool_]
     physical: NDArray[np.bool_]
@@ -109,7 +121,8 @@ class Branch:
 
     def __repr__(self) -> str:
         more = f", {len(self.followed)} more begin on it" if self.followed else ""
-        return f"<Branch of {self.label[0]} over {self.vary}, {len(self)} points, {len(self.events)} events{more}>"
+        along = f" and {self.also[0]}" if self.also else ""
+        return f"<Branch of {self.label[0]} over {self.vary}{along}, {len(self)} points, {len(self.events)} events{more}>"
 
     def __len__(self) -> int:
         return len(self.parameter)
@@ -154,6 +167,7 @@ class Branch:
         return [
             {
                 "parameter": float(self.parameter[k]),
+                **({} if self.second is None else {"values": [float(self.parameter[k]), float(self.second[k])]}),
                 "label": self.label[k],
                 "cycle": cycle.to_list(),
                 **({"rests": rests[k]} if rests[k] else {}),
@@ -174,6 +188,7 @@ class Branch:
             "vary": self.vary,
             "from": self.ends[0],
             "to": self.ends[1],
+            **({"also": dict(zip(("parameter", "from", "to"), self.also))} if self.also else {}),
             "orbit": {"number": self.orbit[0], "count": self.orbit[1]},
             **own,
             "branches": [branch.to_dict() for branch in self.followed],
@@ -187,6 +202,7 @@ def branch(
     vary: str,
     to: float,
     *,
+    also: Mapping[str, float] | None = None,
     orbit: int | None = None,
     follow: int = 0,
     points: int = 5000,
@@ -206,6 +222,9 @@ def branch(
         "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution".
     to : float
         The other end of its range.
+    also : dict
+        A second parameter that varies with it in proportion, from its value in `osc` to the one given here when the first is
+        at `to`: {"inverse_beta": 1.05}. So a branch goes along any line through two parameters.
     orbit : int
         Which of several orbits, counted from 1 as `orbits` lists them; the stable one, else the fastest motion, unless given.
     follow : int
@@ -222,14 +241,16 @@ def branch(
     >>> [event.kind for event in found.followed[0].events]
     ['fold', 'grazing', 'end of range']
     """
-    found = _core.branch(osc, label, vary, to, orbit, follow, points)
+    found = _core.branch(osc, label, vary, to, beside(also), orbit, follow, points)
 
-    def one(fields: dict[str, Any], followed: list[Branch]) -> Branch:
+    def of(fields: dict[str, Any], followed: list[Branch]) -> Branch:
         return Branch(
             osc=osc,
             vary=vary,
             ends=(found["from"], to),
+            also=found["also"],
             parameter=fields["parameter"],
+            second=fields["second"],
             label=fields["label"],
             stable=fields["stable"],
             physical=fields["physical"],
@@ -242,4 +263,4 @@ def branch(
         )
 
     first, *others = found["branches"]
-    return one(first, [one(fields, []) for fields in others])
+    return of(first, [of(fields, []) for fields in others])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import ARRIVAL, SYMBOLS, legend, new_axes, title
+from vibroimpact._figure import ARRIVAL, SYMBOLS, Scale, legend, new_axes, title
 from vibroimpact._palette import SERIES
 from vibroimpact._plan import oscillator
 
@@ -50,8 +50,13 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
             word = "falling" if falling else "rising"
             label = f"${SYMBOLS[vary]}$ {word}" if ways else f"{ds.sizes[rows]} starts at each value"
             ax.plot([], [], "o", color=colour, markersize=4, label=label)
-    ax.set_xlabel(f"${SYMBOLS[vary]}$")
+    osc = oscillator(plan)
+    also = tuple(task["also"].values()) if "also" in task else None
+    values = ds[vary].values
+    if task["over"].endswith(":log"):
+        ax.set_xscale("log")
+    ax.set_xlabel(Scale(osc, False).line(vary, (values[0], values[-1]), also))
     ax.set_ylabel(_ORDINATES[which])
-    ax.set_title(title(oscillator(plan), (vary,)))
+    ax.set_title(title(osc, (vary, *(also or ())[:1])))
     legend(ax)
     return ax

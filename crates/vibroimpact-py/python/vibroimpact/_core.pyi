@@ -127,7 +127,8 @@ def settle_many(
 def attractors(osc: Oscillator, starts: int, seed: int, threads: int, progress: _Progress) -> _Fields: ...
 def orbits(osc: Oscillator, label: str) -> list[tuple[_Fields, bool, tuple[int | None, str, float] | None]]: ...
 def branch(
-    osc: Oscillator, label: str, vary: str, to: float, orbit: int | None, follow: int, points: int
+    osc: Oscillator, label: str, vary: str, to: float, also: tuple[str, float] | None, orbit: int | None, follow: int,
+    points: int,
 ) -> _Fields: ...
 def curve(
     osc: Oscillator, label: str, kind: str, vary: _Stretch, and_: _Stretch, orbit: int | None, event: int | None

@@ -55,6 +55,16 @@ class Scale:
         name = f"${SYMBOLS[parameter]}$"
         return self.named(name, "m") if parameter in ("gap", "second_gap") else name
 
+    def line(self, parameter: str, ends: tuple[float, float], also: tuple[str, float, float] | None) -> str:
+        """What an axis along a line shows: its first parameter, and from where to where the second one goes with it."""
+        if also is None:
+            return self.axis(parameter)
+        name, *values = also
+        # an axis rises, whichever way the line was drawn
+        first, last = values if ends[0] <= ends[1] else reversed(values)
+        unit = self.of(name)
+        return f"{self.axis(parameter)}, with {self.axis(name)} from {first * unit:.6g} to {last * unit:.6g}"
+
 
 def new_axes(ax: "Axes | None", size: tuple[float, float]) -> "Axes":
     """The axes given, or those of a new figure."""

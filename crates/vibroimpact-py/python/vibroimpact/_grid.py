@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from vibroimpact import _core
-from vibroimpact._axis import Axis
+from vibroimpact._axis import Axis, Interval
 from vibroimpact._core import Oscillator
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
@@ -202,6 +202,7 @@ def orbit_diagram(
     vary: str,
     over: Axis,
     *,
+    also: Mapping[str, Interval] | None = None,
     show: str = "velocity",
     direction: str = "both",
     starts: int | None = None,
@@ -213,7 +214,7 @@ def orbit_diagram(
     threads: int = 0,
     progress: Progress = None,
 ) -> "xr.Dataset":
-    """Follow the motion along one parameter, swept up and down, so that coexisting motions show.
+    """Follow the motion along one parameter, or along a line through two, swept up and down, so that coexisting motions show.
 
     A sweep carries the state: the one in which a value left the motion is the start at the next value. A motion that
     repeats itself is shown once; what is not filled is nan.
@@ -226,6 +227,9 @@ def orbit_diagram(
         "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution".
     over : str, tuple or array
         Its values: "0:3:601", (0, 3, 601), or an evenly spaced array.
+    also : dict
+        A second parameter that varies with it in proportion, with its values at the first and the last of these:
+        {"gap": (0.5, 1.5)}. It becomes a second coordinate along the same dimension.
     show : str
         "velocity" for phase and speed of arrival of each impact, "strobe" for position and velocity at phase 0.
     direction : str
@@ -255,6 +259,7 @@ def orbit_diagram(
         osc,
         vary,
         over,
+        also=also,
         show=show,
         direction=direction,
         starts=starts,

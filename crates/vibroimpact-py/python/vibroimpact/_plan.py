@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from vibroimpact import _core
-from vibroimpact._axis import Axis, axes, span
+from vibroimpact._axis import Axis, Interval, axes, beside, interval, span
 from vibroimpact._core import Oscillator
 
 #: Version of the fields of a plan.
@@ -110,6 +110,7 @@ class Plan:
         vary: str,
         over: Axis,
         *,
+        also: Mapping[str, Interval] | None = None,
         show: str = "velocity",
         direction: str = "both",
         starts: int | None = None,
@@ -118,7 +119,7 @@ class Plan:
         keep: int = 64,
         tile: int | None = None,
     ) -> "Plan":
-        """The motion after its transient along one parameter; the arguments are those of `orbit_diagram`."""
+        """The motion after its transient along one parameter or a line through two; the arguments are those of `orbit_diagram`."""
         _known("show", show, ("velocity", "strobe"))
         _known("direction", direction, ("up", "down", "both", "scatter"))
         way: object = direction
@@ -126,9 +127,12 @@ class Plan:
             way = {"scatter": {"starts": 8 if starts is None else starts, "seed": 1 if seed is None else seed}}
         elif starts is not None or seed is not None:
             raise _core.QuestionError('starts and seed belong to direction="scatter"')
+        second = beside(also)
+        line = {} if second is None else {"also": dict(zip(("parameter", "from", "to"), (second[0], *interval(second[1]))))}
         task = {
             "vary": vary,
             "over": span(over),
+            **line,
             "show": show,
             "direction": way,
             "transient": transient,

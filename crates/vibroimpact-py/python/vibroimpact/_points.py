@@ -19,8 +19,13 @@ _NUMBERS = {"velocity": {"phase": "impact_phase", "velocity": "velocity"}, "x": 
 
 def shown(ds: "xr.Dataset") -> dict[str, str]:
     """The columns of numbers, each with the variable it shows."""
+    return {name: name for name in _line(ds)} | _numbers(ds)
+
+
+def _line(ds: "xr.Dataset") -> list[str]:
+    """The parameter that varies, and that of a line which varies with it."""
     vary = str(ds["kind"].dims[1])
-    return {vary: vary, **_numbers(ds)}
+    return [vary, *(str(name) for name, of in ds.coords.items() if of.dims == (vary,) and name != vary)]
 
 
 def _numbers(ds: "xr.Dataset") -> dict[str, str]:
@@ -55,7 +60,8 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
     known[alone, 0] = True
     row, _ = np.nonzero(known)
     kind = _MOTIONS[motion[run, at]][row]
-    out: dict[str, Any] = {vary: values[at][row], "sweep": names[run][row], "kind": kind}
+    out: dict[str, Any] = {name: ds[name].values[at][row] for name in _line(ds)}
+    out |= {"sweep": names[run][row], "kind": kind}
     if side is not None:
         side = side[known]
         out["kind"] = np.where(side == 0, kind, _POINTS[side])

@@ -50,9 +50,9 @@ def plot(branch: "Branch", ax: "Axes | None", diagram: bool, virtual: bool, si: 
     _events(branches, ax, virtual, unit, speed)
     low, high = sorted(branch.ends)
     ax.set_xlim(low * unit, high * unit)
-    ax.set_xlabel(scale.axis(branch.vary))
+    ax.set_xlabel(scale.line(branch.vary, branch.ends, branch.also))
     ax.set_ylabel(scale.named(ARRIVAL, "m/s"))
-    ax.set_title(title(branch.osc, (branch.vary,)))
+    ax.set_title(title(branch.osc, (branch.vary, *(branch.also or ())[:1])))
     legend(ax)
     return ax
 
@@ -66,7 +66,8 @@ def _behind(branch: "Branch", ax: "Axes", unit: float, speed: float) -> None:
     """What simulation finds, in grey."""
     from vibroimpact._grid import orbit_diagram
 
-    ds = orbit_diagram(branch.osc, branch.vary, (*branch.ends, _VALUES))
+    also = {branch.also[0]: branch.also[1:]} if branch.also else None
+    ds = orbit_diagram(branch.osc, branch.vary, (*branch.ends, _VALUES), also=also)
     for k in range(ds.sizes["sweep"]):
         one = ds.isel(sweep=k)
         xs = np.broadcast_to(one[branch.vary].values[:, None], one["velocity"].shape)

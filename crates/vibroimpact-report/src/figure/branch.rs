@@ -3,13 +3,13 @@
 
 use crate::figure::diagram::backdrop;
 use crate::figure::tracks::{Curves, Look, velocities};
-use crate::figure::{label, named, title_without, variant};
+use crate::figure::{along, label, title_without, variant};
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
 use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
 use vibroimpact_study::diagram::Diagram;
-use vibroimpact_study::{Followed, Parameter, Span};
+use vibroimpact_study::{Cut, Followed, Span};
 
 /// What simulation finds.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -25,22 +25,22 @@ const NAMED: usize = 12;
 /// Colour of the others.
 const OTHERS: Colour = Colour::hex(0x50_5050);
 
-/// The figure of `vibro branch`: branches in a parameter between these values, with simulation behind, and with solutions that are
+/// The figure of `vibro branch`: branches along a line, with simulation behind, and with solutions that are
 /// no motions where they are asked for.
 ///
 /// # Errors
 /// [`ReportError::Plan`] where the values of the parameter leave the range of numbers in these units.
 pub fn figure(
     followed: &[Followed],
-    vary: Parameter,
-    (from, to): (f64, f64),
+    cut: &Cut,
     behind: Option<&Diagram>,
     show_virtual: bool,
     asked: &Asked,
 ) -> Result<Figure, ReportError> {
-    let (unit, speed) = (asked.units.of(vary), asked.units.velocity());
+    let (unit, speed) = (asked.units.of(cut.vary), asked.units.velocity());
+    let (from, to) = cut.ends;
     let mut panel = Panel::new(
-        Axis::new(named(vary, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
+        Axis::new(along(cut, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
         Axis::new(asked.units.named("arrival velocity *u*_−", "m/s")),
     );
     let mut legend = Legend::below();
@@ -91,7 +91,10 @@ pub fn figure(
         // a dot of the cloud is too small for a key
         legend = legend.points(&Points::new([], [], GREY).size(7.0), "simulation");
     }
-    Ok(Figure::new(panel).size(680.0, 520.0).title(title_without(&asked.system, &[vary])).legend(legend))
+    Ok(Figure::new(panel)
+        .size(680.0, 520.0)
+        .title(title_without(&asked.system, &cut.parameters().collect::<Vec<_>>()))
+        .legend(legend))
 }
 
 const fn pen(look: Look) -> (f64, Dash) {

@@ -3,7 +3,7 @@
 //! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other and both colours
 //! are seen. What does not repeat itself has small dots in both.
 
-use crate::figure::{named, plane::Side, symbol, title_without};
+use crate::figure::{along, plane::Side, symbol, title_without};
 use crate::units::shown_span;
 use crate::{Asked, ReportError};
 use std::collections::HashSet;
@@ -42,13 +42,13 @@ pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
         thin(&mut cloud.large, range);
         thin(&mut cloud.small, range);
     }
-    let vary = found.plan.vary;
-    let side = Side::new(named(vary, &asked.units), &(*over).into())?;
+    let cut = found.plan.cut();
+    let side = Side::new(along(&cut, &asked.units), &(*over).into())?;
     let panel = Panel::new(side.axis(), ordinate(found, asked).range(range.0, range.1));
     let dots: usize = clouds.iter().map(|cloud| cloud.large.len() + cloud.small.len()).sum();
     let (panel, legend) =
         if dots > MOST_DOTS { as_cells(panel, &clouds, (over, &side), range)? } else { as_dots(panel, clouds, over) };
-    Ok(Figure::new(panel).title(title_without(&asked.system, &[vary])).legend(legend))
+    Ok(Figure::new(panel).title(title_without(&asked.system, &cut.parameters().collect::<Vec<_>>())).legend(legend))
 }
 
 /// All its dots in one colour, to lie behind curves: those of motions that repeat themselves are wider than a curve.

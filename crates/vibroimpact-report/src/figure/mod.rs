@@ -16,7 +16,7 @@ pub mod waveform;
 use crate::Units;
 use crate::number::short;
 use vibroimpact_plot::{Colour, plain};
-use vibroimpact_study::{Parameter, SystemPlan, is_length};
+use vibroimpact_study::{Cut, Parameter, SystemPlan, is_length};
 
 /// The parameters as a title, the frequency as it was given.
 #[must_use]
@@ -47,6 +47,18 @@ pub fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String {
     let parts: Vec<String> =
         given.iter().map(|(parameter, value)| format!("{} = {}", symbol(*parameter), short(*value))).collect();
     parts.join(", ").replace('-', "−")
+}
+
+/// What an axis along a line shows: its first parameter, and from where to where the second one goes with it.
+#[must_use]
+pub fn along(cut: &Cut, units: &Units) -> String {
+    let name = named(cut.vary, units);
+    let Some(also) = cut.also else { return name };
+    let unit = units.of(also.parameter);
+    // an axis rises, whichever way the line was drawn
+    let (from, to) = if cut.ends.0 <= cut.ends.1 { (also.from, also.to) } else { (also.to, also.from) };
+    let value = |value: f64| short(value * unit).replace('-', "−");
+    format!("{name}, with {} from {} to {}", named(also.parameter, units), value(from), value(to))
 }
 
 /// The symbol of a parameter, as markup.

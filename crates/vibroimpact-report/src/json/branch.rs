@@ -1,13 +1,12 @@
 //! Branches of periodic orbits: their points, their events, and where further branches begin.
 
-use super::Document;
 use super::motion::{CyclePoint, Rest, impacts, pairs, rests, side};
+use super::{Document, Pair};
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact::Parameter;
 use vibroimpact::continuation::{BranchEvent, Point};
-use vibroimpact_study::{Branches, Chosen, Followed, Plan, Told};
+use vibroimpact_study::{Branches, Chosen, Cut, Followed, Plan, Told};
 
 /// What `vibro branch` says.
 #[derive(Serialize)]
@@ -16,6 +15,8 @@ struct Answer {
     vary: &'static str,
     from: f64,
     to: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<Pair>,
     orbit: ChosenObject,
     points: Vec<PointObject>,
     events: Vec<EventObject>,
@@ -32,6 +33,9 @@ pub(super) struct ChosenObject {
 #[derive(Serialize)]
 struct PointObject {
     parameter: f64,
+    /// Of both parameters, on a line through two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    values: Option<[f64; 2]>,
     label: String,
     cycle: Vec<CyclePoint>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -45,6 +49,8 @@ struct PointObject {
 struct EventObject {
     kind: &'static str,
     parameter: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    values: Option<[f64; 2]>,
     /// Place among the points.
     point: usize,
     ends: bool,
@@ -90,16 +96,16 @@ struct OriginObject {
     branch: usize,
 }
 
-/// The object of `vibro branch`, of a parameter followed between these values.
+/// The object of `vibro branch`, of branches followed along this line.
 #[must_use]
 pub fn document<'a>(
     asked: &Asked,
     plan: &'a Plan,
     osc: &Oscillator,
     found: &Branches,
-    (vary, ends): (Parameter, (f64, f64)),
+    cut: &Cut,
 ) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, Answer::new(found, vary, ends, &asked.units))
+    Document::new(asked, osc, plan, Answer::new(found, cut, &asked.units))
 }
 
 impl ChosenObject {
@@ -109,20 +115,21 @@ impl ChosenObject {
 }
 
 impl Answer {
-    fn new(found: &Branches, vary: Parameter, (from, to): (f64, f64), units: &Units) -> Self {
-        let unit = units.of(vary);
+    fn new(found: &Branches, cut: &Cut, units: &Units) -> Self {
+        let unit = units.of(cut.vary);
         let points =
-            |branch: &Followed| branch.points.iter().map(|point| PointObject::new(point, unit, units)).collect();
+            |branch: &Followed| branch.points.iter().map(|point| PointObject::new(point, cut, units)).collect();
         let mut rest = found.followed.iter();
         let first = rest.next();
         Self {
             label: found.chosen.orbit.cycle.label.to_string(),
-            vary: vary.name(),
-            from: from * unit,
-            to: to * unit,
+            vary: cut.vary.name(),
+            from: cut.ends.0 * unit,
+            to: cut.ends.1 * unit,
+            also: Pair::of(cut, units),
             orbit: ChosenObject::new(&found.chosen),
             points: first.map_or_else(Vec::new, points),
-            events: first.map_or_else(Vec::new, |branch| events(branch, unit)),
+            events: first.map_or_else(Vec::new, |branch| events(branch, cut, units)),
             branches: rest
                 .filter_map(|branch| {
                     let origin = branch.origin.as_ref()?;
@@ -131,7 +138,7 @@ impl Answer {
                         parameter: origin.point.value * unit,
                         branch: origin.branch + 1,
                     };
-                    Some(BranchObject { from, points: points(branch), events: events(branch, unit) })
+                    Some(BranchObject { from, points: points(branch), events: events(branch, cut, units) })
                 })
                 .collect(),
         }
@@ -139,9 +146,10 @@ impl Answer {
 }
 
 impl PointObject {
-    fn new(point: &Point, unit: f64, units: &Units) -> Self {
+    fn new(point: &Point, cut: &Cut, units: &Units) -> Self {
         Self {
-            parameter: point.value * unit,
+            parameter: point.value * units.of(cut.vary),
+            values: both(point, cut, units),
             label: point.cycle.label.to_string(),
             cycle: impacts(&point.cycle, units),
             rests: rests(&point.cycle),
@@ -152,18 +160,25 @@ impl PointObject {
     }
 }
 
-fn events(branch: &Followed, unit: f64) -> Vec<EventObject> {
+/// The values of both parameters at a point, where there are two.
+fn both(point: &Point, cut: &Cut, units: &Units) -> Option<[f64; 2]> {
+    let mut values = cut.values(point.value).map(|(parameter, value)| value * units.of(parameter));
+    Some([values.next()?, values.next()?])
+}
+
+fn events(branch: &Followed, cut: &Cut, units: &Units) -> Vec<EventObject> {
     let all = branch.points.iter().enumerate();
-    all.filter_map(|(k, point)| point.event.map(|event| EventObject::new(k, point, &event, unit))).collect()
+    all.filter_map(|(k, point)| point.event.map(|event| EventObject::new(k, point, &event, (cut, units)))).collect()
 }
 
 impl EventObject {
-    fn new(place: usize, point: &Point, event: &BranchEvent, unit: f64) -> Self {
+    fn new(place: usize, point: &Point, event: &BranchEvent, (cut, units): (&Cut, &Units)) -> Self {
         let Told { kind, ends, label_before, label_after, change, impact, side: at, phase, turns, also } =
             Told::of(point, event);
         Self {
             kind,
-            parameter: point.value * unit,
+            parameter: point.value * units.of(cut.vary),
+            values: both(point, cut, units),
             point: place,
             ends,
             label_after,

@@ -1,6 +1,6 @@
 //! An orbit diagram as a count of what there is.
 
-use super::{Document, Range};
+use super::{Document, Pair, Range};
 use crate::Asked;
 use crate::table::diagram::columns;
 use serde::Serialize;
@@ -13,6 +13,8 @@ use vibroimpact_study::diagram::{Diagram, Direction, Kind, Sweep};
 struct Answer {
     vary: &'static str,
     over: Range,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<Pair>,
     columns: Vec<&'static str>,
     sweeps: Vec<Counts>,
 }
@@ -22,7 +24,8 @@ struct Answer {
 pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Diagram) -> impl Serialize + use<'a> {
     let task = &found.plan;
     let over = Range::new(&task.over, asked.units.of(task.vary));
-    let answer = Answer { vary: task.vary.name(), over, columns: columns(found), sweeps: counts(found) };
+    let also = Pair::of(&task.cut(), &asked.units);
+    let answer = Answer { vary: task.vary.name(), over, also, columns: columns(found), sweeps: counts(found) };
     Document::new(asked, osc, plan, answer)
 }
 

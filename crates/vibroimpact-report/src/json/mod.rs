@@ -19,7 +19,7 @@ use crate::units::given;
 use crate::{Asked, PROGRAM, Units};
 use serde::Serialize;
 use vibroimpact::{Oscillator, Side, Start};
-use vibroimpact_study::{Plan, Span, Values};
+use vibroimpact_study::{Cut, Plan, Span, Stretch, Values};
 
 /// The object a command prints: system, start, the command's own fields, and the plan that led to them.
 #[derive(Serialize)]
@@ -119,6 +119,22 @@ impl Range {
     fn new(span: &Span, unit: f64) -> Self {
         let (from, to) = span.ends();
         Self { from: given(from, unit), to: given(to, unit), count: span.count() }
+    }
+}
+
+/// The second parameter of a line, at both ends.
+#[derive(Serialize)]
+struct Pair {
+    parameter: &'static str,
+    from: f64,
+    to: f64,
+}
+
+impl Pair {
+    fn of(cut: &Cut, units: &Units) -> Option<Self> {
+        let Stretch { parameter, from, to } = cut.also?;
+        let unit = units.of(parameter);
+        Some(Self { parameter: parameter.name(), from: given(from, unit), to: given(to, unit) })
     }
 }
 

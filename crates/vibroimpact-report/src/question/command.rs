@@ -5,7 +5,7 @@ use crate::answer::complete;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
 use vibroimpact_study::{
     Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, Parameter, Plan, RegionPlan, StartPlan, Stretch, SystemPlan, Task, Values,
+    MapPlan, Parameter, Plan, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
 /// The words of the `vibro` command that asks a plan, from `vibro` on: its flags give the very plan, in nondimensional units.
@@ -146,8 +146,10 @@ fn in_order(parameters: impl Iterator<Item = Parameter>) -> Option<()> {
 }
 
 fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
-    let line = Line::new("diagram").system(system, &[(task.vary, None)]);
+    let varied: Vec<_> = task.cut().parameters().map(|parameter| (parameter, None)).collect();
+    let line = Line::new("diagram").system(system, &varied);
     let line = line.flag("vary", task.vary.name().replace('_', "-")).flag("over", task.over);
+    let line = line.given("also", task.also.as_ref().map(over));
     let line = match task.direction {
         Direction::Both => line,
         Direction::Up => line.flag("direction", "up"),
@@ -176,6 +178,8 @@ fn lyapunov(system: &SystemPlan, task: &LyapunovPlan) -> Option<Line> {
 fn branch(system: &SystemPlan, task: &BranchPlan) -> Line {
     let line = Line::new("branch").system(system, &[]).flag("label", &task.label);
     let line = line.flag("vary", task.vary.name().replace('_', "-")).flag("to", number(task.to));
+    let also = |also: Target| format!("{}={}", also.parameter.name().replace('_', "-"), number(also.to));
+    let line = line.given("also", task.also.map(also));
     let line = line.given("orbit", task.orbit).unless("follow", task.follow, 0);
     line.unless("points", task.points, DEFAULT_BRANCH_POINTS)
 }
@@ -184,8 +188,12 @@ fn range(stretch: &Stretch) -> String {
     format!("{}:{}", number(stretch.from), number(stretch.to))
 }
 
+/// `gap=0:3`
+fn over(stretch: &Stretch) -> String {
+    format!("{}={}", stretch.parameter.name().replace('_', "-"), range(stretch))
+}
+
 fn curve(system: &SystemPlan, task: &CurvePlan) -> Line {
-    let over = |stretch: &Stretch| format!("{}={}", stretch.parameter.name().replace('_', "-"), range(stretch));
     let line = Line::new("curve").system(system, &[]).flag("label", &task.label).flag("kind", task.kind.name());
     let line = line.flag("vary", over(&task.vary)).flag("and", over(&task.and));
     line.given("orbit", task.orbit).given("event", task.event)

@@ -5,7 +5,7 @@ use crate::answer::complete;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
 use vibroimpact_study::{
     Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, Plan, StartPlan,
-    Stretch, SystemPlan, Task, Values,
+    Stretch, SystemPlan, Target, Task, Values,
 };
 
 /// A few lines of Python that ask a plan, in nondimensional units; `None` for a plan that makes no sense.
@@ -35,6 +35,8 @@ pub fn python(plan: &Plan) -> Option<String> {
         Task::Lyapunov(task) => ("exponents", lyapunov(task)),
         Task::Branch(task) => {
             let call = Call::new("branch").then(text(&task.label)).then(text(task.vary.name())).then(number(task.to));
+            let also = |also: Target| mapping(core::iter::once((also.parameter.name(), number(also.to))));
+            let call = call.given("also", task.also.map(also));
             let call = call.given("orbit", task.orbit).unless("follow", task.follow, 0);
             ("branch", call.unless("points", task.points, DEFAULT_BRANCH_POINTS))
         }
@@ -140,8 +142,11 @@ fn axes(of: &[Axis]) -> String {
     mapping(of.iter().map(|axis| (axis.vary.name(), values(&axis.over))))
 }
 
+fn range(of: &Stretch) -> (&'static str, String) {
+    (of.parameter.name(), format!("({}, {})", number(of.from), number(of.to)))
+}
+
 fn plane(one: &Stretch, two: &Stretch) -> String {
-    let range = |of: &Stretch| (of.parameter.name(), format!("({}, {})", number(of.from), number(of.to)));
     mapping([range(one), range(two)].into_iter())
 }
 
@@ -171,6 +176,7 @@ fn basin(task: &BasinPlan) -> Call {
 
 fn diagram(task: &DiagramPlan) -> Call {
     let call = Call::new("orbit_diagram").then(text(task.vary.name())).then(text(&task.over.to_string()));
+    let call = call.given("also", task.also.as_ref().map(|also| mapping(core::iter::once(range(also)))));
     let call = match task.direction {
         Direction::Both => call,
         Direction::Up => call.named("direction", text("up")),

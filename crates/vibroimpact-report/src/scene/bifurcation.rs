@@ -1,16 +1,14 @@
-//! The bifurcation diagram along a parameter: the branches of several labels over what simulation finds.
+//! The bifurcation diagram along a line through one or two parameters: the branches of several labels over what simulation finds.
 
 use crate::figure::branch::figure;
 use crate::{AnswerError, Asked};
 use core::sync::atomic::Ordering;
 use std::collections::BTreeMap;
 use vibroimpact::Label;
-use vibroimpact::verdict::{Count, Verdict};
+use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
-use vibroimpact_study::{
-    Axis, BranchPlan, Control, DiagramPlan, Followed, MapPlan, Span, Stopped, branches, diagram, map,
-};
+use vibroimpact_study::{BranchPlan, Control, DiagramPlan, Followed, Span, Stopped, Target, branches, diagram, tiles};
 
 /// Values at which orbits of a label are looked for.
 const LOOKS: u32 = 25;
@@ -20,6 +18,8 @@ const FOLLOW: u32 = 3;
 const POINTS: u32 = 3_000;
 /// Starts at each value to see which labels there are.
 const STARTS: u64 = 4;
+/// Which sequence of them.
+const SEED: u64 = 1;
 /// Values closer than this part of the range to a branch are on it.
 const NEAR: f64 = 1e-9;
 
@@ -45,7 +45,7 @@ pub fn bifurcation(
     }
     let known = |branch: &Followed| branch.points.iter().any(|point| labels.contains(&point.cycle.label.to_string()));
     followed.retain(known);
-    Ok(figure(&followed, plan.vary, plan.over.ends(), Some(&behind), false, asked)?)
+    Ok(figure(&followed, &plan.cut(), Some(&behind), false, asked)?)
 }
 
 /// Adds the branches of a label, unless one that is there passes through its orbit.
@@ -66,10 +66,12 @@ fn follow(
         if followed.iter().any(|branch| passes(branch, name, value, NEAR * (to - from).abs())) {
             continue;
         }
-        let system = asked.system.with(plan.vary, value)?;
+        let cut = plan.cut();
+        let system = cut.system(&asked.system, value)?;
         for end in [from, to].into_iter().filter(|end| *end != value) {
-            let (label, vary) = (label.to_owned(), plan.vary);
-            let task = BranchPlan { label, vary, to: end, orbit: None, follow: FOLLOW, points: POINTS };
+            let also = cut.values(end).nth(1).map(|(parameter, to)| Target { parameter, to });
+            let label = label.to_owned();
+            let task = BranchPlan { label, vary: cut.vary, to: end, also, orbit: None, follow: FOLLOW, points: POINTS };
             // no orbit there is no fault: the label exists along a part of the line
             if let Ok(found) = branches(&system, &task) {
                 followed.extend(found.followed);
@@ -98,21 +100,34 @@ pub fn labels(
     count: u32,
     control: &Control<'_>,
 ) -> Result<Vec<String>, AnswerError> {
+    plan.check(&asked.system)?;
     let (from, to) = plan.over.ends();
     let over = if from == to { plan.over } else { Span::new(from, to, count.max(2))? };
-    let axes = vec![Axis::parameter(plan.vary, over)];
-    let task = MapPlan { axes, starts: STARTS, seed: 1, refine: None, impacts: None };
-    let mut shares: BTreeMap<String, f64> = BTreeMap::new();
-    for motion in map(&asked.system, &task, control)?.points.iter().flat_map(|point| &point.motions) {
-        // what has no impacts, or infinitely many, is no branch of impacts
-        if let Verdict::Periodic(cycle) = &motion.verdict
-            && matches!(cycle.label.impacts, Count::Finite(1..))
-        {
-            *shares.entry(cycle.label.to_string()).or_default() += motion.share;
+    let options = SettleOptions::default();
+    let found = tiles(u64::from(over.count()), 1, control, |range, tick| {
+        let mut found = Vec::new();
+        for value in range.filter_map(|k| u32::try_from(k).ok()).map(|k| over.at(k)) {
+            let osc = plan.cut().oscillator(&asked.system, value);
+            found.push(osc.map(|osc| attractors(&osc, STARTS, SEED, &options)));
+            if tick() {
+                break;
+            }
+        }
+        found
+    })?;
+    let mut counts: BTreeMap<String, u64> = BTreeMap::new();
+    for census in found.into_iter().flatten() {
+        for motion in census?.motions() {
+            // what has no impacts, or infinitely many, is no branch of impacts
+            if let Verdict::Periodic(cycle) = &motion.verdict
+                && matches!(cycle.label.impacts, Count::Finite(1..))
+            {
+                *counts.entry(cycle.label.to_string()).or_default() += motion.count;
+            }
         }
     }
-    let mut list: Vec<(String, f64)> = shares.into_iter().collect();
-    list.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut list: Vec<(String, u64)> = counts.into_iter().collect();
+    list.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
     Ok(list.into_iter().map(|(label, _)| label).collect())
 }
 
@@ -120,7 +135,7 @@ pub fn labels(
 mod tests {
     use super::*;
     use crate::Units;
-    use vibroimpact_study::{Parameter, SystemPlan};
+    use vibroimpact_study::{Parameter, Stretch, SystemPlan};
 
     #[test]
     fn the_branches_of_the_labels_on_a_line() {
@@ -134,6 +149,15 @@ mod tests {
         let svg = bifurcation(&asked, &plan, &["1/1".into(), "2/2".into()], &control).unwrap().to_svg();
         // 1/1 is stable up to its flip at 1.829, where 2/2 begins, which ends as 1/2
         for word in ["1/1", "2/2", "1/2", ">stable<", ">unstable<", ">flip<", ">simulation<"] {
+            assert!(svg.contains(word), "{word}");
+        }
+        // over a line through two parameters 1/1 doubles where the line crosses its curve of flips
+        let also = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.12 };
+        let line = DiagramPlan { also: Some(also), ..plan };
+        let found = labels(&asked, &line, 8, &control).unwrap();
+        assert!(found.iter().any(|label| label == "1/1"), "{found:?}");
+        let svg = bifurcation(&asked, &line, &found, &control).unwrap().to_svg();
+        for word in [">flip<", "with", "1.05 to 1.12"] {
             assert!(svg.contains(word), "{word}");
         }
         let bad = bifurcation(&asked, &plan, &["1/0".into()], &control);

@@ -4,31 +4,30 @@ use super::Table;
 use crate::Units;
 use crate::json::motion::pairs;
 use crate::number::Number;
-use vibroimpact::Parameter;
 use vibroimpact::orbit::Cycle;
-use vibroimpact_study::Branches;
+use vibroimpact_study::{Branches, Cut};
 
 /// The table of `vibro branch`.
 #[must_use]
-pub fn table<'a>(found: &'a Branches, vary: Parameter, units: &'a Units) -> Table<'a> {
-    Table::new(columns(vary), rows(found, vary, units))
+pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> {
+    Table::new(columns(cut), rows(found, *cut, units))
 }
 
 /// The columns of the table.
-fn columns(vary: Parameter) -> String {
-    format!("branch,{},label,physical,stable,event,re_1,im_1,re_2,im_2,phases,velocities", vary.name())
+fn columns(cut: &Cut) -> String {
+    let names: Vec<&str> = cut.parameters().map(|parameter| parameter.name()).collect();
+    format!("branch,{},label,physical,stable,event,re_1,im_1,re_2,im_2,phases,velocities", names.join(","))
 }
 
 /// One row a point; phases and velocities are lists with blanks between.
-fn rows<'a>(found: &'a Branches, vary: Parameter, units: &'a Units) -> impl Iterator<Item = String> + 'a {
-    let unit = units.of(vary);
+fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<Item = String> + 'a {
     found.followed.iter().enumerate().flat_map(move |(k, branch)| {
         branch.points.iter().map(move |point| {
             let event = point.event.map_or("", |event| event.name());
             format!(
                 "{},{},{},{},{},{event},{}",
                 k + 1,
-                Number(point.value * unit),
+                values(&cut, point.value, units),
                 point.cycle.label,
                 point.physical,
                 point.stable(),
@@ -36,6 +35,12 @@ fn rows<'a>(found: &'a Branches, vary: Parameter, units: &'a Units) -> impl Iter
             )
         })
     })
+}
+
+/// The parameters at a place of a line, in the units of the results.
+pub(super) fn values(cut: &Cut, value: f64, units: &Units) -> String {
+    let cell = |(parameter, value)| Number(value * units.of(parameter)).to_string();
+    cut.values(value).map(cell).collect::<Vec<_>>().join(",")
 }
 
 /// Multipliers, phases and velocities of a cycle.

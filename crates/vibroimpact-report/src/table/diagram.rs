@@ -6,7 +6,7 @@ use crate::json::motion::side;
 use crate::number::Number;
 use crate::units::shown_span;
 use vibroimpact_study::diagram::{Diagram, Kind, Point, Show, Step, Sweep};
-use vibroimpact_study::{PlanError, Span};
+use vibroimpact_study::{Parameter, PlanError, Span};
 
 /// The table of `vibro diagram`.
 ///
@@ -20,11 +20,11 @@ pub fn table(found: &Diagram, units: Units) -> Result<Table<'_>, PlanError> {
 /// The columns of the table.
 #[must_use]
 pub fn columns(found: &Diagram) -> Vec<&'static str> {
-    let name = found.plan.vary.name();
-    match found.plan.show {
-        Show::Velocity => vec![name, "sweep", "kind", "side", "phase", "velocity"],
-        Show::Strobe => vec![name, "sweep", "kind", "x", "v"],
-    }
+    let shown: &[&str] = match found.plan.show {
+        Show::Velocity => &["sweep", "kind", "side", "phase", "velocity"],
+        Show::Strobe => &["sweep", "kind", "x", "v"],
+    };
+    found.plan.cut().parameters().map(Parameter::name).chain(shown.iter().copied()).collect()
 }
 
 /// One row a point; one row with empty places for a motion that has none to show. Values of the parameter are the very
@@ -35,7 +35,10 @@ fn rows(found: &Diagram, over: Span, units: Units) -> impl Iterator<Item = Strin
         Show::Strobe => ",",
     };
     found.steps.iter().flat_map(move |step| {
-        let head = format!("{},{}", Number(over.at(step.index)), sweep(step.sweep));
+        // that of the first parameter as it was given
+        let also = found.plan.values(step.index).nth(1);
+        let also = also.map_or_else(String::new, |(p, value)| format!(",{}", Number(value * units.of(p))));
+        let head = format!("{}{also},{}", Number(over.at(step.index)), sweep(step.sweep));
         let alone = step.points.is_empty().then(|| format!("{head},{},{none}", kind(step.kind)));
         let points = step.points.iter().map(move |point| format!("{head},{}", row(step, point, units)));
         alone.into_iter().chain(points)

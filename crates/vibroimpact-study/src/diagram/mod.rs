@@ -1,4 +1,4 @@
-//! The orbit diagram: the motion after its transient, at each value of a parameter.
+//! The orbit diagram: the motion after its transient, at each value of a parameter, or along a line through two.
 //!
 //! A sweep carries the state: the one in which a value left the motion is the start at the next value, as in a machine
 //! that is slowly turned up or down; its first value starts at rest. A state on a stop stays on it when the gap changes,
@@ -112,7 +112,7 @@ pub(crate) fn step(
     (index, sweep): (u32, Sweep),
     before: Option<(Oscillator, Start)>,
 ) -> Result<(Step, (Oscillator, Start)), PlanError> {
-    let osc = plan.oscillator(system, plan.over.at(index))?;
+    let osc = plan.oscillator(system, index)?;
     let start = match (plan.direction, sweep, before) {
         (Direction::Scatter { seed, .. }, Sweep::Start(k), _) => {
             scattered_starts(&osc, StartBox::natural(&osc), seed, k)
@@ -130,7 +130,7 @@ pub(crate) fn step(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Parameter;
+    use crate::{Parameter, Stretch};
 
     const S: SystemPlan =
         SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, damping: 0.0, second_stop: None };
@@ -139,6 +139,7 @@ mod tests {
         DiagramPlan {
             vary: Parameter::Gap,
             over: over.parse().unwrap(),
+            also: None,
             show: Show::Velocity,
             direction: Direction::Both,
             transient: 200,
@@ -214,6 +215,27 @@ mod tests {
         assert_eq!(found.steps[7].sweep, Sweep::Start(7));
     }
 
+    /// Along a line through two parameters each motion is that of the system there.
+    #[test]
+    fn a_line_through_two_parameters() {
+        let also = Stretch { parameter: Parameter::InverseBeta, from: 1.1, to: 1.5 };
+        let line =
+            DiagramPlan { also: Some(also), direction: Direction::Scatter { starts: 3, seed: 1 }, ..plan("0:2:5") };
+        let found = run(&S, &line);
+        assert_eq!(found.steps.len(), 15);
+        for k in 0..5_u32 {
+            let value = f64::from(k) / 2.0;
+            let system = SystemPlan { inverse_beta: Some(line.values(k).last().unwrap().1), ..S };
+            let alone =
+                run(&system, &DiagramPlan { also: None, over: format!("{value}:{value}:1").parse().unwrap(), ..line });
+            let here: Vec<_> = found.steps.iter().filter(|step| step.index == k).map(|step| &step.points).collect();
+            assert_eq!(here, alone.steps.iter().map(|step| &step.points).collect::<Vec<_>>(), "at {value}");
+        }
+        // carried over a frequency that changes as well
+        let carried = run(&S, &DiagramPlan { direction: Direction::Both, ..line });
+        assert!(carried.steps.iter().all(|step| step.kind != Kind::Undecided));
+    }
+
     /// Damped, below resonance: from a large gap the motion without impacts is carried down to the gap it just clears, and
     /// up again only further out.
     #[test]
@@ -221,7 +243,7 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(0.7), restitution: 0.8, damping: 0.01, ..S };
         let plan = plan("0:3:61");
         let found = run(&system, &plan);
-        let free = plan.oscillator(&system, 1.0).unwrap().free_amplitude();
+        let free = plan.cut().oscillator(&system, 1.0).unwrap().free_amplitude();
         for step in found.steps.iter().filter(|step| step.sweep == Sweep::Down) {
             let gap = plan.over.at(step.index);
             assert_eq!(step.kind == Kind::NoImpact, gap > free, "gap {gap}: {:?}", step.kind);

@@ -1,6 +1,6 @@
 //! What an orbit diagram asks: which parameter varies over what, from which starts, and what is shown.
 
-use crate::{Parameter, PlanError, Span, SystemPlan};
+use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 
@@ -19,6 +19,10 @@ pub struct DiagramPlan {
     pub vary: Parameter,
     /// Its values.
     pub over: Span,
+    /// A second parameter that varies with it, in proportion, from its value at the first to its value at the last: the
+    /// diagram along any line through two parameters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub also: Option<Stretch>,
     /// What is shown.
     #[serde(default)]
     pub show: Show,
@@ -86,10 +90,7 @@ impl DiagramPlan {
     /// # Errors
     /// [`PlanError`] names the first value that makes no sense.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
-        let (a, b) = self.over.ends();
-        for value in [a, b] {
-            self.oscillator(system, value)?;
-        }
+        self.cut().check(system)?;
         if self.transient > MOST_TRANSIENT {
             return Err(PlanError::Transient { given: self.transient, most: MOST_TRANSIENT });
         }
@@ -108,12 +109,30 @@ impl DiagramPlan {
         Ok(())
     }
 
-    /// The oscillator at a value of the parameter; everything else as in `system`.
+    /// The line along which it lies.
+    #[must_use]
+    pub const fn cut(&self) -> Cut {
+        Cut { vary: self.vary, ends: self.over.ends(), also: self.also }
+    }
+
+    /// What varies, at value number `k`. Evenly spaced values go with evenly spaced ones of the second parameter, as they would be
+    /// written.
+    pub fn values(&self, k: u32) -> impl Iterator<Item = (Parameter, f64)> + use<> {
+        let value = self.over.at(k);
+        let even = self.also.filter(|_| !self.over.is_logarithmic());
+        let second = even.and_then(|also| Some(Span::new(also.from, also.to, self.over.count()).ok()?.at(k)));
+        self.cut().values(value).enumerate().map(move |(place, (parameter, value))| match second {
+            Some(second) if place == 1 => (parameter, second),
+            _ => (parameter, value),
+        })
+    }
+
+    /// The oscillator at value number `k`; what does not vary is as in `system`.
     ///
     /// # Errors
     /// [`PlanError`] for a value that gives no legal system.
-    pub fn oscillator(&self, system: &SystemPlan, value: f64) -> Result<Oscillator, PlanError> {
-        system.with(self.vary, value)?.oscillator()
+    pub fn oscillator(&self, system: &SystemPlan, k: u32) -> Result<Oscillator, PlanError> {
+        self.values(k).try_fold(*system, |system, (parameter, value)| system.with(parameter, value))?.oscillator()
     }
 
     /// Motions followed at each value.
@@ -137,7 +156,15 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
         let direction = Direction::Scatter { starts: 9, seed: 4 };
         let over = "0:3:601".parse().unwrap();
-        let task = DiagramPlan { vary: Parameter::Gap, over, show: Show::Strobe, direction, transient: 7, keep: 3 };
+        let task = DiagramPlan {
+            vary: Parameter::Gap,
+            over,
+            also: None,
+            show: Show::Strobe,
+            direction,
+            transient: 7,
+            keep: 3,
+        };
         let plan = Plan::new(system, Task::Diagram(task));
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
@@ -157,6 +184,7 @@ mod tests {
         let good = DiagramPlan {
             vary: Parameter::Gap,
             over: "0:3:601".parse().unwrap(),
+            also: None,
             show: Show::Velocity,
             direction: Direction::Both,
             transient: 500,
@@ -171,6 +199,10 @@ mod tests {
             (
                 DiagramPlan { transient: 2_000_000, ..good },
                 "transient = 2000000 lies outside 0 <= transient <= 1000000",
+            ),
+            (
+                DiagramPlan { also: Some(Stretch { parameter: Parameter::Gap, from: 0.0, to: 1.0 }), ..good },
+                "gap and gap cannot vary together",
             ),
             (DiagramPlan { keep: 0, ..good }, "keep = 0 lies outside 1 <= keep <= 100000"),
             (DiagramPlan { direction: Direction::Scatter { starts: 0, seed: 0 }, ..good }, "starts = 0 lies outside"),

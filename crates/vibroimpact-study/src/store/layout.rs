@@ -89,7 +89,7 @@ impl Layout {
         let coordinate = |along: crate::study::Along| {
             let count = along.values.len();
             let array = Chunked::new(Description {
-                name: &along.dimension,
+                name: &along.name,
                 kind: Holds::Numbers(Kind::F64),
                 fill: 0,
                 dimensions: vec![(along.dimension.clone(), count, count)],

@@ -42,7 +42,7 @@ impl Store {
 
     pub(super) fn write_root(&self, descriptions: &Map<String, Value>, complete: bool) -> Result<(), StoreError> {
         let plan = serde_json::to_string(&self.plan).map_err(|error| self.defect(ROOT, error.to_string()))?;
-        let root = json!({
+        let mut root = json!({
             "zarr_format": 3,
             "node_type": "group",
             "attributes": {
@@ -58,6 +58,17 @@ impl Store {
             },
             "consolidated_metadata": { "kind": "inline", "must_understand": false, "metadata": descriptions },
         });
+        // those that are no dimensions are not found by their names (CF 5)
+        let beside: Vec<String> = self
+            .study
+            .coordinates()
+            .into_iter()
+            .filter(|along| along.name != along.dimension)
+            .map(|along| along.name)
+            .collect();
+        if !beside.is_empty() {
+            root["attributes"]["coordinates"] = beside.join(" ").into();
+        }
         self.settle(ROOT, &pretty(&root))
     }
 }

@@ -43,25 +43,33 @@ impl Fill for DiagramFill {
     }
 
     fn coordinates(&self) -> Vec<Along> {
-        let vary = Coordinate::Parameter(self.plan.vary);
-        let values = Along {
-            dimension: vary.name().to_owned(),
-            values: self.plan.over.values().collect(),
-            long_name: vary.long_name(),
-            units: vary.units(),
-        };
+        let cut = self.plan.cut();
+        // the second parameter lies along the dimension of the first
+        let values = cut.parameters().enumerate().map(|(k, parameter)| {
+            let value = |index: u32| self.plan.values(index).nth(k).map_or(f64::NAN, |(_, value)| value);
+            let parameter = Coordinate::Parameter(parameter);
+            Along {
+                name: parameter.name().to_owned(),
+                dimension: cut.vary.name().to_owned(),
+                values: (0..self.plan.over.count()).map(value).collect(),
+                long_name: parameter.long_name(),
+                units: parameter.units(),
+            }
+        });
         let sweep = |values: &[f64]| Along {
+            name: "sweep".to_owned(),
             dimension: "sweep".to_owned(),
             values: values.to_vec(),
             long_name: "direction of the sweep: 1 with rising values, -1 with falling ones",
             units: "1",
         };
-        match self.plan.direction {
-            Direction::Scatter { .. } => vec![values],
-            Direction::Up => vec![sweep(&[1.0]), values],
-            Direction::Down => vec![sweep(&[-1.0]), values],
-            Direction::Both => vec![sweep(&[1.0, -1.0]), values],
-        }
+        let rows = match self.plan.direction {
+            Direction::Scatter { .. } => None,
+            Direction::Up => Some(sweep(&[1.0])),
+            Direction::Down => Some(sweep(&[-1.0])),
+            Direction::Both => Some(sweep(&[1.0, -1.0])),
+        };
+        rows.into_iter().chain(values).collect()
     }
 
     fn fields(&self) -> Vec<Field> {

@@ -25,6 +25,8 @@ use crate::{Axis, Block, Column, Field, Grid, Plan, PlanError, Task};
 /// Positions along a dimension of the grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Along {
+    /// What it is called: as its dimension, or, beside that one, otherwise.
+    pub name: String,
     /// The dimension.
     pub dimension: String,
     /// A value for each index.
@@ -184,6 +186,7 @@ fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
 /// The values along the axes.
 fn along(axes: &[Axis]) -> Vec<Along> {
     let one = |axis: &Axis| Along {
+        name: axis.vary.name().to_owned(),
         dimension: axis.vary.name().to_owned(),
         values: axis.over.all(),
         long_name: axis.vary.long_name(),

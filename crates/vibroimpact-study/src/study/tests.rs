@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::axis::{Coordinate, Values};
-use crate::{BasinPlan, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Span, StartPlan, SystemPlan};
+use crate::{BasinPlan, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Span, StartPlan, Stretch, SystemPlan};
 use vibroimpact::verdict::SettleOptions;
 
 const S: SystemPlan =
@@ -161,12 +161,16 @@ fn scattered_starts_exponents_and_three_axes() {
 #[test]
 fn a_diagram_is_that_of_its_steps() {
     use crate::diagram::{Direction, Show};
-    for (direction, rows) in
-        [(Direction::Both, 2), (Direction::Down, 1), (Direction::Scatter { starts: 3, seed: 1 }, 3)]
-    {
+    let damping = Stretch { parameter: Parameter::Damping, from: 0.0, to: 0.04 };
+    for (direction, rows, also) in [
+        (Direction::Both, 2, None),
+        (Direction::Down, 1, Some(damping)),
+        (Direction::Scatter { starts: 3, seed: 1 }, 3, None),
+    ] {
         let plan = DiagramPlan {
             vary: Parameter::Gap,
             over: span("0:2:41"),
+            also,
             show: Show::Velocity,
             direction,
             transient: 100,
@@ -175,6 +179,8 @@ fn a_diagram_is_that_of_its_steps() {
         let found = sheet(S, Task::Diagram(plan), None, 2);
         let direct = crate::diagram(&S, &plan, &Control::default()).unwrap();
         assert_eq!(diagram_of(&plan, &found.columns), direct);
+        let beside = found.study.coordinates().into_iter().find(|along| along.name == "damping");
+        assert_eq!(beside.map(|along| (along.dimension, along.values[10])), also.map(|_| ("gap".into(), 0.01)));
         let strobes = DiagramPlan { show: Show::Strobe, ..plan };
         let held = sheet(S, Task::Diagram(strobes), None, 2);
         assert_eq!(diagram_of(&strobes, &held.columns), crate::diagram(&S, &strobes, &Control::default()).unwrap());

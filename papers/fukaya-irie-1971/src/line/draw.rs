@@ -81,6 +81,7 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
     let plan = DiagramPlan {
         vary: Parameter::Gap,
         over: Span::new(SHOWN.0, SHOWN.1, 1181)?,
+        also: None,
         show: diagram::Show::Velocity,
         direction: diagram::Direction::Both,
         transient: diagram::DEFAULT_TRANSIENT,
