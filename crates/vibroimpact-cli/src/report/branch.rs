@@ -57,7 +57,7 @@ pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
                 branch.points.len()
             ),
         };
-        text.push_str(&of(branch, unit, &name));
+        text.push_str(&of(branch, cut, units));
     }
     for origin in &found.lost {
         let kind = origin.point.event.map_or("event", |event| event.name());
@@ -67,8 +67,13 @@ pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
     text
 }
 
-fn of(branch: &Followed, unit: f64, name: &str) -> String {
-    let heads = ["<event".to_owned(), name.to_owned(), "<before".into(), "<after".into(), "<".into()];
+fn of(branch: &Followed, cut: &Cut, units: &Units) -> String {
+    let (unit, name) = (units.of(cut.vary), named(cut.vary, units));
+    let varied = cut.parameters().map(|parameter| named(parameter, units));
+    let heads: Vec<String> = core::iter::once("<event".to_owned())
+        .chain(varied)
+        .chain(["<before", "<after", "<"].map(str::to_owned))
+        .collect();
     let points = &branch.points;
     let events = points.iter().enumerate().filter_map(|(k, point)| Some((k, point, point.event?)));
     let rows: Vec<Vec<String>> = events
@@ -82,7 +87,11 @@ fn of(branch: &Followed, unit: f64, name: &str) -> String {
             };
             let before = beside(k.checked_sub(1).and_then(|k| points.get(k)), before);
             let after = beside(points.get(k + 1), after);
-            vec![event.name().into(), precise(point.value * unit), before, after, remark(point, &event)]
+            let values = cut.values(point.value).map(|(parameter, value)| precise(value * units.of(parameter)));
+            core::iter::once(event.name().to_owned())
+                .chain(values)
+                .chain([before, after, remark(point, &event)])
+                .collect()
         })
         .collect();
     let mut text = if rows.is_empty() { "  no events on the way\n".to_owned() } else { table(&heads, &rows) };
