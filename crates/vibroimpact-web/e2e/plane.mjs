@@ -176,6 +176,36 @@ export async function axes_change_and_budget_and_starts({ open }) {
   assert.deepEqual([state.get("x"), state.get("starts"), state.get("impacts")], ["restitution", "4", "1000"]);
 }
 
+export async function looking_longer_decides_more_and_keeps_what_is_decided({ open, folder }) {
+  const { page } = await open("#view=1,1.3,1.8,2.8", { viewport: { width: 800, height: 600 } });
+  await sharp(page);
+  const settled = async () => (await page.locator("#legend .note").textContent()) === "";
+  const share = (impacts) => async () => (await settled()) && (await legend(page)).get(`not settled in ${impacts} impacts`);
+  await until("a part is not settled in 200 impacts", share(200));
+  const before = await share(200)();
+  await page.screenshot({ path: `${folder}/look-longer.png` });
+  const asked = [];
+  page.on("request", (request) => {
+    if (request.url().endsWith("/api/tile")) asked.push(request.postDataJSON().task.map);
+  });
+  await page.locator("#legend .longer").click();
+  assert.equal((await hash(page)).get("impacts"), "1000");
+  assert.equal(await page.locator("#impacts").inputValue(), "1000");
+  await page.mouse.move(...await place(page, 1.02, 1.9, [1, 1.3, 1.8, 2.8]));
+  await until("what is decided is told meanwhile", async () => (await page.locator("#readout").textContent()).endsWith("1/1"), 1);
+  await sharp(page);
+  await until("less is not settled in 1000 impacts", async () => ((await share(1000)()) ?? before) < before);
+  const after = await share(1000)();
+  assert.ok(asked.length && asked.every(({ refine, impacts }) => refine && impacts === 1000), "no coarse picture over a sharp one");
+  console.log(`        not settled in 200 impacts ${before} %, in 1000 ${after} %`);
+  assert.match(await page.locator("#legend .longer").getAttribute("title"), /20.000 impacts/);
+  asked.length = 0;
+  await page.goBack();
+  assert.equal((await hash(page)).get("impacts"), null);
+  await until("the share is as it was", async () => (await share(200)()) === before);
+  assert.equal(asked.length, 0, "what was seen is not asked again");
+}
+
 export async function a_link_brings_everything_back({ open }) {
   const link = "#view=1,1.5,1.5,2.5&restitution=0.6&starts=2&layers=paper,amplitude&point=1&gap=2&inverse_beta=1.2";
   const { page } = await open(link);

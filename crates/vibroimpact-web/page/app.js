@@ -40,7 +40,7 @@ const parts = { cache: new Cache(400), queue, failed };
 const plane = new Plane(byId("plane"), store, parts);
 controls(store);
 plane.start();
-const legend = new Legend(byId("legend"), plane.view, () => store.state.impacts);
+const legend = new Legend(byId("legend"), plane.view, store);
 const exporting = new Export(store, { plane, basin: () => point.basin });
 const exported = (view) => exporting.open(view);
 const point = new Point(store, plane, parts, say, exported);

@@ -50,7 +50,7 @@ export function askCoarse(view, key, signal) {
 async function filled({ source, key, level, hx, hy, across, up }, refine, signal) {
   const place = across.first + up.first;
   const tile = new Tile({
-    source: source.key, look: source.look, key, level, hx, hy, x0: across.first * hx, y0: up.first * hy,
+    source: source.key, look: source.look, impacts: source.impacts, key, level, hx, hy, x0: across.first * hx, y0: up.first * hy,
     columns: across.count, rows: up.count, phase: ((place % STRIPE) + STRIPE) % STRIPE,
   });
   if (tile.columns > 0 && tile.rows > 0) {

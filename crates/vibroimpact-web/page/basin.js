@@ -2,6 +2,7 @@
 
 import { START } from "./parameters.js";
 import { basinPlan, room, startOf, systemOf } from "./plans.js";
+import { shorter } from "./state.js";
 import { digits } from "./ticks.js";
 import { TileView } from "./tileview.js";
 import { Viewport } from "./viewport.js";
@@ -88,11 +89,14 @@ export class Basin {
   /** @returns {import("./tileview.js").Source} */
   source() {
     const state = structuredClone(this.store.state);
-    const key = JSON.stringify(["basin", systemOf(state), startOf(state).phase, state.impacts]);
-    if (!this.cycles.has(key)) this.cycles.set(key, new Cycles());
-    const cycles = this.cycles.get(key);
+    const of = JSON.stringify([systemOf(state), startOf(state).phase]);
+    const key = (impacts) => `basin|${of}|${impacts}`;
+    if (!this.cycles.has(of)) this.cycles.set(of, new Cycles());
+    const cycles = this.cycles.get(of);
     return {
-      key,
+      key: key(state.impacts),
+      shallower: shorter(state.impacts).map(key),
+      impacts: state.impacts,
       x: START.x,
       y: START.v,
       legal: { x: room(state), y: [-Infinity, Infinity] },
@@ -174,7 +178,7 @@ export class Basin {
     const { viewport: v } = this.view;
     const { x, y, found } = this.view.at(...px);
     const [lowest, highest] = room(this.store.state);
-    const motion = found.length ? legendText(found[0].name, this.store.state.impacts)
+    const motion = found.length ? legendText(found[0].name, found[0].impacts)
       : x > highest || x < lowest ? "beyond the stop" : "not computed yet";
     return { place: `ξ₀ ${digits(x, v.hx)}   u₀ ${digits(y, v.hy)}`, motions: motion, colour: found[0]?.colour ?? null };
   }

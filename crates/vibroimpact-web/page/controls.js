@@ -2,8 +2,11 @@
 
 import { byId, debounced, element } from "./dom.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
+import { BUDGETS } from "./state.js";
+import { grouped } from "./ticks.js";
 
-const BUDGETS = [[200, "200 impacts, quick"], [1000, "1000 impacts"], [20000, "20 000 impacts"], [0, "as long as it takes"]];
+/** What is said of a budget beside its number. */
+const BUDGET_WORDS = { 200: ", quick", 20000: ", in full" };
 
 /** @param {import("./state.js").Store} store */
 export function controls(store) {
@@ -18,7 +21,7 @@ export function controls(store) {
     ...rows.slice(5).map((row) => row.box),
   );
   const starts = choice(store, "starts", Array.from({ length: 16 }, (_, k) => [k + 1, String(k + 1)]));
-  const impacts = choice(store, "impacts", BUDGETS);
+  const impacts = choice(store, "impacts", BUDGETS.map((n) => [n, `${grouped(n)} impacts${BUDGET_WORDS[n] ?? ""}`]));
   byId("budget").append(
     element("label", { class: "row" }, element("span", { text: "starts per point" }), starts),
     element("label", { class: "row" }, element("span", { text: "for" }), impacts),

@@ -42,7 +42,7 @@ export class Frame {
     context.fillRect(0, 0, view.picture.width, view.picture.height);
     if (view.ghost) {
       context.globalAlpha = 0.35;
-      for (const tile of view.known(view.ghost)) this.tile(context, tile);
+      for (const tile of view.knownOf(view.ghost)) this.tile(context, tile);
       context.globalAlpha = 1;
     }
     for (const tile of view.known()) this.tile(context, tile);

@@ -2,7 +2,8 @@
 
 import { element, swatch } from "./dom.js";
 import { shares } from "./shares.js";
-import { percent } from "./ticks.js";
+import { longer } from "./state.js";
+import { grouped, percent } from "./ticks.js";
 import { legendText } from "./words.js";
 
 /** Motions told before the others are added up. */
@@ -12,17 +13,19 @@ export class Legend {
   /**
    * @param {HTMLElement} host
    * @param {import("./tileview.js").TileView} view
-   * @param {() => number} impacts the budget
+   * @param {import("./state.js").Store} store
    */
-  constructor(host, view, impacts) {
-    Object.assign(this, { host, view, impacts, pinned: null, all: false, ids: "" });
+  constructor(host, view, store) {
+    Object.assign(this, { host, view, store, pinned: null, all: false, ids: "" });
     this.list = element("ul", { class: "legend-list" });
     this.more = element("button", { type: "button", class: "quiet", hidden: true, onclick: () => this.toggleAll() });
     this.note = element("p", { class: "note" });
+    this.longer = element("button", { type: "button", class: "quiet longer", text: "look longer", onclick: () => this.lookLonger() });
     host.append(this.list, this.more, this.note);
     this.items = new Map();
     view.addEventListener("tiles", () => this.soon());
     view.addEventListener("view", () => this.soon());
+    store.on(["impacts"], () => this.refresh());
   }
 
   soon() {
@@ -36,6 +39,11 @@ export class Legend {
   toggleAll() {
     this.all = !this.all;
     this.refresh();
+  }
+
+  /** Follows what is not settled for more impacts. */
+  lookLonger() {
+    this.store.set({ impacts: longer(this.store.state.impacts) });
   }
 
   refresh() {
@@ -54,7 +62,7 @@ export class Legend {
     this.more.hidden = !rest.length && !(this.all && sorted.length > SHOWN + 1);
     const sum = rest.reduce((part, { share }) => part + share, 0);
     this.more.textContent = rest.length ? `${rest.length} others, ${percent(sum)}` : "fewer";
-    this.note.textContent = coarse ? "Shares so far, from the coarse picture." : "";
+    this.note.textContent = coarse ? "Shares so far; not all of it is computed." : "";
   }
 
   /** Items are kept while they stay, so that focus is not lost. */
@@ -71,10 +79,23 @@ export class Legend {
       if (this.list.children[place] !== item.row) this.list.insertBefore(item.row, this.list.children[place] ?? null);
     });
     for (const { row } of left.values()) row.remove();
+    this.offer(shown.find(({ name }) => name === "undecided"));
+  }
+
+  /** The button that looks longer, beside the item of what is not settled. */
+  offer(open) {
+    const next = longer(this.store.state.impacts);
+    if (!next || !open) {
+      this.longer.remove();
+      return;
+    }
+    this.longer.title = `Follow what is not settled for ${grouped(next)} impacts`;
+    const { row } = this.items.get(open.id);
+    if (this.longer.parentElement !== row) row.append(this.longer);
   }
 
   nameOf({ name, variant }) {
-    return legendText(name, this.impacts()) + (variant ? ` (${variant + 1}${["st", "nd", "rd"][variant] ?? "th"})` : "");
+    return legendText(name, this.store.state.impacts) + (variant ? ` (${variant + 1}${["st", "nd", "rd"][variant] ?? "th"})` : "");
   }
 
   item({ id, colour }) {

@@ -3,6 +3,7 @@
 import { learn } from "./colours.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
 import { legalRange, mapPlan, room, systemOf } from "./plans.js";
+import { shorter } from "./state.js";
 import { TileView } from "./tileview.js";
 import { digits } from "./ticks.js";
 import { Viewport } from "./viewport.js";
@@ -74,8 +75,11 @@ export class Plane {
   source() {
     const state = structuredClone(this.store.state);
     const free = { [state.x]: 0, [state.y]: 0 };
+    const key = (impacts) => JSON.stringify([state.x, state.y, systemOf(state, free), state.starts, impacts]);
     return {
-      key: JSON.stringify([state.x, state.y, systemOf(state, free), state.starts, state.impacts]),
+      key: key(state.impacts),
+      shallower: shorter(state.impacts).map(key),
+      impacts: state.impacts,
       x: PARAMETERS[state.x],
       y: PARAMETERS[state.y],
       legal: { x: legalRange(state, state.x), y: legalRange(state, state.y) },
@@ -155,7 +159,7 @@ export class Plane {
     const place = `${source.x.symbol} ${digits(x, v.hx)}   ${source.y.symbol} ${digits(y, v.hy)}`;
     const { state } = this.store;
     const outside = !legal(PARAMETERS[state.x], x) || !legal(PARAMETERS[state.y], y);
-    const motions = found.length ? motionsText(found, state.impacts) : outside ? "no such oscillator" : "not computed yet";
+    const motions = found.length ? motionsText(found) : outside ? "no such oscillator" : "not computed yet";
     return { place, motions, colour: found[0]?.colour ?? null };
   }
 }

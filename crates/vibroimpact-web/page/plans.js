@@ -40,17 +40,15 @@ const firstOf = (values) => (Array.isArray(values) ? values[0] : Number(values.s
  */
 export function mapPlan(state, overX, overY, refine) {
   const system = systemOf(state, { [state.x]: firstOf(overX), [state.y]: firstOf(overY) });
-  const map = { axes: [{ vary: state.x, over: overX }, { vary: state.y, over: overY }], starts: state.starts, seed: 1 };
+  const map = { axes: [{ vary: state.x, over: overX }, { vary: state.y, over: overY }], starts: state.starts, seed: 1, impacts: state.impacts };
   if (refine) map.refine = refine;
-  if (state.impacts) map.impacts = state.impacts;
   return plan(system, { map });
 }
 
 /** The basin of the chosen point over these starts. */
 export function basinPlan(state, overX, overY, refine) {
-  const basin = { axes: [{ vary: "x", over: overX }, { vary: "v", over: overY }], start: { phase: startOf(state).phase } };
+  const basin = { axes: [{ vary: "x", over: overX }, { vary: "v", over: overY }], start: { phase: startOf(state).phase }, impacts: state.impacts };
   if (refine) basin.refine = refine;
-  if (state.impacts) basin.impacts = state.impacts;
   return plan(systemOf(state), { basin });
 }
 

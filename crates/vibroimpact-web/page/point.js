@@ -38,7 +38,7 @@ export class Point {
     this.basin = new Basin(this.basinHost, store, parts, {
       dragged: (at) => this.startAt(at, true), dropped: (at) => this.startAt(at, false),
     });
-    this.legend = new Legend(this.basinLegend, this.basin.view, () => store.state.impacts);
+    this.legend = new Legend(this.basinLegend, this.basin.view, store);
     this.basin.view.addEventListener("hover", ({ detail }) => this.hoverBasin(detail));
     const spoken = debounced((px) => {
       const { place, motions } = this.basin.tell(px);

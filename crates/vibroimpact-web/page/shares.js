@@ -19,7 +19,7 @@ export function shares(view) {
   const cut = (low, high, begin, h, count) => [
     Math.max(0, Math.round((low - begin) / h)), Math.min(count, Math.round((high - begin) / h)),
   ];
-  for (const tile of view.known().filter((known) => known.level === level)) {
+  for (const tile of view.knownOf(view.source.key).filter((known) => known.level === level)) {
     tile.count(counts, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows));
   }
   return { counts, coarse: false };

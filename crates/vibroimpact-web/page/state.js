@@ -14,7 +14,7 @@
  * @property {number} second_gap
  * @property {number} second_restitution
  * @property {number} starts per point
- * @property {number} impacts to follow each start for; 0 for as many as it takes
+ * @property {number} impacts to follow each start for
  * @property {boolean} point whether a point is chosen
  * @property {number[] | null} start position, velocity, phase; null for rest
  * @property {number[] | null} basin what the basin shows
@@ -27,6 +27,15 @@
  */
 
 import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
+
+/** Impacts to follow each start for, at most; the last is what a verdict in full takes. */
+export const BUDGETS = [200, 1000, 20000];
+
+/** @returns {number | undefined} the next larger budget */
+export const longer = (impacts) => BUDGETS.find((more) => more > impacts);
+
+/** @returns {number[]} the smaller budgets */
+export const shorter = (impacts) => BUDGETS.filter((less) => less < impacts);
 
 export const LAYERS = ["regions", "amplitude", "paper", "stripes"];
 
@@ -64,7 +73,7 @@ const READ = {
   ...Object.fromEntries(Object.keys(PARAMETERS).map((name) => [name, number(name)])),
   second: flag,
   starts: count(1, 16),
-  impacts: (text) => ([0, 200, 1000, 20000].includes(Number(text)) ? Number(text) : undefined),
+  impacts: (text) => BUDGETS.find((impacts) => impacts === Number(text)),
   point: flag,
   start: (text) => numbers(text, 3),
   basin: (text) => interval(numbers(text, 4)),

@@ -57,6 +57,9 @@ export function short(value) {
   return minus(String(Number(value.toPrecision(4))));
 }
 
+/** @param {number} count @returns {string} its digits, in groups of three where there are five or more */
+export const grouped = (count) => (count < 10000 ? String(count) : String(count).replace(/\B(?=(\d{3})+$)/g, "\u2009"));
+
 /** @param {number} share @returns {string} per cent */
 export function percent(share) {
   const value = 100 * share;

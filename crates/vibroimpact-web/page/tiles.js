@@ -22,11 +22,12 @@ const faded = (pixel) => {
  * Points on a grid, each with the motions found there.
  *
  * `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell; `classes` holds `per` numbers of
- * motions for each point, -1 for none, rows from below; `shares` as many shares, or null. `look` gives a motion's colour.
+ * motions for each point, -1 for none, rows from below; `shares` as many shares, or null. `look` gives a motion's colour;
+ * `impacts` is the budget it was computed with.
  */
 export class Tile {
-  constructor({ source, look, key, level, x0, y0, hx, hy, columns, rows, phase }) {
-    Object.assign(this, { source, look, key, level, x0, y0, hx, hy, columns, rows, phase });
+  constructor({ source, look, impacts, key, level, x0, y0, hx, hy, columns, rows, phase }) {
+    Object.assign(this, { source, look, impacts, key, level, x0, y0, hx, hy, columns, rows, phase });
     Object.assign(this, { classes: null, shares: null, per: 1, canvas: null, painted: "" });
   }
 
@@ -38,14 +39,14 @@ export class Tile {
     return x >= this.x0 && y >= this.y0 && x < this.x0 + this.columns * this.hx && y < this.y0 + this.rows * this.hy;
   }
 
-  /** @returns {{id: number, share: number}[]} the motions of the point whose cell holds these coordinates */
+  /** @returns {{id: number, share: number, impacts: number}[]} the motions of the point whose cell holds these coordinates */
   at(x, y) {
     const column = Math.min(this.columns - 1, Math.floor((x - this.x0) / this.hx));
     const row = Math.min(this.rows - 1, Math.floor((y - this.y0) / this.hy));
     const begin = (row * this.columns + column) * this.per;
     const found = [];
     for (let k = begin; k < begin + this.per && this.classes[k] !== -1; k++) {
-      found.push({ id: this.classes[k], share: this.shares ? this.shares[k] : 1 });
+      found.push({ id: this.classes[k], share: this.shares ? this.shares[k] : 1, impacts: this.impacts });
     }
     return found;
   }

@@ -5,6 +5,8 @@
  *
  * @typedef {object} Source
  * @property {string} key what the points depend on
+ * @property {string[]} shallower keys of the same with smaller budgets: right where settled, and shown until more is known
+ * @property {number} impacts the budget
  * @property {import("./parameters.js").Coordinate} x
  * @property {import("./parameters.js").Coordinate} y
  * @property {{x: [number, number], y: [number, number]}} legal
@@ -23,6 +25,8 @@ import { Viewport } from "./viewport.js";
 const MOST_TILES = 200;
 /** Coarse pictures kept. */
 const COARSE_KEPT = 6;
+/** Places along each axis of a view at which it is looked whether something sharp is there already. */
+const PLACES = 8;
 
 export class TileView extends EventTarget {
   /**
@@ -69,7 +73,8 @@ export class TileView extends EventTarget {
   show(source, window) {
     const moved = this.source && (this.source.x !== source.x || this.source.y !== source.y);
     if (source.key !== this.source?.key) {
-      this.ghost = moved ? null : this.source?.key ?? null;
+      const before = this.source?.key ?? null;
+      this.ghost = moved || source.shallower.includes(before) ? null : before;
       this.refused.clear();
     }
     if (!this.source || moved) {
@@ -159,15 +164,15 @@ export class TileView extends EventTarget {
       }
     }
     this.progress = [known, all];
-    const coarse = jobs.length > 0.4 * all ? this.coarseJob(level) : null;
+    const coarse = jobs.length > 0.4 * all ? this.coarseJob() : null;
     this.queue.want(this, coarse ? [coarse] : jobs);
     this.dispatchEvent(new Event("tiles"));
   }
 
   /** The coarse picture comes alone, before any tile; null where it is there, or finer than that is. */
-  coarseJob(level) {
+  coarseJob() {
     const key = `${this.source.key}|coarse|${this.viewport.window().join()}`;
-    if (this.refused.has(key) || this.coarse.some((tile) => tile.key === key) || this.covered(level - 1)) return null;
+    if (this.refused.has(key) || this.coarse.some((tile) => tile.key === key) || this.seen()) return null;
     return { key, rank: 0, run: (signal) => this.take(askCoarse(this, key, signal), signal) };
   }
 
@@ -183,6 +188,19 @@ export class TileView extends EventTarget {
   covered(level) {
     for (const key of this.keys(level)) if (!this.cache.has(key)) return false;
     return true;
+  }
+
+  /** Whether tiles of half the resolution or more are all over the view, as far as can be told at a few places. */
+  seen() {
+    const { viewport: v, source: { legal } } = this;
+    const fine = (tile) => tile.hx * this.density < 2.1 * v.hx && tile.hy * this.density < 2.1 * v.hy;
+    const tiles = this.known().filter(fine);
+    const inside = (value, [least, most]) => value > least && value < most;
+    const centres = Array.from({ length: PLACES }, (_, k) => (k + 0.5) / PLACES);
+    return centres.every((across) => centres.every((up) => {
+      const [x, y] = v.toPlane(across * v.width, up * v.height);
+      return !inside(x, legal.x) || !inside(y, legal.y) || tiles.some((tile) => tile.contains(x, y));
+    }));
   }
 
   /** Takes what was asked for, or notes that it was refused. */
@@ -218,8 +236,13 @@ export class TileView extends EventTarget {
     this.changed();
   }
 
-  /** @returns {Tile[]} all that is known of a source, in the order in which it is drawn: what suits best comes last */
-  known(source = this.source?.key) {
+  /** @returns {Tile[]} all that is known of what is shown, in the order in which it is drawn: what suits best comes last */
+  known() {
+    return [...this.source.shallower, this.source.key].flatMap((key) => this.knownOf(key));
+  }
+
+  /** @param {string} source its key @returns {Tile[]} */
+  knownOf(source) {
     const level = this.level();
     const order = (tile) => (tile.level === level ? Infinity : tile.level < level ? tile.level : 2000 - tile.level);
     const tiles = this.cache.of(source).filter((tile) => tile.classes);
@@ -229,7 +252,7 @@ export class TileView extends EventTarget {
     ];
   }
 
-  /** @returns {{x: number, y: number, found: {id: number, name: string, colour: string, share: number}[]}} */
+  /** @returns {{x: number, y: number, found: {id: number, name: string, colour: string, share: number, impacts: number}[]}} */
   at(px, py) {
     const [x, y] = this.viewport.toPlane(px, py);
     const tile = this.known().findLast((known) => known.contains(x, y));

@@ -1,6 +1,6 @@
 /** Verdicts in words. */
 
-import { percent, short } from "./ticks.js";
+import { grouped, percent, short } from "./ticks.js";
 
 const NUMBERS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
 
@@ -16,11 +16,11 @@ export const labelText = (label) => label.replace(/^inf\//, "∞/");
 /**
  * A label in a legend.
  * @param {string} label
- * @param {number} impacts budget, 0 for everything
+ * @param {number} impacts budget
  */
 export function legendText(label, impacts) {
   if (label === "0") return "no impact";
-  if (label === "undecided") return impacts ? `not settled in ${impacts} impacts` : "undecided";
+  if (label === "undecided") return `not settled in ${grouped(impacts)} impacts`;
   if (label.startsWith("inf/")) return `${labelText(label)} chatter`;
   return label;
 }
@@ -68,8 +68,8 @@ export function stability(motion) {
 }
 
 /** Which motions a point has, most frequent first. */
-export function motionsText(found, impacts) {
-  const name = (motion) => legendText(motion.name, impacts);
+export function motionsText(found) {
+  const name = (motion) => legendText(motion.name, motion.impacts);
   if (found.length === 1) return name(found[0]);
   return found.map((motion) => `${name(motion)} ${percent(motion.share)}`).join(", ");
 }
