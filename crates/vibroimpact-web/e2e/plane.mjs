@@ -170,7 +170,11 @@ export async function axes_change_and_budget_and_starts({ open }) {
   await page.locator("#axis-x").selectOption("restitution");
   await asked;
   assert.ok(await page.locator("#field-inverse_beta").isVisible(), "the frequency is on no axis now");
-  await page.locator("#starts").selectOption("4");
+  const starts = page.locator("#starts");
+  assert.deepEqual(await starts.evaluate((slider) => [slider.min, slider.max, slider.labels[0].textContent]), ["1", "16", "starts per point"]);
+  await starts.focus();
+  for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowRight");
+  assert.equal(await page.locator("output[for=starts]").textContent(), "4");
   await page.locator("#impacts").selectOption("1000");
   const state = await hash(page);
   assert.deepEqual([state.get("x"), state.get("starts"), state.get("impacts")], ["restitution", "4", "1000"]);

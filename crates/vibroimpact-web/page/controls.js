@@ -2,7 +2,7 @@
 
 import { byId, debounced, element } from "./dom.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
-import { BUDGETS } from "./state.js";
+import { BUDGETS, MOST_STARTS } from "./state.js";
 import { grouped } from "./ticks.js";
 
 /** What is said of a budget beside its number. */
@@ -20,17 +20,17 @@ export function controls(store) {
     element("label", { class: "check" }, second, element("span", { text: "second stop, at ξ = −δ₂" })),
     ...rows.slice(5).map((row) => row.box),
   );
-  const starts = choice(store, "starts", Array.from({ length: 16 }, (_, k) => [k + 1, String(k + 1)]));
+  const starts = startsPerPoint(store);
   const impacts = choice(store, "impacts", BUDGETS.map((n) => [n, `${grouped(n)} impacts${BUDGET_WORDS[n] ?? ""}`]));
   byId("budget").append(
-    element("label", { class: "row" }, element("span", { text: "starts per point" }), starts),
+    starts.box,
     element("label", { class: "row" }, element("span", { text: "for" }), impacts),
   );
   const show = () => {
     const { state } = store;
     second.checked = state.second;
     second.disabled = ofSecondStop(state.x) || ofSecondStop(state.y);
-    starts.value = String(state.starts);
+    starts.show();
     impacts.value = String(state.impacts);
     for (const row of rows) row.show();
   };
@@ -47,6 +47,24 @@ function secondStop(store, second) {
 function choice(store, name, options) {
   return element("select", { id: name, onchange: (event) => store.set({ [name]: Number(event.target.value) }) },
     ...options.map(([value, text]) => element("option", { value, text })));
+}
+
+/** The slider of the starts per point; the plane is computed when it is let go, as every start costs as much as the first. */
+function startsPerPoint(store) {
+  const said = element("output", { for: "starts" });
+  const range = element("input", {
+    type: "range", id: "starts", min: 1, max: MOST_STARTS, step: 1,
+    oninput: () => {
+      said.value = range.value;
+    },
+    onchange: () => store.set({ starts: Number(range.value) }),
+  });
+  const box = element("div", { class: "parameter" }, element("label", { for: "starts", text: "starts per point" }), range, said);
+  const show = () => {
+    range.value = String(store.state.starts);
+    said.value = range.value;
+  };
+  return { box, show };
 }
 
 /** The slider and field of a parameter; shown where it is on no axis. */

@@ -28,6 +28,9 @@
 
 import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
 
+/** Starts per point at most. */
+export const MOST_STARTS = 16;
+
 /** Impacts to follow each start for, at most; the last is what a verdict in full takes. */
 export const BUDGETS = [200, 1000, 20000];
 
@@ -72,7 +75,7 @@ const READ = {
   view: (text) => interval(numbers(text, 4)),
   ...Object.fromEntries(Object.keys(PARAMETERS).map((name) => [name, number(name)])),
   second: flag,
-  starts: count(1, 16),
+  starts: count(1, MOST_STARTS),
   impacts: (text) => BUDGETS.find((impacts) => impacts === Number(text)),
   point: flag,
   start: (text) => numbers(text, 3),
