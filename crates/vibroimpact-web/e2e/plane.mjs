@@ -49,6 +49,59 @@ export async function zooms_ten_levels({ open }) {
   await until("1/2 fills the view", async () => (await legend(page)).get("1/2") > 99);
 }
 
+export async function one_axis_is_zoomed_alone({ open, folder }) {
+  const { page } = await open("", { viewport: { width: 900, height: 700 } });
+  await sharp(page);
+  // an entry of the history to go back to
+  await page.mouse.click(...await place(page, 1.3, 1.5));
+  await until("a point is chosen", async () => (await hash(page)).has("point"));
+  const tiles = [];
+  page.on("request", (request) => {
+    if (request.url().endsWith("/api/tile") && request.postDataJSON().task.map) tiles.push(request.postDataJSON().task.map);
+  });
+  const view = async () => (await hash(page)).get("view")?.split(",").map(Number);
+  const box = await page.locator("#plane").boundingBox();
+  const [x, y] = await place(page, 1.3, 1.5);
+  await page.mouse.move(x, box.y + box.height - 12);
+  for (let k = 0; k < 4; k++) {
+    await page.mouse.wheel(0, -125);
+    await page.waitForTimeout(60);
+  }
+  await until("a quarter of the width", async () => {
+    const [from, to] = (await view()) ?? [0, 9];
+    return Math.abs(to - from - 1.65 / 4) < 0.005;
+  }, 5);
+  const [left, right, bottom, top] = await view();
+  assert.ok(Math.abs(bottom) < 0.01 && Math.abs(top - 5) < 0.01, `the gap stays: ${bottom}, ${top}`);
+  assert.ok(Math.abs((1.3 - left) / (right - left) - (1.3 - 0.375) / 1.65) < 0.01, "what is below the pointer stays there");
+  await sharp(page);
+  const many = tiles.length;
+  assert.ok(many > 0 && many <= 80, `${many} tiles for one gesture`);
+  await page.screenshot({ path: `${folder}/one-axis.png` });
+  // upwards alone, from the keyboard, and back
+  await page.locator("#plane canvas").last().focus();
+  await page.keyboard.press("y");
+  await until("half the height", async () => Math.abs((await view())[3] - (await view())[2] - 2.5) < 0.02, 5);
+  assert.ok(Math.abs((await view())[0] - left) < 1e-6, "the frequency stays");
+  await page.waitForTimeout(200);
+  await page.keyboard.press("Y");
+  await until("the whole height", async () => Math.abs((await view())[3] - (await view())[2] - 5) < 0.02, 5);
+  await sharp(page);
+  assert.ok(tiles.length <= many + 80, `${tiles.length - many} tiles for the other axis`);
+  await page.mouse.move(box.x + 15, y);
+  await page.mouse.dblclick(box.x + 15, y);
+  await until("a double click over the other numbers", async () => Math.abs((await view())[3] - (await view())[2] - 2.5) < 0.02, 5);
+  assert.ok(Math.abs((await view())[1] - right) < 1e-6, "the frequency stays");
+  await page.waitForTimeout(300);
+  await sharp(page);
+  const last = tiles.length;
+  await page.goBack();
+  await until("the whole view", async () => (await page.evaluate(() => location.hash)) === "");
+  await sharp(page);
+  await until("the shares are there", async () => (await page.locator("#legend .note").textContent()) === "");
+  assert.equal(tiles.length, last, "the first view is not asked again");
+}
+
 export async function stops_at_the_numeric_limit({ open }) {
   const { page } = await open("#view=1.1099999999999,1.1100000000001,1.9999999999999,2.0000000000001");
   await drawn(page);

@@ -30,10 +30,11 @@ function cut(first, h, count, [least, most], open) {
  */
 export function askTile(view, key, level, [column, row], signal) {
   const { source, viewport: v } = view;
-  const [hx, hy] = [v.stepX * 2 ** -level, v.stepY * 2 ** -(level + v.shape)];
+  const shape = v.shapeOf(level);
+  const [hx, hy] = [v.stepX * 2 ** -level, v.stepY * 2 ** -(level + shape)];
   const across = cut(column * SIDE, hx, SIDE, source.legal.x, source.x.open);
   const up = cut(row * SIDE, hy, SIDE, source.legal.y, source.y.open);
-  return { key, source, tile: filled({ source, key, level, hx, hy, across, up }, REFINE, signal) };
+  return { key, source, tile: filled({ source, key, level, shape, hx, hy, across, up }, REFINE, signal) };
 }
 
 /** A few points over all that is in view. */
@@ -47,10 +48,10 @@ export function askCoarse(view, key, signal) {
   return { key, source, tile: filled({ source, key, level: -Infinity, hx, hy, across, up }, undefined, signal) };
 }
 
-async function filled({ source, key, level, hx, hy, across, up }, refine, signal) {
+async function filled({ source, key, level, shape, hx, hy, across, up }, refine, signal) {
   const place = across.first + up.first;
   const tile = new Tile({
-    source: source.key, look: source.look, impacts: source.impacts, key, level, hx, hy, x0: across.first * hx, y0: up.first * hy,
+    source: source.key, look: source.look, impacts: source.impacts, key, level, shape, hx, hy, x0: across.first * hx, y0: up.first * hy,
     columns: across.count, rows: up.count, phase: ((place % STRIPE) + STRIPE) % STRIPE,
   });
   if (tile.columns > 0 && tile.rows > 0) {

@@ -66,7 +66,7 @@ export class Basin {
     Object.assign(this, { store, heard, labels: new Map(), cycles: new Map(), dot: null });
     this.view = new TileView(host, {
       ...parts, rank: 5,
-      label: "Starts: initial position and velocity. Arrow keys move, plus and minus zoom, Enter puts the start at the cross.",
+      label: "Starts: initial position and velocity. Arrow keys move, plus and minus zoom, x and y zoom along one axis, Enter puts the start at the cross.",
     });
     this.view.painters.push((context, viewport, frame) => this.paint(context, viewport, frame));
     this.view.grab = (px, xy, touch) => this.hold(px, touch);

@@ -15,7 +15,6 @@ export function gestures(view) {
     const box = surface.getBoundingClientRect();
     return [event.clientX - box.left - view.frame.left, event.clientY - box.top - view.frame.top];
   };
-  const settled = () => view.dispatchEvent(new Event("view"));
   view.addEventListener("view", () => {
     view.unmoved = false;
   });
@@ -34,6 +33,7 @@ export function gestures(view) {
       held?.cancel?.();
       [press, held] = [null, null];
       pinch = spread(fingers);
+      pinch.along = axisAt(view, [pinch.x, pinch.y]);
       return;
     }
     press = { px, last: px, moved: false };
@@ -45,13 +45,16 @@ export function gestures(view) {
     if (!fingers.has(event.pointerId)) {
       hover(px);
       surface.classList.toggle("grabs", Boolean(view.hand?.(px)));
+      const along = axisAt(view, px);
+      for (const axis of ["x", "y"]) surface.classList.toggle(`along-${axis}`, along === axis);
       return;
     }
     fingers.set(event.pointerId, px);
     if (pinch && fingers.size === 2) {
-      const now = spread(fingers);
-      view.viewport.pan(now.x - pinch.x, now.y - pinch.y);
-      zoom(view, Math.log2(now.size / pinch.size), [now.x, now.y]);
+      const { along } = pinch;
+      const now = { ...spread(fingers), along };
+      view.viewport.pan(along === "y" ? 0 : now.x - pinch.x, along === "x" ? 0 : now.y - pinch.y);
+      zoom(view, Math.log2(now.size / pinch.size), [now.x, now.y], along);
       pinch = now;
       return;
     }
@@ -71,14 +74,14 @@ export function gestures(view) {
     surface.classList.remove("pans");
     if (pinch) {
       if (fingers.size < 2) pinch = null;
-      settled();
+      view.settled();
       return;
     }
     if (!press) return;
     const px = inside(event);
     const { moved } = press;
     if (held) held.up(px, view.viewport.toPlane(...px), moved);
-    else if (moved) settled();
+    else if (moved) view.settled();
     else if (event.type === "pointerup") pick(view, px);
     [press, held] = [null, null];
   };
@@ -90,18 +93,26 @@ export function gestures(view) {
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 33 : event.deltaMode === 2 ? 400 : 1;
     const levels = -(event.deltaY * lines) / (event.ctrlKey ? 60 : 250);
-    zoom(view, Math.max(-2, Math.min(2, levels)), inside(event));
+    const px = inside(event);
+    zoom(view, Math.max(-2, Math.min(2, levels)), px, axisAt(view, px));
     clearTimeout(view.wheeled);
-    view.wheeled = setTimeout(settled, 250);
+    view.wheeled = setTimeout(() => view.settled(), 250);
   }, { passive: false });
 
   surface.addEventListener("dblclick", (event) => {
     event.preventDefault();
-    glide(view, event.shiftKey ? -1 : 1, inside(event));
+    const px = inside(event);
+    glide(view, event.shiftKey ? -1 : 1, px, axisAt(view, px));
   });
 
   for (const name of ["focus", "blur"]) surface.addEventListener(name, () => view.draw());
-  surface.addEventListener("keydown", (event) => keyed(view, event, settled));
+  surface.addEventListener("keydown", (event) => keyed(view, event));
+}
+
+/** The axis in the strip of whose numbers a pixel lies; null in the plane and in the corner. */
+function axisAt(view, [px, py]) {
+  const [left, below] = [px < 0, py > view.viewport.height];
+  return left === below ? null : left ? "y" : "x";
 }
 
 /** Where two fingers are, and how far apart. */
@@ -116,15 +127,19 @@ function pick(view, px) {
   view.dispatchEvent(new CustomEvent("pick", { detail: px }));
 }
 
-/** Zooms, and tells where the numeric limit is met. */
-export function zoom(view, levels, px) {
-  const limited = view.viewport.zoom(levels, px[0], px[1], view.density);
+/**
+ * Zooms, and tells where the numeric limit is met. Along one axis every moment has tiles of its own: they are asked for at the
+ * end of the gesture.
+ */
+function zoom(view, levels, px, along = null) {
+  const limited = view.viewport.zoom(levels, px[0], px[1], view.density, along);
   view.dispatchEvent(new CustomEvent("limit", { detail: limited }));
-  view.changed();
+  if (along) view.draw();
+  else view.changed();
 }
 
 /** Zooms in a few frames, at once where motion is unwelcome. */
-export function glide(view, levels, px = [view.viewport.width / 2, view.viewport.height / 2]) {
+export function glide(view, levels, px = [view.viewport.width / 2, view.viewport.height / 2], along = null) {
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   const frames = still ? 1 : 9;
   let left = frames;
@@ -132,19 +147,20 @@ export function glide(view, levels, px = [view.viewport.width / 2, view.viewport
   view.stopMoving?.();
   view.stopMoving = () => {
     stopped = true;
+    view.changed();
   };
   const step = () => {
     if (stopped) return;
-    zoom(view, levels / frames, px);
+    zoom(view, levels / frames, px, along);
     if (--left > 0) requestAnimationFrame(step);
-    else view.dispatchEvent(new Event("view"));
+    else view.settled();
   };
   step();
 }
 
 const ARROWS = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
-function keyed(view, event, settled) {
+function keyed(view, event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const { viewport: v } = view;
   const centre = [v.width / 2, v.height / 2];
@@ -155,9 +171,10 @@ function keyed(view, event, settled) {
     view.changed();
     hoverCentre(view, centre);
     clearTimeout(view.wheeled);
-    view.wheeled = setTimeout(settled, 300);
+    view.wheeled = setTimeout(() => view.settled(), 300);
   } else if (event.key === "+" || event.key === "=") glide(view, 1);
   else if (event.key === "-" || event.key === "_") glide(view, -1);
+  else if (["x", "y", "X", "Y"].includes(event.key)) glide(view, event.shiftKey ? -1 : 1, centre, event.key.toLowerCase());
   else if (event.key === "0" || event.key === "Home") view.dispatchEvent(new Event("home"));
   else if (event.key === "Enter" || event.key === " ") {
     if (view.entered) view.entered(centre);

@@ -6,6 +6,7 @@ const KEYS = [
   ["In the plane and in the plane of starts", [
     ["drag, arrow keys", "move (Shift with an arrow: in small steps)"],
     ["wheel, pinch, double click, + −", "zoom"],
+    ["the same over the numbers of an axis, x, y", "zoom along that axis alone (Shift with x or y: out)"],
     ["click, Enter", "choose the point, or put the start, at the pointer or the cross"],
     ["0, Home", "the whole view"],
   ]],

@@ -31,7 +31,7 @@ export class Plane {
     this.store = store;
     this.view = new TileView(host, {
       ...parts,
-      label: "Plane of parameters. Arrow keys move, plus and minus zoom, Enter chooses the point at the cross.",
+      label: "Plane of parameters. Arrow keys move, plus and minus zoom, x and y zoom along one axis, Enter chooses the point at the cross.",
     });
     this.looks = new Map();
     this.points = [];

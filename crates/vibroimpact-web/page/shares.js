@@ -19,7 +19,9 @@ export function shares(view) {
   const cut = (low, high, begin, h, count) => [
     Math.max(0, Math.round((low - begin) / h)), Math.min(count, Math.round((high - begin) / h)),
   ];
-  for (const tile of view.knownOf(view.source.key).filter((known) => known.level === level)) {
+  const shape = view.viewport.shapeOf(level);
+  const sharp = view.knownOf(view.source.key).filter((tile) => tile.level === level && tile.shape === shape);
+  for (const tile of sharp) {
     tile.count(counts, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows));
   }
   return { counts, coarse: false };

@@ -26,8 +26,8 @@ const faded = (pixel) => {
  * `impacts` is the budget it was computed with.
  */
 export class Tile {
-  constructor({ source, look, impacts, key, level, x0, y0, hx, hy, columns, rows, phase }) {
-    Object.assign(this, { source, look, impacts, key, level, x0, y0, hx, hy, columns, rows, phase });
+  constructor({ source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase }) {
+    Object.assign(this, { source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase });
     Object.assign(this, { classes: null, shares: null, per: 1, canvas: null, painted: "" });
   }
 

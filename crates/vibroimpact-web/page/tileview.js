@@ -119,6 +119,12 @@ export class TileView extends EventTarget {
     }, 40);
   }
 
+  /** A gesture has ended. */
+  settled() {
+    this.changed();
+    this.dispatchEvent(new Event("view"));
+  }
+
   /** The level of tiles that suits the view. */
   level() {
     let level = Math.ceil(this.viewport.z + Math.log2(this.density) - 1e-6);
@@ -130,7 +136,7 @@ export class TileView extends EventTarget {
   grid(level) {
     const { viewport: v } = this;
     const wide = v.stepX * 2 ** -level * SIDE;
-    const high = v.stepY * 2 ** -(level + v.shape) * SIDE;
+    const high = v.stepY * 2 ** -(level + v.shapeOf(level)) * SIDE;
     const [left, top] = v.toPlane(0, 0);
     const [right, bottom] = v.toPlane(v.width, v.height);
     const [{ x: lx, y: ly }, clip] = [this.source.legal, (value, [least, most]) => Math.min(most, Math.max(least, value))];
@@ -140,7 +146,7 @@ export class TileView extends EventTarget {
   }
 
   tileKey(level, i, j) {
-    return `${this.source.key}|${this.viewport.shape}|${level}|${i}|${j}`;
+    return `${this.source.key}|${this.viewport.shapeOf(level)}|${level}|${i}|${j}`;
   }
 
   /** Wants what is in view and not known: coarse points first, then tiles from the pointer or the centre outwards. */
@@ -244,7 +250,13 @@ export class TileView extends EventTarget {
   /** @param {string} source its key @returns {Tile[]} */
   knownOf(source) {
     const level = this.level();
-    const order = (tile) => (tile.level === level ? Infinity : tile.level < level ? tile.level : 2000 - tile.level);
+    const shape = this.viewport.shapeOf(level);
+    // what is as fine as wanted by both axes together, the finest of what is coarser, the coarsest of what is finer
+    const [fine, wanted] = [(tile) => tile.level + tile.shape / 2, level + shape / 2];
+    const order = (tile) => {
+      if (tile.level === level && tile.shape === shape) return Infinity;
+      return fine(tile) <= wanted ? fine(tile) : 2000 - fine(tile);
+    };
     const tiles = this.cache.of(source).filter((tile) => tile.classes);
     return [
       ...this.coarse.filter((tile) => tile.source === source && tile.classes),

@@ -2,14 +2,22 @@
 
 /** Smallest distance of neighbouring points, in units in the last place of the coordinate. */
 const LEAST_ULPS = 8;
-/** A shape of the pixel this close to the one before, in powers of two, is the same: a window comes with few digits. */
-const SAME_SHAPE = 1e-3;
+/** Smallest zoom of an axis. */
+const LEAST_ZOOM = -5;
+/** Shapes of the cells of tiles are this far apart, in powers of two, so that tiles fit other views too. */
+const SHAPES = 1 / 4;
+/** A window comes with few digits: so little in the shape is nothing. */
+const SLACK = 1e-3;
 
 /** @param {number} x @returns {number} the distance of neighbouring doubles at `x` */
 export const ulp = (x) => 2 ** (Math.floor(Math.log2(Math.max(Math.abs(x), 2 ** -1000))) - 52);
 
 export class Viewport {
-  /** @param {number} stepX size of a pixel at zoom 0 @param {number} stepY */
+  /**
+   * Its zoom is `z` to the right and `z + shape` upwards.
+   * @param {number} stepX size of a pixel at zoom 0
+   * @param {number} stepY
+   */
   constructor(stepX, stepY) {
     Object.assign(this, { stepX, stepY, cx: 0, cy: 0, z: 0, shape: 0, width: 100, height: 100 });
   }
@@ -31,9 +39,9 @@ export class Viewport {
     this.cy = (bottom + top) / 2;
     const zx = Math.log2((this.stepX * this.width) / (right - left));
     const zy = Math.log2((this.stepY * this.height) / (top - bottom));
-    if (Math.abs(zy - zx - this.shape) > SAME_SHAPE) this.shape = zy - zx;
-    this.z = zx;
-    this.z = Math.min(zx, this.deepest(density));
+    const [mostX, mostY] = this.deepest(density, [zx, zy]);
+    this.z = Math.min(zx, mostX);
+    this.shape = Math.min(zy, mostY) - this.z;
   }
 
   /** @returns {number[]} left, right, bottom, top, with as many digits as a pixel needs */
@@ -64,24 +72,40 @@ export class Viewport {
    * @param {number} px
    * @param {number} py
    * @param {number} density device pixels a pixel
+   * @param {"x" | "y" | null} [along] the axis that alone is zoomed; null for both
    * @returns {boolean} whether the numeric limit was met
    */
-  zoom(levels, px, py, density) {
+  zoom(levels, px, py, density, along = null) {
     const [x, y] = this.toPlane(px, py);
-    const most = this.deepest(density);
-    const wanted = this.z + levels;
-    this.z = Math.max(-5, Math.min(most, wanted));
+    const [z, zy] = [this.z, this.z + this.shape];
+    const [mostX, mostY] = this.deepest(density);
+    const most = Math.min(along === "y" ? Infinity : mostX - z, along === "x" ? Infinity : mostY - zy);
+    const least = Math.max(along === "y" ? -Infinity : LEAST_ZOOM - z, along === "x" ? -Infinity : LEAST_ZOOM - zy);
+    const by = Math.max(Math.min(0, least), Math.min(most, levels));
+    if (along !== "y") this.z = z + by;
+    this.shape = (along === "x" ? zy : zy + by) - this.z;
     this.cx = x - (px - this.width / 2) * this.hx;
     this.cy = y + (py - this.height / 2) * this.hy;
-    return wanted > most;
+    return levels > most;
   }
 
-  /** The zoom beyond which neighbouring points of a tile are less than a few units in the last place apart. */
-  deepest(density) {
+  /** The shape of the cells of tiles of a level: that of the pixels or a little finer upwards, within the numeric limit. */
+  shapeOf(level) {
+    const steps = Math.ceil((this.shape - SLACK) / SHAPES);
+    return SHAPES * Math.min(steps, Math.floor((this.limits()[1] - level) / SHAPES));
+  }
+
+  /** The level of each axis at which neighbouring points are a few units in the last place apart. */
+  limits([z, zy] = [this.z, this.z + this.shape]) {
     const level = (step, centre, span) => Math.log2(step / (LEAST_ULPS * ulp(Math.abs(centre) + span / 2)));
-    const x = level(this.stepX, this.cx, this.hx * this.width);
-    const y = level(this.stepY, this.cy, this.hy * this.height) - this.shape;
-    return Math.floor(Math.min(x, y)) - Math.log2(density);
+    return [
+      level(this.stepX, this.cx, this.stepX * 2 ** -z * this.width), level(this.stepY, this.cy, this.stepY * 2 ** -zy * this.height),
+    ];
+  }
+
+  /** The zooms of both axes beyond which neighbouring points of a tile are less than that apart. */
+  deepest(density, zooms) {
+    return this.limits(zooms).map((limit) => Math.floor(limit) - Math.log2(density));
   }
 
   /** A value rounded to as few decimals as tell pixels apart. */
