@@ -74,6 +74,7 @@ export async function one_axis_is_zoomed_alone({ open, folder }) {
   const [left, right, bottom, top] = await view();
   assert.ok(Math.abs(bottom) < 0.01 && Math.abs(top - 5) < 0.01, `the gap stays: ${bottom}, ${top}`);
   assert.ok(Math.abs((1.3 - left) / (right - left) - (1.3 - 0.375) / 1.65) < 0.01, "what is below the pointer stays there");
+  await page.waitForTimeout(300);
   await sharp(page);
   const many = tiles.length;
   assert.ok(many > 0 && many <= 80, `${many} tiles for one gesture`);
@@ -84,8 +85,9 @@ export async function one_axis_is_zoomed_alone({ open, folder }) {
   await until("half the height", async () => Math.abs((await view())[3] - (await view())[2] - 2.5) < 0.02, 5);
   assert.ok(Math.abs((await view())[0] - left) < 1e-6, "the frequency stays");
   await page.waitForTimeout(200);
-  await page.keyboard.press("Y");
+  await page.keyboard.press("Shift+Y");
   await until("the whole height", async () => Math.abs((await view())[3] - (await view())[2] - 5) < 0.02, 5);
+  await page.waitForTimeout(300);
   await sharp(page);
   assert.ok(tiles.length <= many + 80, `${tiles.length - many} tiles for the other axis`);
   await page.mouse.move(box.x + 15, y);
@@ -97,6 +99,7 @@ export async function one_axis_is_zoomed_alone({ open, folder }) {
   const last = tiles.length;
   await page.goBack();
   await until("the whole view", async () => (await page.evaluate(() => location.hash)) === "");
+  await page.waitForTimeout(300);
   await sharp(page);
   await until("the shares are there", async () => (await page.locator("#legend .note").textContent()) === "");
   assert.equal(tiles.length, last, "the first view is not asked again");

@@ -31,6 +31,13 @@ export async function a_server_that_is_gone_is_said_and_found_again({ open }) {
   complaints.splice(0, complaints.length, ...complaints.filter((one) => !/ERR_CONNECTION_REFUSED/.test(one)));
 }
 
+export async function a_view_of_nothing_legal_is_said({ open }) {
+  const { page } = await open("#x=restitution&view=1.1,1.3,1,2");
+  await until("it is said", async () => (await page.locator("#legend .note").textContent()) === "No legal values in view.");
+  await page.locator("#whole").click();
+  await drawn(page);
+}
+
 export async function a_second_stop_leaves_the_layers_a_legal_window({ open }) {
   const { page } = await open("#second=1&second_gap=0.2&layers=amplitude");
   await drawn(page);

@@ -51,7 +51,12 @@ export class Legend {
     const { counts, coarse } = shares(this.view);
     const total = [...counts.values()].reduce((sum, n) => sum + n, 0);
     if (!total) {
-      this.note.textContent = "Computing.";
+      const nothing = this.view.progress?.[1] === 0;
+      this.note.textContent = nothing ? "No legal values in view." : "Computing.";
+      if (nothing) {
+        this.fill([]);
+        this.more.hidden = true;
+      }
       return;
     }
     const sorted = [...counts].map(([id, n]) => ({ id, share: n / total, ...this.view.source.look(id) }))

@@ -176,7 +176,7 @@ impl Fill for MapFill {
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         let points = block.points();
         let rows = |wanted: &[usize]| -> Option<Vec<Vec<Row>>> {
-            wanted.iter().map(|k| (!tick()).then(|| self.point(&block.index(*k)))).collect()
+            wanted.iter().map(|k| (!tick()).then(|| self.known_or_new(&block.index(*k)))).collect()
         };
         let cells: Vec<Cell<Vec<Row>>> = match self.plan.refine {
             None => rows(&(0..points).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
