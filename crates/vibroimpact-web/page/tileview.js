@@ -244,11 +244,11 @@ export class TileView extends EventTarget {
 
   /** @returns {Tile[]} all that is known of what is shown, in the order in which it is drawn: what suits best comes last */
   known() {
-    return [...this.source.shallower, this.source.key].flatMap((key) => this.knownOf(key));
+    return this.knownOf(...this.source.shallower, this.source.key);
   }
 
-  /** @param {string} source its key @returns {Tile[]} */
-  knownOf(source) {
+  /** @param {...string} sources keys, the best last @returns {Tile[]} coarse pictures first, then tiles */
+  knownOf(...sources) {
     const level = this.level();
     const shape = this.viewport.shapeOf(level);
     // what is as fine as wanted by both axes together, the finest of what is coarser, the coarsest of what is finer
@@ -257,10 +257,10 @@ export class TileView extends EventTarget {
       if (tile.level === level && tile.shape === shape) return Infinity;
       return fine(tile) <= wanted ? fine(tile) : 2000 - fine(tile);
     };
-    const tiles = this.cache.of(source).filter((tile) => tile.classes);
+    const ordered = (source) => this.cache.of(source).filter((tile) => tile.classes).sort((a, b) => order(a) - order(b));
     return [
-      ...this.coarse.filter((tile) => tile.source === source && tile.classes),
-      ...tiles.sort((a, b) => order(a) - order(b)),
+      ...sources.flatMap((source) => this.coarse.filter((tile) => tile.source === source && tile.classes)),
+      ...sources.flatMap(ordered),
     ];
   }
 
