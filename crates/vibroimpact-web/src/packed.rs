@@ -168,7 +168,7 @@ mod tests {
     use vibroimpact_study::study::in_memory;
     use vibroimpact_study::{Control, Plan, Study};
 
-    fn packed(task: &str) -> (serde_json::Value, Vec<u8>) {
+    fn packed(task: &str) -> (Value, Vec<u8>) {
         let plan = Plan::from_text(&format!(
             r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{{task}}}}}"#
         ));
@@ -178,7 +178,7 @@ mod tests {
         (serde_json::from_slice(&bytes[4..4 + length]).unwrap(), bytes[4 + length..].to_vec())
     }
 
-    fn whole(body: &[u8], field: &serde_json::Value) -> Vec<i32> {
+    fn whole(body: &[u8], field: &Value) -> Vec<i32> {
         let at = usize::try_from(field["offset"].as_u64().unwrap()).unwrap();
         let count = usize::try_from(field["length"].as_u64().unwrap()).unwrap();
         body[at..at + 4 * count].chunks(4).map(|four| i32::from_le_bytes(four.try_into().unwrap())).collect()

@@ -229,3 +229,22 @@ pub(super) fn computed() -> Field {
 pub(super) fn computed_column<T>(cells: &[Cell<T>]) -> Column {
     Column::I8(cells.iter().map(|cell| if matches!(cell, Cell::Computed(_)) { 1 } else { 2 }).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{NO_MOTION, NOT_COMPUTED, UNDECIDED};
+    use super::*;
+
+    #[test]
+    fn only_points_with_every_start_settled_are_taken_over() {
+        let label = vec![10_001, 20_001, 10_001, NO_MOTION, 10_001, UNDECIDED, 10_001, 20_001, NOT_COMPUTED, NO_MOTION];
+        let share = vec![0.75, 0.25, 1.0, f64::NAN, 0.5, 0.5, 0.5, 0.3, f64::NAN, f64::NAN];
+        let mut earlier = Earlier { label, share, computed: None };
+        // the fourth point had a third motion, which was not kept and may be an open one; there is no sixth
+        let taken =
+            |earlier: &Earlier| (0..6).map(|k| earlier.settled(k, 2).map_or(0, |rows| rows.len())).collect::<Vec<_>>();
+        assert_eq!(taken(&earlier), [2, 1, 0, 0, 0, 0]);
+        earlier.computed = Some(vec![2, 1, 1, 1, 0]);
+        assert_eq!(taken(&earlier), [0, 1, 0, 0, 0, 0]);
+    }
+}
