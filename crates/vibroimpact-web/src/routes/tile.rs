@@ -10,22 +10,24 @@ use axum::response::Response;
 use vibroimpact_study::study::in_memory;
 use vibroimpact_study::{Control, MapPlan, Plan, Study, Task};
 
-/// Points from which a piece is worth more than one thread: several tiles of this size are made side by side anyway.
+/// Points from which a piece is worth more than one thread: several tiles of this size are made side by side anyway. With a budget
+/// beyond the smaller ones any piece is, as it may take a minute of work.
 const LARGE: u64 = 17_000;
 /// Points of a tile that one thread makes, where several do.
 const SIDE: u32 = 32;
 
 pub(super) async fn tile(State(explorer): State<Explorer>, asked: Asked) -> Result<Response, Refusal> {
     let Asked { mut plan, points } = asked;
-    let refined = match &plan.task {
-        Task::Map(map) => map.refine.is_some(),
-        Task::Basin(basin) => basin.refine.is_some(),
+    let (refine, impacts) = match &plan.task {
+        Task::Map(map) => (map.refine, map.impacts),
+        Task::Basin(basin) => (basin.refine, basin.impacts),
         _ => return Err(Refusal::bad("a tile is a piece of a map or of a basin")),
     };
     let name = name(&plan);
     let known = shallower(&explorer, &plan);
     // points of one thread are refined together; those without refinement may be divided as one likes
-    let alone = refined && points <= LARGE;
+    let brief = impacts.is_some_and(|impacts| impacts <= SHALLOWER[0]);
+    let alone = refine.is_some() && brief && points <= LARGE;
     plan.tile = plan.tile.or(Some(if alone { 4096 } else { SIDE }));
     let threads = usize::from(alone);
     let work = move |control: &Control<'_>| {
