@@ -5,8 +5,6 @@ import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "
 import { BUDGETS, MOST_STARTS } from "./state.js";
 import { grouped } from "./ticks.js";
 
-/** What is said of a budget beside its number. */
-const BUDGET_WORDS = { 200: ", quick", 20000: ", in full" };
 
 /** @param {import("./state.js").Store} store */
 export function controls(store) {
@@ -21,7 +19,7 @@ export function controls(store) {
     ...rows.slice(5).map((row) => row.box),
   );
   const starts = startsPerPoint(store);
-  const impacts = choice(store, "impacts", BUDGETS.map((n) => [n, `${grouped(n)} impacts${BUDGET_WORDS[n] ?? ""}`]));
+  const impacts = choice(store, "impacts", BUDGETS.map((n) => [n, `${grouped(n)} impacts`]));
   byId("budget").append(
     starts.box,
     element("label", { class: "row" }, element("span", { text: "for" }), impacts),

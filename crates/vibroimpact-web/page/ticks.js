@@ -58,7 +58,7 @@ export function short(value) {
 }
 
 /** @param {number} count @returns {string} its digits, in groups of three where there are five or more */
-export const grouped = (count) => (count < 10000 ? String(count) : String(count).replace(/\B(?=(\d{3})+$)/g, "\u2009"));
+export const grouped = (count) => (count < 10000 ? String(count) : String(count).replace(/\B(?=(\d{3})+$)/g, "\u202f"));
 
 /** @param {number} share @returns {string} per cent */
 export function percent(share) {
