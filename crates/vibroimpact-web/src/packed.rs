@@ -4,10 +4,9 @@
 //! fields with their types and places, every label that occurs with its colour, and for a basin its cycles.
 
 use serde::Serialize;
-use serde_json::Value;
 use std::collections::BTreeMap;
 use vibroimpact_plot::class_style;
-use vibroimpact_study::study::{Cells, Earlier, NOT_COMPUTED, Sheet, Table, label_of};
+use vibroimpact_study::study::{Cells, NOT_COMPUTED, Sheet, Table, label_of};
 use vibroimpact_study::{Column, Field};
 
 /// Fields that the page draws; the others of a study are for tables.
@@ -111,26 +110,6 @@ fn place<'a>(field: &'a Field, column: &Column, body: &mut Vec<u8>) -> Place<'a>
     Place { name: field.name, kind, per_point: field.width(), offset, length: column.len() }
 }
 
-/// The fields of a packed map again, for one that looks longer; `None` for other bytes.
-pub(crate) fn unpack(bytes: &[u8]) -> Option<Earlier> {
-    let (length, rest) = bytes.split_at_checked(4)?;
-    let length = usize::try_from(u32::from_le_bytes(length.try_into().ok()?)).ok()?;
-    let (text, body) = rest.split_at_checked(length)?;
-    let header: Value = serde_json::from_slice(text).ok()?;
-    let fields = header.get("fields")?.as_array()?;
-    let of = |name: &str, kind: &str, size: usize| {
-        let field = fields.iter().find(|field| field["name"] == name && field["type"] == kind)?;
-        let number = |what: &str| field[what].as_u64().and_then(|number| usize::try_from(number).ok());
-        let begin = number("offset")?;
-        body.get(begin..begin.checked_add(size.checked_mul(number("length")?)?)?)
-    };
-    Some(Earlier {
-        label: of("label", "i32", 4)?.as_chunks().0.iter().map(|four| i32::from_le_bytes(*four)).collect(),
-        share: of("share", "f64", 8)?.as_chunks().0.iter().map(|eight| f64::from_le_bytes(*eight)).collect(),
-        computed: of("computed", "i8", 1).map(|how| how.iter().map(|one| i8::from_le_bytes([*one])).collect()),
-    })
-}
-
 fn labels(codes: &[i32]) -> BTreeMap<i32, Named> {
     let mut seen: Vec<i32> = codes.to_vec();
     seen.sort_unstable();
@@ -168,7 +147,7 @@ mod tests {
     use vibroimpact_study::study::in_memory;
     use vibroimpact_study::{Control, Plan, Study};
 
-    fn packed(task: &str) -> (Value, Vec<u8>) {
+    fn packed(task: &str) -> (serde_json::Value, Vec<u8>) {
         let plan = Plan::from_text(&format!(
             r#"{{"version":1,"system":{{"inverse_beta":1.3,"gap":0.75,"restitution":0.5}},"task":{{{task}}}}}"#
         ));
@@ -178,7 +157,7 @@ mod tests {
         (serde_json::from_slice(&bytes[4..4 + length]).unwrap(), bytes[4 + length..].to_vec())
     }
 
-    fn whole(body: &[u8], field: &Value) -> Vec<i32> {
+    fn whole(body: &[u8], field: &serde_json::Value) -> Vec<i32> {
         let at = usize::try_from(field["offset"].as_u64().unwrap()).unwrap();
         let count = usize::try_from(field["length"].as_u64().unwrap()).unwrap();
         body[at..at + 4 * count].chunks(4).map(|four| i32::from_le_bytes(four.try_into().unwrap())).collect()
@@ -218,12 +197,5 @@ mod tests {
         let labels = whole(&body, &header["fields"][0]);
         assert_eq!(labels.len(), 70);
         assert!(header["labels"]["10001"]["colour"].as_str().unwrap().starts_with('#'));
-    }
-
-    #[test]
-    fn what_is_no_map_is_not_unpacked() {
-        for bytes in [&b""[..], b"\x02\0\0\0{}", b"\xff\xff\xff\xff", b"\x0d\0\0\0{\"fields\":[]}"] {
-            assert_eq!(unpack(bytes), None);
-        }
     }
 }

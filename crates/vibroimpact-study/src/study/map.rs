@@ -4,7 +4,7 @@ use super::refine::{self, Cell};
 use super::{Along, Fill, along, code, grid_of, on_axis};
 use crate::field::{Column, Extra, Field, Kind};
 use crate::map::motions;
-use crate::{Block, Dimension, Grid, MapPlan, SystemPlan};
+use crate::{Block, Grid, MapPlan, SystemPlan};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{SettleOptions, Verdict};
 
@@ -19,38 +19,6 @@ pub(super) struct MapFill {
     options: SettleOptions,
     grid: Grid,
     kept: usize,
-    earlier: Option<Earlier>,
-}
-
-/// What a map of the same plan with a smaller budget of impacts gave, over its whole grid in row-major order.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Earlier {
-    /// Its field `label`.
-    pub label: Vec<i32>,
-    /// Its field `share`.
-    pub share: Vec<f64>,
-    /// Its field `computed`; `None` where all points were.
-    pub computed: Option<Vec<i8>>,
-}
-
-/// The shares of all motions at a point add up to one but for rounding; those of the motions kept, where some were not, do not.
-const WHOLE: f64 = 1.0 - 1e-9;
-
-impl Earlier {
-    /// The motions at point number `k`, if every start was settled there: a larger budget decides the same of it.
-    fn settled(&self, k: usize, kept: usize) -> Option<Vec<Row>> {
-        if self.computed.as_ref().is_some_and(|how| how.get(k) != Some(&1)) {
-            return None;
-        }
-        let here = k * kept..(k + 1) * kept;
-        let (labels, shares) = (self.label.get(here.clone())?, self.share.get(here)?);
-        let row =
-            |(label, share): (&i32, &f64)| Row { label: *label, share: *share, speed: f64::NAN, multiplier: f64::NAN };
-        let rows: Vec<Row> =
-            labels.iter().zip(shares).filter(|(label, _)| **label != super::NO_MOTION).map(row).collect();
-        let settled = rows.iter().all(|row| row.label != super::UNDECIDED && row.label != super::NOT_COMPUTED);
-        (settled && rows.iter().map(|row| row.share).sum::<f64>() > WHOLE).then_some(rows)
-    }
 }
 
 /// A motion as it is stored.
@@ -77,21 +45,7 @@ impl MapFill {
     pub(super) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
         let kept = usize::try_from(plan.starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
         let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
-        Self { system: *system, plan: plan.clone(), options: plan.options(), grid, kept, earlier: None }
-    }
-
-    pub(super) fn after(self, earlier: Earlier) -> Self {
-        Self { earlier: Some(earlier), ..self }
-    }
-
-    /// The motions at a point, known from a smaller budget or computed.
-    fn known_or_new(&self, index: &[usize]) -> Vec<Row> {
-        let number = |n, (i, dimension): (&usize, &Dimension)| n * dimension.count + i;
-        let known = self
-            .earlier
-            .as_ref()
-            .and_then(|earlier| earlier.settled(index.iter().zip(&self.grid.dimensions).fold(0, number), self.kept));
-        known.unwrap_or_else(|| self.point(index))
+        Self { system: *system, plan: plan.clone(), options: plan.options(), grid, kept }
     }
 
     /// The motions at a point; none where it is no legal system, which only the corners were checked for.
@@ -176,7 +130,7 @@ impl Fill for MapFill {
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         let points = block.points();
         let rows = |wanted: &[usize]| -> Option<Vec<Vec<Row>>> {
-            wanted.iter().map(|k| (!tick()).then(|| self.known_or_new(&block.index(*k)))).collect()
+            wanted.iter().map(|k| (!tick()).then(|| self.point(&block.index(*k)))).collect()
         };
         let cells: Vec<Cell<Vec<Row>>> = match self.plan.refine {
             None => rows(&(0..points).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
@@ -228,23 +182,4 @@ pub(super) fn computed() -> Field {
 
 pub(super) fn computed_column<T>(cells: &[Cell<T>]) -> Column {
     Column::I8(cells.iter().map(|cell| if matches!(cell, Cell::Computed(_)) { 1 } else { 2 }).collect())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::{NO_MOTION, NOT_COMPUTED, UNDECIDED};
-    use super::*;
-
-    #[test]
-    fn only_points_with_every_start_settled_are_taken_over() {
-        let label = vec![10_001, 20_001, 10_001, NO_MOTION, 10_001, UNDECIDED, 10_001, 20_001, NOT_COMPUTED, NO_MOTION];
-        let share = vec![0.75, 0.25, 1.0, f64::NAN, 0.5, 0.5, 0.5, 0.3, f64::NAN, f64::NAN];
-        let mut earlier = Earlier { label, share, computed: None };
-        // the fourth point had a third motion, which was not kept and may be an open one; there is no sixth
-        let taken =
-            |earlier: &Earlier| (0..6).map(|k| earlier.settled(k, 2).map_or(0, |rows| rows.len())).collect::<Vec<_>>();
-        assert_eq!(taken(&earlier), [2, 1, 0, 0, 0, 0]);
-        earlier.computed = Some(vec![2, 1, 1, 1, 0]);
-        assert_eq!(taken(&earlier), [0, 1, 0, 0, 0, 0]);
-    }
 }

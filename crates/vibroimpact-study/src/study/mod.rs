@@ -17,7 +17,6 @@ mod tests;
 
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, STUCK, UNDECIDED, code, label_of};
 pub use diagram::diagram_of;
-pub use map::Earlier;
 pub use memory::{Sheet, in_memory};
 
 use crate::grid::Dimension;
@@ -129,18 +128,6 @@ impl Study {
             Task::Region(_) => return Err(PlanError::NoStudy("find a region")),
         };
         Ok(Self { fill })
-    }
-
-    /// The study of a map of which a smaller budget of impacts is known: points with every start settled there are taken
-    /// over, with no numbers for `speed` and `multiplier`; `label`, `share` and `computed` are those of the study computed anew.
-    /// Any other study is computed anew.
-    ///
-    /// # Errors
-    /// [`PlanError`] for a plan that makes no sense, or one that fills no grid.
-    pub fn deeper(plan: &Plan, earlier: Earlier) -> Result<Self, PlanError> {
-        let Task::Map(map) = &plan.task else { return Self::new(plan) };
-        plan.check()?;
-        Ok(Self { fill: Box::new(map::MapFill::new(&plan.system, map, plan.tile).after(earlier)) })
     }
 
     /// The grid and its tiles.
