@@ -39,6 +39,9 @@ pub(super) struct Plane {
     periods: u32,
     scales: (f64, f64),
     weights: Vec<f64>,
+    /// Whether changes of speed count relative to the fastest impact, where that is faster than 1: near resonance speeds are as large
+    /// as the restitution lets them become.
+    pub(super) relative: bool,
     pub(super) condition: Condition,
 }
 
@@ -54,7 +57,20 @@ impl Plane {
         let m = ring.len();
         let mut weights = vec![1.0 / m as f64; 2 * m];
         weights.extend([1.0 / (scales.0 * scales.0), 1.0 / (scales.1 * scales.1)]);
-        Self { osc: *osc, parameters, sides: ring.sides.clone(), periods: ring.periods, scales, weights, condition }
+        let (sides, periods) = (ring.sides.clone(), ring.periods);
+        Self { osc: *osc, parameters, sides, periods, scales, weights, relative: false, condition }
+    }
+
+    /// Where [`relative`](Self::relative), lets changes of speed count as at `w`.
+    pub(super) fn measure(&mut self, w: &[f64]) {
+        if !self.relative {
+            return;
+        }
+        let m = self.sides.len();
+        let fastest = (0..m).map(|k| w[2 * k + 1].abs()).fold(1.0, f64::max);
+        for speed in self.weights[..2 * m].iter_mut().skip(1).step_by(2) {
+            *speed = 1.0 / (m as f64 * fastest * fastest);
+        }
     }
 
     /// A ring and values of the parameters as unknowns.

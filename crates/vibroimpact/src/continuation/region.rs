@@ -29,7 +29,7 @@ pub struct RegionOptions {
     pub grid: (u32, u32),
     /// Seeds of that search.
     pub seeds: (u32, u32),
-    /// The longest edge: phases in radians, speeds, and parameters in quarters of the frame.
+    /// The longest edge: phases in radians, speeds over the fastest where that exceeds 1, and parameters in quarters of the frame.
     pub longest: f64,
     /// How far an edge may lie off its curve, in quarters of the frame (an estimate, from how the curve turns).
     pub accuracy: f64,

@@ -15,6 +15,8 @@ pub(super) struct Round<'a> {
     pub(super) plane: Plane,
     /// What must stay positive, up to the sign given.
     pub(super) bounds: Vec<(Condition, f64, Bound)>,
+    /// How many of these `walled` has added.
+    pub(super) added: usize,
     w: Vec<f64>,
     /// The sign of the test function of a multiplier +1 on the sheet.
     pub(super) sheet: f64,
@@ -48,8 +50,9 @@ impl<'a> Round<'a> {
         walled: bool,
         go_on: &'a dyn Fn() -> bool,
     ) -> Option<Self> {
-        let plane =
-            Plane::new(&seed.osc, frame.parameters, frame.scales(), &seed.ring, Condition::Line(0.0, 1.0, at.1));
+        let line = Condition::Line(0.0, 1.0, at.1);
+        let mut plane = Plane::new(&seed.osc, frame.parameters, frame.scales(), &seed.ring, line);
+        plane.relative = true;
         let w = Plane::join(&seed.ring, at);
         let flights = blocks(&seed.osc, &seed.ring)?;
         let floquet = Floquet::new(&seed.osc, &seed.ring, &flights);
@@ -78,10 +81,11 @@ impl<'a> Round<'a> {
             }
         }
         // one impact never gets across
-        if walled || seed.ring.len() == 1 {
-            bounds.extend(walls(frame, seed, at).into_iter().map(|wall| (wall, 1.0, Bound::NoSpeed)));
-        }
-        Some(Self { plane, bounds, w, sheet, options, go_on })
+        let alone = seed.ring.len() == 1;
+        let walls = if walled || alone { walls(frame, seed, at) } else { Vec::new() };
+        let added = if alone { 0 } else { walls.len() };
+        bounds.extend(walls.into_iter().map(|wall| (wall, 1.0, Bound::NoSpeed)));
+        Some(Self { plane, bounds, added, w, sheet, options, go_on })
     }
 
     fn watched(&self) -> Vec<Condition> {
@@ -304,6 +308,6 @@ const JOIN: f64 = 5e-3;
 /// More steps than this one after the other that are shorter than [`CREEP`] lead nowhere.
 const MOST_SMALL: u32 = 40;
 /// See [`MOST_SMALL`].
-const CREEP: f64 = 1e-6;
+const CREEP: f64 = 1e-5;
 /// Parts of a cycle that differ by less are the same.
 pub(super) const REPEATED: f64 = 1e-7;

@@ -7,9 +7,9 @@ use super::region::{RegionKind, RegionOptions};
 use super::round::{Edge, Round};
 use super::singular::INWARDS;
 use crate::math::sin_cos;
-use crate::orbit::{Cycle, FindOptions, Orbit, Ring, find};
+use crate::orbit::{Cycle, FindOptions, Orbit, Ring, struck};
 use crate::system::Oscillator;
-use crate::verdict::Label;
+use crate::verdict::{Count, Label};
 
 /// An orbit at a point of the plane.
 #[derive(Clone, Debug)]
@@ -148,7 +148,13 @@ impl<'a> Search<'a> {
     /// The orbits at a point that belong to the region.
     fn seeds(&self, label: Label, at: (f64, f64)) -> Vec<Seed> {
         let Some(osc) = self.oscillator(at).filter(|_| (self.go_on)()) else { return Vec::new() };
-        let orbits = find(&osc, label, FindOptions { seeds: self.options.seeds, ..FindOptions::default() });
+        let loses = osc.damping() > 0.0 || osc.stops().any(|(_, stop)| stop.restitution < 1.0);
+        if self.kind == RegionKind::Stability && !loses {
+            return Vec::new(); // what loses no energy attracts nothing: rounding would decide
+        }
+        let Count::Finite(impacts @ 1..) = label.impacts else { return Vec::new() };
+        let (options, mut orbits) = (FindOptions { seeds: self.options.seeds, ..FindOptions::default() }, Vec::new());
+        struck(&osc, (impacts, label.periods), options, &mut orbits);
         let wanted = |o: &Orbit| o.physical && (self.kind == RegionKind::Existence || o.cycle.stable());
         let seed = |cycle: &Cycle| {
             let ring = Ring::of(&osc, cycle).filter(|ring| ring.len() > 0)?;
@@ -186,6 +192,9 @@ impl<'a> Search<'a> {
             let frame = self.frame.shrunk(inwards);
             let what = (&frame, self.kind, self.options);
             let Some(round) = Round::new(what, seed, at, walled, self.go_on) else { continue };
+            if (way, round.added) == (1, 0) {
+                continue; // the same way again
+            }
             let Some((bound, start, out)) = round.out(towards) else { continue };
             if start.len() > 4 && still(&start) {
                 continue; // no place to begin: several bounds at once, all along a curve
@@ -282,8 +291,8 @@ fn unlike(one: &[f64], other: &[f64]) -> f64 {
         sums
     };
     let (one, other) = (means(one), means(other));
-    // speeds squared over what they are
+    // speeds over what they are
     let size = 1.0 + one[1].max(other[1]);
     let off = |k: usize| (one[k] - other[k]).abs();
-    off(0).max(off(1) / size).max(off(2)).max(off(3))
+    (off(0) / size.sqrt()).max(off(1) / size).max(off(2)).max(off(3))
 }

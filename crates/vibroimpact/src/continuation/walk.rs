@@ -34,7 +34,14 @@ pub(super) struct Stride {
 
 impl Walk {
     /// From a solution `w` of the plane's equations along the side of the curve that `row` is positive on.
-    pub(super) fn new(plane: Plane, watched: Vec<Condition>, w: Vec<f64>, row: &[f64], longest: f64) -> Option<Self> {
+    pub(super) fn new(
+        mut plane: Plane,
+        watched: Vec<Condition>,
+        w: Vec<f64>,
+        row: &[f64],
+        longest: f64,
+    ) -> Option<Self> {
+        plane.measure(&w);
         let along = tangent(&plane, &w, row)?;
         let values = Self::look(&plane, &watched, &w)?;
         let signs = values.iter().map(|&value| sign(value)).collect();
@@ -126,6 +133,11 @@ impl Walk {
             }
         }
         self.here = there;
+        if self.plane.relative {
+            self.plane.measure(&self.here.w);
+            let length = self.plane.length(&self.here.tangent);
+            self.here.tangent.iter_mut().for_each(|t| *t /= length);
+        }
     }
 }
 

@@ -69,12 +69,21 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
         orbits.extend(without_impacts(osc).filter(|c| c.label == label).map(|cycle| Orbit::judged(osc, cycle)));
         return orbits;
     }
+    struck(osc, (m, label.periods), options, &mut orbits);
+    orbits.sort_by(|a, b| a.cycle.fastest().total_cmp(&b.cycle.fastest()));
+    orbits
+}
+
+/// Adds the orbits with m impacts in n periods, m positive, that never rest.
+pub(crate) fn struck(osc: &Oscillator, (m, n): (u32, u32), options: FindOptions, orbits: &mut Vec<Orbit>) {
     if m == 1 {
-        let closed = one_impact(osc, label.periods).into_iter();
-        orbits.extend(closed.map(|o| Orbit::judged(osc, o.cycle)));
+        orbits.extend(one_impact(osc, n).into_iter().map(|o| Orbit::judged(osc, o.cycle)));
+        if osc.stop(Side::Lower).is_none() {
+            return; // that was all of them
+        }
     }
     for guess in seeds(osc, options.seeds) {
-        let Some(ring) = chain(osc, guess, m, label.periods) else {
+        let Some(ring) = chain(osc, guess, m, n) else {
             continue;
         };
         let Some((ring, flights)) = newton::solve(osc, ring) else {
@@ -94,8 +103,6 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
             orbits.push(Orbit::judged(osc, cycle));
         }
     }
-    orbits.sort_by(|a, b| a.cycle.fastest().total_cmp(&b.cycle.fastest()));
-    orbits
 }
 
 /// Flights that miss by no more than this close a cycle; what rounding leaves is usually 1e-15.

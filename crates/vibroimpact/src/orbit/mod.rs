@@ -28,6 +28,7 @@ mod ring;
 mod shooting;
 
 pub use cycle::{Cycle, CyclePoint, RestSpan};
+pub(crate) use find::struck;
 pub use find::{FindOptions, Orbit, find};
 pub use free::without_impacts;
 pub use newton::refine;

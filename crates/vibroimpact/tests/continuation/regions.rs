@@ -147,6 +147,21 @@ fn with_damping_and_in_other_planes() {
     Case { osc, label: Label::new(2, 1), frame }.check(RegionKind::Stability, 60);
 }
 
+/// Near resonance speeds go up to some 300, and a walk has to get along there; with restitution 1 and no damping nothing is stable.
+#[test]
+fn nearly_elastic() {
+    let of = |restitution, label| Case {
+        osc: Oscillator::from_inverse_beta(1.11, 1.0, restitution).unwrap(),
+        ..paper(label)
+    };
+    for n in [1, 2] {
+        of(0.99, Label::new(1, n)).check_at(RegionKind::Stability, 300);
+    }
+    let case = of(1.0, Label::new(1, 1));
+    let none = region(&case.osc, case.label, RegionKind::Stability, &case.frame, RegionOptions::default());
+    assert_eq!(none, Region { polygons: Vec::new(), unresolved: Vec::new() });
+}
+
 /// Where an orbit merges with one of half its period, or loses its symmetry between two stops alike, its equations are
 /// singular.
 #[test]
