@@ -4,9 +4,9 @@ use crate::figure::{self, title};
 use crate::{Asked, ReportError, Table, Units, json, table};
 use core::sync::atomic::Ordering;
 use serde::{Serialize, Serializer};
-use vibroimpact::chaos::{Exponents, Section, exponents, section};
-use vibroimpact::orbit::{FindOptions, Orbit, find};
-use vibroimpact::verdict::{Census, SettleOptions, Settled, StartBox, settle};
+use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
+use vibroimpact::orbit::{FindOptions, Orbit, find_while};
+use vibroimpact::verdict::{Census, SettleOptions, Settled, StartBox, settle_while};
 use vibroimpact::{Label, Oscillator, Start};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{
@@ -126,8 +126,8 @@ pub fn work(plan: &Plan) -> Option<(u64, &'static str)> {
 
 /// Runs a plan in memory: every point of a grid, without refinement. A map is nondimensional whatever the units.
 ///
-/// `control.stop` is heeded at every point of a grid, every event of a simulation and every step round a region. To settle one
-/// motion, to measure its exponents, and to look for or follow orbits are single calls, before which it is asked once.
+/// `control.stop` is heeded at every point of a grid, every event of a motion, every seed of a search for orbits and every step round
+/// a region. To follow a branch or a curve is a single call, before which it is asked once.
 ///
 /// # Errors
 /// [`AnswerError`] for a plan that makes no sense, or when stopped. Exponents over axes are no one answer but a study.
@@ -136,10 +136,11 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
     plan.check()?;
     let system = plan.system;
     let osc = system.oscillator()?;
-    let going = |done: u64, total: u64| {
-        if control.stop.load(Ordering::Relaxed) { Err(Stopped { done, total }) } else { Ok(()) }
-    };
-    going(0, work(&plan).map_or(1, |(total, _)| total))?;
+    let go_on = || !control.stop.load(Ordering::Relaxed);
+    let none = Stopped { done: 0, total: work(&plan).map_or(1, |(total, _)| total) };
+    if !go_on() {
+        return Err(none.into());
+    }
     let found = match &plan.task {
         Task::Simulate { start, impacts, periods } => {
             let start = start.start(&osc)?;
@@ -148,7 +149,7 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
         }
         Task::Settle { start } => {
             let start = start.start(&osc)?;
-            Found::Settle(start, settle(&osc, start, &SettleOptions::default()))
+            Found::Settle(start, settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(none)?)
         }
         Task::Attractors { starts, seed } => {
             let (area, which, options) = (StartBox::natural(&osc), (*starts, *seed), SettleOptions::default());
@@ -156,7 +157,7 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
         }
         Task::Orbit { label } => {
             let label: Label = label.parse().map_err(PlanError::from)?;
-            Found::Orbit(find(&osc, label, FindOptions::default()))
+            Found::Orbit(find_while(&osc, label, FindOptions::default(), go_on).ok_or(none)?)
         }
         Task::Basin(task) => Found::Basin(basin(&system, task, control)?),
         Task::Map(task) => Found::Map(map(&system, task, control)?),
@@ -167,11 +168,13 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
                 return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known }.into());
             }
             let start = task.start.start(&osc)?;
-            let points = task.points.map(|n| section(&osc, start, task.transient, n));
-            going(1, 3)?;
-            let settled = settle(&osc, start, &SettleOptions::default());
-            going(2, 3)?;
-            Found::Lyapunov(start, settled, exponents(&osc, start, &task.options()), points)
+            let points = match task.points {
+                Some(n) => Some(section_while(&osc, start, task.transient, n, go_on).ok_or(none)?),
+                None => None,
+            };
+            let settled = settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(none)?;
+            let found = exponents_while(&osc, start, &task.options(), go_on).ok_or(none)?;
+            Found::Lyapunov(start, settled, found, points)
         }
         Task::Branch(task) => Found::Branch(task.clone(), task.cut(&system)?, branches(&system, task)?),
         Task::Curve(task) => Found::Curve(task.clone(), curve(&system, task)?),
@@ -295,6 +298,31 @@ mod tests {
         {
             let end = answer(&Plan::new(S, task), Units::default(), &control);
             assert!(matches!(end, Err(AnswerError::Stopped(_))), "{end:?}");
+        }
+    }
+
+    /// Minutes of work each, were it not for the flag: exponents and sections of a motion that chatters, and a search for long orbits.
+    #[test]
+    fn stopped_on_the_way() {
+        let two = r#""system":{"inverse_beta":7.3,"gap":0.05,"restitution":0.5,"damping":1e-4,"second_stop":{"gap":0.065,"restitution":0.55}}"#;
+        let u = r#""system":{"inverse_beta":1.11,"gap":3,"restitution":0.5}"#;
+        for (system, task) in [
+            (two, r#""lyapunov":{"impacts":10000000,"transient":1000000,"points":100000}"#),
+            (u, r#""lyapunov":{"impacts":10000000,"transient":1000000}"#),
+            (two, r#""orbit":{"label":"3000/2000"}"#),
+        ] {
+            let plan: Plan = serde_json::from_str(&format!(r#"{{"version":1,{system},"task":{{{task}}}}}"#)).unwrap();
+            let stop = AtomicBool::new(false);
+            let begun = std::time::Instant::now();
+            std::thread::scope(|scope| {
+                scope.spawn(|| {
+                    std::thread::sleep(std::time::Duration::from_millis(100));
+                    stop.store(true, Ordering::Relaxed);
+                });
+                let end = answer(&plan, Units::default(), &Control { stop: &stop, ..Control::default() });
+                assert!(matches!(end, Err(AnswerError::Stopped(_))), "{task}");
+            });
+            assert!(begun.elapsed().as_secs_f64() < 1.5, "{task} {:?}", begun.elapsed());
         }
     }
 

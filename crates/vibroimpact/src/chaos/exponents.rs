@@ -172,11 +172,26 @@ impl Exponents {
 /// ```
 #[must_use]
 pub fn exponents(osc: &Oscillator, start: Start, options: &ExponentOptions) -> Exponents {
+    // nothing stops it
+    exponents_while(osc, start, options, || true).unwrap_or_else(|| spent(osc, options, 0))
+}
+
+/// The same as [`exponents`], as long as `go_on` says yes when asked, which it is at every event; `None` once it said no.
+#[must_use]
+pub fn exponents_while(
+    osc: &Oscillator,
+    start: Start,
+    options: &ExponentOptions,
+    go_on: impl Fn() -> bool,
+) -> Option<Exponents> {
     let mut motion = Motion::with_limits(osc, start, options.limits);
     let mut run = Run::new(options.impacts, options.transient);
     while motion.steps() < options.max_steps {
+        if !go_on() {
+            return None;
+        }
         let Some(event) = motion.next() else {
-            return at_the_end(osc, &ended(osc, motion.end(), options.limits), run.seen);
+            return Some(at_the_end(osc, &ended(osc, motion.end(), options.limits), run.seen));
         };
         run.since += motion.leg().map_or(0.0, |leg| leg.duration);
         match event.kind {
@@ -185,29 +200,34 @@ pub fn exponents(osc: &Oscillator, start: Start, options: &ExponentOptions) -> E
                 run.impact(osc, state);
                 if run.fades(osc) {
                     let limit = NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase };
-                    return at_the_end(osc, &Verdict::NoImpact(limit), run.seen);
+                    return Some(at_the_end(osc, &Verdict::NoImpact(limit), run.seen));
                 }
                 if run.complete() {
-                    return Exponents::measured(osc, &run.blocks, run.transient);
+                    return Some(Exponents::measured(osc, &run.blocks, run.transient));
                 }
             }
             EventKind::Graze { .. } => {
                 run.touches += 1;
                 if run.touches > MAX_TOUCHES {
                     let grazing = NoImpact::Grazing { phase: event.phase };
-                    return at_the_end(osc, &Verdict::NoImpact(grazing), run.seen);
+                    return Some(at_the_end(osc, &Verdict::NoImpact(grazing), run.seen));
                 }
             }
             EventKind::Stick { chatter, .. } => {
                 if let Some(rate) = run.stick(osc, event.side, event.time, chatter) {
                     let nothing = [f64::NEG_INFINITY; 2];
-                    return Exponents::exact(osc, nothing, rate, Grounds::Sticks(event.side));
+                    return Some(Exponents::exact(osc, nothing, rate, Grounds::Sticks(event.side)));
                 }
             }
             EventKind::Release => run.begin_again(),
         }
     }
-    at_the_end(osc, &ended(osc, None, options.limits), run.seen)
+    Some(spent(osc, options, run.seen))
+}
+
+/// The exponents of a motion whose search ran out.
+fn spent(osc: &Oscillator, options: &ExponentOptions, impacts: u64) -> Exponents {
+    at_the_end(osc, &ended(osc, None, options.limits), impacts)
 }
 
 /// The exponents of a motion that ends so.

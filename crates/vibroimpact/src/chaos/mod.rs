@@ -37,7 +37,9 @@ mod run;
 mod section;
 pub mod tangent;
 
-pub use exponents::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions, Exponents, Grounds, exponents};
+pub use exponents::{
+    DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions, Exponents, Grounds, exponents, exponents_while,
+};
 pub(crate) use measure::{LIMITS, Measure};
 pub use measure::{Measured, Spectrum, lyapunov};
-pub use section::{Section, section};
+pub use section::{Section, section, section_while};

@@ -28,12 +28,26 @@ const IDLE: u32 = MAX_TOUCHES + 4;
 /// ```
 #[must_use]
 pub fn section(osc: &Oscillator, start: Start, transient: u64, points: u64) -> Section {
+    // nothing stops it
+    section_while(osc, start, transient, points, || true).unwrap_or_default()
+}
+
+/// The same as [`section`], as long as `go_on` says yes when asked, which it is at every impact and state; `None` once it said no.
+#[must_use]
+pub fn section_while(
+    osc: &Oscillator,
+    start: Start,
+    transient: u64,
+    points: u64,
+    go_on: impl Fn() -> bool,
+) -> Option<Section> {
     // as far as exponents over as many impacts would be followed
     let most_steps = ExponentOptions::new(points, transient).max_steps;
-    Section {
-        impacts: impacts(osc, start, most_steps).skip(whole(transient)).take(whole(points)).collect(),
-        strobes: strobes(osc, start, most_steps).skip(whole(transient)).take(whole(points)).collect(),
-    }
+    let impacts = impacts(osc, start, most_steps).take_while(|_| go_on());
+    let impacts = impacts.skip(whole(transient)).take(whole(points)).collect();
+    let strobes = strobes(osc, start, most_steps).take_while(|_| go_on());
+    let strobes = strobes.skip(whole(transient)).take(whole(points)).collect();
+    go_on().then_some(Section { impacts, strobes })
 }
 
 fn whole(count: u64) -> usize {

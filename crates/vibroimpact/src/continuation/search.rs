@@ -154,7 +154,9 @@ impl<'a> Search<'a> {
         }
         let Count::Finite(impacts @ 1..) = label.impacts else { return Vec::new() };
         let (options, mut orbits) = (FindOptions { seeds: self.options.seeds, ..FindOptions::default() }, Vec::new());
-        struck(&osc, (impacts, label.periods), options, &mut orbits);
+        if struck(&osc, (impacts, label.periods), options, &mut orbits, self.go_on).is_none() {
+            return Vec::new(); // so is the region, for who stopped it
+        }
         let wanted = |o: &Orbit| o.physical && (self.kind == RegionKind::Existence || o.cycle.stable());
         let seed = |cycle: &Cycle| {
             let ring = Ring::of(&osc, cycle).filter(|ring| ring.len() > 0)?;

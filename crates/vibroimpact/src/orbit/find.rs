@@ -56,6 +56,18 @@ impl Default for FindOptions {
 /// seed leads to is not found. Of the solutions that are no motions only some come up.
 #[must_use]
 pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> {
+    // nothing stops it
+    find_while(osc, label, options, || true).unwrap_or_default()
+}
+
+/// The same as [`find`], as long as `go_on` says yes when asked, which it is at every seed; `None` once it said no.
+#[must_use]
+pub fn find_while(
+    osc: &Oscillator,
+    label: Label,
+    options: FindOptions,
+    go_on: impl Fn() -> bool,
+) -> Option<Vec<Orbit>> {
     let mut orbits: Vec<Orbit> = osc
         .stops()
         .filter_map(|(side, _)| from_release(osc, side, DEFAULT_EVENTS))
@@ -64,25 +76,34 @@ pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> 
         .collect();
     // with two stops one cycle may have a release from each
     orbits.dedup_by(|a, b| a.cycle.same_as(&b.cycle, options.tolerance));
-    let Count::Finite(m) = label.impacts else { return orbits };
+    let Count::Finite(m) = label.impacts else { return Some(orbits) };
     if m == 0 {
         orbits.extend(without_impacts(osc).filter(|c| c.label == label).map(|cycle| Orbit::judged(osc, cycle)));
-        return orbits;
+        return Some(orbits);
     }
-    struck(osc, (m, label.periods), options, &mut orbits);
+    struck(osc, (m, label.periods), options, &mut orbits, go_on)?;
     orbits.sort_by(|a, b| a.cycle.fastest().total_cmp(&b.cycle.fastest()));
-    orbits
+    Some(orbits)
 }
 
-/// Adds the orbits with m impacts in n periods, m positive, that never rest.
-pub(crate) fn struck(osc: &Oscillator, (m, n): (u32, u32), options: FindOptions, orbits: &mut Vec<Orbit>) {
+/// Adds the orbits with m impacts in n periods, m positive, that never rest; `None` once `go_on` said no.
+pub(crate) fn struck(
+    osc: &Oscillator,
+    (m, n): (u32, u32),
+    options: FindOptions,
+    orbits: &mut Vec<Orbit>,
+    go_on: impl Fn() -> bool,
+) -> Option<()> {
     if m == 1 {
         orbits.extend(one_impact(osc, n).into_iter().map(|o| Orbit::judged(osc, o.cycle)));
         if osc.stop(Side::Lower).is_none() {
-            return; // that was all of them
+            return Some(()); // that was all of them
         }
     }
     for guess in seeds(osc, options.seeds) {
+        if !go_on() {
+            return None;
+        }
         let Some(ring) = chain(osc, guess, m, n) else {
             continue;
         };
@@ -103,6 +124,7 @@ pub(crate) fn struck(osc: &Oscillator, (m, n): (u32, u32), options: FindOptions,
             orbits.push(Orbit::judged(osc, cycle));
         }
     }
+    Some(())
 }
 
 /// Flights that miss by no more than this close a cycle; what rounding leaves is usually 1e-15.

@@ -29,7 +29,7 @@ mod shooting;
 
 pub use cycle::{Cycle, CyclePoint, RestSpan};
 pub(crate) use find::struck;
-pub use find::{FindOptions, Orbit, find};
+pub use find::{FindOptions, Orbit, find, find_while};
 pub use free::without_impacts;
 pub use newton::refine;
 pub use one_impact::{OneImpact, one_impact};

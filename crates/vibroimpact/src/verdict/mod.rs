@@ -28,4 +28,4 @@ pub use label::{Count, Label, LabelError};
 pub use many::{Atlas, Settlement, settle_many};
 pub use outcome::{NoImpact, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};
-pub use settle::{SettleOptions, Settled, settle};
+pub use settle::{SettleOptions, Settled, settle, settle_while};

@@ -104,6 +104,23 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
     settle_knowing(osc, start, options, &mut Releases::default())
 }
 
+/// The same as [`settle`], as long as `go_on` says yes when asked, which it is at every impact; `None` once it said no.
+#[must_use]
+pub fn settle_while(
+    osc: &Oscillator,
+    start: Start,
+    options: &SettleOptions,
+    go_on: impl Fn() -> bool,
+) -> Option<Settled> {
+    let mut follow = Follow::default();
+    let mut motion = Motion::with_limits(osc, start, options.limits);
+    let releases = &mut Releases::default();
+    let mut drive = Drive { osc, options, follow: &mut follow, releases, time: 0.0 };
+    let verdict = drive.on(&mut motion, |_| !go_on())?;
+    let time = drive.time;
+    Some(Settled { verdict, impacts: follow.count() as u64, time })
+}
+
 /// The same where other motions of the oscillator were settled before.
 pub(super) fn settle_knowing(
     osc: &Oscillator,
