@@ -171,6 +171,8 @@ export async function what_was_seen_is_not_asked_again({ open }) {
   await sharp(page);
   await page.locator("#zoom-in").click();
   await until("another level", async () => (await hash(page)).get("view") !== "1.05,1.15,2.2,2.5");
+  // its tiles are asked for a little later
+  await page.waitForTimeout(1000);
   await sharp(page);
   const asked = [];
   page.on("request", (request) => {
