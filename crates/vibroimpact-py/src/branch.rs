@@ -156,7 +156,8 @@ pub(crate) fn branch<'py>(
     plan.check()?;
     let cut = task.cut(&osc.plan)?;
     let system = osc.plan;
-    let found = door::run(py, Watch::alone("following a branch"), move |_| Ok(branches(&system, &task)?))?;
+    let found =
+        door::run(py, Watch::alone("following a branch"), move |control| Ok(branches(&system, &task, control)?))?;
     Ok(Found {
         branches: found.followed.iter().map(|branch| Fields::new(py, branch, &cut)).collect::<PyResult<_>>()?,
         orbit: (found.chosen.number, found.chosen.count),

@@ -53,7 +53,7 @@ pub(crate) fn curve<'py>(
     plan.check()?;
     let system = osc.plan;
     let watch = Watch::alone("following a curve");
-    let found = door::run(py, watch, move |_| Ok(vibroimpact_study::curve(&system, &task)?))?;
+    let found = door::run(py, watch, move |control| Ok(vibroimpact_study::curve(&system, &task, control)?))?;
     let points = || found.points.iter();
     Ok(Fields {
         values: pairs(py, points().map(|point| point.values.into()))?,

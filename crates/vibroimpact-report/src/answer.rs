@@ -126,8 +126,8 @@ pub fn work(plan: &Plan) -> Option<(u64, &'static str)> {
 
 /// Runs a plan in memory: every point of a grid, without refinement. A map is nondimensional whatever the units.
 ///
-/// `control.stop` is heeded at every point of a grid, every event of a motion, every seed of a search for orbits and every step round
-/// a region. To follow a branch or a curve is a single call, before which it is asked once.
+/// `control.stop` is heeded at every point of a grid, every event of a motion, every seed of a search for orbits, every step round
+/// a region and every point of a branch or curve.
 ///
 /// # Errors
 /// [`AnswerError`] for a plan that makes no sense, or when stopped. Exponents over axes are no one answer but a study.
@@ -176,8 +176,8 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
             let found = exponents_while(&osc, start, &task.options(), go_on).ok_or(none)?;
             Found::Lyapunov(start, settled, found, points)
         }
-        Task::Branch(task) => Found::Branch(task.clone(), task.cut(&system)?, branches(&system, task)?),
-        Task::Curve(task) => Found::Curve(task.clone(), curve(&system, task)?),
+        Task::Branch(task) => Found::Branch(task.clone(), task.cut(&system)?, branches(&system, task, control)?),
+        Task::Curve(task) => Found::Curve(task.clone(), curve(&system, task, control)?),
         Task::Region(task) => Found::Region(task.clone(), regions(&system, task, control)?),
     };
     Ok(Answer { asked: Asked { system, units }, osc, found, plan })

@@ -2,8 +2,9 @@
 
 use crate::begin::{Chosen, choose};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction as Sweep, Show};
-use crate::{Cut, DiagramPlan, Parameter, PlanError, Span, Stretch, SystemPlan, Target};
+use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stopped, Stretch, SystemPlan, Target};
 use core::ops::RangeInclusive;
+use core::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, Point};
 use vibroimpact::verdict::Count;
@@ -129,33 +130,43 @@ pub struct Branches {
 /// Follows the orbit of a plan, and the branches that begin on its way.
 ///
 /// # Errors
-/// [`PlanError`] for a plan that makes no sense or an orbit that is not there.
-pub fn branches(system: &SystemPlan, plan: &BranchPlan) -> Result<Branches, PlanError> {
+/// [`RunError`] for a plan that makes no sense or an orbit that is not there, or when stopped, which it heeds at every point.
+pub fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
     let vary = plan.cut(system)?.varying()?;
-    let from = vary.get(&osc)?;
-    let chosen = choose(&osc, plan.label.parse()?, plan.orbit)?;
+    let from = vary.get(&osc).map_err(PlanError::from)?;
+    let label = plan.label.parse().map_err(PlanError::from)?;
+    let chosen = choose(&osc, label, plan.orbit)?;
     let range = from.min(plan.to)..=from.max(plan.to);
     let direction = if plan.to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
-    let first = Branch::new(&osc, &chosen.orbit.cycle, vary, range.clone(), direction, options)?;
-    let mut all =
-        Branches { chosen, followed: vec![Followed { origin: None, points: first.collect() }], lost: Vec::new() };
-    let ground = Ground { osc, vary, range, options };
+    let first = Branch::new(&osc, &chosen.orbit.cycle, vary, range.clone(), direction, options);
+    let ground = Ground { osc, vary, range, options, stop: control.stop };
+    let points = ground.points(first.map_err(PlanError::from)?);
+    let mut all = Branches { chosen, followed: vec![Followed { origin: None, points }], lost: Vec::new() };
     all.follow(&ground, plan.follow as usize);
+    if control.stop.load(Ordering::Relaxed) {
+        return Err(Stopped { done: all.followed.len() as u64 - 1, total: u64::from(plan.follow) + 1 }.into());
+    }
     Ok(all)
 }
 
 /// What all branches of a plan have in common.
-struct Ground {
+struct Ground<'a> {
     osc: Oscillator,
     vary: Varying,
     range: RangeInclusive<f64>,
     options: BranchOptions,
+    stop: &'a AtomicBool,
 }
 
-impl Ground {
+impl Ground<'_> {
+    /// The points of a branch, as far as nobody stops it.
+    fn points(&self, branch: Branch) -> Vec<Point> {
+        branch.take_while(|_| !self.stop.load(Ordering::Relaxed)).collect()
+    }
+
     /// The branches that begin at an event.
     fn from(&self, point: &Point) -> Result<Vec<Branch>, BranchError> {
         let range = self.range.clone();
@@ -172,7 +183,7 @@ const SAME: f64 = 1e-7;
 
 impl Branches {
     /// Follows what begins at the events of all branches so far, branch by branch, up to so many.
-    fn follow(&mut self, ground: &Ground, most: usize) {
+    fn follow(&mut self, ground: &Ground<'_>, most: usize) {
         let mut seen: Vec<(f64, Label)> = Vec::new();
         let mut at = 0;
         while at < self.followed.len() && self.followed.len() <= most {
@@ -192,7 +203,7 @@ impl Branches {
                 match ground.from(&origin.point) {
                     Ok(found) => {
                         for branch in found.into_iter().take(most + 1 - self.followed.len()) {
-                            let points: Vec<Point> = branch.collect();
+                            let points = ground.points(branch);
                             seen.extend(points.iter().filter_map(other_end));
                             self.followed.push(Followed { origin: Some(origin.clone()), points });
                         }
@@ -234,7 +245,7 @@ mod tests {
     #[test]
     fn the_doubling_of_one_impact_a_period_and_what_begins_there() {
         let (system, plan) = plan();
-        let found = branches(&system, &BranchPlan { follow: 1, ..plan }).unwrap();
+        let found = branches(&system, &BranchPlan { follow: 1, ..plan }, &Control::default()).unwrap();
         assert_eq!((found.followed.len(), found.lost.len()), (2, 0));
         let flip = found.followed[0].points.iter().find(|p| p.event == Some(BranchEvent::Flip)).unwrap();
         assert!((flip.value - 1.829_006_189_683_6).abs() < 1e-12);
@@ -251,7 +262,7 @@ mod tests {
         let also = Some(Target { parameter: Parameter::InverseBeta, to: 1.05 });
         let line = BranchPlan { also, ..plan };
         let flip_on = |system: &SystemPlan, plan: &BranchPlan| {
-            let found = branches(system, plan).unwrap();
+            let found = branches(system, plan, &Control::default()).unwrap();
             found.followed[0].points.iter().find(|p| p.event == Some(BranchEvent::Flip)).unwrap().value
         };
         let value = flip_on(&system, &line);
@@ -265,16 +276,24 @@ mod tests {
     }
 
     #[test]
+    fn it_stops_when_told_to() {
+        let (system, plan) = plan();
+        let stop = AtomicBool::new(true);
+        let stopped = branches(&system, &plan, &Control { stop: &stop, ..Control::default() });
+        assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
+    }
+
+    #[test]
     fn an_orbit_that_rests() {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: -0.5, restitution: 0.5, ..SystemPlan::default() };
         let plan = BranchPlan { label: "inf/1".into(), to: -0.2, ..plan().1 };
-        let found = branches(&system, &plan).unwrap();
+        let found = branches(&system, &plan, &Control::default()).unwrap();
         let [branch] = found.followed.as_slice() else { panic!("{} branches", found.followed.len()) };
         let last = branch.points.last().unwrap();
         assert!(matches!(last.event, Some(BranchEvent::EndOfRest { .. })) && last.value < -0.36);
         assert!(branch.points.iter().all(|point| point.stable() && point.cycle.rests.len() == 1));
         // at 0 there is none
-        let nothing = branches(&SystemPlan { gap: 0.0, ..system }, &plan).unwrap_err().to_string();
+        let nothing = branches(&SystemPlan { gap: 0.0, ..system }, &plan, &Control::default()).unwrap_err().to_string();
         assert!(nothing.starts_with("no orbit inf/1 was found"), "{nothing}");
     }
 

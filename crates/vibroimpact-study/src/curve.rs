@@ -2,7 +2,8 @@
 
 use crate::begin::{Chosen, choose, followable};
 use crate::stretch::check_plane;
-use crate::{PlanError, Stretch, SystemPlan};
+use crate::{Control, PlanError, RunError, Stopped, Stretch, SystemPlan};
+use core::sync::atomic::Ordering;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{
     Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, Point,
@@ -98,13 +99,17 @@ pub struct EventCurve {
 /// Follows an orbit in the first parameter to an event, and the event over the plane.
 ///
 /// # Errors
-/// [`PlanError`] for a plan that makes no sense, an orbit that is not there, or no event of that kind.
-pub fn curve(system: &SystemPlan, plan: &CurvePlan) -> Result<EventCurve, PlanError> {
+/// [`RunError`] for a plan that makes no sense, an orbit that is not there, or no event of that kind; or when stopped, which it
+/// heeds at every point.
+pub fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
     let label = followable(&plan.label)?;
     let chosen = choose(&osc, label, plan.orbit)?;
-    let events = events(&osc, &chosen, plan, label)?;
+    let going = || !control.stop.load(Ordering::Relaxed);
+    let stopped = |done| if going() { Ok(()) } else { Err(Stopped { done, total: 2 }) };
+    let events = events(&osc, &chosen, plan, label, going)?;
+    stopped(0)?;
     let own = system.value(plan.vary.parameter)?;
     let nearest = || {
         let off = |index: &usize| (events[*index].value - own).abs();
@@ -125,11 +130,13 @@ pub fn curve(system: &SystemPlan, plan: &CurvePlan) -> Result<EventCurve, PlanEr
     })?;
     let frame = plan.vary.frame(&plan.and);
     let options = CurveOptions::default();
-    let [forth, back] = Curve::through(&osc, &events[through], plan.vary.parameter, &frame, options)?;
-    let forth: Vec<CurvePoint> = forth.collect();
+    let [forth, back] =
+        Curve::through(&osc, &events[through], plan.vary.parameter, &frame, options).map_err(PlanError::from)?;
+    let forth: Vec<CurvePoint> = forth.take_while(|_| going()).collect();
     let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
     // the event itself is the first point of either
-    let mut points: Vec<CurvePoint> = if closed { Vec::new() } else { back.skip(1).collect() };
+    let mut points: Vec<CurvePoint> = if closed { Vec::new() } else { back.skip(1).take_while(|_| going()).collect() };
+    stopped(1)?;
     points.reverse();
     let begin = points.len();
     points.extend(forth);
@@ -137,7 +144,13 @@ pub fn curve(system: &SystemPlan, plan: &CurvePlan) -> Result<EventCurve, PlanEr
 }
 
 /// The events of the plan's kind on the branch of its orbit, to both ends of the range, while it has its label.
-fn events(osc: &Oscillator, chosen: &Chosen, plan: &CurvePlan, label: Label) -> Result<Vec<Point>, PlanError> {
+fn events(
+    osc: &Oscillator,
+    chosen: &Chosen,
+    plan: &CurvePlan,
+    label: Label,
+    going: impl Fn() -> bool,
+) -> Result<Vec<Point>, PlanError> {
     let own = plan.vary.parameter.get(osc).ok_or(PlanError::NoSecondStop(plan.vary.parameter.name()))?;
     let mut events: Vec<Point> = Vec::new();
     for (direction, end) in [(Direction::Up, plan.vary.to), (Direction::Down, plan.vary.from)] {
@@ -148,7 +161,7 @@ fn events(osc: &Oscillator, chosen: &Chosen, plan: &CurvePlan, label: Label) -> 
         // an inverse may be rounded out of its range
         let range = plan.vary.from.min(own)..=plan.vary.to.max(own);
         let branch = Branch::new(osc, cycle, parameter, range, direction, BranchOptions::default())?;
-        for point in branch.take_while(|point| point.cycle.label == label) {
+        for point in branch.take_while(|point| point.cycle.label == label && going()) {
             let known = |other: &Point| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
             if point.event.is_some_and(|event| plan.kind.is(event)) && !events.iter().any(known) {
                 events.push(point);
@@ -174,7 +187,7 @@ mod tests {
     #[test]
     fn the_flip_of_one_impact_a_period() {
         let (system, plan) = plan();
-        let found = curve(&system, &plan).unwrap();
+        let found = curve(&system, &plan, &Control::default()).unwrap();
         assert!((found.events[found.through].value - 1.829_006_189_683_6).abs() < 1e-12);
         let at = &found.points[found.begin];
         assert!((at.values.0 - 1.829_006_189_683_6).abs() < 1e-9 && (at.values.1 - 1.11).abs() < 1e-9);
@@ -198,7 +211,7 @@ mod tests {
             (CurvePlan { event: Some(7), ..good.clone() }, "there is no flip number 7 on the branch of 1/1"),
             (CurvePlan { kind: EventKind::Fold, ..good.clone() }, "no fold was found on the branch of 1/1"),
         ] {
-            let message = curve(&system, &plan).unwrap_err().to_string();
+            let message = curve(&system, &plan, &Control::default()).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
         }
     }

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use vibroimpact_report::figure::branch::figure;
 use vibroimpact_report::json::branch::document;
 use vibroimpact_report::table::branch::table;
-use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Target, Task, branches, diagram};
+use vibroimpact_study::{BranchPlan, Control, DEFAULT_BRANCH_POINTS, Parameter, Plan, Target, Task, branches, diagram};
 
 /// An orbit followed in one parameter, stable or not, with every event on the way
 ///
@@ -113,7 +113,8 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let to_stdout = outputs.table_on_stdout();
 
     let (system, question) = (asked.system, task.clone());
-    let found = signal::interruptible("following a branch", move || branches(&system, &question))??;
+    let found =
+        signal::interruptible("following a branch", move || branches(&system, &question, &Control::default()))??;
     let behind = if args.plot.is_some() && !args.no_diagram {
         let sweep = task.diagram(&asked.system)?;
         let total = u64::from(sweep.over.count()) * sweep.runs();

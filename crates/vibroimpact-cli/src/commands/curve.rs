@@ -13,7 +13,7 @@ use vibroimpact_report::Units;
 use vibroimpact_report::figure::curve::figure;
 use vibroimpact_report::json::curve::document;
 use vibroimpact_report::table::curve::table;
-use vibroimpact_study::{CurvePlan, EventKind, Plan, Stretch, Task, curve};
+use vibroimpact_study::{Control, CurvePlan, EventKind, Plan, Stretch, Task, curve};
 
 /// The curve of an event of an orbit in a plane of two parameters: where it folds, flips or grazes
 ///
@@ -114,7 +114,7 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let to_stdout = outputs.table_on_stdout();
 
     let (system, question) = (asked.system, task.clone());
-    let found = signal::interruptible("following a curve", move || curve(&system, &question))??;
+    let found = signal::interruptible("following a curve", move || curve(&system, &question, &Control::default()))??;
 
     outputs.write(session, || Ok(table(&found, &task, &asked.units)), || Ok(figure(&found, &task, &asked)))?;
     if args.json {

@@ -8,7 +8,9 @@ use vibroimpact::Label;
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::diagram::Show;
-use vibroimpact_study::{BranchPlan, Control, DiagramPlan, Followed, Span, Stopped, Target, branches, diagram, tiles};
+use vibroimpact_study::{
+    BranchPlan, Control, DiagramPlan, Followed, RunError, Span, Stopped, Target, branches, diagram, tiles,
+};
 
 /// Values at which orbits of a label are looked for.
 const LOOKS: u32 = 25;
@@ -27,7 +29,7 @@ const NEAR: f64 = 1e-9;
 /// dashed: from each orbit found on a grid of values, both ways to the ends of the range, through their events; and of the branches
 /// that begin at their flips and branch points those that come to one of these labels.
 ///
-/// What neither a value of the grid nor such an event leads to is missed. It is stopped between orbits, not while a branch is followed.
+/// What neither a value of the grid nor such an event leads to is missed.
 ///
 /// # Errors
 /// [`AnswerError`] for a plan or label that makes no sense, or when stopped.
@@ -72,9 +74,11 @@ fn follow(
             let also = cut.values(end).nth(1).map(|(parameter, to)| Target { parameter, to });
             let label = label.to_owned();
             let task = BranchPlan { label, vary: cut.vary, to: end, also, orbit: None, follow: FOLLOW, points: POINTS };
-            // no orbit there is no fault: the label exists along a part of the line
-            if let Ok(found) = branches(&system, &task) {
-                followed.extend(found.followed);
+            match branches(&system, &task, control) {
+                Ok(found) => followed.extend(found.followed),
+                Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
+                // no orbit there is no fault: the label exists along a part of the line
+                Err(RunError::Plan(_)) => {}
             }
         }
     }
