@@ -33,7 +33,8 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     let mut install = command::words(root, "npm ci --no-audit --no-fund --silent");
     install.current_dir(&folder);
     command::run(install)?;
-    command::run(command::words(root, "cargo build --workspace --all-features --bin vibro"))?;
+    // a build without tests would have other features, and all that depends on them built anew
+    command::run(command::words(root, "cargo test --workspace --all-features --no-run --test cli"))?;
     let (server, url) = serve(root, &target.join("debug/vibro"))?;
     let mut tests = command::words(root, "node run.mjs");
     tests.current_dir(&folder).args([url.as_str(), "screenshots"]).env(VARIABLE, browser);
