@@ -46,6 +46,15 @@ fn pixel() -> (f64, f64) {
     ((VIEW[0].1 - VIEW[0].0) / 1000.0, (VIEW[1].1 - VIEW[1].0) / 700.0)
 }
 
+/// The distance of two points of a tile, as the page has it: no larger than that of pixels, in eighth powers of two to the right, and so
+/// in its ratio upwards.
+fn fine() -> (f64, f64) {
+    let eighth = |x: f64| (8.0 * x.log2()).floor() / 8.0;
+    let (dx, dy) = pixel();
+    let across = eighth(dx);
+    (across.exp2(), (across + eighth(dy / dx)).exp2())
+}
+
 async fn first_picture() {
     let (dx, dy) = pixel();
     let step = (dx * f64::from(COARSE), dy * f64::from(COARSE));
@@ -53,14 +62,21 @@ async fn first_picture() {
 }
 
 async fn sharp() {
-    let (dx, dy) = pixel();
+    let (dx, dy) = fine();
     let router = app(Explorer::new(PORT, 0));
-    let tiles: Vec<String> = (0..1000_u32.div_ceil(SIDE) * 700_u32.div_ceil(SIDE))
-        .map(|k| {
-            let (i, j) = (k % 1000_u32.div_ceil(SIDE) * SIDE, k / 1000_u32.div_ceil(SIDE) * SIDE);
-            let from = (VIEW[0].0 + dx * f64::from(i), VIEW[1].0 + dy * f64::from(j));
-            map(from, (dx, dy), (SIDE.min(1000 - i), SIDE.min(700 - j)), r#","refine":8"#)
-        })
+    // whole tiles of a grid through zero, as far as they are seen
+    let seen = |(from, to): (f64, f64), step: f64| {
+        let wide = step * f64::from(SIDE);
+        let tiles = (from / wide).floor()..(to / wide).ceil();
+        core::iter::successors(Some(tiles.start), |k| Some(k + 1.0))
+            .take_while(move |k| *k < tiles.end)
+            .map(move |k| k * wide)
+    };
+    // half a step on, so that no point lies where there is no oscillator
+    let place = |x: f64, y: f64| (x + 0.5 * dx, y + 0.5 * dy);
+    let tiles: Vec<String> = seen(VIEW[1], dy)
+        .flat_map(|y| seen(VIEW[0], dx).map(move |x| place(x, y)))
+        .map(|from| map(from, (dx, dy), (SIDE, SIDE), r#","refine":8"#))
         .collect();
     let tiles = std::sync::Arc::new(std::sync::Mutex::new(tiles.into_iter()));
     let workers: Vec<_> = (0..ABREAST)

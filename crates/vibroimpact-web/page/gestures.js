@@ -28,7 +28,10 @@ export function gestures(view) {
     surface.setPointerCapture(event.pointerId);
     const px = inside(event);
     fingers.set(event.pointerId, px);
-    view.stopMoving?.();
+    if (view.stopMoving) {
+      view.stopMoving();
+      view.settled();
+    }
     if (fingers.size === 2) {
       held?.cancel?.();
       [press, held] = [null, null];
@@ -127,15 +130,11 @@ function pick(view, px) {
   view.dispatchEvent(new CustomEvent("pick", { detail: px }));
 }
 
-/**
- * Zooms, and tells where the numeric limit is met. Along one axis every moment has tiles of its own: they are asked for at the
- * end of the gesture.
- */
+/** Zooms, and tells where the numeric limit is met. Every moment has tiles of its own: they are asked for at the end of the gesture. */
 function zoom(view, levels, px, along = null) {
   const limited = view.viewport.zoom(levels, px[0], px[1], view.density, along);
   view.dispatchEvent(new CustomEvent("limit", { detail: limited }));
-  if (along) view.draw();
-  else view.changed();
+  view.draw();
 }
 
 /** Zooms in a few frames, at once where motion is unwelcome. */
@@ -147,13 +146,17 @@ export function glide(view, levels, px = [view.viewport.width / 2, view.viewport
   view.stopMoving?.();
   view.stopMoving = () => {
     stopped = true;
-    view.changed();
+    view.stopMoving = null;
   };
   const step = () => {
     if (stopped) return;
     zoom(view, levels / frames, px, along);
-    if (--left > 0) requestAnimationFrame(step);
-    else view.settled();
+    if (--left > 0) {
+      requestAnimationFrame(step);
+      return;
+    }
+    view.stopMoving = null;
+    view.settled();
   };
   step();
 }

@@ -127,7 +127,7 @@ export class TileView extends EventTarget {
 
   /** The level of tiles that suits the view. */
   level() {
-    let level = Math.ceil(this.viewport.z + Math.log2(this.density) - 1e-6);
+    let level = this.viewport.levelOf(this.density);
     while (this.grid(level).count > MOST_TILES) level--;
     return level;
   }
@@ -140,8 +140,10 @@ export class TileView extends EventTarget {
     const [left, top] = v.toPlane(0, 0);
     const [right, bottom] = v.toPlane(v.width, v.height);
     const [{ x: lx, y: ly }, clip] = [this.source.legal, (value, [least, most]) => Math.min(most, Math.max(least, value))];
-    const i = [Math.floor(clip(left, lx) / wide), Math.ceil(clip(right, lx) / wide)];
-    const j = [Math.floor(clip(bottom, ly) / high), Math.ceil(clip(top, ly) / high)];
+    // none where nothing in view is legal
+    const tiles = (from, to, size) => (from < to ? [Math.floor(from / size), Math.ceil(to / size)] : [0, 0]);
+    const i = tiles(clip(left, lx), clip(right, lx), wide);
+    const j = tiles(clip(bottom, ly), clip(top, ly), high);
     return { i, j, wide, high, count: Math.max(0, i[1] - i[0]) * Math.max(0, j[1] - j[0]) };
   }
 

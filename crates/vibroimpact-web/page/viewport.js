@@ -4,9 +4,12 @@
 const LEAST_ULPS = 8;
 /** Smallest zoom of an axis. */
 const LEAST_ZOOM = -5;
-/** Shapes of the cells of tiles are this far apart, in powers of two, so that tiles fit other views too. */
-const SHAPES = 1 / 4;
-/** A window comes with few digits: so little in the shape is nothing. */
+/**
+ * Levels of tiles, and shapes of their cells, are this far apart, in powers of two: tiles fit other views too, and have not many
+ * more points than the view has pixels.
+ */
+const STEP = 1 / 8;
+/** A window comes with few digits: so little in the zoom or the shape is nothing. */
 const SLACK = 1e-3;
 
 /** @param {number} x @returns {number} the distance of neighbouring doubles at `x` */
@@ -89,10 +92,15 @@ export class Viewport {
     return levels > most;
   }
 
+  /** The level of tiles whose cells are pixels of the screen across, or a little finer. */
+  levelOf(density) {
+    return STEP * Math.ceil((this.z + Math.log2(density) - SLACK) / STEP);
+  }
+
   /** The shape of the cells of tiles of a level: that of the pixels or a little finer upwards, within the numeric limit. */
   shapeOf(level) {
-    const steps = Math.ceil((this.shape - SLACK) / SHAPES);
-    return SHAPES * Math.min(steps, Math.floor((this.limits()[1] - level) / SHAPES));
+    const steps = Math.ceil((this.shape - SLACK) / STEP);
+    return STEP * Math.min(steps, Math.floor((this.limits()[1] - level) / STEP));
   }
 
   /** The level of each axis at which neighbouring points are a few units in the last place apart. */

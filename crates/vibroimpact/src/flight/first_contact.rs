@@ -25,6 +25,7 @@
 //! after the common period, if there is one: where nothing came before, that is a touch.
 
 use super::horizon::Outlook;
+use super::reach::Reach;
 use super::search::Search;
 use super::{Flight, Horizon, SearchLimits};
 use crate::system::{Oscillator, Side};
@@ -74,19 +75,23 @@ pub enum Contact {
 /// ```
 #[must_use]
 pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Contact {
-    counted(osc, flight, limits).0
+    counted(osc, flight, limits, 0.0).0
 }
 
-/// The first contact, and the steps it took to find.
-pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> (Contact, u32) {
+/// The first contact where it is known that there is none up to the time `clear`, if that is not 0; and the steps it took to find.
+pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits, clear: f64) -> (Contact, u32) {
     let mut search = match Search::begin(osc, flight) {
         Ok(search) => search,
         Err(contact) => return (contact, 0),
     };
+    search.stride_to(clear);
     // most flights end within a few steps: what needs arctangents waits until then
+    let (quick, patient) = if clear > 0.0 { (0, 0) } else { (QUICK, PATIENT) };
     let mut outlook: Option<Outlook> = None;
-    for step in 0..limits.steps {
-        if step == QUICK {
+    let mut reaches = [None; 2];
+    let mut step = 0;
+    while step < limits.steps {
+        if step == quick {
             let known = Outlook::new(osc, flight, limits);
             if known.never == Some(Horizon::Amplitude) && known.until == 0.0 {
                 return (Contact::Never(Horizon::Amplitude), step);
@@ -97,21 +102,30 @@ pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -
             if search.s >= known.until {
                 return (search.ended(known), step);
             }
-            if step >= PATIENT
-                && let Some(envelope) = &known.envelope
+            if let Some(envelope) = known.envelope
+                && step >= patient
             {
-                let stride = search.walls().map(|(sign, stop)| envelope.stride(search.s, sign, stop.gap));
-                search.stride_to(stride.fold(f64::INFINITY, f64::min).min(known.until));
+                for (reach, (sign, stop)) in reaches.iter_mut().zip(search.walls()) {
+                    reach.get_or_insert_with(|| Reach::new(envelope, sign, stop.gap));
+                }
+                let mut next = known.until;
+                for reach in reaches.iter().flatten() {
+                    let (clear, strides) = reach.next(search.s, next);
+                    next = next.min(clear);
+                    step += strides;
+                }
+                search.stride_to(next);
             }
         }
         if let Some(contact) = search.advance() {
             return (contact, step + 1);
         }
+        step += 1;
     }
     (Contact::NoneUntil(search.s), limits.steps)
 }
 
 /// Steps after which the outlook of the whole flight is worked out.
 const QUICK: u32 = 12;
-/// Steps after which strides by the envelope are tried.
+/// Steps after which strides are tried.
 const PATIENT: u32 = 64;

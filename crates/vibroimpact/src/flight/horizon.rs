@@ -13,9 +13,9 @@
 //!    that ends at its limit says so: none until then.
 
 use super::Flight;
-use crate::math::{asin, atan2, exp, hypot, ln, sin_cos};
-use crate::system::{Oscillator, phase};
-use core::f64::consts::{E, FRAC_PI_2, TAU};
+use crate::math::{atan2, hypot, ln, sin_cos};
+use crate::system::Oscillator;
+use core::f64::consts::{E, TAU};
 
 /// Why a flight never touches a stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,12 +36,13 @@ pub enum Horizon {
 pub struct SearchLimits {
     /// Periods to look ahead, of the force or of the oscillator, whichever is slower.
     pub periods: f64,
-    /// Evaluations of one flight. An ordinary flight takes about ten.
+    /// Steps of one search: evaluations of the flight, and strides over times at which the stops are out of its reach. An ordinary flight
+    /// takes about ten.
     pub steps: u32,
 }
 
 impl Default for SearchLimits {
-    /// A thousand periods, a hundred thousand evaluations (a few milliseconds).
+    /// A thousand periods, a hundred thousand steps (a few milliseconds).
     fn default() -> Self {
         Self { periods: 1000.0, steps: 100_000 }
     }
@@ -59,16 +60,16 @@ impl SearchLimits {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Envelope {
     /// Amplitude of the steady part.
-    steady: f64,
+    pub(super) steady: f64,
     /// Angle of the steady part at the beginning: it is `steady * sin(angle + beta s)`.
-    steady_angle: f64,
+    pub(super) steady_angle: f64,
     /// Bound of the free part at the beginning ...
-    rho: f64,
+    pub(super) rho: f64,
     /// ... and its rate of decay.
-    kappa: f64,
+    pub(super) kappa: f64,
     /// Undamped: the free part is `rho * sin(free_angle + s)`.
-    free_angle: f64,
-    beta: f64,
+    pub(super) free_angle: f64,
+    pub(super) beta: f64,
 }
 
 impl Envelope {
@@ -113,36 +114,11 @@ impl Envelope {
             None
         }
     }
-
-    /// A time not before `s` until which a stop (`sign` +1 for the upper) at `gap` cannot be reached, because the free
-    /// part at its largest, or the steady part at its largest, would not do. Lets slow forcing (or fast, tiny forcing)
-    /// be crossed in strides.
-    pub(super) fn stride(&self, s: f64, sign: f64, gap: f64) -> f64 {
-        let margin = 1e-12 * (self.rho + self.steady + gap.abs());
-        let rho = self.rho * exp(-self.kappa * s);
-        let turned = if sign > 0.0 { 0.0 } else { 2.0 * FRAC_PI_2 };
-        let by_steady = wait(gap - rho - margin, self.steady, self.steady_angle + self.beta * s + turned) / self.beta;
-        let by_free =
-            if self.kappa == 0.0 { wait(gap - self.steady - margin, rho, self.free_angle + s + turned) } else { 0.0 };
-        s + by_steady.max(by_free)
-    }
 }
 
 /// The slower of the two real exponents of an overdamped oscillator; their product is 1.
 fn slow_root(zeta: f64) -> f64 {
     1.0 / (zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt())
-}
-
-/// How much `angle` has to grow until `amplitude * sin(angle)` reaches `level`; 0 when it is there already or the
-/// level is never passed for sure.
-fn wait(level: f64, amplitude: f64, angle: f64) -> f64 {
-    if level.abs() >= amplitude {
-        return 0.0;
-    }
-    let rising = asin(level / amplitude);
-    let ahead = phase::wrap(rising - angle);
-    // above the level between rising and pi - rising
-    if ahead > 2.0 * rising + TAU / 2.0 { 0.0 } else { ahead }
 }
 
 /// The fraction `p/q`, `q <= 1000`, that `beta` is to within two units in the last place.
@@ -212,15 +188,5 @@ mod tests {
         assert_eq!(as_fraction(1.0 / 3.0), Some((1, 3)));
         assert_eq!(as_fraction(core::f64::consts::SQRT_2), None);
         assert_eq!(as_fraction(1e-6), None);
-    }
-
-    #[test]
-    fn waiting_for_a_level() {
-        assert!((wait(0.5, 1.0, 0.0) - asin(0.5)).abs() < 1e-15);
-        assert_eq!(wait(0.5, 1.0, 1.0), 0.0, "already above");
-        assert!((wait(0.5, 1.0, 3.0) - (asin(0.5) + TAU - 3.0)).abs() < 1e-14);
-        assert!((wait(-0.5, 1.0, 4.5) - (TAU - asin(0.5) - 4.5)).abs() < 1e-14);
-        assert_eq!(wait(-0.5, 1.0, 0.0), 0.0);
-        assert_eq!(wait(2.0, 1.0, 0.0), 0.0);
     }
 }

@@ -6,6 +6,7 @@
 //! | free and forced response for every $`\beta`$ and $`\zeta`$ | [`Response`] |
 //! | the arc from a state | [`Flight`] |
 //! | what can be said before searching: never, or how far to look | [`Horizon`] |
+//! | when it can reach a stop at all | `reach` |
 //! | the first contact, never missed, and the search for it | [`first_contact`], `search` |
 
 mod arc;
@@ -13,6 +14,7 @@ mod bounds;
 mod first_contact;
 mod free;
 mod horizon;
+mod reach;
 mod response;
 mod search;
 

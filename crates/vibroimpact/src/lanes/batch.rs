@@ -159,7 +159,8 @@ impl Batch {
     /// The contact of a rare flight, by the search that decides every case, and its steps. An impact launches the slot
     /// again, as if it had struck; anything else is left as it is.
     pub fn carefully(&mut self, slot: u32, limits: SearchLimits) -> (Contact, u32) {
-        let (contact, steps) = counted(&self.osc, &Flight::new(&self.osc, self.launched(slot)), limits);
+        let clear = f64::from(self.slots.state(slot as usize).s);
+        let (contact, steps) = counted(&self.osc, &Flight::new(&self.osc, self.launched(slot)), limits, clear);
         if let Contact::Impact { time, side, velocity } = contact {
             self.struck_at(slot, Hit { time, velocity, side: side.sign() });
         }

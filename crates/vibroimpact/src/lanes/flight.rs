@@ -23,9 +23,10 @@ pub(crate) fn found(
     flight: &Flight,
     limits: SearchLimits,
 ) -> (Contact, u32) {
-    match stride.and_then(|stride| stride.first_contact(flight)) {
-        Some(hit) if hit.time <= limits.horizon(osc) => (hit.into(), 1),
-        _ => counted(osc, flight, limits),
+    match stride.map_or(Err(0.0), |stride| stride.first_contact(flight)) {
+        Ok(hit) if hit.time <= limits.horizon(osc) => (hit.into(), 1),
+        Ok(_) => counted(osc, flight, limits, 0.0),
+        Err(clear) => counted(osc, flight, limits, clear),
     }
 }
 
@@ -54,14 +55,14 @@ pub(super) enum Progress {
 }
 
 impl Stride {
-    /// The first contact of a flight, `None` where it takes the careful search to tell.
-    pub(crate) fn first_contact(&self, flight: &Flight) -> Option<Hit> {
+    /// The first contact of a flight; where it takes the careful search to tell, the time up to which there is none.
+    pub(crate) fn first_contact(&self, flight: &Flight) -> Result<Hit, f64> {
         self.fly(&Launch { x: flight.x, v: flight.v, sin: flight.sin, cos: flight.cos })
     }
 
-    fn fly(&self, launch: &Launch<f64>) -> Option<Hit> {
+    fn fly(&self, launch: &Launch<f64>) -> Result<Hit, f64> {
         if self.lingers(launch) {
-            return None;
+            return Err(0.0);
         }
         let mut state = launch.state().rough();
         loop {
@@ -70,19 +71,19 @@ impl Stride {
             if self.clear(&self.rough.scale, &from, &to, self.margin(state.s), false) {
                 state = next;
                 if self.late(state.s) {
-                    return None;
+                    return Err(f64::from(state.s));
                 }
                 continue;
             }
             let guess = Guess::of(&self.guess(self.rough.h, state.s, &from, &to));
             let strike = self.polish(&guess, &self.approach(launch, &guess, self));
             if self.first_roughly(&strike, state.s, &from) == 1 {
-                return Some(strike.into());
+                return Ok(strike.into());
             }
             match self.refine(launch, state, self) {
-                Progress::Hit(hit) => return Some(hit),
+                Progress::Hit(hit) => return Ok(hit),
                 Progress::Clear(on) => state = on,
-                Progress::Rare => return None,
+                Progress::Rare => return Err(f64::from(state.s)),
             }
         }
     }
@@ -186,11 +187,11 @@ mod tests {
         let mut rare = 0;
         for start in starts {
             let flight = Flight::new(osc, start);
-            let Some(hit) = stride.first_contact(&flight) else {
+            let Ok(hit) = stride.first_contact(&flight) else {
                 rare += 1;
                 continue;
             };
-            let (contact, _) = counted(osc, &flight, SearchLimits::default());
+            let (contact, _) = counted(osc, &flight, SearchLimits::default(), 0.0);
             let Contact::Impact { time, side, velocity } = contact else {
                 panic!("{osc:?} {start:?} {hit:?} {contact:?}")
             };

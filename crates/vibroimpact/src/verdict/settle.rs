@@ -67,7 +67,7 @@ impl SettleOptions {
         if impacts >= usual.max_impacts {
             return Self { max_impacts: impacts, max_steps: 100 * u64::from(impacts), ..usual };
         }
-        let steps = impacts.saturating_mul(2).min(usual.limits.steps);
+        let steps = (impacts / 2).max(FEWEST).min(usual.limits.steps);
         Self {
             max_impacts: impacts,
             max_steps: 20 * u64::from(impacts),
@@ -77,6 +77,9 @@ impl SettleOptions {
         }
     }
 }
+
+/// Search steps of a flight, at least, of a small budget.
+const FEWEST: u32 = 64;
 
 /// A verdict and how it was reached.
 #[derive(Clone, Debug, PartialEq)]

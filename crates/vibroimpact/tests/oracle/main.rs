@@ -9,11 +9,13 @@
 //! | bounds | energy radius, second and third derivative | Grönwall, fourth derivative, Bernstein hull ([`cell`]) |
 //! | search | steps forward as far as is safe | cells cut until each is decided ([`search`], [`exact`]) |
 //!
-//! What is asked: [`starts`] (random), [`grazing`] (aimed), [`extremes`] (legal and absurd), [`known`] (what once was
+//! What is asked: [`starts`] (random), [`grazing`] (aimed), [`beats`] (long), [`extremes`] (legal and absurd), [`known`] (what once was
 //! wrong), [`long`] (very many). What is required of an answer: [`referee`].
 
 #[cfg(test)]
 mod astro;
+#[cfg(test)]
+mod beats;
 #[cfg(test)]
 mod case;
 #[cfg(test)]
