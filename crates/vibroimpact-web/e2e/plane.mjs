@@ -166,6 +166,23 @@ export async function at_most_three_tiles_are_under_way_and_those_out_of_view_ar
   assert.ok(given > 0, "nothing was given up");
 }
 
+export async function tiles_have_hardly_more_points_than_pixels({ open }) {
+  const { page } = await open("#view=0.4,2,0.5,4.5", { viewport: { width: 1810, height: 905 } });
+  let points = 0;
+  page.on("request", (request) => {
+    if (!request.url().endsWith("/api/tile")) return;
+    const { axes, refine } = request.postDataJSON().task.map;
+    if (refine) points += axes.reduce((product, { over }) => product * Number(over.split(":")[2]), 1);
+  });
+  await page.reload();
+  await sharp(page);
+  const [x0, y0] = await place(page, 0, 0, [0, 1, 0, 1]);
+  const [x1, y1] = await place(page, 1, 1, [0, 1, 0, 1]);
+  const pixels = (x1 - x0) * (y0 - y1);
+  // whole tiles at the edges are some of it
+  assert.ok(points >= pixels && points < 1.6 * pixels, `${points} points for ${pixels} pixels`);
+}
+
 export async function what_was_seen_is_not_asked_again({ open }) {
   const { page } = await open("#view=1.05,1.15,2.2,2.5", { viewport: { width: 800, height: 600 } });
   await sharp(page);
