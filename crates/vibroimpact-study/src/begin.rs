@@ -1,8 +1,9 @@
 //! With which orbit of a label a branch begins.
 
 use crate::PlanError;
+use std::sync::atomic::{AtomicBool, Ordering};
 use vibroimpact::continuation::BranchError;
-use vibroimpact::orbit::{FindOptions, Orbit, find};
+use vibroimpact::orbit::{FindOptions, Orbit, find_while};
 use vibroimpact::verdict::Count;
 use vibroimpact::{Label, Oscillator};
 
@@ -29,12 +30,19 @@ pub(crate) fn followable(label: &str) -> Result<Label, PlanError> {
     }
 }
 
-/// Orbit number `number` of those with this label; where none is named, the stable one, else the fastest that is a motion.
+/// Orbit number `number` of those with this label; where none is named, the stable one, else the fastest that is a motion. `None` when
+/// stopped while looking.
 ///
 /// # Errors
 /// [`PlanError`] where there is none to choose.
-pub(crate) fn choose(osc: &Oscillator, label: Label, number: Option<u32>) -> Result<Chosen, PlanError> {
-    let orbits = find(osc, label, FindOptions::default());
+pub(crate) fn choose(
+    osc: &Oscillator,
+    label: Label,
+    number: Option<u32>,
+    stop: &AtomicBool,
+) -> Result<Option<Chosen>, PlanError> {
+    let go_on = || !stop.load(Ordering::Relaxed);
+    let Some(orbits) = find_while(osc, label, FindOptions::default(), go_on) else { return Ok(None) };
     let count = orbits.len();
     let index = match number {
         Some(given) => {
@@ -50,27 +58,34 @@ pub(crate) fn choose(osc: &Oscillator, label: Label, number: Option<u32>) -> Res
     };
     let counted = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     let orbit = orbits.into_iter().nth(index).ok_or(PlanError::NoOrbit { label, others: 0 })?;
-    Ok(Chosen { orbit, number: counted(index + 1), count: counted(count) })
+    Ok(Some(Chosen { orbit, number: counted(index + 1), count: counted(count) }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    static ON: AtomicBool = AtomicBool::new(false);
+
+    fn chosen(osc: &Oscillator, label: Label, number: Option<u32>) -> Result<Chosen, PlanError> {
+        choose(osc, label, number, &ON).map(|chosen| chosen.expect("nobody stops it"))
+    }
+
     #[test]
     fn the_stable_one_else_the_fastest_motion() {
         let osc = Oscillator::from_inverse_beta(1.11, 2.0, 0.5).unwrap();
-        let one = choose(&osc, Label::new(1, 1), None).unwrap();
+        let one = chosen(&osc, Label::new(1, 1), None).unwrap();
         assert!(one.orbit.physical && !one.orbit.cycle.stable());
-        let half = choose(&osc, Label::new(1, 2), None).unwrap();
+        let half = chosen(&osc, Label::new(1, 2), None).unwrap();
         assert!(half.orbit.physical && half.orbit.cycle.stable());
-        assert_eq!(choose(&osc, Label::new(1, 2), Some(half.number)).as_ref(), Ok(&half));
+        assert_eq!(chosen(&osc, Label::new(1, 2), Some(half.number)).as_ref(), Ok(&half));
         for given in [0, half.count + 1] {
-            let error = choose(&osc, Label::new(1, 2), Some(given)).unwrap_err();
+            let error = chosen(&osc, Label::new(1, 2), Some(given)).unwrap_err();
             assert!(matches!(error, PlanError::NoSuchOrbit { given: g, .. } if g == given));
         }
+        assert_eq!(choose(&osc, Label::new(2, 1), None, &AtomicBool::new(true)), Ok(None));
         let far = Oscillator::from_inverse_beta(0.7, 40.0, 0.5).unwrap();
-        let error = choose(&far, Label::new(1, 1), None).unwrap_err().to_string();
+        let error = chosen(&far, Label::new(1, 1), None).unwrap_err().to_string();
         assert!(error.starts_with("no orbit 1/1 was found"), "{error}");
         assert!(followable("inf/1").is_err() && followable("1/0").is_err() && followable("2/1").is_ok());
     }

@@ -130,14 +130,16 @@ pub struct Branches {
 /// Follows the orbit of a plan, and the branches that begin on its way.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense or an orbit that is not there, or when stopped, which it heeds at every point.
+/// [`RunError`] for a plan that makes no sense or an orbit that is not there, or when stopped, which it heeds at every seed of the
+/// search and every point.
 pub fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
     let vary = plan.cut(system)?.varying()?;
     let from = vary.get(&osc).map_err(PlanError::from)?;
     let label = plan.label.parse().map_err(PlanError::from)?;
-    let chosen = choose(&osc, label, plan.orbit)?;
+    let stopped = |done: usize| Stopped { done: done as u64, total: u64::from(plan.follow) + 1 };
+    let chosen = choose(&osc, label, plan.orbit, control.stop)?.ok_or_else(|| stopped(0))?;
     let range = from.min(plan.to)..=from.max(plan.to);
     let direction = if plan.to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
@@ -147,7 +149,7 @@ pub fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -
     let mut all = Branches { chosen, followed: vec![Followed { origin: None, points }], lost: Vec::new() };
     all.follow(&ground, plan.follow as usize);
     if control.stop.load(Ordering::Relaxed) {
-        return Err(Stopped { done: all.followed.len() as u64 - 1, total: u64::from(plan.follow) + 1 }.into());
+        return Err(stopped(all.followed.len() - 1).into());
     }
     Ok(all)
 }

@@ -100,12 +100,12 @@ pub struct EventCurve {
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, an orbit that is not there, or no event of that kind; or when stopped, which it
-/// heeds at every point.
+/// heeds at every seed of the search and every point.
 pub fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
     let label = followable(&plan.label)?;
-    let chosen = choose(&osc, label, plan.orbit)?;
+    let chosen = choose(&osc, label, plan.orbit, control.stop)?.ok_or(Stopped { done: 0, total: 2 })?;
     let going = || !control.stop.load(Ordering::Relaxed);
     let stopped = |done| if going() { Ok(()) } else { Err(Stopped { done, total: 2 }) };
     let events = events(&osc, &chosen, plan, label, going)?;
