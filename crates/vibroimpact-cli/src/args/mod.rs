@@ -1,5 +1,6 @@
 //! The command line. Groups that several commands share are here; what belongs to one command is in its file.
 
+mod axes;
 mod output;
 mod plane;
 mod ranged;
@@ -8,6 +9,7 @@ mod store;
 mod system;
 mod vary;
 
+pub(crate) use axes::AxesArgs;
 pub(crate) use output::Globals;
 pub(crate) use plane::{Ends, Named, Over, Place};
 pub(crate) use ranged::Ranged;

@@ -1,6 +1,6 @@
 //! `vibro map`: which motions there are at each point of a plane of parameters.
 
-use crate::args::{Ranged, StoreArgs};
+use crate::args::{AxesArgs, Ranged, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
@@ -19,7 +19,7 @@ use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, 
 /// At each point so many starts are settled: the first from rest, the second on the motion
 /// without stops if that clears them, the others scattered over a box around the motion.
 /// One to four of the parameters take ranges, the others a value each: A:B:N is N values from A to B,
-/// both included, A:B:N:log the same in equal ratios, and A,B,C these. The first of them runs to the right.
+/// both included, A:B:N:log the same in equal ratios, and A,B,C these. The first of them, or of --axes, runs to the right.
 /// Without --csv, --plot or --json a summary is printed.
 #[derive(Clone, Debug, Args)]
 #[command(
@@ -96,10 +96,13 @@ struct PlaneArgs {
     /// Restitution of the second stop [default: that of the first, if that is one value]
     #[arg(long, value_name = "VALUES", allow_hyphen_values = true, requires = "second_gap")]
     second_restitution: Option<Ranged>,
+
+    #[command(flatten)]
+    axes: AxesArgs,
 }
 
 impl PlaneArgs {
-    /// The parameters that were given, in the order of the axes.
+    /// The parameters that were given, in the order of the flags.
     fn given(&self) -> impl Iterator<Item = (Parameter, &Ranged)> {
         let all = [
             (Parameter::Beta, self.beta.as_ref()),
@@ -134,13 +137,14 @@ impl PlaneArgs {
         })
     }
 
-    fn axes(&self) -> Vec<Axis> {
-        self.given().filter_map(|(parameter, given)| given.axis(parameter)).collect()
+    fn axes(&self) -> Result<Vec<Axis>, Failure> {
+        let varied = self.given().filter_map(|(parameter, given)| Some((parameter, given.axis(parameter)?))).collect();
+        Ok(self.axes.order(varied, |(parameter, _)| *parameter)?.into_iter().map(|(_, axis)| axis).collect())
     }
 }
 
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
-    let (system, axes) = (args.plane.system()?, args.plane.axes());
+    let (system, axes) = (args.plane.system()?, args.plane.axes()?);
     if axes.is_empty() {
         return Err(Failure::bad(
             "nothing varies\nhint: give one of the parameters a range, --gap 0:5:41; `vibro attractors` answers for one point",

@@ -1,6 +1,6 @@
 //! `vibro region`: where in a plane of two parameters a motion exists, and where it is stable.
 
-use crate::args::{Convention, MachineArgs, Place, SystemArgs};
+use crate::args::{AxesArgs, Convention, MachineArgs, Place, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::region::text;
@@ -59,6 +59,9 @@ pub(crate) struct Region {
     /// Restitution of the second stop [default: that of the first]
     #[arg(long, value_name = "E2", allow_hyphen_values = true, requires = "second_gap", help_heading = "Plane")]
     second_restitution: Option<Place>,
+
+    #[command(flatten, next_help_heading = "Plane")]
+    axes: AxesArgs,
 
     #[command(flatten)]
     machine: MachineArgs,
@@ -135,7 +138,7 @@ impl Region {
                 "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
             ));
         }
-        let over = self.over(&asked.units);
+        let over = self.axes.order(self.over(&asked.units), |stretch| stretch.parameter)?;
         match over.as_slice() {
             [across, up] => Ok((*across, *up)),
             _ => Err(Failure::bad(format!(

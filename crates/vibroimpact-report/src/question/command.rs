@@ -12,8 +12,7 @@ use vibroimpact_study::{
 ///
 /// Refinement and the size of tiles belong to stores, so with these the results go to a store, `map.zarr` or as the task is called; and
 /// points of the sections of an attractor belong to a figure, so with these one is drawn, `attractor.svg`. `None` where no flags say it: a
-/// basin over anything but position and velocity or over a list of values, a map or region whose parameters are in another order than the
-/// flags, exponents over axes, and a map over a list of one value.
+/// basin over anything but position and velocity or over a list of values, exponents over axes, and a map over a list of one value.
 #[must_use]
 pub fn command(plan: &Plan) -> Option<Vec<String>> {
     let plan = complete(plan).ok()?;
@@ -34,7 +33,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
         Task::Lyapunov(task) => lyapunov(system, task)?,
         Task::Branch(task) => branch(system, task),
         Task::Curve(task) => curve(system, task),
-        Task::Region(task) => region(system, task)?,
+        Task::Region(task) => region(system, task),
     };
     let (refine, name) = match &plan.task {
         Task::Map(task) => (task.refine, "map.zarr"),
@@ -133,16 +132,16 @@ fn map(system: &SystemPlan, task: &MapPlan) -> Option<Line> {
         Some((parameter, Some(over)))
     };
     let varied = task.axes.iter().map(words).collect::<Option<Vec<_>>>()?;
-    in_order(varied.iter().map(|(parameter, _)| *parameter))?;
-    let line = Line::new("map").system(system, &varied).flag("starts", task.starts).unless("seed", task.seed, 1);
+    let line = Line::new("map").system(system, &varied).given("axes", order(&varied));
+    let line = line.flag("starts", task.starts).unless("seed", task.seed, 1);
     Some(line.given("impacts", task.impacts))
 }
 
-/// Whether parameters are in the order of the flags, the first of which is drawn to the right.
-fn in_order(parameters: impl Iterator<Item = Parameter>) -> Option<()> {
-    let places: Vec<_> =
-        parameters.map(|parameter| Parameter::ALL.into_iter().position(|other| other == parameter)).collect();
-    places.is_sorted().then_some(())
+/// The order of the axes, where that is not the order of the flags.
+fn order<T>(varied: &[(Parameter, T)]) -> Option<String> {
+    let place = |(parameter, _): &(Parameter, T)| Parameter::ALL.into_iter().position(|other| other == *parameter);
+    let names = || varied.iter().map(|(parameter, _)| parameter.name().replace('_', "-")).collect::<Vec<_>>();
+    (!varied.is_sorted_by_key(place)).then(|| names().join(","))
 }
 
 fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
@@ -199,10 +198,8 @@ fn curve(system: &SystemPlan, task: &CurvePlan) -> Line {
     line.given("orbit", task.orbit).given("event", task.event)
 }
 
-fn region(system: &SystemPlan, task: &RegionPlan) -> Option<Line> {
-    let plane = [&task.across, &task.up];
-    in_order(plane.iter().map(|stretch| stretch.parameter))?;
-    let varied = plane.map(|stretch| (stretch.parameter, Some(range(stretch))));
+fn region(system: &SystemPlan, task: &RegionPlan) -> Line {
+    let varied = [&task.across, &task.up].map(|stretch| (stretch.parameter, Some(range(stretch))));
     let line = Line::new("region").flag("label", &task.label).system(system, &varied);
-    Some(line.unless("grid", task.grid, DEFAULT_GRID))
+    line.given("axes", order(&varied)).unless("grid", task.grid, DEFAULT_GRID)
 }

@@ -14,8 +14,8 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
-/// What to type for a plan: its [`command`], or, for a study that no flags say, its plan into a file and `vibro run`. `None` where
-/// there is neither: a plane of regions whose parameters are in another order than the flags.
+/// What to type for a plan: its [`command`], or, for a study that no flags say, its plan into a file and `vibro run`. `None` for tiles of what
+/// is no study, and for a plan that makes no sense.
 #[must_use]
 pub fn shell_line(plan: &Plan) -> Option<String> {
     if let Some(words) = command(plan) {
