@@ -245,3 +245,42 @@ fn lanes_fly_most_and_leave_some() {
     let seen = format!("{impacts} impacts, {careful} by the careful search, {settling} settling, {other} others");
     assert!(impacts > 4000 && careful * 10 < impacts && careful > 0 && settling > 10 && other > 0, "{seen}");
 }
+
+/// Fast forcing moves the mass so little that it never gets away from the stop as far as single precision could tell: every step is
+/// in doubt, and proven clear in full precision.
+#[test]
+fn what_hovers_below_a_stop_is_handed_over_in_time() {
+    let mut careful = 0;
+    for (beta, closeness, damping) in [
+        (50.0, 1.25, 0.0),
+        (50.0, 1.01, 0.0),
+        (30.0, 1.1, 0.0),
+        (40.0, 2.0, 0.05),
+        (80.0, 1.0001, 0.0),
+        (17.0, 1.02, 0.3),
+    ] {
+        let amplitude = 1.0 / (beta * beta - 1.0);
+        let one = Oscillator::new(beta, closeness * amplitude, 0.5).unwrap().with_damping(damping).unwrap();
+        for osc in [one, one.with_second_stop(3.0 * amplitude, 0.8).unwrap()] {
+            // beside the motion without stops
+            let start = |k: u32| {
+                let phase = 0.3 * f64::from(k);
+                let (x, v) = (-amplitude * phase.sin(), -beta * amplitude * phase.cos());
+                Start {
+                    x: x.min(osc.gap()),
+                    v: v + 1e-2 * amplitude * f64::from(k % 5),
+                    phase: phase % core::f64::consts::TAU,
+                }
+            };
+            let starts: Vec<Start> = (0..20).map(start).collect();
+            for width in available() {
+                let records = side_by_side(&osc, &starts, width, 20, Leftover::Stays).expect("lanes fly them");
+                for (start, record) in starts.iter().zip(&records) {
+                    assert_alone(&osc, *start, width, record);
+                    careful += record.careful;
+                }
+            }
+        }
+    }
+    assert!(careful > 100, "{careful}");
+}

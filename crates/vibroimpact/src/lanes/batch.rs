@@ -179,7 +179,12 @@ impl Batch {
         let row = &self.slots.launches[slot as usize];
         let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
         match self.stride.refine(&launch, self.slots.state(slot as usize), &self.table) {
-            Progress::Clear(on) => self.slots.put(slot as usize, on),
+            Progress::Clear(on) => {
+                self.slots.put(slot as usize, on);
+                if self.stride.late(on.s) {
+                    self.lists.late.push(slot);
+                }
+            }
             Progress::Rare => self.rare.push(slot),
             Progress::Hit(hit) => {
                 self.struck_at(slot, hit);

@@ -70,20 +70,20 @@ impl Stride {
             let (from, to) = (self.end(&state), self.end(&next));
             if self.clear(&self.rough.scale, &from, &to, self.margin(state.s), false) {
                 state = next;
-                if self.late(state.s) {
-                    return Err(f64::from(state.s));
+            } else {
+                let guess = Guess::of(&self.guess(self.rough.h, state.s, &from, &to));
+                let strike = self.polish(&guess, &self.approach(launch, &guess, self));
+                if self.first_roughly(&strike, state.s, &from) == 1 {
+                    return Ok(strike.into());
                 }
-                continue;
+                match self.refine(launch, state, self) {
+                    Progress::Hit(hit) => return Ok(hit),
+                    Progress::Clear(on) => state = on,
+                    Progress::Rare => return Err(f64::from(state.s)),
+                }
             }
-            let guess = Guess::of(&self.guess(self.rough.h, state.s, &from, &to));
-            let strike = self.polish(&guess, &self.approach(launch, &guess, self));
-            if self.first_roughly(&strike, state.s, &from) == 1 {
-                return Ok(strike.into());
-            }
-            match self.refine(launch, state, self) {
-                Progress::Hit(hit) => return Ok(hit),
-                Progress::Clear(on) => state = on,
-                Progress::Rare => return Err(f64::from(state.s)),
+            if self.late(state.s) {
+                return Err(f64::from(state.s));
             }
         }
     }

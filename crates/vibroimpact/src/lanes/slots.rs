@@ -210,6 +210,9 @@ impl Slots {
                 let state =
                     State { s: on[0][lane], x: on[1][lane], v: on[2][lane], sin: on[3][lane], cos: on[4][lane] };
                 self.put(at[lane] as usize, state);
+                if stride.late(state.s) {
+                    lists.late.push(at[lane]);
+                }
             });
             self.relaunch(stride, &at, row[PHASE], &strike, proven & there, lists);
             each(!(clear | proven) & there, |lane| lists.left.push(at[lane]));
