@@ -19,11 +19,11 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     exit::no_backtraces();
-    let line = match args::CommandLine::try_parse() {
+    let line = match commands::CommandLine::try_parse() {
         Ok(line) => line,
         Err(refusal) => return exit::parsed(&refusal),
     };
     signal::listen();
     let session = session::Session::new(line.globals);
-    exit::code(commands::run(&line.command, &session))
+    exit::code(commands::run(&line, &session))
 }

@@ -1,9 +1,8 @@
 //! `vibro completions SHELL`.
 
-use crate::args::CommandLine;
 use crate::exit::Failure;
 use crate::session::Session;
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 /// Print a completion script for your shell
@@ -14,8 +13,8 @@ pub(crate) struct Completions {
     shell: Shell,
 }
 
-pub(super) fn run(args: Completions, session: &Session) -> Result<(), Failure> {
+pub(super) fn run(args: Completions, mut command: Command, session: &Session) -> Result<(), Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut CommandLine::command(), "vibro", &mut script);
+    clap_complete::generate(args.shell, &mut command, "vibro", &mut script);
     session.to_stdout(|out| out.write_all(&script))
 }

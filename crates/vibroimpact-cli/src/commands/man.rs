@@ -1,10 +1,9 @@
 //! `vibro man [DIR]`.
 
-use crate::args::CommandLine;
 use crate::exit::Failure;
 use crate::files::Target;
 use crate::session::Session;
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_mangen::Man as Page;
 use std::path::PathBuf;
 
@@ -17,8 +16,7 @@ pub(crate) struct Man {
     directory: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Man, session: &Session) -> Result<(), Failure> {
-    let mut command = CommandLine::command();
+pub(super) fn run(args: &Man, mut command: Command, session: &Session) -> Result<(), Failure> {
     command.build();
     let Some(directory) = &args.directory else {
         let page = rendered(command)?;
@@ -42,7 +40,7 @@ pub(super) fn run(args: &Man, session: &Session) -> Result<(), Failure> {
     Ok(())
 }
 
-fn rendered(command: clap::Command) -> Result<Vec<u8>, Failure> {
+fn rendered(command: Command) -> Result<Vec<u8>, Failure> {
     let mut page = Vec::new();
     Page::new(command).render(&mut page).map_err(|error| Failure::writing("the manual page", &error))?;
     Ok(page)
