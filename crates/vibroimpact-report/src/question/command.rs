@@ -137,17 +137,22 @@ fn map(system: &SystemPlan, task: &MapPlan) -> Option<Line> {
     Some(line.given("impacts", task.impacts))
 }
 
+/// The name of its flag, without the dashes.
+fn flag(parameter: Parameter) -> String {
+    parameter.name().replace('_', "-")
+}
+
 /// The order of the axes, where that is not the order of the flags.
 fn order<T>(varied: &[(Parameter, T)]) -> Option<String> {
     let place = |(parameter, _): &(Parameter, T)| Parameter::ALL.into_iter().position(|other| other == *parameter);
-    let names = || varied.iter().map(|(parameter, _)| parameter.name().replace('_', "-")).collect::<Vec<_>>();
+    let names = || varied.iter().map(|(parameter, _)| flag(*parameter)).collect::<Vec<_>>();
     (!varied.is_sorted_by_key(place)).then(|| names().join(","))
 }
 
 fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
     let varied: Vec<_> = task.cut().parameters().map(|parameter| (parameter, None)).collect();
     let line = Line::new("diagram").system(system, &varied);
-    let line = line.flag("vary", task.vary.name().replace('_', "-")).flag("over", task.over);
+    let line = line.flag("vary", flag(task.vary)).flag("over", task.over);
     let line = line.given("also", task.also.as_ref().map(over));
     let line = match task.direction {
         Direction::Both => line,
@@ -176,8 +181,8 @@ fn lyapunov(system: &SystemPlan, task: &LyapunovPlan) -> Option<Line> {
 
 fn branch(system: &SystemPlan, task: &BranchPlan) -> Line {
     let line = Line::new("branch").system(system, &[]).flag("label", &task.label);
-    let line = line.flag("vary", task.vary.name().replace('_', "-")).flag("to", number(task.to));
-    let also = |also: Target| format!("{}={}", also.parameter.name().replace('_', "-"), number(also.to));
+    let line = line.flag("vary", flag(task.vary)).flag("to", number(task.to));
+    let also = |also: Target| format!("{}={}", flag(also.parameter), number(also.to));
     let line = line.given("also", task.also.map(also));
     let line = line.given("orbit", task.orbit).unless("follow", task.follow, 0);
     line.unless("points", task.points, DEFAULT_BRANCH_POINTS)
@@ -189,7 +194,7 @@ fn range(stretch: &Stretch) -> String {
 
 /// `gap=0:3`
 fn over(stretch: &Stretch) -> String {
-    format!("{}={}", stretch.parameter.name().replace('_', "-"), range(stretch))
+    format!("{}={}", flag(stretch.parameter), range(stretch))
 }
 
 fn curve(system: &SystemPlan, task: &CurvePlan) -> Line {

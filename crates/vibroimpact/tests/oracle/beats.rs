@@ -45,12 +45,7 @@ fn on_stop(random: &mut Random, gap: f64, steady: f64, beta: f64, rho: f64, phas
 #[test]
 fn flights_over_many_beats() {
     let tally = on_all_cores(FLIGHTS, 20, |index, tally| {
-        let mut random = Random::new(11, index);
-        let case = loop {
-            if let Some(case) = case(&mut random) {
-                break case;
-            }
-        };
+        let case = Random::new(11, index).until(case);
         let mut limits = SearchLimits::default();
         limits.periods = limits.periods.min(1.1 * LONGEST / TAU * case.beta.min(1.0));
         tally.add(case, verdict(&case, limits, LONGEST));

@@ -115,11 +115,7 @@ fn ask(family: u64, count: u64, finest: f64, coarsest: f64) -> Tally {
     let tally = on_all_cores(count, 20, |index, tally| {
         let mut random = Random::new(family, index);
         let depth = random.sign() * random.decade(finest, coarsest);
-        let (case, apex) = loop {
-            if let Some(planted) = planted(&mut random, depth, index % 2 == 0) {
-                break planted;
-            }
-        };
+        let (case, apex) = random.until(|random| planted(random, depth, index % 2 == 0));
         let horizon = horizon(&case, false).min(160.0);
         let mut limits = SearchLimits::default();
         limits.periods = limits.periods.min(periods(&case, 1.1 * horizon));

@@ -29,12 +29,7 @@ fn case(random: &mut Random) -> Option<Case> {
 #[test]
 fn flights_that_stay_close() {
     let tally = on_all_cores(FLIGHTS, 20, |index, tally| {
-        let mut random = Random::new(12, index);
-        let case = loop {
-            if let Some(case) = case(&mut random) {
-                break case;
-            }
-        };
+        let case = Random::new(12, index).until(case);
         let limits = SearchLimits { periods: 1.1 * LONGEST / TAU, ..SearchLimits::default() };
         tally.add(case, verdict(&case, limits, LONGEST));
     });

@@ -9,8 +9,8 @@
 //! | bounds | energy radius, second and third derivative | Grönwall, fourth derivative, Bernstein hull ([`cell`]) |
 //! | search | steps forward as far as is safe | cells cut until each is decided ([`search`], [`exact`]) |
 //!
-//! What is asked: [`starts`] (random), [`grazing`] (aimed), [`beats`] (long), [`hovering`] (close), [`extremes`] (legal and absurd), [`known`] (what once was
-//! wrong), [`long`] (very many). What is required of an answer: [`referee`].
+//! What is asked: [`starts`] (random), [`grazing`] (aimed), [`beats`] (long), [`hovering`] (close), [`extremes`] (legal and
+//! absurd), [`known`] (what once was wrong), [`long`] (very many). What is required of an answer: [`referee`].
 
 #[cfg(test)]
 mod astro;

@@ -51,6 +51,15 @@ impl Random {
         of[usize::try_from(self.next() % n).expect("an index")]
     }
 
+    /// Draws until there is one.
+    pub(crate) fn until<T>(&mut self, draw: impl Fn(&mut Self) -> Option<T>) -> T {
+        loop {
+            if let Some(drawn) = draw(self) {
+                return drawn;
+            }
+        }
+    }
+
     pub(crate) fn phase(&mut self) -> f64 {
         if self.chance(0.03) { 0.0 } else { (TAU * self.unit()).min(TAU.next_down()) }
     }
