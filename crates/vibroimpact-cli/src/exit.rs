@@ -74,7 +74,9 @@ impl From<StoreError> for Failure {
             StoreError::Stopped(_) => Self::Stopped(format!("{error}; `vibro resume` goes on")),
             StoreError::Read { .. }
             | StoreError::Write { .. }
+            | StoreError::Begin { .. }
             | StoreError::Damaged { .. }
+            | StoreError::DamagedTile { .. }
             | StoreError::Threads(_) => Self::Failed(error.to_string()),
             _ => Self::bad(error),
         }

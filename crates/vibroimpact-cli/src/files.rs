@@ -66,6 +66,10 @@ impl Target {
                 Ok(Self { path, beside: Some((place.clone(), temporary, file)), force })
             }
             Err(error) => Err(Failure::bad(match error.kind() {
+                // of a file system that holds no files of ours the directory is there, and still none can be made in it
+                io::ErrorKind::NotFound if directory.is_dir() => {
+                    format!("`{name}` cannot be written: the directory `{}` takes no files", directory.display())
+                }
                 io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => {
                     format!("`{name}` cannot be written: there is no directory `{}`", directory.display())
                 }

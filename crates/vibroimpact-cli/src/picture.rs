@@ -15,6 +15,9 @@ pub(crate) struct Picture {
 impl Picture {
     /// Reserves a file that ends in .svg or .png.
     pub(crate) fn reserve(path: &Path, force: bool) -> Result<Self, Failure> {
+        if path == Path::new("-") {
+            return Err(Failure::bad("a figure cannot go to stdout\nhint: name a file that ends in .svg or .png"));
+        }
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let png = match ending.as_deref() {
             Some("svg") => false,

@@ -9,7 +9,6 @@ use crate::simulate::{StartArgument, start_plan, text};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use vibroimpact::chaos::{Exponents, Grounds, Measured, Section, exponents, section};
-use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact_study::{LyapunovPlan, Plan, Task};
 
 /// Value and error.
@@ -86,14 +85,13 @@ pub(crate) fn lyapunov(
     plan.check()?;
     let osc = osc.osc;
     let start = task.start.start(&osc)?;
-    let (verdict, found, points): (_, Exponents, Section) = door::run(py, Watch::alone("measuring"), move |_| {
+    let (found, points): (Exponents, Section) = door::run(py, Watch::alone("measuring"), move |_| {
         let points = task.points.map_or_else(Section::default, |n| section(&osc, start, task.transient, n));
-        let settled = settle(&osc, start, &SettleOptions::default());
-        Ok((settled.verdict, exponents(&osc, start, &task.options()), points))
+        Ok((exponents(&osc, start, &task.options()), points))
     })?;
     let (struck, states) = (|| points.impacts.iter(), || points.strobes.iter());
     Ok(Fields {
-        motion: Motion::new(py, &verdict, &osc),
+        motion: Motion::new(py, &found.motion, &osc),
         exponents: found.exponents.map(quantity),
         exponents_per_period: found.per_period().map(quantity),
         sum: quantity(found.sum),

@@ -7,7 +7,7 @@ use vibroimpact::Oscillator;
 use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::orbit::Cycle;
-use vibroimpact::verdict::{Count, NoImpact, Undecided, Verdict};
+use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
 
 /// The fields of a motion.
 #[derive(IntoPyObject)]
@@ -24,6 +24,9 @@ pub(crate) struct Fields<'py> {
     residual: Option<f64>,
     /// Value and error.
     lyapunov: Option<(f64, f64)>,
+    seen_impacts: Option<u64>,
+    /// Impacts, and the value and error of the exponent.
+    chaotic_transient: Option<(u64, (f64, f64))>,
     horizon: Option<HorizonFields>,
     side: Option<&'static str>,
     tried: Option<Tried>,
@@ -61,6 +64,7 @@ impl HorizonFields {
             NoImpact::Flight(Horizon::Amplitude) => ("amplitude", None),
             NoImpact::Flight(Horizon::CommonPeriod { p, q }) => ("common_period", Some((*p, *q))),
             NoImpact::GrazeLimit { .. } => ("graze_limit", None),
+            NoImpact::Landing { .. } => ("landing", None),
             NoImpact::Grazing { .. } => ("grazing", None),
             NoImpact::ForPeriods(n) => {
                 return Self { kind: "periods", periods: Some(*n), why: "search", common_period: None };
@@ -96,6 +100,8 @@ impl<'py> Fields<'py> {
             rests: Vec::new(),
             residual: None,
             lyapunov: None,
+            seen_impacts: None,
+            chaotic_transient: None,
             horizon: None,
             side: None,
             tried: None,
@@ -104,9 +110,19 @@ impl<'py> Fields<'py> {
         match verdict {
             Verdict::Periodic(cycle) => Self::periodic(py, cycle, bare),
             Verdict::NoImpact(no_impact) => {
-                Self { kind: "no_impact", horizon: Some(HorizonFields::new(no_impact)), ..bare.of_one_period(0) }
+                let bare = bare.of_one_period(0);
+                let bare = match no_impact {
+                    NoImpact::Landing { periods, .. } => Self { periods: Some(*periods), sticks: Some(1), ..bare },
+                    _ => bare,
+                };
+                Self { kind: "no_impact", horizon: Some(HorizonFields::new(no_impact)), ..bare }
             }
-            Verdict::Chaotic(spectrum) => Self { kind: "chaotic", lyapunov: Some(pair(spectrum.exponents[0])), ..bare },
+            Verdict::Chaotic(chaos) => Self {
+                kind: "chaotic",
+                lyapunov: Some(pair(chaos.spectrum.exponents[0])),
+                seen_impacts: Some(chaos.impacts),
+                ..bare
+            },
             Verdict::Stuck(at) => Self { kind: "stuck", side: Some(named(*at)), ..bare.of_one_period(1) },
             Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => {
                 Self { tried: tried(Some(*impacts), None, spectrum.map(|s| pair(s.exponents[0]))), ..bare }
@@ -115,6 +131,12 @@ impl<'py> Fields<'py> {
                 Self { tried: tried(None, Some(*periods), None), ..bare }
             }
         }
+    }
+
+    /// With the chaos that was seen before.
+    pub(crate) fn after(self, transient: Option<Chaos>) -> Self {
+        let chaotic_transient = transient.map(|chaos| (chaos.impacts, pair(chaos.spectrum.exponents[0])));
+        Self { chaotic_transient, ..self }
     }
 
     fn of_one_period(self, sticks: usize) -> Self {

@@ -136,6 +136,44 @@ impl Oscillator {
             .chain(second.into_iter().flat_map(|stop| [stop.gap, stop.restitution]))
     }
 
+    /// Changes by the keywords of `Oscillator`: gaps in metres in units of F/k. Of a machine, numbers that may be meant in other
+    /// units are refused.
+    fn nondimensional<'py>(&self, changes: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
+        let own = changes.copy()?;
+        for (name, metres) in [("gap", "gap_m"), ("second_gap", "second_gap_m")] {
+            let Some(gap) = own.get_item(metres)? else { continue };
+            let Some(Units(scales)) = self.units.filter(|_| !own.contains("units").unwrap_or(true)) else {
+                return Err(Trouble::question(format!(
+                    "{metres} needs the system in physical units\nhint: {name} is its nondimensional twin"
+                ))
+                .into());
+            };
+            if own.contains(name)? {
+                return Err(
+                    Trouble::question(format!("{name} and {metres} are one parameter, and both are given")).into()
+                );
+            }
+            own.del_item(metres)?;
+            own.set_item(name, gap.extract::<f64>()? / scales.length_m)?;
+        }
+        if self.units.is_none() || changes.contains("units")? {
+            return Ok(own);
+        }
+        for (name, ours, theirs, hint) in [
+            ("gap", "in F/k", "m", "gap_m=... takes metres"),
+            ("second_gap", "in F/k", "m", "second_gap_m=... takes metres"),
+            ("damping", "as a ratio", "N s/m", "make the machine anew with Oscillator.from_units"),
+        ] {
+            if let Some(value) = changes.get_item(name)?.filter(|value| !value.is_none()) {
+                return Err(Trouble::question(format!(
+                    "{name} = {value} of a machine may be meant {ours} or in {theirs}\nhint: {hint}; {name}=..., units=osc.units is nondimensional"
+                ))
+                .into());
+            }
+        }
+        Ok(own)
+    }
+
     /// The call that makes it again.
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
@@ -274,10 +312,18 @@ impl Oscillator {
     /// The same oscillator with other values of some parameters, by the keywords of `Oscillator`.
     ///
     /// A new `beta` or `inverse_beta` takes the place of whichever was given; `second_gap=None` takes the second stop away.
+    /// Of a machine in physical units a gap is given in metres, as `gap_m` or `second_gap_m`. Numbers that would be read in two
+    /// ways, `gap`, `second_gap` and `damping`, are refused there unless `units` is given with them: then they are nondimensional.
+    ///
+    /// >>> from vibroimpact import Oscillator
+    /// >>> osc = Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.010, restitution=0.5)
+    /// >>> osc.replace(gap_m=0.005).gap, osc.replace(gap=1, units=osc.units).gap
+    /// (1.0, 1.0)
     #[pyo3(signature = (**changes))]
     fn replace<'py>(&self, py: Python<'py>, changes: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyAny>> {
         let keywords = self.keywords(py)?;
         if let Some(changes) = changes {
+            let changes = &self.nondimensional(changes)?;
             let given = |name| changes.get_item(name).map(|value| value.is_some_and(|value| !value.is_none()));
             let drop_if = |condition: bool, name| if condition { keywords.set_item(name, py.None()) } else { Ok(()) };
             drop_if(given("beta")?, "inverse_beta")?;

@@ -3,7 +3,7 @@
 use crate::error::Trouble;
 use crate::oscillator::Oscillator;
 use pyo3::prelude::*;
-use vibroimpact_study::{Axis, Plan, Task};
+use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, StartPlan, Task};
 
 /// The plan of a text.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
@@ -45,4 +45,33 @@ pub(crate) fn checked_plan(text: &str) -> Result<(String, String, String, u64), 
 #[pyfunction]
 pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
     serde_json::to_string(&osc.plan).map_err(|_| Trouble::Defect("writing the system"))
+}
+
+/// Name, value, long name and unit of a coordinate.
+type Fixed = (&'static str, f64, &'static str, &'static str);
+
+/// The parameters that a plan leaves as they are, and of a start that is the same everywhere its coordinates: always the same names,
+/// so that Datasets of several plans can be joined. The parameters of a second stop that is not there, and the position of a start
+/// at rest, are not a number.
+#[pyfunction]
+pub(crate) fn fixed_coordinates(text: &str) -> Result<Vec<Fixed>, Trouble> {
+    let plan = read(text)?;
+    let on = |axes: &[Axis]| axes.iter().map(|axis| axis.vary).collect::<Vec<_>>();
+    let (varied, start) = match &plan.task {
+        Task::Map(map) => (on(&map.axes), None),
+        Task::Basin(basin) => (on(&basin.axes), Some(basin.start)),
+        Task::Lyapunov(lyapunov) => (on(&lyapunov.axes), Some(lyapunov.start)),
+        Task::Diagram(diagram) => (diagram.cut().parameters().map(Coordinate::Parameter).collect(), None),
+        _ => (Vec::new(), None),
+    };
+    let is_frequency = |of: &Coordinate| matches!(of, Coordinate::Parameter(parameter) if parameter.is_frequency());
+    let varies = |of: Coordinate| varied.contains(&of) || (is_frequency(&of) && varied.iter().any(is_frequency));
+    let parameters = Parameter::ALL
+        .into_iter()
+        .map(|parameter| (Coordinate::Parameter(parameter), plan.system.value(parameter).unwrap_or(f64::NAN)));
+    let of_start = |StartPlan { x, v, phase }| {
+        [(Coordinate::X, x.unwrap_or(f64::NAN)), (Coordinate::V, v), (Coordinate::Phase, phase)]
+    };
+    let all = parameters.chain(start.map(of_start).into_iter().flatten());
+    Ok(all.filter(|(of, _)| !varies(*of)).map(|(of, value)| (of.name(), value, of.long_name(), of.units())).collect())
 }

@@ -28,7 +28,7 @@ pub(crate) fn settle<'py>(
     let settled = door::run(py, Watch::alone("settling a motion"), move |_| {
         Ok(vibroimpact::verdict::settle(&osc, start, &SettleOptions::default()))
     })?;
-    Ok((Fields::new(py, &settled.verdict, &osc), text(&plan)?))
+    Ok((Fields::new(py, &settled.verdict, &osc).after(settled.transient), text(&plan)?))
 }
 
 /// Starts of a tile.
@@ -44,19 +44,25 @@ struct Starts<'a> {
 }
 
 impl Starts<'_> {
-    /// Start number `k`, its phase wrapped.
-    fn at(&self, k: u64) -> Start {
+    /// Start number `k`, its phase as it was given.
+    fn given(&self, k: u64) -> Start {
         let of = |column: &[f64]| {
             let k = usize::try_from(k).unwrap_or(usize::MAX);
             column.get(k).or(column.first()).copied().unwrap_or(0.0)
         };
-        Start { x: of(self.x), v: of(self.v), phase: phase::wrap(of(self.phase)) }
+        Start { x: of(self.x), v: of(self.v), phase: of(self.phase) }
+    }
+
+    /// Start number `k`, its phase wrapped.
+    fn at(&self, k: u64) -> Start {
+        let given = self.given(k);
+        Start { phase: phase::wrap(given.phase), ..given }
     }
 
     /// The first that is not allowed, in the words of a single one.
     fn check(&self, osc: &vibroimpact::Oscillator, total: u64) -> Result<(), Trouble> {
         (0..total).try_for_each(|k| {
-            let Start { x, v, phase } = self.at(k);
+            let Start { x, v, phase } = self.given(k);
             Start::new(osc, x, v, phase).map(|_| ()).map_err(|error| Trouble::question(format!("{error} (start {k})")))
         })
     }

@@ -2,7 +2,7 @@
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::plan::{points, read};
+use crate::plan::read;
 use crate::simulate::text;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -42,6 +42,7 @@ pub(crate) struct Status {
     complete: bool,
     seconds_left: Option<f64>,
     missing: Vec<u64>,
+    missing_left_out: u64,
     bytes: u64,
 }
 
@@ -51,14 +52,8 @@ pub(crate) struct Verified {
     checked: u64,
     recomputed: u64,
     open: u64,
-    /// Tile and what is wrong with it.
-    damage: Vec<(u64, String)>,
-}
-
-impl Store {
-    fn watch(&self, what: &'static str, threads: usize, progress: Option<Py<PyAny>>) -> Watch {
-        Watch { what, total: points(self.0.plan()), progress, threads }
-    }
+    /// Tile, none for the whole store, and what is wrong with it.
+    damage: Vec<(Option<u64>, String)>,
 }
 
 #[pymethods]
@@ -93,7 +88,7 @@ impl Store {
         progress: Option<Py<PyAny>>,
     ) -> Result<Counts, Trouble> {
         let (store, part) = (Arc::clone(&self.0), Part::new(part.0, part.1)?);
-        let watch = self.watch("filling a store", threads, progress);
+        let watch = Watch { what: "filling a store", total: part.points(store.study().grid()), progress, threads };
         door::run(py, watch, move |control| Ok(counts(store.run(part, control)?)))
     }
 
@@ -105,7 +100,7 @@ impl Store {
         if let Some(tile) = tiles.iter().find(|tile| **tile >= all) {
             return Err(Trouble::question(format!("tile {tile} is none of the {all} of this store")));
         }
-        let watch = self.watch("filling tiles", threads, None);
+        let watch = Watch { what: "filling tiles", total: 0, progress: None, threads };
         door::run(py, watch, move |control| Ok(counts(store.run_tiles(&tiles, control)?)))
     }
 
@@ -127,6 +122,7 @@ impl Store {
             complete: found.complete,
             seconds_left: found.left.map(|time| time.as_secs_f64()),
             missing: found.missing,
+            missing_left_out: found.missing_left_out,
             bytes: found.bytes,
         })
     }
@@ -141,7 +137,7 @@ impl Store {
         progress: Option<Py<PyAny>>,
     ) -> Result<Verified, Trouble> {
         let store = Arc::clone(&self.0);
-        let watch = self.watch("verifying a store", threads, progress);
+        let watch = Watch { what: "verifying a store", total: store.sample_points(sample), progress, threads };
         let found = door::run(py, watch, move |control| Ok(store.verify(sample, seed, control)?))?;
         Ok(Verified {
             checked: found.checked,

@@ -24,7 +24,7 @@ def test_it_is_what_its_text_and_its_pickle_say(osc: vi.Oscillator) -> None:
         assert other == osc and hash(other) == hash(osc) and repr(other) == repr(osc)
         assert other.inverse_beta == osc.inverse_beta and other.units == osc.units
     assert len({*ALL, osc}) == len(ALL)
-    assert osc != "oscillator" and osc != osc.replace(gap=osc.gap + 1)
+    assert osc != "oscillator" and osc != osc.replace(gap=osc.gap + 1, units=osc.units)
 
 
 def test_properties_are_the_parameters() -> None:
@@ -63,7 +63,7 @@ def test_units_lead_there_and_back() -> None:
     assert (osc.beta, osc.gap, osc.second_gap, osc.damping) == (1.25, 2.0, 4.0, 0.0)
     assert osc.units == vi.Units(length_m=0.005, time_s=0.05) and osc.units is not None
     assert osc.units.velocity_m_per_s == 0.005 / 0.05
-    assert pickle.loads(pickle.dumps(osc.units)) == osc.units and len({osc.units, osc.replace(gap=1).units}) == 1
+    assert pickle.loads(pickle.dumps(osc.units)) == osc.units and len({osc.units, osc.replace(gap_m=0.005).units}) == 1
     hertz = vi.Oscillator.from_units(
         mass=2, stiffness=800, force=4, frequency=25 / (2 * math.pi), gap=0.010, restitution=0.5, damping=8
     )

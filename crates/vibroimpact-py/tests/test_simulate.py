@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import time
 
 import numpy as np
 import pytest
@@ -103,3 +104,15 @@ def test_it_can_be_pickled(n: vi.Oscillator) -> None:
     sim = vi.simulate(n, x=-1, impacts=50)
     again = pickle.loads(pickle.dumps(sim))
     assert again.to_dict() == sim.to_dict() and again.plan == sim.plan and repr(again) == repr(sim)
+
+
+def test_f12_the_events_as_dicts_take_time_in_proportion(u: vi.Oscillator) -> None:
+    """Of ten times as many events at most some thirty times as long; it was a hundred times."""
+    took = []
+    for impacts in (3_000, 30_000):
+        sim = vi.simulate(u, impacts=impacts)
+        begun = time.process_time()
+        events = sim.to_dict()["events"]
+        took.append(time.process_time() - begun)
+        assert len(events) == len(sim) and events[-1]["time"] == sim.time[-1]
+    assert took[1] < 30 * max(took[0], 0.002), took

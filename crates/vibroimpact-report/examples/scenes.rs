@@ -7,6 +7,7 @@ use std::path::Path;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
 use vibroimpact::{Scales, Start};
 use vibroimpact_plot::Figure;
+use vibroimpact_report::scene::{View, Viewed};
 use vibroimpact_report::{Asked, Units, scene};
 use vibroimpact_study::{Control, DiagramPlan, SystemPlan};
 
@@ -42,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         save(&format!("{name}-transient"), &scene::phase_portrait(&asked, &osc, start, (0.0, periods(8.0))))?;
         let span = (settled.time, settled.time + periods(if name == "chaos" { 200.0 } else { 4.0 }));
         save(&format!("{name}-steady"), &scene::phase_portrait(&asked, &osc, start, span))?;
-        save(&format!("{name}-sections"), &scene::sections(&asked, &osc, start, &settled, 2000))?;
+        save(&format!("{name}-sections"), &Viewed::new(View::Sections, (&osc, start), &settled, &asked)?.figure())?;
         if let Verdict::Periodic(cycle) = &settled.verdict {
             save(&format!("{name}-multipliers"), &scene::multipliers(&cycle.multipliers))?;
         }

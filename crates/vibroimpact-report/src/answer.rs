@@ -46,7 +46,7 @@ pub enum Found {
     /// The motions at each value.
     Diagram(Diagram),
     /// Exponents, what the motion is, and its sections where points of them were asked for.
-    Lyapunov(Start, Settled, Exponents, Option<Section>),
+    Lyapunov(Start, Exponents, Option<Section>),
     /// A branch and those that begin on it.
     Branch(BranchPlan, Cut, Branches),
     /// A curve of events.
@@ -172,9 +172,8 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
                 Some(n) => Some(section_while(&osc, start, task.transient, n, go_on).ok_or(none)?),
                 None => None,
             };
-            let settled = settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(none)?;
             let found = exponents_while(&osc, start, &task.options(), go_on).ok_or(none)?;
-            Found::Lyapunov(start, settled, found, points)
+            Found::Lyapunov(start, found, points)
         }
         Task::Branch(task) => Found::Branch(task.clone(), task.cut(&system)?, branches(&system, task, control)?),
         Task::Curve(task) => Found::Curve(task.clone(), curve(&system, task, control)?),
@@ -196,8 +195,8 @@ impl Serialize for Answer {
             Found::Basin(found) => json::basin::document(asked, plan, osc, found).serialize(to),
             Found::Map(found) => json::map::document(plan, found).serialize(to),
             Found::Diagram(found) => json::diagram::document(asked, plan, osc, found).serialize(to),
-            Found::Lyapunov(start, settled, found, _) => {
-                json::lyapunov::document(asked, plan, (osc, start), (&settled.verdict, found)).serialize(to)
+            Found::Lyapunov(start, found, _) => {
+                json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
             }
             Found::Branch(_, cut, found) => json::branch::document(asked, plan, osc, found, cut).serialize(to),
             Found::Curve(task, found) => json::curve::document(asked, plan, osc, (task, found)).serialize(to),
@@ -227,11 +226,11 @@ impl Answer {
                 figure::waveform::figure(osc, *start, span, &asked.units, title(&asked.system))
             }
             Found::Settle(start, found) => figure::settle::figure(osc, *start, found, asked),
-            Found::Attractors(..) | Found::Orbit(_) | Found::Lyapunov(_, _, _, None) => return Ok(None),
+            Found::Attractors(..) | Found::Orbit(_) | Found::Lyapunov(_, _, None) => return Ok(None),
             Found::Basin(found) => figure::basin::figure(found, asked)?,
             Found::Map(found) => figure::map::figure(found, &asked.system)?,
             Found::Diagram(found) => figure::diagram::figure(found, asked)?,
-            Found::Lyapunov(_, _, _, Some(points)) => figure::section::figure(points, osc, asked),
+            Found::Lyapunov(_, _, Some(points)) => figure::section::figure(points, osc, asked),
             Found::Branch(task, cut, found) => {
                 let behind = diagram(&asked.system, &task.diagram(&asked.system)?, control)?;
                 figure::branch::figure(&found.followed, cut, Some(&behind), false, asked)?
@@ -254,11 +253,11 @@ impl Answer {
             }
             Found::Settle(start, found) => table::waveform::steady(osc, *start, found, *units)?,
             Found::Attractors(_, found) => table::attractors::table(found, osc),
-            Found::Orbit(_) | Found::Lyapunov(_, _, _, None) => return Ok(None),
+            Found::Orbit(_) | Found::Lyapunov(_, _, None) => return Ok(None),
             Found::Basin(found) => table::basin::table(found, units)?,
             Found::Map(found) => table::map::table(found),
             Found::Diagram(found) => table::diagram::table(found, *units)?,
-            Found::Lyapunov(_, _, _, Some(points)) => table::section::table(points, osc, *units),
+            Found::Lyapunov(_, _, Some(points)) => table::section::table(points, osc, *units),
             Found::Branch(_, cut, found) => table::branch::table(found, cut, units),
             Found::Curve(task, found) => table::curve::table(found, task, units),
             Found::Region(task, found) => table::region::table(found, task, units),

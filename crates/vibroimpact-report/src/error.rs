@@ -44,6 +44,9 @@ pub enum ReportError {
         /// The most.
         most: f64,
     },
+    /// Multipliers of a motion without any.
+    #[error("the motion `{0}` has no multipliers\nhint: periodic motions have, and those without impacts")]
+    NoMultipliers(String),
     /// The picture cannot be made.
     #[error("the figure failed: {0}")]
     Plot(#[from] PlotError),

@@ -10,7 +10,7 @@
 //! | the JSON objects of the commands, one file for each | [`json`] |
 //! | the rows of their tables | [`Table`], [`table`] |
 //! | their figures | [`figure`] |
-//! | small pictures beside them: phase portrait, multipliers, a diagram with branches over it | [`scene`] |
+//! | the views of a settled motion: waveform, phase portrait, multipliers, sections; a diagram with branches over it | [`scene`] |
 //! | the same question as a command line and in Python | [`question`] |
 //! | numbers as text | [`number`] |
 //! | what cannot be drawn or tabulated | [`ReportError`] |

@@ -41,6 +41,9 @@ pub(crate) fn choose(
     number: Option<u32>,
     stop: &AtomicBool,
 ) -> Result<Option<Chosen>, PlanError> {
+    if label.impacts == Count::Finite(0) && osc.damping() == 0.0 {
+        return Err(BranchError::Undamped.into());
+    }
     let go_on = || !stop.load(Ordering::Relaxed);
     let Some(orbits) = find_while(osc, label, FindOptions::default(), go_on) else { return Ok(None) };
     let count = orbits.len();
@@ -87,6 +90,9 @@ mod tests {
         let far = Oscillator::from_inverse_beta(0.7, 40.0, 0.5).unwrap();
         let error = chosen(&far, Label::new(1, 1), None).unwrap_err().to_string();
         assert!(error.starts_with("no orbit 1/1 was found"), "{error}");
+        // without damping the motion without impacts is one of many
+        let error = chosen(&far, Label::new(0, 1), None).unwrap_err().to_string();
+        assert!(error.starts_with("without damping the steady motion without impacts"), "{error}");
         assert!(followable("inf/1").is_err() && followable("1/0").is_err() && followable("2/1").is_ok());
     }
 }

@@ -32,7 +32,34 @@ impl Control<'_> {
 pub(crate) struct Meter<'a> {
     control: &'a Control<'a>,
     done: AtomicU64,
+    /// Of those, the points of tiles that are finished.
+    finished: AtomicU64,
     total: u64,
+}
+
+/// The points of one tile. With refinement not every point is computed; those that are not count when the tile is finished.
+pub(crate) struct TileMeter<'a> {
+    meter: &'a Meter<'a>,
+    points: u64,
+    told: AtomicU64,
+}
+
+impl TileMeter<'_> {
+    /// One more is computed; says whether to stop.
+    pub(crate) fn tick(&self) -> bool {
+        if self.told.fetch_add(1, Ordering::Relaxed) < self.points {
+            self.meter.tick()
+        } else {
+            self.meter.control.stopping()
+        }
+    }
+
+    /// All of them are known.
+    pub(crate) fn finish(self) {
+        let told = self.told.into_inner().min(self.points);
+        self.meter.add(self.points - told);
+        self.meter.finished.fetch_add(self.points, Ordering::Relaxed);
+    }
 }
 
 /// Points between two tellings, where there are many.
@@ -41,9 +68,14 @@ const TELL: u64 = 64;
 const FEW: u64 = 512;
 
 impl<'a> Meter<'a> {
-    /// `done` of `total` points are done already.
+    /// `done` of `total` points are done already, and finished.
     pub(crate) const fn new(control: &'a Control<'a>, done: u64, total: u64) -> Self {
-        Self { control, done: AtomicU64::new(done), total }
+        Self { control, done: AtomicU64::new(done), finished: AtomicU64::new(done), total }
+    }
+
+    /// For a tile of so many points.
+    pub(crate) const fn tile(&'a self, points: u64) -> TileMeter<'a> {
+        TileMeter { meter: self, points, told: AtomicU64::new(0) }
     }
 
     /// One more; says whether to stop.
@@ -55,9 +87,17 @@ impl<'a> Meter<'a> {
         self.control.stopping()
     }
 
-    /// So many more, that someone else has done.
-    pub(crate) fn add(&self, points: u64) {
-        self.done.fetch_add(points, Ordering::Relaxed);
+    /// So many more at once.
+    fn add(&self, points: u64) {
+        if points > 0 {
+            let now = self.done.fetch_add(points, Ordering::Relaxed) + points;
+            (self.control.progress)(now);
+        }
+    }
+
+    /// How far it is in finished tiles, which are kept, as the answer to a wish to stop.
+    pub(crate) fn kept(&self) -> Stopped {
+        Stopped { done: self.finished.load(Ordering::Relaxed).min(self.total), total: self.total }
     }
 
     /// How far it is, as the answer to a wish to stop.

@@ -2,6 +2,7 @@
 
 use crate::Axis;
 use crate::axis;
+use crate::counted;
 use crate::plan::MOST_CELLS;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
@@ -33,7 +34,7 @@ pub enum PlanError {
         given: String,
     },
     /// A range with a number of values that is too small or too large.
-    #[error("range `{given}` asks for {count} values; allowed is 1 to {most}, and 1 only when A = B")]
+    #[error("range `{given}` asks for {}; allowed is 1 to {most}, and 1 only when A = B", counted(*count, "value"))]
     Count {
         /// What was typed.
         given: String,
@@ -43,8 +44,8 @@ pub enum PlanError {
         most: u64,
     },
     /// A list of values that is empty, too long, or has something in it that is no number.
-    #[error("a list of {count} values was given: allowed are 1 to {most} finite numbers, none of them twice{}",
-        wrong.map_or_else(String::new, |value| format!(", not {value}")))]
+    #[error("a list of {} was given: allowed are 1 to {most} finite numbers, none of them twice{}",
+        counted(*count as u64, "value"), wrong.map_or_else(String::new, |value| format!(", not {value}")))]
     Listed {
         /// Its length.
         count: usize,
@@ -54,7 +55,7 @@ pub enum PlanError {
         wrong: Option<f64>,
     },
     /// Too few or too many axes.
-    #[error("{given} axes were given; a {task} has {least} to {most}")]
+    #[error("axes given: {given}; a {task} has {least} to {most}")]
     Axes {
         /// What was asked.
         given: usize,
@@ -103,9 +104,9 @@ pub enum PlanError {
         /// The most allowed.
         most: u32,
     },
-    /// A parameter given neither in the system nor on an axis.
-    #[error("{0} is missing: it is neither in the system nor on an axis")]
-    Missing(&'static str),
+    /// Parameters given neither in the system nor on an axis.
+    #[error("neither in the system nor on an axis: {}", .0.join(", "))]
+    Missing(Vec<&'static str>),
     /// Neither or both of beta and its inverse.
     #[error(
         "the frequency is given {0}: exactly one of beta and inverse beta is needed\nhint: --beta B or --inverse-beta X, with X = 1/B"
@@ -232,6 +233,20 @@ pub enum PlanError {
         /// The other.
         to: f64,
     },
+    /// A range of a parameter that rounding leaves no steps in.
+    #[error(
+        "{name} from {from:?} to {to:?} is too narrow a range to follow curves through: rounding leaves no steps in it\nhint: a width of at least {least:e}"
+    )]
+    Narrow {
+        /// The parameter.
+        name: &'static str,
+        /// One end.
+        from: f64,
+        /// The other.
+        to: f64,
+        /// The least width.
+        least: f64,
+    },
     /// Two parameters that are one.
     #[error("{0} and {1} do not span a plane: they are one parameter")]
     SameParameter(&'static str, &'static str),
@@ -261,7 +276,7 @@ pub enum PlanError {
     },
     /// An orbit by a number that none has.
     #[error(
-        "there is no orbit {label} number {given}: {count} were found\nhint: they are numbered from 1, as `vibro orbit` lists them"
+        "there is no orbit {label} number {given}; found: {count}\nhint: they are numbered from 1, as `vibro orbit` lists them"
     )]
     NoSuchOrbit {
         /// What was asked.

@@ -48,6 +48,7 @@ pub mod store;
 mod stretch;
 pub mod study;
 mod told;
+mod words;
 mod written;
 
 pub use attractors::attractors;
@@ -74,3 +75,4 @@ pub use store::{Store, StoreError};
 pub use stretch::Stretch;
 pub use study::Study;
 pub use told::Told;
+pub use words::counted;

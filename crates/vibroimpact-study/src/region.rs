@@ -2,9 +2,10 @@
 
 use crate::begin::followable;
 use crate::stretch::check_plane;
-use crate::{Control, PlanError, RunError, Stretch, SystemPlan, tiles};
+use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, tiles};
 use core::sync::atomic::Ordering;
 use serde::{Deserialize, Serialize};
+use vibroimpact::Label;
 use vibroimpact::continuation::{Region, RegionKind, RegionOptions, region_while};
 
 /// Points of the grid at which orbits are looked for, in each direction, where no number is given.
@@ -42,6 +43,23 @@ impl RegionPlan {
             return Err(PlanError::Grid { given: self.grid, most: MOST_GRID });
         }
         check_plane(system, &self.across, &self.up)
+    }
+
+    /// Whether nowhere in the plane the motion loses energy: it is neutrally stable there, and has no region of stability.
+    #[must_use]
+    pub fn neutral(&self, system: &SystemPlan) -> bool {
+        let varied = |parameter| [self.across.parameter, self.up.parameter].contains(&parameter);
+        let undamped = system.damping == 0.0 && !varied(Parameter::Damping);
+        let elastic = |parameter, restitution: f64| restitution == 1.0 && !varied(parameter);
+        let lossless = elastic(Parameter::Restitution, system.restitution)
+            && system.second_stop.is_none_or(|stop| elastic(Parameter::SecondRestitution, stop.restitution));
+        undamped && (self.clears() || lossless)
+    }
+
+    /// Whether it is the motion without impacts, whose region is known in closed form.
+    #[must_use]
+    pub fn clears(&self) -> bool {
+        self.label.parse() == Ok(Label::new(0, 1))
     }
 }
 
@@ -115,7 +133,7 @@ pub fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Parameter, Plan, Task};
+    use crate::{Plan, Task};
 
     fn plan() -> (SystemPlan, RegionPlan) {
         let system = SystemPlan { inverse_beta: Some(1.05), gap: 1.0, restitution: 0.5, ..SystemPlan::default() };
@@ -138,6 +156,27 @@ mod tests {
         let stable = stable_regions(&system, &two, &Control::default()).unwrap();
         assert_eq!(stable[0], found.stability);
         assert!(stable[1].contains((1.11, 2.0)) && !stable[1].contains((1.11, 1.5)));
+    }
+
+    /// Item 6: "none found" for the motion without impacts.
+    #[test]
+    fn f06_without_impacts() {
+        let (system, plan) = plan();
+        let damped = SystemPlan { damping: 0.05, ..system };
+        let up = Stretch { parameter: Parameter::Gap, from: 1.0, to: 8.0 };
+        let zero = RegionPlan { label: "0".into(), up, ..plan.clone() };
+        let found = regions(&damped, &zero, &Control::default()).unwrap();
+        // |f| is 3.17 at 1/beta = 1.199 and 6.9 at 1.06
+        assert!(found.existence == found.stability && found.existence.contains((1.199, 3.3)));
+        assert!(
+            !found.existence.contains((1.199, 3.1)) && !found.existence.contains((1.06, 6.0)) && !zero.neutral(&damped)
+        );
+        let undamped = regions(&system, &zero, &Control::default()).unwrap();
+        // 3.29 and 9.1 without damping
+        assert!(undamped.existence.contains((1.199, 3.4)) && !undamped.existence.contains((1.06, 7.9)));
+        assert!(undamped.stability.polygons.is_empty() && zero.neutral(&system) && !plan.neutral(&system));
+        let elastic = SystemPlan { restitution: 1.0, ..system };
+        assert!(plan.neutral(&elastic) && !plan.neutral(&SystemPlan { damping: 0.1, ..elastic }));
     }
 
     #[test]

@@ -33,15 +33,26 @@ impl Stretch {
     }
 }
 
+/// The least width of the side of a plane, over its values: it holds some 100 000 numbers then, and an edge of a polygon, a 200th of
+/// it, hundreds.
+const NARROW: f64 = 2e-11;
+/// The least width: squares of its inverse are numbers.
+const NARROWEST: f64 = 1e-100;
+
 /// Checks that two stretches span a plane of legal systems.
 ///
 /// # Errors
-/// [`PlanError`] for ends out of order, a parameter that is there twice and a corner that is no legal system.
+/// [`PlanError`] for ends out of order or too close, a parameter that is there twice and a corner that is no legal system.
 pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
     for stretch in [one, two] {
         if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {
             let name = stretch.parameter.name();
             return Err(PlanError::Stretch { name, from: stretch.from, to: stretch.to });
+        }
+        let least = (NARROW * stretch.from.abs().max(stretch.to.abs())).max(NARROWEST);
+        if stretch.to - stretch.from < least {
+            let name = stretch.parameter.name();
+            return Err(PlanError::Narrow { name, from: stretch.from, to: stretch.to, least });
         }
     }
     let (p, q) = (one.parameter, two.parameter);
@@ -69,6 +80,8 @@ mod tests {
         for (one, two, sentence) in [
             (over(Parameter::Beta, 2.0, 1.0), gap, "beta from 2 to 1 is no range"),
             (over(Parameter::Beta, 2.0, f64::NAN), gap, "beta from 2 to NaN is no range"),
+            (over(Parameter::Beta, 1.0, 1.0 + 1e-13), gap, "beta from 1.0 to 1.0000000000001 is too narrow a range"),
+            (over(Parameter::Gap, 0.0, 1e-300), gap, "gap from 0.0 to 1e-300 is too narrow"),
             (gap, gap, "gap and gap do not span a plane"),
             (over(Parameter::Beta, 1.0, 2.0), over(Parameter::InverseBeta, 1.0, 2.0), "beta and inverse_beta do not"),
             (gap, over(Parameter::Restitution, 0.5, 1.5), "restitution eps = 1.5"),

@@ -82,12 +82,18 @@ impl Plan {
     /// # Errors
     /// [`PlanError::Text`] says where in the text it goes wrong, and what is expected there.
     pub fn from_text(text: &str) -> Result<Self, PlanError> {
-        let sentence = |why: String| PlanError::Text(why.trim_end().to_owned());
         if text.trim_start().starts_with('{') {
-            serde_json::from_str(text).map_err(|error| sentence(error.to_string()))
-        } else {
-            toml::from_str(text).map_err(|error| sentence(error.to_string()))
+            return Self::from_json(text);
         }
+        toml::from_str(text).map_err(|error| PlanError::Text(plain(&error.to_string())))
+    }
+
+    /// Reads a plan written as JSON.
+    ///
+    /// # Errors
+    /// As for [`Self::from_text`].
+    pub fn from_json(text: &str) -> Result<Self, PlanError> {
+        serde_json::from_str(text).map_err(|error| PlanError::Text(plain(&error.to_string())))
     }
 
     /// The plan as TOML.
@@ -116,24 +122,66 @@ impl Plan {
     }
 }
 
+/// What a parser says, without the names of types of this program, and with no line of the text longer than a screen is wide.
+fn plain(why: &str) -> String {
+    const WORDS: [(&str, &str); 12] = [
+        ("floating point `", "number `"),
+        ("expected f64", "expected a number"),
+        ("expected u32", "expected a whole number, 0 or more"),
+        ("expected u64", "expected a whole number, 0 or more"),
+        ("expected unit variant", "expected a word alone"),
+        ("expected newtype variant", "expected a table"),
+        ("expected struct variant", "expected a table"),
+        ("expected struct", "expected a table"),
+        ("expected enum", "expected a word or a table"),
+        ("unit variant", "a word alone"),
+        ("newtype variant", "a table"),
+        ("struct variant", "a table"),
+    ];
+    const WIDTH: usize = 120;
+    let wide = |line: &str| line.chars().take(WIDTH).collect::<String>();
+    let text = why.trim_end().lines().map(wide).collect::<Vec<_>>().join("\n");
+    WORDS.into_iter().fold(text, |text, (inside, word)| {
+        let mut parts = text.split(inside);
+        let first = parts.next().unwrap_or_default().to_owned();
+        // the name of a type goes with its kind
+        let named = |rest: &str| match rest.strip_prefix(' ') {
+            Some(name) if inside.contains("variant") || inside.contains("struct") || inside.contains("enum") => {
+                let kind = name.starts_with(|c: char| c.is_ascii_uppercase());
+                let end = if kind { name.find([' ', '\n']).unwrap_or(name.len()) } else { 0 };
+                if kind { name[end..].to_owned() } else { rest.to_owned() }
+            }
+            _ => rest.to_owned(),
+        };
+        parts.fold(first, |told, rest| told + word + &named(rest))
+    })
+}
+
 impl TryFrom<Written> for Plan {
     type Error = PlanError;
 
     fn try_from(written: Written) -> Result<Self, PlanError> {
         let varied = written.task.varied();
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
-        let given = |value: Option<f64>, parameter: Parameter| match value {
-            Some(value) => Ok(value),
-            // replaced by its first value at once
-            None if varies(parameter) => Ok(0.0),
-            None => Err(PlanError::Missing(parameter.name())),
-        };
         let asked = written.system;
+        let needed = [(Parameter::Gap, asked.gap), (Parameter::Restitution, asked.restitution)];
+        let mut missing: Vec<&str> = (needed.iter())
+            .filter(|(parameter, value)| value.is_none() && !varies(*parameter))
+            .map(|(parameter, _)| parameter.name())
+            .collect();
+        let frequency = asked.beta.or(asked.inverse_beta).is_some();
+        if !missing.is_empty() && !frequency && !varied.iter().any(|(parameter, _)| parameter.is_frequency()) {
+            missing.insert(0, "beta or inverse_beta");
+        }
+        if !missing.is_empty() {
+            return Err(PlanError::Missing(missing));
+        }
         let system = SystemPlan {
             beta: asked.beta,
             inverse_beta: asked.inverse_beta,
-            gap: given(asked.gap, Parameter::Gap)?,
-            restitution: given(asked.restitution, Parameter::Restitution)?,
+            // what is not given varies, and is replaced by its first value at once
+            gap: asked.gap.unwrap_or(0.0),
+            restitution: asked.restitution.unwrap_or(0.0),
             damping: asked.damping,
             second_stop: asked.second_stop,
         };
@@ -144,6 +192,32 @@ impl TryFrom<Written> for Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Found by `cargo xtask fuzz`: types of this program in what a reader is told.
+    #[test]
+    fn fz1_a_text_that_is_no_plan_is_refused_in_plain_words() {
+        let long = format!("version = 1\ntask = {}", "[".repeat(5000));
+        for (text, sentence) in [
+            (
+                r#"{"version":-1}"#,
+                "invalid value: integer `-1`, expected a whole number, 0 or more at line 1 column 13",
+            ),
+            (r#"{"version":1,"system":5}"#, "invalid type: integer `5`, expected a table at line 1"),
+            (r#"{"version":1,"task":{"settle":{"start":{"x":"a"}}}}"#, "invalid type: string \"a\", expected a number"),
+            (r#"{"version":1,"task":{"settle":3}}"#, "expected a table"),
+            (r#"{"version":1,"task":"settle"}"#, "expected a table"),
+            (r#"{"version":1,"task":{"curve":{"kind":{"fold":1}}}}"#, ""),
+            ("version = 1\n[task.settle]\nstart = { x = \"a\" }\n", "expected a number"),
+            (&long, "TOML parse error"),
+        ] {
+            let told = Plan::from_text(text).unwrap_err().to_string();
+            assert!(told.contains(sentence), "{told}");
+            for inside in ["f64", "u32", "struct", "variant", "enum", "Task", "System"] {
+                assert!(!told.contains(inside), "{told}");
+            }
+            assert!(told.lines().all(|line| line.chars().count() <= 140), "{told}");
+        }
+    }
 
     #[test]
     fn what_varies_need_not_be_given_twice() {
@@ -159,7 +233,7 @@ mod tests {
         let other = text.replace("\"system\":{", "\"system\":{\"gap\":7.0,\"beta\":3.0,");
         assert_eq!(serde_json::from_str::<Plan>(&other).unwrap(), plan);
         for (gone, sentence) in [
-            ("\"restitution\":0.5", "restitution is missing: it is neither in the system nor on an axis"),
+            ("\"restitution\":0.5", "neither in the system nor on an axis: restitution"),
             ("{\"vary\":\"inverse_beta\",\"over\":\"0.4:2:9\"},", ""),
         ] {
             let read = serde_json::from_str::<Plan>(&text.replace(gone, ""));

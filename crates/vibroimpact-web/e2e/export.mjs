@@ -43,3 +43,22 @@ export async function the_command_line_is_that_of_the_view({ open }) {
     assert.ok(command.includes(part), `${part} in: ${command}`);
   }
 }
+
+/** The command of each panel draws that panel, and its table is of it. */
+export async function f10_panels_export_what_they_show({ open }) {
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75", { acceptDownloads: true });
+  await until("the panels are drawn", async () =>
+    (await page.$$eval("#point .sheet img", (images) => images.filter((image) => !image.hidden && image.naturalWidth > 0).length)) >= 4);
+  for (const [panel, view, python, head] of [
+    ["phase portrait of the steady motion", "phase", "motion.waveform()", "t,x,v"],
+    ["multipliers", "multipliers", "motion.multipliers", "re,im"],
+    ["impact map and stroboscopic section", "sections", "vi.lyapunov(osc, x=0, points=2000).plot()", "section,side,phase,x,v"],
+  ]) {
+    await page.locator(`#point button[aria-label="Export ${panel}"]`).click();
+    await until(`the command of ${view}`, async () =>
+      (await page.locator("#export pre").first().textContent()).endsWith(`--show ${view} --plot ${view}.svg`));
+    assert.ok((await page.locator("#export pre").last().textContent()).includes(python), python);
+    assert.equal((await saved(page, "csv")).toString().split("\n")[0], head);
+    await page.locator("#export [data-close]").click();
+  }
+}

@@ -129,3 +129,18 @@ export async function with_the_keyboard_alone({ open }) {
     assert.ok(reached.has(id), `Tab reaches ${id}: ${[...reached]}`);
   }
 }
+
+export async function f10_positions_on_a_line_are_positions({ open, folder }) {
+  const { page } = await open("#line=1.3,0.7,1.3,1.2&panel=line");
+  const image = page.locator("#line .sheet img");
+  const drawn = () => page.evaluate(async () => {
+    const shown = document.querySelector("#line .sheet img");
+    return shown.src ? (await fetch(shown.src)).text() : "";
+  });
+  await image.waitFor({ timeout: 120000 });
+  await until("velocities", async () => (await drawn()).includes("arrival velocity"), 120);
+  await page.locator("#show").selectOption("strobe");
+  await until("positions", async () => (await drawn()).includes("at phase 0"), 120);
+  assert.ok(!(await drawn()).includes("arrival velocity"));
+  await page.screenshot({ path: `${folder}/line-strobe.png` });
+}

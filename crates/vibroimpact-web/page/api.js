@@ -115,7 +115,11 @@ export const bifurcationFigure = (plan, query, signal) => drawn("/api/bifurcatio
 const drawn = async (path, plan, query, signal) =>
   whole((await ask(withQuery(path, query), { body: plan, signal })).blob());
 
-export const table = async (plan, signal) => whole((await ask("/api/table", { body: plan, signal })).blob());
+/** @param {string} [kind] the view of a settled motion that the table is of */
+export const table = async (plan, kind, signal) => whole((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob());
 
-/** @returns {Promise<{vibro: string, python: string}>} */
-export const command = async (plan, signal) => whole((await ask("/api/command", { body: plan, signal })).json());
+/**
+ * @param {string} [kind] the view of a settled motion that the command draws
+ * @returns {Promise<{vibro: string, python: string}>}
+ */
+export const command = async (plan, kind, signal) => whole((await ask(withQuery("/api/command", { kind }), { body: plan, signal })).json());

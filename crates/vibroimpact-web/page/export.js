@@ -32,7 +32,7 @@ export class Export {
       element("label", { class: "row" }, element("span", { text: "view" }), this.choice), this.pointsRow, this.files, this.said,
       this.commands.vibro.box, this.commands.python.box,
     );
-    this.asked = new Latest((plan, signal) => this.tell(plan, signal), (error) => this.failed(error));
+    this.asked = new Latest((asked, signal) => this.tell(asked, signal), (error) => this.failed(error));
     byId("export-button").addEventListener("click", () => this.open("plane"));
   }
 
@@ -98,12 +98,12 @@ export class Export {
       button.hidden = Boolean(this.view.tableOnly) && button.dataset.format !== "csv";
     }
     this.said.textContent = "";
-    this.asked.ask(this.plan, true);
+    this.asked.ask({ plan: this.plan, kind: this.view.kind }, true);
   }
 
-  async tell(plan, signal) {
+  async tell({ plan, kind }, signal) {
     for (const { code } of Object.values(this.commands)) code.textContent = "";
-    const told = await api.command(plan, signal);
+    const told = await api.command(plan, kind, signal);
     this.commands.vibro.code.textContent = told.vibro;
     this.commands.python.code.textContent = told.python;
   }
@@ -121,7 +121,7 @@ export class Export {
   }
 
   async blob(format, plan) {
-    if (format === "csv") return api.table(plan);
+    if (format === "csv") return api.table(plan, this.view.kind);
     if (this.choice.value === "line") return api.bifurcationFigure(plan, { format, width: WIDTH, height: 0.7 * WIDTH });
     return api.figure(plan, { format, width: WIDTH, kind: this.view.kind });
   }

@@ -40,6 +40,7 @@ export function meaning(motion) {
     const { horizon } = motion;
     if (horizon?.kind === "periods") return `No impact for at least ${short(horizon.periods)} forcing periods.`;
     if (horizon?.why === "graze_limit") return "Ever gentler impacts: in the limit it only touches the stop.";
+    if (horizon?.why === "landing") return "It rests on the stop and lands on it again without impact.";
     if (horizon?.why === "grazing") return "It touches the stop without impact.";
     return "No more impacts, ever.";
   }

@@ -115,3 +115,45 @@ async fn tables_commands_and_layers() {
     assert_eq!(ask("/api/layer?kind=regions", SETTLE).await.0, 400);
     assert_eq!(ask("/api/layer?kind=regions&labels=1/0", MAP).await.0, 400);
 }
+
+/// Found by `cargo xtask fuzz`: a query or a path that does not read was refused in words of the parser, as no object.
+#[tokio::test]
+async fn fz3_every_refusal_is_an_object() {
+    for path in [
+        "/api/layer",
+        "/api/layer?kind=all",
+        "/api/figure?width=x",
+        "/api/figure?format=exe",
+        "/api/figure?kind=&kind=",
+    ] {
+        let (status, kind, body) = ask(path, SETTLE).await;
+        assert_eq!((status.as_u16(), kind.as_str()), (400, "application/json"), "{path}");
+        let refusal: Value = serde_json::from_slice(&body).unwrap();
+        let sentence = refusal["error"].as_str().unwrap();
+        assert!(sentence.contains("query") && !sentence.contains("deserialize"), "{sentence}");
+    }
+}
+
+/// The table and the command of a view are of that view; positions on a line are positions.
+#[tokio::test]
+async fn f10_a_view_has_its_own_table_and_command() {
+    let settle = "vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5";
+    for (view, head, show, python) in [
+        ("waveform", "t,x,v", "", "motion.plot()"),
+        ("phase", "t,x,v", " --show phase", "motion.waveform()"),
+        ("multipliers", "re,im", " --show multipliers", "motion.multipliers"),
+        ("sections", "section,side,phase,x,v", " --show sections", "vi.lyapunov(osc, points=2000).plot()"),
+    ] {
+        let (status, _, table) = ask(&format!("/api/table?kind={view}"), SETTLE).await;
+        assert_eq!((status.as_u16(), String::from_utf8(table).unwrap().lines().next()), (200, Some(head)), "{view}");
+        let (_, _, told) = ask(&format!("/api/command?kind={view}"), SETTLE).await;
+        let told: Value = serde_json::from_slice(&told).unwrap();
+        assert_eq!(told["vibro"], format!("{settle}{show} --plot {view}.svg"));
+        assert!(told["python"].as_str().unwrap().contains(python), "{told}");
+    }
+    let strobes = DIAGRAM.replace("velocity", "strobe");
+    let (status, _, body) = ask("/api/bifurcation?labels=1/1,2/1", &strobes).await;
+    let svg = String::from_utf8(body).unwrap();
+    assert!(status == 200 && svg.contains("at phase 0") && !svg.contains("arrival velocity"), "{status}");
+    assert!(svg.contains(">stable<"));
+}

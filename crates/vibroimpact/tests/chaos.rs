@@ -253,10 +253,11 @@ fn touches_have_no_derivative() {
     let found = exponents(&fading, Start { x: 0.25, v: 0.8, phase: 0.0 }, &ExponentOptions::default());
     assert!(matches!(found.grounds, Grounds::Touches(NoImpact::GrazeLimit { .. })), "{found:?}");
     assert!(found.exponents[0].value.is_nan() && found.section_dimension.is_none());
-    // plastic impacts that fade away: a stretch of less than 1 in all proves no chaos
+    // plastic impacts fade away at the first tangential return; they were measured as noise of 5e-9
     let plastic = Oscillator::from_inverse_beta(0.6, 1.2, 0.0).unwrap();
     let found = from_rest(&plastic, 5000);
-    assert!(found.exponents[0].value.abs() < found.exponents[0].error && found.section_dimension.is_none());
+    assert!(matches!(found.grounds, Grounds::Touches(NoImpact::GrazeLimit { .. })), "{found:?}");
+    assert!(found.exponents[0].value.is_nan() && found.section_dimension.is_none());
 }
 
 /// Elastic and undamped: area is kept, so the exponents are opposite and the chaotic sea has the dimension of the plane.

@@ -9,6 +9,7 @@ mod command;
 mod docs;
 mod explorer;
 mod figures;
+mod fuzz;
 mod licences;
 mod line;
 mod links;
@@ -38,6 +39,9 @@ usage: cargo xtask COMMAND
   licences                the licence of every dependency against the allow-list
   links                   every relative link in the Markdown files
   explorer                the explorer's page in a browser, against the server
+  fuzz [--seconds N] [--seed S]
+                          random and adversarial questions to the command, plans, stores and the page; a minute
+                          by default; `cargo xtask fuzz --help` lists all options
   s3                      studies in buckets, against a server that it installs in target/s3-venv
 ";
 
@@ -63,6 +67,7 @@ fn main() -> ExitCode {
         ["python"] => finish(python::install(&root)),
         ["licences"] => finish(licences::check(&root)),
         ["links"] => finish(links::check(&root)),
+        ["fuzz", words @ ..] => fuzz::run(&root, words),
         ["explorer"] => finish(explorer::test(&root)),
         ["s3"] => finish(s3::test(&root)),
         ["help" | "--help" | "-h"] => {

@@ -1,6 +1,7 @@
 //! Groups of arguments that several commands share; what belongs to one command is in its file.
 
 mod axes;
+mod count;
 mod output;
 mod plane;
 mod ranged;
@@ -10,6 +11,7 @@ mod system;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
+pub(crate) use count::whole;
 pub(crate) use output::Globals;
 pub(crate) use plane::{Ends, Named, Over, Place};
 pub(crate) use ranged::Ranged;

@@ -1,25 +1,37 @@
 //! STORE: where the results of a grid go, tile by tile.
 
+use super::whole;
+use crate::exit::Failure;
 use clap::Args;
 use core::str::FromStr;
+use vibroimpact_report::Units;
+use vibroimpact_report::number::Number;
+use vibroimpact_study::Plan;
 use vibroimpact_study::store::Part;
-use vibroimpact_study::{Plan, PlanError};
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Store")]
 pub(crate) struct StoreArgs {
-    /// Keep the results in a Zarr store in this folder, tile by tile: what is there already is not computed again
+    /// Keep the results in a Zarr store in this folder, tile by tile: what is there already is not computed again; in
+    /// nondimensional units only
     #[arg(long, value_name = "DIR")]
     pub(crate) store: Option<String>,
 
     /// Points of a tile along each axis, 1 to 4096 [default: by task]
-    #[arg(long, value_name = "N", requires = "store")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "store")]
     tile: Option<u32>,
 }
 
 impl StoreArgs {
-    /// The plan with the tiles asked for.
-    pub(crate) fn tiled(&self, plan: Plan) -> Result<Plan, PlanError> {
+    /// The plan with the tiles asked for. A store keeps its plan, which is nondimensional: one in metres and seconds is refused.
+    pub(crate) fn tiled(&self, plan: Plan, units: &Units) -> Result<Plan, Failure> {
+        if let (Some(_), Some(scales), true) = (&self.store, &units.scales, units.si) {
+            return Err(Failure::bad(format!(
+                "--units si cannot go together with --store: a store is nondimensional\nhint: leave out one of them; here one unit of length is {} m, and one of time {} s",
+                Number(scales.length_m),
+                Number(scales.time_s)
+            )));
+        }
         let plan = Plan { tile: self.tile, ..plan };
         plan.check()?;
         Ok(plan)

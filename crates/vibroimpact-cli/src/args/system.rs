@@ -93,10 +93,8 @@ pub(crate) enum Convention {
 
 impl SystemArgs {
     pub(crate) fn asked(&self) -> Result<Asked, Failure> {
-        let restitution = self
-            .restitution
-            .ok_or_else(|| Failure::bad("the restitution is not given\nhint: --restitution E, 0 to 1"))?;
-        let machine = self.machine.machine(restitution)?;
+        let restitution = self.restitution.unwrap_or(0.0);
+        let machine = self.machine.machine(self.restitution)?;
         let second = self.second_gap.or(self.machine.second_gap_m);
         let second_stop = |unit: f64| {
             second
@@ -111,7 +109,7 @@ impl SystemArgs {
                     "--units si needs the system in physical units\nhint: --mass-kg, --stiffness-n-per-m, --force-n ...",
                 ));
             }
-            let gap = self.gap.ok_or_else(|| Failure::bad("the gap is not given\nhint: --gap D, in units of F/k"))?;
+            let gap = self.complete()?;
             let system = SystemPlan {
                 beta: self.beta,
                 inverse_beta: self.inverse_beta,
@@ -144,6 +142,26 @@ impl SystemArgs {
         let si = self.units == Convention::Si;
         let units = Units { scales: Some(scales), si };
         Ok(Asked { system, units })
+    }
+}
+
+impl SystemArgs {
+    /// The gap of a nondimensional system, if nothing that it needs is missing.
+    fn complete(&self) -> Result<f64, Failure> {
+        let needed = [
+            ("the frequency ratio", "--beta B or --inverse-beta X", self.beta.or(self.inverse_beta)),
+            ("the gap", "--gap D", self.gap),
+            ("the restitution", "--restitution E", self.restitution),
+        ];
+        let missing = needed.iter().filter(|(.., value)| value.is_none());
+        let (names, flags): (Vec<&str>, Vec<&str>) = missing.map(|(name, flag, _)| (*name, *flag)).unzip();
+        let said = match names.as_slice() {
+            // of a frequency alone the plan says it, in the same words to all that make one
+            [] | ["the frequency ratio"] => return Ok(self.gap.unwrap_or(0.0)),
+            [one] => format!("{one} is not given"),
+            [first @ .., last] => format!("{} and {last} are not given", first.join(", ")),
+        };
+        Err(Failure::bad(format!("{said}\nhint: {}", flags.join(", "))))
     }
 }
 
@@ -196,7 +214,7 @@ impl SystemArgs {
 
 impl MachineArgs {
     /// The machine, if any of its quantities is given; then all must be.
-    fn machine(&self, restitution: f64) -> Result<Option<Machine>, Failure> {
+    fn machine(&self, restitution: Option<f64>) -> Result<Option<Machine>, Failure> {
         let frequency = match (self.frequency_hz, self.omega_rad_per_s) {
             (Some(hertz), _) => Some(Frequency::Hz(hertz)),
             (None, omega) => omega.map(Frequency::RadPerS),
@@ -216,9 +234,10 @@ impl MachineArgs {
                 None => Ok(None),
             };
         }
-        let missing: Vec<&str> = given.iter().filter(|(_, value)| value.is_none()).map(|(flag, _)| *flag).collect();
-        let (Some(mass_kg), Some(stiffness_n_per_m), Some(force_n), Some(frequency), Some(gap_m)) =
-            (self.mass_kg, self.stiffness_n_per_m, self.force_n, frequency, self.gap_m)
+        let needed = given.into_iter().chain([("--restitution", restitution)]);
+        let missing: Vec<&str> = needed.filter(|(_, value)| value.is_none()).map(|(flag, _)| flag).collect();
+        let (Some(mass_kg), Some(stiffness_n_per_m), Some(force_n), Some(frequency), Some(gap_m), Some(restitution)) =
+            (self.mass_kg, self.stiffness_n_per_m, self.force_n, frequency, self.gap_m, restitution)
         else {
             return Err(Failure::bad(format!(
                 "a system in physical units needs all of its quantities; missing: {}",

@@ -1,6 +1,6 @@
 //! `vibro attractors`: the steady motions of a system and the share of starts that lead to each.
 
-use crate::args::{StoreArgs, SystemArgs};
+use crate::args::{StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
@@ -29,11 +29,11 @@ pub(crate) struct Attractors {
     system: SystemArgs,
 
     /// How many starts, 1 to 1e9
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
     starts: u64,
 
     /// Which sequence of starts
-    #[arg(long, value_name = "S", default_value_t = 1, help_heading = "Starts")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = 1, help_heading = "Starts")]
     seed: u64,
 
     #[command(flatten)]
@@ -51,7 +51,7 @@ pub(crate) struct Attractors {
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed };
-    let plan = args.store.tiled(Plan::new(asked.system, task))?;
+    let plan = args.store.tiled(Plan::new(asked.system, task), &asked.units)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), None, args.json, session)?;
     if let Some(place) = &args.store.store {
         return stored::run(&plan, place, Part::ALL, outputs, session);

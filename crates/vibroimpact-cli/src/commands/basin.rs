@@ -1,6 +1,6 @@
 //! `vibro basin`: which motion each start of a plane leads to.
 
-use crate::args::{StoreArgs, SystemArgs};
+use crate::args::{StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
@@ -42,14 +42,14 @@ pub(crate) struct Basin {
     phase: f64,
 
     /// Follow each start for so many impacts at most, 1 to 1000000; what is not settled by then is undecided
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
     impacts: Option<u32>,
 
     #[command(flatten)]
     store: StoreArgs,
 
     /// Compute every K-th start first, and those between only where neighbours differ; needs --store
-    #[arg(long, value_name = "K", requires = "store", help_heading = "Store")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "K", requires = "store", help_heading = "Store")]
     refine: Option<u32>,
 
     /// Write one row a start, columns x, v, label, to this file; - for stdout
@@ -70,7 +70,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let units = asked.units;
     let plane = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
     let task = BasinPlan { refine: args.refine, impacts: args.impacts, ..plane };
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task.clone())))?;
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task.clone())), &asked.units)?;
     let osc = asked.system.oscillator()?;
     let total = task.starts();
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;

@@ -1,6 +1,6 @@
 //! `vibro branch`: an orbit followed in one parameter, through its events.
 
-use crate::args::{Named, SystemArgs, parameter};
+use crate::args::{Named, SystemArgs, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::branch::text;
@@ -43,7 +43,7 @@ pub(crate) struct Branch {
     label: String,
 
     /// Which of several orbits, as `vibro orbit` numbers them [default: the stable one, else the fastest motion]
-    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Branch")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "K", allow_hyphen_values = true, help_heading = "Branch")]
     orbit: Option<u32>,
 
     /// The parameter that varies, from its value in the system
@@ -60,11 +60,11 @@ pub(crate) struct Branch {
     also: Option<Named<f64>>,
 
     /// Follow up to so many of the branches that begin at flips and branch points, 0 to 100
-    #[arg(long, value_name = "N", default_value_t = 0, allow_hyphen_values = true, help_heading = "Branch")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = 0, allow_hyphen_values = true, help_heading = "Branch")]
     follow: u32,
 
     /// Points of each branch at most, 2 to 100000
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_BRANCH_POINTS, allow_hyphen_values = true, help_heading = "Branch")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_BRANCH_POINTS, allow_hyphen_values = true, help_heading = "Branch")]
     points: u32,
 
     /// Write one row a point to this file; - for stdout. Columns: branch, the parameter, that of --also, label, physical, stable, event,

@@ -1,6 +1,6 @@
 //! `vibro curve`: a fold, flip or grazing of an orbit over a plane of two parameters.
 
-use crate::args::{Named, Over, SystemArgs};
+use crate::args::{Named, Over, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::curve::text;
@@ -40,7 +40,7 @@ pub(crate) struct Curve {
     label: String,
 
     /// Which of several orbits, as `vibro orbit` numbers them [default: the stable one, else the fastest motion]
-    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
     orbit: Option<u32>,
 
     /// What holds along the curve
@@ -56,7 +56,7 @@ pub(crate) struct Curve {
     and: Over,
 
     /// Which of several events, counted from 1 from small values to large [default: the nearest]
-    #[arg(long, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
     event: Option<u32>,
 
     /// Write one row a point to this file; - for stdout. Columns: both parameters, physical, event, real and

@@ -1,6 +1,6 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
-use crate::args::{Ends, Named, StoreArgs, SystemArgs, parameter};
+use crate::args::{Ends, Named, StoreArgs, SystemArgs, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
@@ -14,7 +14,7 @@ use vibroimpact_report::number::short;
 use vibroimpact_report::table::diagram::table;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
 use vibroimpact_study::store::Part;
-use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Stretch, Task, diagram};
+use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Stretch, Task, counted, diagram};
 
 /// The orbit diagram: impacts or states after the transient, at each value of one parameter, or along a line through two
 ///
@@ -63,11 +63,11 @@ pub(crate) struct Diagram {
     direction: Way,
 
     /// Scattered starts at each value, 1 to 1e9 [default: 8]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Sweep")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Sweep")]
     starts: Option<u64>,
 
     /// Which sequence of scattered starts [default: 1]
-    #[arg(long, value_name = "S", help_heading = "Sweep")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "S", help_heading = "Sweep")]
     seed: Option<u64>,
 
     /// What is shown
@@ -75,11 +75,11 @@ pub(crate) struct Diagram {
     show: What,
 
     /// Impacts (velocity) or forcing periods (strobe) to pass before anything is shown, up to 1000000
-    #[arg(long, value_name = "K", default_value_t = DEFAULT_TRANSIENT, allow_hyphen_values = true, help_heading = "Sweep")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "K", default_value_t = DEFAULT_TRANSIENT, allow_hyphen_values = true, help_heading = "Sweep")]
     transient: u64,
 
     /// Impacts or states to show at each value at most, 1 to 100000
-    #[arg(long, value_name = "K", default_value_t = DEFAULT_KEEP, allow_hyphen_values = true, help_heading = "Sweep")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "K", default_value_t = DEFAULT_KEEP, allow_hyphen_values = true, help_heading = "Sweep")]
     keep: u64,
 
     #[command(flatten)]
@@ -154,7 +154,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         transient: args.transient,
         keep: args.keep,
     };
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)))?;
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)), &asked.units)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     if let Some(place) = &args.store.store {
         return stored::run(&plan, place, Part::ALL, outputs, session);
@@ -191,8 +191,8 @@ fn summary(args: &Diagram, sweeps: &[Counts]) -> String {
         format!(", {} from {} to {}", parameter.name().replace('_', " "), short(from), short(to))
     });
     format!(
-        "{} values of {name} from {} to {}{also}\n\n{}",
-        args.over.count(),
+        "{} of {name} from {} to {}{also}\n\n{}",
+        counted(u64::from(args.over.count()), "value"),
         short(from),
         short(to),
         text::table(&heads, &rows)

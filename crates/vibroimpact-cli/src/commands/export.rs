@@ -42,6 +42,8 @@ pub(super) fn run(args: &Export, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
     if let Some(path) = &args.csv {
         let outputs = Outputs::reserve(Some(path), None, false, session)?;
+        // before the first row is written, which stdout cannot take back
+        session.tiled(0, "points", |control, _| store.whole(control))?;
         return outputs.stream(
             session,
             |out| table(&store, true, out),
@@ -56,6 +58,9 @@ pub(super) fn run(args: &Export, session: &Session) -> Result<(), Failure> {
 }
 
 fn by_python(args: &Export, format: &str, path: &Path, session: &Session) -> Result<(), Failure> {
+    if path == Path::new("-") {
+        return Err(Failure::bad(format!("{format} cannot go to stdout\nhint: --csv - writes the table there")));
+    }
     if path.exists() && !session.force {
         let name = path.display();
         return Err(Failure::bad(format!(
@@ -72,7 +77,7 @@ fn by_python(args: &Export, format: &str, path: &Path, session: &Session) -> Res
             Ok(())
         }
         Ok(_) => Err(Failure::Failed(format!(
-            "`{} -m vibroimpact export` did not write {}\nhint: pip install vibroimpact, or --python with the one that has it",
+            "`{} -m vibroimpact export` did not write {}\nhint: --python names the Python that has the package vibroimpact; `pip install .` in its repository builds it (it is not on PyPI)",
             args.python,
             path.display()
         ))),

@@ -6,6 +6,7 @@ use crate::session::Session;
 use clap::{Args, Command};
 use clap_mangen::Man as Page;
 use std::path::PathBuf;
+use vibroimpact_study::counted;
 
 /// Print the manual page, or write one page per command into a directory
 #[derive(Clone, Debug, Args)]
@@ -36,7 +37,7 @@ pub(super) fn run(args: &Man, mut command: Command, session: &Session) -> Result
     for (target, page) in reserved {
         target.write(|out| out.write_all(&page))?;
     }
-    session.note(&format!("wrote {count} pages to {}", directory.display()));
+    session.note(&format!("wrote {} to {}", counted(count as u64, "page"), directory.display()));
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! `vibro map`: which motions there are at each point of a plane of parameters.
 
-use crate::args::{AxesArgs, Ranged, StoreArgs};
+use crate::args::{AxesArgs, Ranged, StoreArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
@@ -8,11 +8,12 @@ use crate::report::stored::label_table;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
+use vibroimpact_report::Units;
 use vibroimpact_report::figure::map::figure;
 use vibroimpact_report::json::map::{coexisting, counts, document};
 use vibroimpact_report::table::map::table;
 use vibroimpact_study::store::Part;
-use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, Task, map};
+use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, Task, counted, map};
 
 /// Which motions there are at each point of a plane of parameters
 ///
@@ -34,22 +35,22 @@ pub(crate) struct Map {
     plane: PlaneArgs,
 
     /// Starts at each point, 1 to 1e9
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
     starts: u64,
 
     /// Which sequence of starts
-    #[arg(long, value_name = "S", default_value_t = 1, help_heading = "Starts")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = 1, help_heading = "Starts")]
     seed: u64,
 
     /// Follow each start for so many impacts at most, 1 to 1000000; what is not settled by then is undecided
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
     impacts: Option<u32>,
 
     #[command(flatten)]
     store: StoreArgs,
 
     /// Compute every K-th point first, and those between only where neighbours differ; needs --store
-    #[arg(long, value_name = "K", requires = "store", help_heading = "Store")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "K", requires = "store", help_heading = "Store")]
     refine: Option<u32>,
 
     /// Write one row a motion to this file; - for stdout. Columns: what varies, then label, share
@@ -68,6 +69,7 @@ pub(crate) struct Map {
 /// The parameters of a map, values or ranges.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "System and plane")]
+#[command(group = clap::ArgGroup::new("frequency").required(true).args(["beta", "inverse_beta"]))]
 struct PlaneArgs {
     /// Frequency ratio omega/omega_n, positive
     #[arg(long, value_name = "VALUES", allow_hyphen_values = true, conflicts_with = "inverse_beta")]
@@ -151,7 +153,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         ));
     }
     let task = MapPlan { axes, starts: args.starts, seed: args.seed, refine: args.refine, impacts: args.impacts };
-    let plan = args.store.tiled(Plan::new(system, Task::Map(task.clone())))?;
+    let plan = args.store.tiled(Plan::new(system, Task::Map(task.clone())), &Units::default())?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     outputs.drawable(&task.axes)?;
     if let Some(place) = &args.store.store {
@@ -170,9 +172,9 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         return Ok(());
     }
     session.print(&format!(
-        "{} points, {} starts each; several motions coexist at {} of them\n\n{}",
-        found.points.len(),
-        args.starts,
+        "{}, {} each; several motions coexist at {} of them\n\n{}",
+        counted(found.points.len() as u64, "point"),
+        counted(args.starts, "start"),
         coexisting(&found),
         label_table(&counts(&found))
     ))?;

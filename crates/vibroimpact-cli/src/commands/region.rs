@@ -1,6 +1,6 @@
 //! `vibro region`: where in a plane of two parameters a motion exists, and where it is stable.
 
-use crate::args::{AxesArgs, Convention, MachineArgs, Place, SystemArgs};
+use crate::args::{AxesArgs, Convention, MachineArgs, Place, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::region::text;
@@ -13,13 +13,14 @@ use vibroimpact_report::table::region::table;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task, regions};
 
-/// Where in a plane of two parameters the motion m/n exists, and where it is stable: closed polygons
+/// Where in a plane of two parameters a motion exists, and where it is stable: closed polygons
 ///
 /// Two parameters are given as ranges A:B, the others as values; ranges replace values of a machine in physical units.
 /// Orbits are looked for on a grid, and from each a walk goes
 /// round the part of the region it lies in, along the curves that bound it: fold (two orbits meet), flip (a multiplier
 /// is -1), no speed (an impact has speed zero), touch (a flight touches a stop), merging (with an orbit of half the
-/// period), frame. The surface of orbits folds, so polygons of different sheets may overlap.
+/// period), frame. The surface of orbits folds, so polygons of different sheets may overlap. The region of the motion without
+/// impacts, label 0, is known in closed form: its amplitude exceeds no gap, and a touch bounds it.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]",
@@ -28,7 +29,7 @@ use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task
         vibro region --label 1/2 --inverse-beta 1.11 --gap 0:3 --restitution 0.2:0.9 --plot plane.png"
 )]
 pub(crate) struct Region {
-    /// m impacts in n forcing periods, for example 2/1
+    /// m impacts in n forcing periods, for example 2/1; 0 for the motion without impacts
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Motion")]
     label: String,
 
@@ -71,7 +72,7 @@ pub(crate) struct Region {
     units: Convention,
 
     /// Points of the grid at which orbits are looked for, in each direction, 2 to 400: smaller parts may be missed
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_GRID, allow_hyphen_values = true, help_heading = "Plane")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_GRID, allow_hyphen_values = true, help_heading = "Plane")]
     grid: u32,
 
     /// Write one row a vertex to this file; - for stdout. Columns: region (existence or stability), polygon, hole, sheet
@@ -142,7 +143,7 @@ impl Region {
         match over.as_slice() {
             [across, up] => Ok((*across, *up)),
             _ => Err(Failure::bad(format!(
-                "a plane has two parameters, and {} are given as a range A:B\nhint: --inverse-beta 0.4:2 --gap -1:5",
+                "a plane has two parameters, and ranges A:B are given for {}\nhint: --inverse-beta 0.4:2 --gap -1:5",
                 over.len()
             ))),
         }
@@ -168,5 +169,5 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     if to_stdout {
         return Ok(());
     }
-    session.print(&text(&found, &task, &units))
+    session.print(&text(&found, &task, &asked))
 }

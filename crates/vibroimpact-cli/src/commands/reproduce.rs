@@ -4,7 +4,7 @@ use crate::exit::Failure;
 use crate::session::Session;
 use clap::Args;
 use fukaya_irie_1971::{Error, Options, reproduce};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Compute the figures of the 1971 paper anew and compare
 ///
@@ -23,6 +23,9 @@ pub(crate) struct Reproduce {
 }
 
 pub(super) fn run(args: &Reproduce, session: &Session) -> Result<(), Failure> {
+    if args.out == Path::new("-") {
+        return Err(Failure::bad("`-` is no place for the figures of a paper: --out names a folder"));
+    }
     let options = Options { quick: args.quick, force: session.force };
     let report = session
         .tiled(0, "points", |control, progress| {

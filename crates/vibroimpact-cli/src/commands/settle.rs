@@ -1,6 +1,6 @@
 //! `vibro settle`: what the motion from one start settles into.
 
-use crate::args::{StartArgs, SystemArgs};
+use crate::args::{StartArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::text;
@@ -9,11 +9,10 @@ use crate::signal;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact::verdict::{PaperRule, PaperVerdict, SettleOptions, paper_rule, settle};
-use vibroimpact_report::figure::settle::figure;
 use vibroimpact_report::json::settle::document;
 use vibroimpact_report::number::short;
-use vibroimpact_report::table::waveform::steady;
-use vibroimpact_study::{Plan, Task};
+use vibroimpact_report::scene::{View, Viewed};
+use vibroimpact_study::{Plan, Task, counted};
 
 /// What the motion from a start settles into, and why that is so
 ///
@@ -26,6 +25,7 @@ use vibroimpact_study::{Plan, Task};
     after_help = "Examples:\n  \
         vibro settle --inverse-beta 1.8 --gap 0.25 --restitution 0.5\n  \
         vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --v 1 --plot steady.svg\n  \
+        vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --show phase --plot portrait.svg\n  \
         vibro settle --mass-kg 2 --damping-ns-per-m 1 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 4 \\\n    \
         --gap-m 0.01 --restitution 0.5 --units si"
 )]
@@ -44,10 +44,14 @@ pub(crate) struct Settle {
     percent: Option<f64>,
 
     /// Impacts after which the paper's rule calls a motion unstable, 2 to 100000 [default: 100]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Rule")]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Rule")]
     limit: Option<u32>,
 
-    /// Write the steady motion to this file, one row a point, columns t, x, v; - for stdout
+    /// What --plot draws and --csv writes of the steady motion
+    #[arg(long, value_enum, value_name = "VIEW", help_heading = "Output")]
+    show: Option<Shown>,
+
+    /// Write the steady motion to this file, one row a point, columns t, x, v unless --show says otherwise; - for stdout
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -58,6 +62,30 @@ pub(crate) struct Settle {
     /// Draw the steady motion into this file, .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Shown {
+    /// Position over time
+    #[default]
+    Waveform,
+    /// Velocity over position
+    Phase,
+    /// Floquet multipliers in the complex plane; columns re, im
+    Multipliers,
+    /// Phase and speed of its impacts, and its states at phase 0; columns section, side, phase, x, v
+    Sections,
+}
+
+impl Shown {
+    const fn view(self) -> View {
+        match self {
+            Self::Waveform => View::Waveform,
+            Self::Phase => View::Phase,
+            Self::Multipliers => View::Multipliers,
+            Self::Sections => View::Sections,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -76,6 +104,9 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let osc = asked.system.oscillator()?;
     let start = start.start(&osc)?;
     let rule = args.paper_rule()?;
+    if args.show.is_some() && args.csv.is_none() && args.plot.is_none() {
+        return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
+    }
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     let to_stdout = outputs.table_on_stdout();
 
@@ -83,11 +114,10 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
         let settled = settle(&osc, start, &SettleOptions::default());
         (settled, rule.map(|rule| (rule, paper_rule(&osc, start, rule))))
     })?;
-    outputs.write(
-        session,
-        || Ok(steady(&osc, start, &settled, asked.units)?),
-        || Ok(figure(&osc, start, &settled, &asked)),
-    )?;
+    if outputs.any_file() {
+        let viewed = Viewed::new(args.show.unwrap_or_default().view(), (&osc, start), &settled, &asked)?;
+        outputs.write(session, || Ok(viewed.table()?), || Ok(viewed.figure()))?;
+    }
     if to_stdout {
         return Ok(());
     }
@@ -97,10 +127,13 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let mut text = text::system(&asked, &osc) + &text::start(&start, &asked.units) + "\n";
     text.push_str(&text::motion(&settled.verdict, &osc, &asked.units));
     text.push_str(&format!(
-        "  followed for {} impacts, until time {}\n",
-        settled.impacts,
+        "  followed for {}, until time {}\n",
+        counted(settled.impacts, "impact"),
         short(settled.time * asked.units.time())
     ));
+    if let Some(chaos) = settled.transient {
+        text.push_str(&format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts));
+    }
     if let Some((rule, verdict)) = paper {
         text.push_str(&format!(
             "\nthe paper's rule ({} %, at most {} impacts): {}\n",

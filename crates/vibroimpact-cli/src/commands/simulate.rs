@@ -1,9 +1,8 @@
 //! `vibro simulate`: the events of a motion, one after another.
 
-use crate::args::{StartArgs, SystemArgs};
+use crate::args::{StartArgs, SystemArgs, whole};
+use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
-use crate::files::Target;
-use crate::picture::Picture;
 use crate::report::text;
 use crate::session::Session;
 use crate::signal;
@@ -16,7 +15,7 @@ use vibroimpact_report::figure::waveform::figure;
 use vibroimpact_report::json::simulate::document;
 use vibroimpact_report::number::short;
 use vibroimpact_report::table::waveform::table;
-use vibroimpact_study::{Control, Plan, Simulated, Task, most_impacts, simulate};
+use vibroimpact_study::{Control, Plan, Simulated, Task, counted, most_impacts, simulate};
 
 /// Follow a motion event by event: impacts, grazes, sticking, release
 ///
@@ -37,7 +36,7 @@ pub(crate) struct Simulate {
     start: StartArgs,
 
     /// Stop after so many impacts, 1 to 10000000 [default: 100, or 1000000 with --periods]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
+    #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
     impacts: Option<u64>,
 
     /// Stop after so many forcing periods, up to 1e9, of 2 pi / beta each
@@ -48,7 +47,7 @@ pub(crate) struct Simulate {
     #[arg(long, help_heading = "Output")]
     json: bool,
 
-    /// Write the waveform, columns t, x, v, to this file
+    /// Write the waveform, columns t, x, v, to this file; - for stdout
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -73,21 +72,21 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     if !(step > 0.0 && step.is_finite()) {
         return Err(Failure::bad(format!("step = {step} lies outside 0 < step < infinity")));
     }
-    let csv = args.csv.as_deref().map(|path| Target::reserve(path, session.force)).transpose()?;
-    let picture = args.plot.as_deref().map(|path| Picture::reserve(path, session.force)).transpose()?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let to_stdout = outputs.table_on_stdout();
 
     let control = Control { stop: signal::flag(), ..Control::default() };
     let followed = simulate(&osc, start, impacts, args.periods, &control).map_err(|stopped| {
-        Failure::Stopped(format!("after {} of {} impacts; nothing was written", stopped.done, stopped.total))
+        Failure::Stopped(format!("after {} of {}; nothing was written", stopped.done, counted(stopped.total, "impact")))
     })?;
     let until = followed.shown_until(&osc);
-    if let Some(target) = csv {
-        let table = table(&osc, start, (until, step), asked.units)?;
-        target.write(|out| table.write(out))?;
-    }
-    if let Some(picture) = picture {
-        let title = title(&asked.system);
-        picture.write(&figure(&osc, start, (0.0, until), &asked.units, title))?;
+    outputs.write(
+        session,
+        || Ok(table(&osc, start, (until, step), asked.units)?),
+        || Ok(figure(&osc, start, (0.0, until), &asked.units, title(&asked.system))),
+    )?;
+    if to_stdout {
+        return Ok(());
     }
     if args.json {
         session.print_json(&document(&asked, &plan, (&osc, &start), &followed))

@@ -6,7 +6,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use vibroimpact_report::question::quoted;
-use vibroimpact_study::Study;
+use vibroimpact_study::{Study, counted};
 
 /// Print a Slurm script that runs a study as an array of jobs
 ///
@@ -53,7 +53,7 @@ pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
     }
     let jobs = args.jobs.min(tiles);
     if jobs < args.jobs {
-        session.note(&format!("the study has {tiles} tiles, so the array has {jobs} jobs"));
+        session.note(&format!("the study has {}, so the array has {}", counted(tiles, "tile"), counted(jobs, "job")));
     }
     let program =
         std::env::current_exe().map_err(|error| Failure::Failed(format!("where this program is: {error}")))?;
@@ -70,11 +70,13 @@ pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
          #SBATCH --time={time}\n\
          {partition}\
          #SBATCH --output=vibro-%A_%a.log\n\
-         # {title}: {tiles} tiles in {jobs} jobs. What is done is not done again.\n\
+         # {title}: {tiles} in {jobs_in_words}. What is done is not done again.\n\
          set -eu\n\
          exec {program} run {plan} --store {place} \\\n  \
          --tiles \"$SLURM_ARRAY_TASK_ID/{jobs}\" --threads \"${{SLURM_CPUS_PER_TASK:-{cpus}}}\" --quiet\n",
         hash = plan.canonical()?.hash(),
+        tiles = counted(tiles, "tile"),
+        jobs_in_words = counted(jobs, "job"),
         cpus = args.cpus,
         time = args.time,
         title = plan.title(),

@@ -6,7 +6,7 @@ use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
 use std::time::{Duration, SystemTime};
-use vibroimpact_study::Plan;
+use vibroimpact_study::{Plan, counted};
 
 /// How far a store is: which tiles are done, how long the rest will take, and its plan
 #[derive(Clone, Debug, Args)]
@@ -32,8 +32,10 @@ struct Answer<'a> {
     seconds_left: Option<f64>,
     /// Seconds since the last tile was done.
     seconds_since: Option<f64>,
-    /// The first tiles that are missing.
+    /// The first tiles that are missing, up to a thousand.
     missing: Vec<u64>,
+    /// Tiles that are missing and not among these.
+    missing_left_out: u64,
     bytes: u64,
     begun_by: &'a str,
     plan: &'a Plan,
@@ -55,6 +57,7 @@ pub(super) fn run(args: &Status, session: &Session) -> Result<(), Failure> {
             seconds_left: found.left.map(|left| left.as_secs_f64()),
             seconds_since: since.map(|since| since.as_secs_f64()),
             missing: found.missing,
+            missing_left_out: found.missing_left_out,
             bytes: found.bytes,
             begun_by: store.begun_by(),
             plan: store.plan(),
@@ -62,12 +65,12 @@ pub(super) fn run(args: &Status, session: &Session) -> Result<(), Failure> {
         });
     }
     let mut text = format!(
-        "{}\n{} of {} tiles, {} of {} points; {}\n",
+        "{}\n{} of {}, {} of {}; {}\n",
         store.plan().title(),
         found.done,
-        found.tiles,
+        counted(found.tiles, "tile"),
         found.points_done,
-        found.points,
+        counted(found.points, "point"),
         size(found.bytes)
     );
     if found.complete {
@@ -101,7 +104,8 @@ fn missing(tiles: &[u64], count: u64) -> String {
         run => format!("{} to {}", run[0], run[run.len() - 1]),
     };
     let named: Vec<String> = runs.iter().take(SHOWN).map(name).collect();
-    let more = if runs.len() > SHOWN { ", ..." } else { "" };
+    let shown: u64 = runs.iter().take(SHOWN).map(|run| run.len() as u64).sum();
+    let more = if shown < count { format!(" and {} more", count - shown) } else { String::new() };
     format!("missing tiles: {}{more}\n", named.join(", "))
 }
 
@@ -132,7 +136,8 @@ mod tests {
         assert_eq!(missing(&[0, 1, 2, 7, 9, 10], 6), "missing tiles: 0 to 2, 7, 9 to 10\n");
         assert!(missing(&[], 0).contains("not concluded"));
         let odd: Vec<u64> = (0..40).map(|k| 2 * k).collect();
-        assert!(missing(&odd, 40).ends_with("14, ...\n"));
+        assert!(missing(&odd, 40).ends_with("14 and 32 more\n"));
+        assert_eq!(missing(&[0, 1, 2], 5000), "missing tiles: 0 to 2 and 4997 more\n");
         assert_eq!([50, 4000, 40_000].map(|s| clock(Duration::from_secs(s))), ["50 s", "66 min", "11 h 6 min"]);
         assert_eq!([12, 20_000, 20_000_000].map(size), ["12 bytes", "20 kB", "20.0 MB"]);
     }

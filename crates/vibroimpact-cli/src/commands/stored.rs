@@ -7,7 +7,7 @@ use crate::session::Session;
 use serde::Serialize;
 use vibroimpact_report::figure::stored::figure;
 use vibroimpact_study::store::{Part, Ran, Store, shelf};
-use vibroimpact_study::{Plan, StoreError};
+use vibroimpact_study::{Plan, StoreError, counted};
 
 /// The part of an answer about a store.
 #[derive(Serialize)]
@@ -47,12 +47,12 @@ pub(super) fn fill(store: &Store, part: Part, session: &Session) -> Result<Fille
 
 impl Filled {
     fn sentence(&self) -> String {
-        let mut text = format!("{}: {} of {} tiles computed", self.store, self.computed, self.tiles);
+        let mut text = format!("{}: {} of {} computed", self.store, self.computed, counted(self.tiles, "tile"));
         if self.mended > 0 {
-            text.push_str(&format!(", {} of them because they were damaged", self.mended));
+            text.push_str(&format!(", {} of them because of damage", self.mended));
         }
         if self.found > 0 {
-            text.push_str(&format!(", {} were there", self.found));
+            text.push_str(&format!(", {} found there", self.found));
         }
         text.push_str(&match self.left {
             0 => "; complete".to_owned(),

@@ -1,15 +1,17 @@
 //! `vibro verify`: whether a store holds what its plan gives.
 
 use super::stored;
+use crate::args::whole;
 use crate::exit::Failure;
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
+use vibroimpact_study::counted;
 use vibroimpact_study::store::Verified;
 
-/// Check a store: all check sums, and a sample of tiles computed again
+/// Check a store: all that describes it, all check sums, and a sample of tiles computed again
 ///
-/// Changes nothing. What is damaged is computed anew by `vibro resume`. Exit code 1 if anything is wrong.
+/// Changes nothing. What is damaged is written anew by `vibro resume`. Exit code 1 if anything is wrong.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Verify {
     /// The store
@@ -17,11 +19,11 @@ pub(crate) struct Verify {
     store: String,
 
     /// Tiles to compute again and compare byte by byte
-    #[arg(long, value_name = "N", default_value_t = 8)]
+    #[arg(long, value_parser = whole::<u64>, value_name = "N", default_value_t = 8)]
     sample: u64,
 
     /// Which sample
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = 1)]
     seed: u64,
 
     /// Print one JSON object instead of text
@@ -40,27 +42,29 @@ struct Answer {
 
 #[derive(Serialize)]
 struct Wrong {
-    tile: u64,
+    /// None for what belongs to the whole store.
+    tile: Option<u64>,
     what: String,
 }
 
 pub(super) fn run(args: &Verify, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
-    let grid = store.study().grid();
-    let total = args.sample.min(grid.tiles()).saturating_mul(grid.tile(0).points() as u64);
-    let found = session.tiled(total, "points", |control, _| store.verify(args.sample, args.seed, control))?;
+    let found = session.tiled(store.sample_points(args.sample), "points", |control, _| {
+        store.verify(args.sample, args.seed, control)
+    })?;
     let Verified { checked, recomputed, open, damage } = found;
     let (count, place) = (damage.len(), store.place());
     if args.json {
         let damage = damage.into_iter().map(|wrong| Wrong { tile: wrong.tile, what: wrong.what }).collect();
         session.print_json(&Answer { store: place.clone(), checked, recomputed, open, damage })?;
     } else {
-        let mut text = format!("{checked} tiles have their check sums read, {recomputed} were computed again\n");
+        let mut text = format!("check sums read: {}; computed again: {recomputed}\n", counted(checked, "tile"));
         if open > 0 {
-            text.push_str(&format!("{open} tiles are not computed yet\n"));
+            text.push_str(&format!("not computed yet: {}\n", counted(open, "tile")));
         }
         for wrong in &damage {
-            text.push_str(&format!("tile {}: {}\n", wrong.tile, wrong.what));
+            let of = wrong.tile.map_or_else(String::new, |tile| format!("tile {tile}: "));
+            text.push_str(&format!("{of}{}\n", wrong.what));
         }
         if damage.is_empty() {
             text.push_str("nothing is wrong\n");
@@ -70,5 +74,6 @@ pub(super) fn run(args: &Verify, session: &Session) -> Result<(), Failure> {
     if count == 0 {
         return Ok(());
     }
-    Err(Failure::Failed(format!("{count} faults in {place}\nhint: `vibro resume {place}` computes damaged tiles anew")))
+    let faults = counted(count as u64, "fault");
+    Err(Failure::Failed(format!("{faults} in {place}\nhint: `vibro resume {place}` writes anew what is damaged")))
 }

@@ -7,7 +7,7 @@ use vibroimpact::orbit::Cycle;
 use vibroimpact::{Label, Parameter};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{precise, short};
-use vibroimpact_study::{Branches, Chosen, Cut, Followed};
+use vibroimpact_study::{Branches, Chosen, Cut, Followed, counted};
 
 /// `gap`, `inverse beta`: a parameter in a sentence.
 pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
@@ -39,22 +39,22 @@ pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
         let _ = match origin {
             None => writeln!(
                 text,
-                "branch 1: {} ({}), {name} from {} to {}{also}, {} points",
+                "branch 1: {} ({}), {name} from {} to {}{also}, {}",
                 found.chosen.orbit.cycle.label,
                 chosen(&found.chosen),
                 short(from * unit),
                 short(to * unit),
-                branch.points.len()
+                counted(branch.points.len() as u64, "point")
             ),
             Some((origin, event)) => writeln!(
                 text,
-                "\nbranch {}: {} from the {} of branch {} at {name} {}, {} points",
+                "\nbranch {}: {} from the {} of branch {} at {name} {}, {}",
                 k + 1,
                 branch.points.first().map_or_else(String::new, |point| point.cycle.label.to_string()),
                 event.name(),
                 origin.branch + 1,
                 precise(origin.point.value * unit),
-                branch.points.len()
+                counted(branch.points.len() as u64, "point")
             ),
         };
         text.push_str(&of(branch, cut, units));
@@ -106,10 +106,20 @@ fn of(branch: &Followed, cut: &Cut, units: &Units) -> String {
     text
 }
 
-/// What a branch is beside an event; of a neighbour that is an event itself only the label is known.
+/// What a branch is beside an event. Two events that no point lies between are closer than rounding lets their multipliers be told;
+/// where the branch ends with the event, what is beyond was not followed.
 fn beside(neighbour: Option<&Point>, label: Label) -> String {
-    let plain = neighbour.filter(|point| point.event.is_none() && point.cycle.label == label);
-    plain.map_or_else(|| label.to_string(), state)
+    match neighbour {
+        Some(point) if plain(point) && point.cycle.label == label => state(point),
+        Some(point) if point.event.is_some_and(|event| event.ends()) => format!("{label} not followed"),
+        Some(_) => format!("{label} unresolved"),
+        None => label.to_string(),
+    }
+}
+
+/// Whether nothing happens to the cycle at a point.
+const fn plain(point: &Point) -> bool {
+    matches!(point.event, None | Some(BranchEvent::EndOfRange))
 }
 
 /// `1/1 stable`.

@@ -7,7 +7,7 @@ use vibroimpact::Parameter;
 use vibroimpact_report::Units;
 use vibroimpact_report::json::curve::values;
 use vibroimpact_report::number::{precise, short};
-use vibroimpact_study::{CurvePlan, EventCurve, Stretch};
+use vibroimpact_study::{CurvePlan, EventCurve, Stretch, counted};
 
 /// What it is, and the events on it from one end to the other.
 pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> String {
@@ -22,7 +22,13 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
     let which =
         if found_at.len() > 1 { format!(", the curve is that of number {}", found.through + 1) } else { String::new() };
     let _ = writeln!(text, "  found at {} {}{which}", name(p), found_at.join(", "));
-    let _ = writeln!(text, "  followed over {}, {}: {} points", over(&plan.vary), over(&plan.and), found.points.len());
+    let _ = writeln!(
+        text,
+        "  followed over {}, {}: {}",
+        over(&plan.vary),
+        over(&plan.and),
+        counted(found.points.len() as u64, "point")
+    );
     let heads = ["<event".to_owned(), name(p), name(plan.and.parameter), "<motion".into()];
     let all = &found.points;
     let rows: Vec<Vec<String>> = all

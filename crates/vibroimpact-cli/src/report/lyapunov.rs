@@ -3,7 +3,7 @@
 use crate::report::text::{meaning, stop_name, table};
 use std::fmt::Write;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
-use vibroimpact::verdict::{NoImpact, Verdict};
+use vibroimpact::verdict::NoImpact;
 use vibroimpact_report::Units;
 use vibroimpact_report::json::lyapunov::scaled;
 use vibroimpact_report::number::short;
@@ -26,8 +26,8 @@ fn said(of: Measured) -> String {
 }
 
 /// What the motion is, its exponents, and on what grounds.
-pub(crate) fn text(verdict: &Verdict, found: &Exponents, units: &Units) -> String {
-    let mut text = format!("{}: {}\n", verdict.label(), meaning(verdict));
+pub(crate) fn text(found: &Exponents, units: &Units) -> String {
+    let mut text = format!("{}: {}\n", found.motion.label(), meaning(&found.motion));
     let per_time = |of: Measured| said(scaled(of, 1.0 / units.time()));
     let heads = [
         "<".into(),

@@ -4,10 +4,10 @@ use crate::report::branch::named;
 use crate::report::text::table;
 use std::fmt::Write;
 use vibroimpact::continuation::Polygon;
-use vibroimpact_report::Units;
 use vibroimpact_report::json::region::unit;
 use vibroimpact_report::number::short;
 use vibroimpact_report::table::region::both;
+use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
 /// A parameter's range in words.
@@ -17,13 +17,24 @@ fn over(stretch: &Stretch, units: &Units) -> String {
 }
 
 /// Each polygon with its extent and what bounds it.
-pub(crate) fn text(found: &Regions, plan: &RegionPlan, units: &Units) -> String {
+pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: &Asked) -> String {
     let (across, up) = (over(&plan.across, units), over(&plan.up, units));
     let mut text = format!("{} over {across}, {up}\n", plan.label.trim());
     let names = [plan.across.parameter, plan.up.parameter].map(|parameter| named(parameter, units));
     let unit = unit(plan, units);
     for (name, region) in both(found) {
-        let _ = writeln!(text, "\n{name}{}", if region.polygons.is_empty() { ": none found" } else { "" });
+        let none = match (region.polygons.is_empty(), name) {
+            (false, _) => "",
+            (true, "stability") if plan.neutral(system) => {
+                ": none, the motion is neutrally stable where it exists: without damping and losses at impacts nothing attracts"
+            }
+            // known in closed form
+            (true, _) if plan.clears() => {
+                ": none, the amplitude of the motion without impacts exceeds a gap everywhere"
+            }
+            (true, _) => ": none found",
+        };
+        let _ = writeln!(text, "\n{name}{none}");
         let heads = [
             "polygon".to_owned(),
             "vertices".into(),

@@ -106,9 +106,13 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
         Verdict::NoImpact(NoImpact::GrazeLimit { .. }) => {
             "ever gentler impacts: in the limit it only touches the stop".into()
         }
+        Verdict::NoImpact(NoImpact::Landing { periods, .. }) => {
+            let periods = if *periods == 1 { "forcing period".to_owned() } else { counted(*periods, "forcing period") };
+            format!("it rests on the stop once every {periods}, without impacts")
+        }
         Verdict::NoImpact(NoImpact::Grazing { .. }) => "it touches the stop without impact".into(),
         Verdict::NoImpact(_) => "no more impacts, ever".into(),
-        Verdict::Chaotic(_) => "impacts that never repeat".into(),
+        Verdict::Chaotic(chaos) => format!("no repetition in {} impacts", chaos.impacts),
         Verdict::Stuck(at) => format!("at rest on the {} for ever", stop_name(*at)),
         Verdict::Undecided(_) => "nothing could be shown within the budget".into(),
     }
@@ -147,21 +151,27 @@ fn grounds(verdict: &Verdict, units: &Units) -> String {
             "the free and the forced amplitude together stay short of the stop".into()
         }
         Verdict::NoImpact(NoImpact::Flight(Horizon::CommonPeriod { p, q })) => {
-            format!("beta = {p}/{q}: {q} natural periods without contact, after which all repeats")
+            format!(
+                "beta = {p}/{q}: {} without contact, after which all repeats",
+                vibroimpact_study::counted(u64::from(*q), "natural period")
+            )
         }
         Verdict::NoImpact(NoImpact::GrazeLimit { velocity, phase }) => format!(
             "impact speeds shrink by the restitution each time (last {}), always at phase {}",
             short(velocity * units.velocity()),
             short(*phase)
         ),
+        Verdict::NoImpact(NoImpact::Landing { side, .. }) => {
+            format!("the gap is 0 and beta or 1/beta an odd number: it lands on the {} without speed", stop_name(*side))
+        }
         Verdict::NoImpact(NoImpact::Grazing { phase }) => {
             format!("touches without speed again and again, at phase {}", short(*phase))
         }
         Verdict::NoImpact(NoImpact::ForPeriods(_)) => "searched that far; nothing is claimed beyond".into(),
-        Verdict::Chaotic(spectrum) => format!(
-            "largest Lyapunov exponent {} per unit of time, {} impacts per forcing period",
-            measured(spectrum.exponents[0], 1.0 / units.time()),
-            measured(spectrum.impacts_per_period, 1.0)
+        Verdict::Chaotic(chaos) => format!(
+            "largest Lyapunov exponent {} per unit of time, {} impacts per forcing period; no cycle, no second rest, no fading",
+            measured(chaos.spectrum.exponents[0], 1.0 / units.time()),
+            measured(chaos.spectrum.impacts_per_period, 1.0)
         ),
         Verdict::Stuck(_) => "the force never pulls the mass off the stop".into(),
         Verdict::Undecided(Undecided::Impacts { impacts, spectrum }) => format!(

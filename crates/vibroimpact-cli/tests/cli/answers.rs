@@ -192,3 +192,14 @@ fn text_help_and_pages() {
         assert!(output.status.success() && said.contains(expected), "{line}: {said}");
     }
 }
+
+/// Item 5: at beta 3 and gap 1/8 = |f| orbits of speed 1.3e-16 were listed as motions.
+#[test]
+fn f05_a_touch_is_listed_as_no_orbit() {
+    let orbits =
+        |label: &str| json(&format!("orbit --beta 3 --gap 0.125 --restitution 0.5 --label {label}"))["orbits"].clone();
+    assert_eq!(orbits("1/1").as_array().unwrap().len(), 0);
+    let half = orbits("1/2");
+    assert_eq!(half.as_array().unwrap().len(), 1);
+    assert!(half[0]["cycle"][0]["velocity_before"].as_f64().unwrap() > 0.5 && half[0]["physical"] == true);
+}

@@ -274,3 +274,20 @@ fn a_line_through_two_parameters() {
         assert!(refused.status.code() == Some(2) && said.contains(sentence), "{said}");
     }
 }
+
+/// Item 11: between a fold and a flip 3e-6 apart the table left the stability blank.
+#[test]
+fn f11_between_close_events_the_stability_is_known() {
+    let line = "branch --beta 2.55 --gap 0 --restitution 0.8 --label 1/1 --vary beta --to 3 --follow 4";
+    let text = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let rows = |kind: &str| text.lines().filter(|row| row.trim_start().starts_with(kind)).collect::<Vec<_>>();
+    let fold = rows("fold").into_iter().find(|row| row.contains("2.84935992652")).unwrap();
+    assert!(fold.contains("5/4 unstable  5/4 stable"), "{fold}");
+    let flip = rows("flip").into_iter().find(|row| row.contains("2.84936316018")).unwrap();
+    assert!(flip.contains("5/4 stable    5/4 unstable"), "{flip}");
+    for row in rows("fold").iter().chain(&rows("flip")) {
+        let states: Vec<&str> =
+            row.split_whitespace().filter(|word| word.ends_with("stable") || *word == "unresolved").collect();
+        assert_eq!(states.len(), 2, "{row}");
+    }
+}

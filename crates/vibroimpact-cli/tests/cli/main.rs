@@ -4,6 +4,7 @@ mod answers;
 mod arguments;
 mod branches;
 mod diagrams;
+mod edges;
 mod files;
 mod lyapunov;
 mod planes;
@@ -11,6 +12,7 @@ mod questions;
 mod refusals;
 mod studies;
 mod told;
+mod units;
 
 use assert_cmd::Command;
 use serde_json::Value;

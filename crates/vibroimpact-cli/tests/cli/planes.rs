@@ -128,3 +128,75 @@ fn a_region_in_physical_units() {
     let text = String::from_utf8(vibro(&text).output().unwrap().stdout).unwrap();
     assert!(text.starts_with("1/1 over inverse beta from 1.05 to 1.2, gap (m) from 0.02 to 0.05\n"), "{text}");
 }
+
+/// Item 6: "existence: none found" of the motion without impacts, where `orbit --label 0` finds it stable.
+#[test]
+fn f06_the_region_of_the_motion_without_impacts() {
+    let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+    let line = "region --label 0 --damping 0.05 --beta 1.5:3 --gap 0.5:2 --restitution 0.5";
+    let answer = json(line);
+    for (beta, gap) in [(1.6, 0.6), (1.6, 0.7), (2.0, 1.0), (2.9, 0.51)] {
+        let orbit = json(&format!("orbit --label 0 --damping 0.05 --beta {beta} --gap {gap} --restitution 0.5"));
+        let orbit = &orbit["orbits"][0];
+        for (kind, expected) in [("existence", orbit["physical"] == true), ("stability", orbit["stable"] == true)] {
+            let expected = expected && orbit["physical"] == true;
+            assert_eq!(inside(&answer[kind]["polygons"], (beta, gap)), expected, "{kind} at {beta}, {gap}");
+        }
+    }
+    let text = said(line);
+    assert!(text.contains("touch") && !text.contains("none"), "{text}");
+    // in other planes, and where no energy is lost
+    let undamped = said(&line.replace("--damping 0.05 ", ""));
+    assert!(undamped.contains("stability: none, the motion is neutrally stable"), "{undamped}");
+    assert!(undamped.contains("existence\n"), "{undamped}");
+    let never = said("region --label 0 --damping 0:0.1 --beta 1:1.1 --gap 0.5 --restitution 0.5");
+    assert!(never.contains("existence: none, the amplitude of the motion without impacts exceeds a gap"), "{never}");
+    let two = json(
+        "region --label 0 --damping 0.1 --second-gap 0.2:2 --restitution 0:1 --second-restitution 0.5 --beta 2 --gap 1",
+    );
+    assert!(inside(&two["existence"]["polygons"], (0.5, 0.35)) && !inside(&two["existence"]["polygons"], (0.5, 0.3)));
+}
+
+/// The same family: without damping `branch` and `curve` of label 0 said that there was nothing to follow.
+#[test]
+fn f06b_what_begins_with_no_impact_without_damping() {
+    for line in [
+        "branch --label 0 --beta 2 --gap 1 --restitution 0.5 --vary gap --to 0.1",
+        "curve --label 0 --beta 2 --gap 1 --restitution 0.5 --kind grazing --vary gap=0:2 --and beta=1.5:3",
+    ] {
+        let output = vibro(line).output().unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2));
+        assert!(message.contains("without damping the steady motion without impacts is one of many"), "{message}");
+        assert!(message.contains("hint: a damping above 0"), "{message}");
+    }
+}
+
+/// Item 10: refused with "the cycle given does not solve its equations at these parameters".
+#[test]
+fn f10_a_grazing_curve_over_the_restitution() {
+    let answer = json(
+        "curve --inverse-beta=0.6326450838473209 --gap=1.422755681087771 --restitution=0.5 --label 1/1 --kind grazing \
+         --vary gap=-0.8:3.0 --and restitution=0.3:0.7 --event 2",
+    );
+    let points = answer["points"].as_array().unwrap();
+    // delta = |f|, whatever the restitution
+    assert!(points.iter().all(|point| (number(&point["values"][0]) - 0.667_333_049_989_617_4).abs() < 1e-12));
+    for (at, value) in [(0, 0.3), (points.len() - 1, 0.7)] {
+        let end = number(&points[at]["values"][1]);
+        assert!((end - value).abs() < 1e-12 || (end - (1.0 - value)).abs() < 1e-12, "{end}");
+    }
+}
+
+/// Item 12: 46 s, in which nothing was found.
+#[test]
+fn f12_a_region_over_tiny_restitutions() {
+    let line = "region --label 1/1 --inverse-beta=0.8366542825959349 --gap=1e-9:1 --restitution=0:1e-12 --grid=8";
+    let begun = std::time::Instant::now();
+    let answer = json(line);
+    assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
+    for kind in ["existence", "stability"] {
+        assert_eq!(answer[kind]["polygons"].as_array().unwrap().len(), 1);
+        assert_eq!(answer[kind]["unresolved"].as_array().unwrap().len(), 0);
+    }
+}

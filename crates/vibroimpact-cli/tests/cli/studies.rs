@@ -181,10 +181,7 @@ fn damage_is_found_by_verify_and_mended_by_resume() {
         assert_eq!(output.status.code(), Some(1), "{text}");
         assert!(text.contains("tile 5: a chunk is missing, cut short or has a wrong check sum"), "{text}");
         let (code, note) = said(folder.path(), "resume study.zarr");
-        assert!(
-            code == Some(0) && note.contains("1 of 9 tiles computed, 1 of them because they were damaged"),
-            "{note}"
-        );
+        assert!(code == Some(0) && note.contains("1 of 9 tiles computed, 1 of them because of damage"), "{note}");
         assert!(files(&store) == want);
     }
 }
@@ -268,7 +265,7 @@ fn refusals_are_one_sentence_and_lose_nothing() {
         ("run other.toml --store s.zarr", "holds another plan"),
         ("run study.toml --store thesis", "is not empty, and no store"),
         ("run study.toml --store thesis/text.tex", "no store"),
-        ("run study.toml --store /proc/s.zarr", "cannot write"),
+        ("run study.toml --store /proc/s.zarr", "cannot be begun"),
         ("run study.toml --tiles 4/3", "1 <= I <= N"),
         ("resume none.zarr", "there is no store"),
         ("status thesis", "there is no store"),
@@ -315,7 +312,7 @@ fn a_complete_study_where_nothing_can_be_written() {
     assert_eq!(ran.0, Some(0), "{}", ran.1);
     for (code, note) in said {
         assert!(
-            code == Some(0) && note.contains("disk/s.zarr: 0 of 4 tiles computed, 4 were there; complete"),
+            code == Some(0) && note.contains("disk/s.zarr: 0 of 4 tiles computed, 4 found there; complete"),
             "{note}"
         );
     }

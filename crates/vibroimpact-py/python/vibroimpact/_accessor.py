@@ -6,10 +6,13 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact import _core
-from vibroimpact._core import QuestionError
+from vibroimpact._core import QuestionError, Units
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+#: A code of nothing.
+_NOTHING = np.iinfo(np.int32).min
 
 
 @xr.register_dataset_accessor("vibro")  # type: ignore[no-untyped-call]
@@ -32,20 +35,55 @@ class VibroAccessor:
         if name not in self._ds:
             raise QuestionError(f"this Dataset has no variable `{name}`")
         array = self._ds[name]
-        codes, places = np.unique(array.values, return_inverse=True)
+        if name != "label" and "flag_meanings" not in array.attrs:
+            raise QuestionError(f"`{name}` has no codes: it lacks the attribute flag_meanings")
+        values = array.values
+        if values.dtype.kind == "f":
+            # where Datasets were aligned, what is in none of them is nan
+            values = np.where(np.isfinite(values), values, _NOTHING)
+            broken = values[values != np.round(values)]
+            if len(broken):
+                raise QuestionError(
+                    f"`{name}` has the value {broken[0]:g}, which is no code\nhint: codes are names, so means and interpolations have no meaning"
+                )
+        codes, places = np.unique(values.astype(np.int64), return_inverse=True)
         if name == "label":
             words = _core.labels_of(codes.tolist())
-        elif "flag_meanings" in array.attrs:
+        else:
             values = np.asarray(array.attrs["flag_values"]).tolist()
             meanings = dict(zip(values, str(array.attrs["flag_meanings"]).split()))
             words = [meanings.get(code, "") for code in codes.tolist()]
-        else:
-            raise QuestionError(f"`{name}` has no codes: it lacks the attribute flag_meanings")
         text = np.array(words, dtype=np.str_)[places].reshape(array.shape)
         return xr.DataArray(text, array.coords, array.dims, attrs={"long_name": array.attrs.get("long_name", name)})
 
+    def si(self, units: Units | None = None) -> xr.Dataset:
+        """The same in metres and seconds: every value and coordinate that has a unit of length or time.
+
+        The plan in its attributes stays as it is, nondimensional. Figures are drawn of the Dataset before.
+
+        Parameters
+        ----------
+        units : Units
+            What one unit of length and time is, `osc.units`; those of the oscillator the Dataset was computed from unless
+            given. A Dataset read from a store has none.
+
+        Examples
+        --------
+        >>> from vibroimpact import Oscillator, basin
+        >>> osc = Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.005, restitution=0.5)
+        >>> ds = basin(osc, x=[-1, 0, 1]).vibro.si()
+        >>> ds["x"].values.tolist(), ds["x"].attrs["units"]
+        ([-0.005, 0.0, 0.005], 'm')
+        """
+        from vibroimpact import _si
+
+        return _si.converted(self._ds, units)
+
     def plot(self, ax: "Axes | None" = None, *, which: str | None = None) -> "Axes":
         """The figure of what the Dataset holds: the motions over two axes, or the points of an orbit diagram.
+
+        It states the coordinates that the Dataset has, so that it stays true after `isel`, `sel`, `concat` and the like. A
+        parameter that varied and whose coordinate was dropped is not known. Axes rise or fall: values in another order are sorted.
 
         Parameters
         ----------
@@ -56,7 +94,9 @@ class VibroAccessor:
         """
         from vibroimpact import _cells, _clouds
 
-        if "point" in self._ds.dims:
+        if self._ds.attrs.get("units") == "si":
+            raise QuestionError("a Dataset in metres and seconds is not drawn\nhint: plot it before si() converts it")
+        if _clouds.is_diagram(self._ds):
             return _clouds.plot(self._ds, ax, which)
         if "label" in self._ds:
             return _cells.plot(self._ds, ax)

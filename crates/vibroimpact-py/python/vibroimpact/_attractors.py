@@ -8,6 +8,7 @@ from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, fields_of
 from vibroimpact._progress import Progress, watched
+from vibroimpact._whole import SEED, STARTS, THREADS, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -100,7 +101,9 @@ def attractors(
     [<Attractor 2/1, stable, 64 %>, <Attractor 1/1, stable, 36 %>]
     """
     with watched(progress, "starts") as tell:
-        found = _core.attractors(osc, starts, seed, threads, tell)
+        found = _core.attractors(
+            osc, whole("starts", starts, STARTS), whole("seed", seed, SEED), whole("threads", threads, THREADS), tell
+        )
     motions = [
         Attractor(**fields_of(osc, fields), share=share, count=count) for fields, share, count in found["motions"]
     ]

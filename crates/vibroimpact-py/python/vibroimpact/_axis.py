@@ -8,15 +8,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact import _core
 
-#: `"A:B:N"`, `"A:B:N:log"`, `(a, b, n)`, `(a, b, n, "log")`, or an array of values.
-Axis: TypeAlias = str | tuple[float, float, int] | tuple[float, float, int, str] | Sequence[float] | NDArray[np.float64]
+#: `"A:B:N"`, `"A:B:N:log"`, `(a, b, n, "log")`, or an array of values.
+Axis: TypeAlias = str | tuple[float, float, int, str] | Sequence[float] | NDArray[np.float64]
 #: `"A:B"` or `(a, b)`.
 Interval: TypeAlias = str | tuple[float, float]
 
 _T = TypeVar("_T")
 
 #: What spacing may be off by, relative to the values: the rounding of `numpy.linspace` and `numpy.arange`.
-_EVEN = 1e-9
+_EVEN = 1e-14
 
 
 def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
@@ -46,8 +46,11 @@ def values(over: Axis) -> str | list[float]:
     if isinstance(over, str):
         return over
     if isinstance(over, tuple) and len(over) == 3:
-        first, last, count = over
-        return _text(float(first), float(last), _whole(count))
+        a, b, c = over
+        raise _core.QuestionError(
+            f"({a}, {b}, {c}) may be three values or {c} values from {a} to {b}\n"
+            f'hint: [{a}, {b}, {c}] is a list; "{a}:{b}:{c}" or numpy.linspace({a}, {b}, {c}) is a range'
+        )
     if isinstance(over, tuple) and len(over) == 4 and over[3] == "log":
         first, last, count, _ = over
         return _text(float(first), float(last), _whole(count)) + ":log"
@@ -55,7 +58,7 @@ def values(over: Axis) -> str | list[float]:
     if array.ndim != 1 or array.size == 0:
         raise _core.QuestionError(
             f"an axis of shape {array.shape} is no list of values\n"
-            'hint: "0:3:601", (0, 3, 601) or numpy.linspace(0, 3, 601)'
+            'hint: "0:3:601" or numpy.linspace(0, 3, 601)'
         )
     listed: list[float] = array.tolist()
     if len(listed) == 1 or listed[0] == listed[-1] or not np.all(np.isfinite(array)):
@@ -72,13 +75,13 @@ def _text(first: float, last: float, count: int) -> str:
 def axes(over: Mapping[str, Axis]) -> list[dict[str, object]]:
     """The axes of a plan, the first drawn to the right."""
     if not isinstance(over, Mapping):
-        raise TypeError('axes are written {"inverse_beta": "0.4:2:33", "gap": (0, 5, 41)}')
+        raise TypeError('axes are written {"inverse_beta": "0.4:2:33", "gap": "0:5:41"}')
     return [{"vary": name, "over": values(of)} for name, of in over.items()]
 
 
 def _whole(count: float) -> int:
-    if count != int(count):
-        raise _core.QuestionError(f"{count} values: the number is not whole\nhint: (a, b, n) is n values from a to b")
+    if not float(count).is_integer():
+        raise _core.QuestionError(f"{count} values: the number is not whole\nhint: (a, b, n, \"log\") is n values from a to b")
     return int(count)
 
 

@@ -12,6 +12,7 @@ from vibroimpact import _core
 from vibroimpact._axis import beside
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import Cycles, pairs
+from vibroimpact._whole import BRANCH, FOLLOW, NUMBER, maybe, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -241,6 +242,8 @@ def branch(
     >>> [event.kind for event in found.followed[0].events]
     ['fold', 'grazing', 'end of range']
     """
+    orbit = maybe("orbit", orbit, NUMBER)
+    follow, points = whole("follow", follow, FOLLOW), whole("points", points, BRANCH)
     found = _core.branch(osc, label, vary, to, beside(also), orbit, follow, points)
 
     def of(fields: dict[str, Any], followed: list[Branch]) -> Branch:

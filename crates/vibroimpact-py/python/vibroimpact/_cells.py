@@ -3,22 +3,20 @@
 Where several motions coexist at a point of a map, its cell is divided between them, the most frequent to the left.
 """
 
-import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import SYMBOLS, legend, new_axes, title
+from vibroimpact._figure import legend, new_axes
 from vibroimpact._palette import CLASSES, LEGEND, legend_group
-from vibroimpact._plan import oscillator
+from vibroimpact._stated import along, symbol, title
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-_STARTS = {"x": r"\xi_0", "v": r"u_0", "phase": r"\varphi_0"}
 #: Columns beyond which a cell is too narrow to be divided.
 _DIVIDED = 400
 #: Stripes of a divided cell: of two, three or four motions each has as many.
@@ -26,17 +24,16 @@ _STRIPES = 12
 
 
 def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
-    """Cells over the two axes, the faster one to the right."""
-    label = ds["label"]
-    dims = [str(name) for name in label.dims if name != "motion"]
+    """Cells over the two axes, the faster one to the right; their coordinates, not the plan, say where and of which parameters."""
+    dims = [str(name) for name in ds["label"].dims if name != "motion"]
     if len(dims) != 2:
         raise QuestionError(
             f"a figure has two axes, and there are {len(dims)}: {', '.join(dims)}\nhint: ds.isel(...) takes one value of an axis"
         )
     up, across = dims
-    if up not in ds.coords or across not in ds.coords:
-        raise QuestionError("these starts are scattered: they lie on no axes")
-    classes, cells = _classes(ds, label.transpose(up, across, ...))
+    for name in dims:
+        ds = _in_order(ds, name)
+    classes, cells = _classes(ds, ds["label"].transpose(up, across, ...))
     ax = new_axes(ax, (7.4, 5.0))
     xs, ys = _edges(ds[across].values), _edges(ds[up].values)
     cells, xs = _divided(cells, xs)
@@ -48,12 +45,23 @@ def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
     ax.pcolormesh(xs, ys, cells, cmap=colours, vmin=-0.5, vmax=len(classes) - 0.5, rasterized=True)
     handles = [Patch(facecolor=colour, edgecolor="0.4", linewidth=0.6, label=name) for name, colour in classes]
     legend(ax, handles)
-    plan = json.loads(ds.attrs["plan"])
-    symbols = SYMBOLS | _STARTS
-    ax.set_xlabel(f"${symbols[across]}$")
-    ax.set_ylabel(f"${symbols[up]}$")
-    ax.set_title(title(oscillator(plan), (across, up)))
+    ax.set_xlabel(symbol(across))
+    ax.set_ylabel(symbol(up))
+    ax.set_title(title(ds, (across, up)))
     return ax
+
+
+def _in_order(ds: "xr.Dataset", name: str) -> "xr.Dataset":
+    """Sorted along an axis unless its values rise or fall: cells lie side by side only where they do."""
+    steps = np.diff(along(ds, name))
+    if np.all(steps > 0) or np.all(steps < 0):
+        return ds
+    ds = ds.sortby(name)
+    values = ds[name].values
+    twice = values[1:][values[1:] == values[:-1]]
+    if len(twice):
+        raise QuestionError(f'{name} = {twice[0]:g} is there more than once\nhint: ds.drop_duplicates("{name}") keeps the first')
+    return ds
 
 
 def _classes(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, Any]], NDArray[np.int64]]:
@@ -64,7 +72,7 @@ def _classes(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, A
     groups = np.array([legend_group(name) if name else "" for name in np.unique(names)])
     group = groups[np.searchsorted(np.unique(names), names)]
     numbers = np.zeros(names.shape, dtype=np.int64)
-    if "cycle" in ds:
+    if _numbered(ds, label):
         # two cycles of one label are two motions
         numbers = np.maximum(ds["cycle"].transpose(*label.dims).values.reshape(names.shape), -1) + 1
     classes: list[tuple[str, Any]] = []
@@ -79,6 +87,13 @@ def _classes(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, A
     if not classes:
         classes = [("not computed", "#ffffff")]
     return classes, cells
+
+
+def _numbered(ds: "xr.Dataset", label: "xr.DataArray") -> bool:
+    """Whether the numbers of cycles mean the same at all places: those of Datasets that were joined do not."""
+    return "cycle" in ds and "cycle_label" in ds and ds["cycle"].dims == ds["label"].dims and not (
+        set(ds["cycle_label"].dims) & set(label.dims)
+    )
 
 
 def _variant(colour: str, k: int) -> tuple[float, float, float]:

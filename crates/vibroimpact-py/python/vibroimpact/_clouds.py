@@ -5,14 +5,14 @@ seen. What does not repeat itself has small dots in both.
 """
 
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from vibroimpact._core import QuestionError
-from vibroimpact._figure import ARRIVAL, SYMBOLS, Scale, legend, new_axes, title
+from vibroimpact._figure import ARRIVAL, SYMBOLS, legend, new_axes, span
 from vibroimpact._palette import SERIES
-from vibroimpact._plan import oscillator
+from vibroimpact._stated import along, symbol, title
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,41 +22,71 @@ _ORDINATES = {"velocity": ARRIVAL, "impact_phase": r"phase $\theta$", "x": r"$\x
 
 
 def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
-    """Points of all sweeps."""
-    plan = json.loads(ds.attrs["plan"])
-    task = plan["task"]["diagram"]
-    vary, which = task["vary"], which or ("velocity" if "velocity" in ds else "x")
-    if which not in ds or which not in _ORDINATES:
-        drawn = [name for name in _ORDINATES if name in ds]
+    """Points of all sweeps; the coordinates, not the plan, say over what."""
+    drawn = [name for name in _ORDINATES if name in ds.data_vars]
+    which = which or drawn[0]
+    if which not in drawn:
         raise QuestionError(f"`{which}` is no variable of this diagram; there are {', '.join(drawn)}")
+    task = json.loads(ds.attrs["plan"])["task"]["diagram"] if "plan" in ds.attrs else {}
+    ds, vary, rows = _spread(ds, which, task)
     ax = new_axes(ax, (9.0, 4.6))
     size = float(np.clip(430.0 / ds.sizes[vary], 1.2, 3.0))
-    rows = "sweep" if "sweep" in ds.dims else "start"
-    ways = ds["sweep"].values.tolist() if rows == "sweep" else []
-    xs = np.broadcast_to(ds[vary].values[:, None], (ds.sizes[vary], ds.sizes["point"]))
+    values = along(ds, vary)
+    ways = ds["sweep"].values.tolist() if rows == "sweep" and "sweep" in ds.coords else []
+    keep = min(ds.sizes["point"], task.get("keep", ds.sizes["point"]))
+    xs = np.broadcast_to(values[:, None], (len(values), ds.sizes["point"]))
     for k in range(ds.sizes[rows]):
-        one = ds.isel({rows: k})
-        ys = one[which].transpose(vary, "point").values
+        ys = ds[which].isel({rows: k}).transpose(vary, "point").values
         falling = bool(ways) and ways[k] < 0
         colour = SERIES[1] if falling else SERIES[0]
         # small dots of the other sweep lie on the large ones of a motion that repeats itself
         kept = np.isfinite(ys).sum(axis=1)
-        repeats = (kept < task["keep"]) | (kept == 1)
+        repeats = (kept < keep) | (kept == 1)
         large = repeats if len(ways) == 2 and not falling else np.zeros_like(repeats)
         for at, of in ((large, 1.9 * size), (~large, size)):
             ax.plot(xs[at].ravel(), ys[at].ravel(), "o", color=colour, markersize=of, markeredgewidth=0,
                     rasterized=xs.size > 50_000)
+        word = f"{symbol(vary)} {'falling' if falling else 'rising'}" if ways else _starts(ds.sizes[rows])
         if ways or k == 0:
-            word = "falling" if falling else "rising"
-            label = f"${SYMBOLS[vary]}$ {word}" if ways else f"{ds.sizes[rows]} starts at each value"
-            ax.plot([], [], "o", color=colour, markersize=4, label=label)
-    osc = oscillator(plan)
-    also = tuple(task["also"].values()) if "also" in task else None
-    values = ds[vary].values
-    if task["over"].endswith(":log"):
+            ax.plot([], [], "o", color=colour, markersize=4, label=word)
+    if str(task.get("over", "")).endswith(":log") and values.min() > 0:
         ax.set_xscale("log")
-    ax.set_xlabel(Scale(osc, False).line(vary, (values[0], values[-1]), also))
+    # what goes with the parameter along a line, from the left end to the right one
+    beside = [name for name in SYMBOLS if name in ds.coords and ds[name].dims == (vary,) and name != vary]
+    ends = np.argsort(values)[[0, -1]]
+    with_ = (span(symbol(name), *ds[name].values[ends]) for name in beside)
+    ax.set_xlabel(", with ".join([symbol(vary), *with_]))
     ax.set_ylabel(_ORDINATES[which])
-    ax.set_title(title(osc, (vary, *(also or ())[:1])))
+    ax.set_title(title(ds, (vary, *beside)))
     legend(ax)
     return ax
+
+
+def is_diagram(ds: "xr.Dataset") -> bool:
+    """Whether a Dataset is that of an orbit diagram, or a part of it."""
+    return "kind" in ds.data_vars and any(name in ds.data_vars for name in _ORDINATES)
+
+
+def _spread(ds: "xr.Dataset", which: str, task: dict[str, Any]) -> tuple["xr.Dataset", str, str]:
+    """With all three dimensions of a diagram, those restored of which one value was taken; the parameter, and sweeps or starts."""
+    rows = "start" if "start" in ds.dims or isinstance(task.get("direction"), dict) else "sweep"
+    others = [str(name) for name in ds[which].dims if name not in ("sweep", "start", "point")]
+    vary = others[0] if others else str(task.get("vary", ""))
+    if not others:
+        if vary not in ds.coords:
+            raise QuestionError("this diagram has no parameter to draw it over\nhint: ds.isel(...) without drop=True keeps its value")
+        ds = ds.expand_dims(vary)
+    for name in (rows, "point"):
+        if name not in ds[which].dims:
+            ds = ds.expand_dims(name)
+    if len(ds[which].dims) != 3:
+        names = ", ".join(map(str, ds[which].dims))
+        raise QuestionError(
+            f"a diagram is drawn over {rows}, a parameter and point, and the dimensions are {names}\n"
+            "hint: ds.isel(...) takes one value of a dimension"
+        )
+    return ds, vary, rows
+
+
+def _starts(count: int) -> str:
+    return "one start at each value" if count == 1 else f"{count} starts at each value"

@@ -11,6 +11,7 @@ from vibroimpact import _core
 from vibroimpact._axis import Interval, plane
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import Cycles, pairs
+from vibroimpact._whole import NUMBER, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -148,6 +149,7 @@ def curve(
     [('resonant grazing', 0.333333), ('end of box', 5.0)]
     """
     first, second = plane(over)
+    orbit, event = maybe("orbit", orbit, NUMBER), maybe("event", event, NUMBER)
     found = _core.curve(osc, label, kind, first, second, orbit, event)
     values = found["values"]
     return Curve(

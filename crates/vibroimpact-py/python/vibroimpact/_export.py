@@ -27,6 +27,8 @@ def export(store: str | PathLike[str], path: str | PathLike[str], form: str) -> 
     writers: dict[str, Callable[[xr.Dataset, Path], None]] = {"netcdf": _netcdf, "parquet": _parquet, "csv": _csv}
     if form not in writers:
         raise _core.QuestionError(f"format = `{form}` is none of {', '.join(writers)}")
+    if fspath(path) == "-":
+        raise _core.QuestionError("a store is not exported to stdout here\nhint: `vibro export STORE --csv -` prints the table")
     ds = _store.open(store)
     place = Path(fspath(path))
     if not place.parent.is_dir():
@@ -45,7 +47,7 @@ def _netcdf(ds: "xr.Dataset", path: Path) -> None:
     if engine is None:
         raise ImportError(
             "writing NetCDF needs netCDF4, h5netcdf or scipy, and none of them is installed\n"
-            "hint: pip install 'vibroimpact[export]', or pip install netCDF4"
+            "hint: pip install netCDF4, or pip install h5netcdf h5py"
         )
     # chunks and compressors are those of Zarr, and no other format knows them
     ds = ds.drop_encoding()
@@ -113,7 +115,7 @@ def _parquet(ds: "xr.Dataset", path: Path) -> None:
     if not find_spec("pyarrow"):
         raise ImportError(
             "writing Parquet needs pyarrow, which is not installed\n"
-            "hint: pip install 'vibroimpact[export]', or pip install pyarrow"
+            "hint: pip install pyarrow"
         )
     import pyarrow as pa
     import pyarrow.parquet as pq

@@ -83,6 +83,16 @@ def legend(ax: "Axes", handles: "list[Patch] | None" = None) -> None:
         ax.legend(handles=of, loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, borderaxespad=0.0)
 
 
+def equal(symbol: str, value: float) -> str:
+    """A parameter and its value."""
+    return rf"{symbol} $= {_number(value)}$" if not symbol.endswith("$") else f"{symbol[:-1]} = {_number(value)}$"
+
+
+def span(symbol: str, low: float, high: float) -> str:
+    """A parameter that has several values."""
+    return f"{symbol} from {low:.6g} to {high:.6g}"
+
+
 def _number(value: float) -> str:
     text = f"{value:.6g}"
     mantissa, e, exponent = text.partition("e")
@@ -101,7 +111,7 @@ def title(osc: Oscillator, without: tuple[str, ...] = ()) -> str:
             values["second_restitution"] = osc.second_restitution
     if {"beta", "inverse_beta"} & set(without):
         del values[given]
-    shown = (f"${SYMBOLS[name]} = {_number(value)}$" for name, value in values.items() if name not in without)
+    shown = (equal(f"${SYMBOLS[name]}$", value) for name, value in values.items() if name not in without)
     return ", ".join(shown)
 
 

@@ -8,17 +8,29 @@ import numpy as np
 
 from vibroimpact import _core
 from vibroimpact._axis import Axis, Interval
-from vibroimpact._core import Oscillator
+from vibroimpact._core import Oscillator, Units
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
+from vibroimpact._whole import THREADS, whole
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
 
+def bare(osc: Oscillator, store: str | PathLike[str] | None) -> Oscillator:
+    """The oscillator without the units of a machine, which plans do not have; a store has no place for them either."""
+    if osc.units is not None and store is not None:
+        raise _core.QuestionError(
+            "a store keeps no units of a machine\n"
+            "hint: osc.replace(units=None) fills a nondimensional one, and ds.vibro.si(osc.units) converts what is read from it"
+        )
+    return osc.replace(units=None)
+
+
 def computed(
     plan: Plan,
+    units: Units | None,
     store: str | PathLike[str] | None,
     client: "Client | None",
     threads: int,
@@ -27,13 +39,14 @@ def computed(
     """The Dataset of a plan: in memory, or through a store, by threads here or by the workers of a client."""
     from vibroimpact import _store
 
+    threads = whole("threads", threads, THREADS)
     if store is None:
         if client is not None:
             raise _core.QuestionError(
                 "a client needs a store\nhint: store=..., a place that all workers reach; results do not travel"
             )
         with watched(progress, "points") as tell:
-            return _dataset(plan, *_core.fill(plan.json, threads, tell))
+            return _dataset(plan, units, *_core.fill(plan.json, threads, tell))
     # what is to be read in the end has to be readable before hours are spent
     _store.need_readers(fspath(store))
     if client is None:
@@ -45,10 +58,13 @@ def computed(
     return _store.open(store)
 
 
-def _dataset(plan: Plan, coordinates: list[dict[str, Any]], variables: list[dict[str, Any]]) -> "xr.Dataset":
+def _dataset(
+    plan: Plan, units: Units | None, coordinates: list[dict[str, Any]], variables: list[dict[str, Any]]
+) -> "xr.Dataset":
     import xarray as xr
 
-    from vibroimpact import _accessor  # noqa: F401  registers ds.vibro
+    from vibroimpact import _accessor, _si  # the former registers ds.vibro
+    from vibroimpact._stated import with_fixed
 
     def variable(of: dict[str, Any]) -> tuple[list[str], Any, dict[str, Any]]:
         attributes: dict[str, Any] = {"long_name": of["long_name"], "units": of["units"]}
@@ -62,7 +78,7 @@ def _dataset(plan: Plan, coordinates: list[dict[str, Any]], variables: list[dict
         array = np.array(values, dtype=object) if isinstance(values, list) else values.reshape(shape)
         return [name for name, _ in of["dimensions"]], array, attributes
 
-    return xr.Dataset(
+    ds = xr.Dataset(
         {of["name"]: variable(of) for of in variables},
         {of["name"]: variable(of) for of in coordinates},
         {
@@ -71,8 +87,10 @@ def _dataset(plan: Plan, coordinates: list[dict[str, Any]], variables: list[dict
             "source": f"vibroimpact {_core.__version__}",
             "plan": plan.json,
             "plan_hash": plan.hash,
+            **_si.attributes(units),
         },
     )
+    return with_fixed(ds)
 
 
 def basin(
@@ -95,11 +113,12 @@ def basin(
     Parameters
     ----------
     osc : Oscillator
-        The system.
+        The system. Of a machine in physical units the starts and the Dataset are nondimensional all the same, its units
+        are kept in the attributes, and `ds.vibro.si()` converts; a store does not take one.
     over : mapping
         Parameters that vary besides the start, with their values; one of the start is needed too.
-    x, v, phase : float, str, tuple or array
-        Position, velocity and phase of the starts: a number for all, or values: "-4:0.75:200", (-4, 0.75, 200), an array.
+    x, v, phase : float, str or array
+        Position, velocity and phase of the starts: a number for all, or values: "-4:0.75:200" for 200 of them, or an array.
         The first of them that varies is drawn to the right, the second upwards.
     refine : int
         Compute every so many-th point first, and those between only where neighbours differ.
@@ -124,7 +143,7 @@ def basin(
     Examples
     --------
     >>> from vibroimpact import Oscillator, basin
-    >>> ds = basin(Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), x="-4:0.75:40", v=(-4, 4, 30))
+    >>> ds = basin(Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), x="-4:0.75:40", v="-4:4:30")
     >>> dict(ds.sizes)["x"], sorted(set(ds.vibro.labels().values.ravel().tolist()))
     (40, ['1/1', '2/1'])
     """
@@ -135,7 +154,7 @@ def basin(
         else:
             axes[name] = of
     plan = Plan.basin(
-        osc,
+        bare(osc, store),
         {**axes, **(over or {})},
         x=fixed.get("x"),
         v=fixed.get("v") or 0.0,
@@ -143,7 +162,7 @@ def basin(
         refine=refine, impacts=impacts,
         tile=tile,
     )
-    return computed(plan, store, client, threads, progress)
+    return computed(plan, osc.units, store, client, threads, progress)
 
 
 def region_map(
@@ -165,10 +184,10 @@ def region_map(
     Parameters
     ----------
     osc : Oscillator
-        The system; its values of what varies count for nothing.
+        The system; its values of what varies count for nothing. A machine in physical units as for `basin`.
     over : mapping
         One to four parameters with their values, the first drawn to the right:
-        {"inverse_beta": "0.4:2:33", "gap": (0, 5, 41)}.
+        {"inverse_beta": "0.4:2:33", "gap": [0, 1, 2.5]}.
     starts : int
         Starts at each point: at rest, on the free motion, the others scattered.
     seed : int
@@ -193,8 +212,8 @@ def region_map(
     >>> ds.vibro.labels().sel(inverse_beta=1.3, gap=0.75, motion=0).item()
     '2/1'
     """
-    plan = Plan.map(osc, over, starts=starts, seed=seed, refine=refine, impacts=impacts, tile=tile)
-    return computed(plan, store, client, threads, progress)
+    plan = Plan.map(bare(osc, store), over, starts=starts, seed=seed, refine=refine, impacts=impacts, tile=tile)
+    return computed(plan, osc.units, store, client, threads, progress)
 
 
 def orbit_diagram(
@@ -222,11 +241,11 @@ def orbit_diagram(
     Parameters
     ----------
     osc : Oscillator
-        The system; its value of what varies counts for nothing.
+        The system; its value of what varies counts for nothing. A machine in physical units as for `basin`.
     vary : str
         "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution".
-    over : str, tuple or array
-        Its values: "0:3:601", (0, 3, 601), or an evenly spaced array.
+    over : str or array
+        Its values: "0:3:601" for 601 of them, or an evenly spaced array.
     also : dict
         A second parameter that varies with it in proportion, with its values at the first and the last of these:
         {"gap": (0.5, 1.5)}. It becomes a second coordinate along the same dimension.
@@ -256,7 +275,7 @@ def orbit_diagram(
     2
     """
     plan = Plan.diagram(
-        osc,
+        bare(osc, store),
         vary,
         over,
         also=also,
@@ -267,4 +286,4 @@ def orbit_diagram(
         transient=transient,
         keep=keep,
     )
-    return computed(plan, store, client, threads, progress)
+    return computed(plan, osc.units, store, client, threads, progress)

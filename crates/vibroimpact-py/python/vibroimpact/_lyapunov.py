@@ -10,6 +10,7 @@ from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import finite
 from vibroimpact._motion import Motion, fields_of, horizon_object
+from vibroimpact._whole import MEASURED, SECTION, TRANSIENT, maybe, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -157,7 +158,8 @@ def lyapunov(
     >>> abs(found.sum.value - found.identity) < 1e-9
     True
     """
-    fields = _core.lyapunov(osc, (x, v, phase), impacts, transient, points)
+    impacts, transient = whole("impacts", impacts, MEASURED), whole("transient", transient, TRANSIENT)
+    fields = _core.lyapunov(osc, (x, v, phase), impacts, transient, maybe("points", points, SECTION))
 
     def measured(name: str) -> Measured | None:
         return None if fields[name] is None else Measured(*fields[name])

@@ -46,6 +46,11 @@ class Motion:
         What the cycle misses by after one turn.
     lyapunov : (float, float) or None
         The larger exponent per unit of time and its error, of a chaotic motion.
+    seen_impacts : int or None
+        Of a chaotic motion: impacts over which neither a cycle nor a second rest on a stop nor fading impacts were found. Chaos may be
+        a transient that lasts longer.
+    chaotic_transient : (int, (float, float)) or None
+        Chaos that was seen before the motion settled: the impact at which it had ended, and the exponent with its error.
     horizon : dict or None
         On what grounds there are no more impacts, and for how many periods (None: for ever).
     side : str or None
@@ -75,6 +80,8 @@ class Motion:
     rests: list[dict[str, Any]]
     residual: float | None
     lyapunov: tuple[float, float] | None
+    seen_impacts: int | None
+    chaotic_transient: tuple[int, tuple[float, float]] | None
     horizon: dict[str, Any] | None
     side: str | None
     tried: dict[str, Any] | None
@@ -113,6 +120,11 @@ class Motion:
             fields |= {"release": last["release"], "rests": self.rests}
         if self.lyapunov is not None:
             fields["lyapunov"] = _estimate(self.lyapunov)
+        if self.seen_impacts is not None:
+            fields["seen_impacts"] = self.seen_impacts
+        if self.chaotic_transient is not None:
+            impacts, exponent = self.chaotic_transient
+            fields["chaotic_transient"] = {"impacts": impacts, "lyapunov": _estimate(exponent)}
         if self.horizon is not None:
             fields["horizon"] = horizon_object(self.horizon)
         if self.residual is not None:

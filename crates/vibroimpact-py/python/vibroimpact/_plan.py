@@ -10,6 +10,7 @@ from typing import Any
 from vibroimpact import _core
 from vibroimpact._axis import Axis, Interval, axes, beside, interval, span
 from vibroimpact._core import Oscillator
+from vibroimpact._whole import BUDGET, KEEP, MEASURED, REFINE, SEED, STARTS, TILE, TRANSIENT, maybe, whole
 
 #: Version of the fields of a plan.
 _VERSION = 1
@@ -83,7 +84,13 @@ class Plan:
         tile: int | None = None,
     ) -> "Plan":
         """Which motions there are at each point of a plane of parameters; the arguments are those of `region_map`."""
-        task = {"axes": axes(over), "starts": starts, "seed": seed, "refine": refine, "impacts": impacts}
+        task = {
+            "axes": axes(over),
+            "starts": whole("starts", starts, STARTS),
+            "seed": whole("seed", seed, SEED),
+            "refine": maybe("refine", refine, REFINE),
+            "impacts": maybe("impacts", impacts, BUDGET),
+        }
         return cls._of(osc, "map", task, tile)
 
     @classmethod
@@ -100,7 +107,12 @@ class Plan:
         tile: int | None = None,
     ) -> "Plan":
         """Which motion each start leads to, over "x", "v", "phase" and parameters; what is on no axis is as given."""
-        task = {"axes": axes(over), "start": _start(x, v, phase), "refine": refine, "impacts": impacts}
+        task = {
+            "axes": axes(over),
+            "start": _start(x, v, phase),
+            "refine": maybe("refine", refine, REFINE),
+            "impacts": maybe("impacts", impacts, BUDGET),
+        }
         return cls._of(osc, "basin", task, tile)
 
     @classmethod
@@ -124,7 +136,8 @@ class Plan:
         _known("direction", direction, ("up", "down", "both", "scatter"))
         way: object = direction
         if direction == "scatter":
-            way = {"scatter": {"starts": 8 if starts is None else starts, "seed": 1 if seed is None else seed}}
+            starts, seed = 8 if starts is None else starts, 1 if seed is None else seed
+            way = {"scatter": {"starts": whole("starts", starts, STARTS), "seed": whole("seed", seed, SEED)}}
         elif starts is not None or seed is not None:
             raise _core.QuestionError('starts and seed belong to direction="scatter"')
         second = beside(also)
@@ -135,8 +148,8 @@ class Plan:
             **line,
             "show": show,
             "direction": way,
-            "transient": transient,
-            "keep": keep,
+            "transient": whole("transient", transient, TRANSIENT),
+            "keep": whole("keep", keep, KEEP),
         }
         return cls._of(osc, "diagram", task, tile)
 
@@ -154,20 +167,31 @@ class Plan:
         tile: int | None = None,
     ) -> "Plan":
         """Lyapunov exponents over parameters and coordinates of the start."""
-        task = {"axes": axes(over), "start": _start(x, v, phase), "impacts": impacts, "transient": transient}
+        task = {
+            "axes": axes(over),
+            "start": _start(x, v, phase),
+            "impacts": whole("impacts", impacts, MEASURED),
+            "transient": whole("transient", transient, TRANSIENT),
+        }
         return cls._of(osc, "lyapunov", task, tile)
 
     @classmethod
     def attractors(cls, osc: Oscillator, starts: int, *, seed: int = 1, tile: int | None = None) -> "Plan":
         """Which motion each of many scattered starts leads to."""
-        return cls._of(osc, "attractors", {"starts": starts, "seed": seed}, tile)
+        task = {"starts": whole("starts", starts, STARTS), "seed": whole("seed", seed, SEED)}
+        return cls._of(osc, "attractors", task, tile)
 
     @classmethod
     def _of(cls, osc: Oscillator, name: str, task: dict[str, Any], tile: int | None) -> "Plan":
+        if osc.units is not None:
+            raise _core.QuestionError(
+                "a plan is nondimensional and keeps no units of a machine\n"
+                "hint: osc.replace(units=None); ds.vibro.si(osc.units) converts its Dataset"
+            )
         given = {key: value for key, value in task.items() if value is not None}
         plan: dict[str, Any] = {"version": _VERSION, "system": json.loads(_core.system_fields(osc)), "task": {name: given}}
         if tile is not None:
-            plan["tile"] = tile
+            plan["tile"] = whole("tile", tile, TILE)
         return cls(json.dumps(plan))
 
 

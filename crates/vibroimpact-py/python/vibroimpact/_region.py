@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact import _core
 from vibroimpact._axis import Interval, numbers, plane
 from vibroimpact._core import Oscillator
+from vibroimpact._whole import GRID, THREADS, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -152,6 +153,7 @@ def region(
     True
     """
     first, second = plane(over)
+    grid, threads = whole("grid", grid, GRID), whole("threads", threads, THREADS)
     existence, stability, plan = _core.region(osc, label, first, second, grid, threads)
     parts = [
         Part([Polygon(v, b, hole, "below" if below else "above") for v, b, hole, below in polygons], unresolved)

@@ -11,6 +11,7 @@ from vibroimpact._axis import numbers
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, fields_of
 from vibroimpact._progress import Progress, watched
+from vibroimpact._whole import THREADS, whole
 
 
 def settle(osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: float = 0.0) -> Motion:
@@ -110,6 +111,7 @@ def settle_many(
     ]
     if size > 0 and all(column.size == 1 for column in flat):
         flat[0] = np.ascontiguousarray(np.broadcast_to(flat[0], (size,)))
+    threads = whole("threads", threads, THREADS)
     with watched(progress, "starts") as tell:
         found, cells = _core.settle_many(osc, flat[0], flat[1], flat[2], threads, tell)
     motions = [

@@ -6,9 +6,10 @@ from importlib.util import find_spec
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from vibroimpact import _core
+from vibroimpact import _core, _whole
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
+from vibroimpact._whole import COUNT, SEED, THREADS, whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,6 +44,8 @@ class Status:
     seconds_left: float | None
     #: Numbers of the tiles that are not done, up to a thousand.
     missing: list[int]
+    #: Tiles that are not done and not among these.
+    missing_left_out: int
     #: Bytes of the store.
     bytes: int
 
@@ -57,8 +60,8 @@ class Verified:
     recomputed: int
     #: Tiles that are not done.
     open: int
-    #: Number of a tile and what is wrong with it.
-    damage: list[tuple[int, str]]
+    #: Number of a tile, None for what belongs to the whole store, and what is wrong with it.
+    damage: list[tuple[int | None, str]]
 
     @property
     def whole(self) -> bool:
@@ -105,6 +108,7 @@ def run(
     >>> ran.computed, whole, sorted(labels)
     (9, True, ['1/1', '2/1'])
     """
+    part, threads = _whole.part(part), whole("threads", threads, THREADS)
     with watched(progress, "points") as tell:
         return Ran(*_core.Store(fspath(store), plan.json).run(part, threads, tell))
 
@@ -121,6 +125,7 @@ def resume(store: str | PathLike[str], *, threads: int = 0, progress: Progress =
     vibroimpact.StoreError: there is no store at no/such/place
     hint: `vibro run PLAN --store no/such/place` begins one
     """
+    threads = whole("threads", threads, THREADS)
     with watched(progress, "points") as tell:
         return Ran(*_core.Store(fspath(store)).run((1, 1), threads, tell))
 
@@ -145,7 +150,9 @@ def status(store: str | PathLike[str]) -> Status:
 def verify(
     store: str | PathLike[str], *, sample: int = 4, seed: int = 1, threads: int = 0, progress: Progress = None
 ) -> Verified:
-    """Read the check sums of all tiles, compute a sample of them again and compare the bytes; changes nothing.
+    """Compare all that describes a store with its plan, read the check sums of all tiles, and compute a sample of them again.
+
+    Nothing is changed; `resume` writes anew what is damaged.
 
     Parameters
     ----------
@@ -169,6 +176,8 @@ def verify(
     >>> found.checked, found.recomputed, found.damage
     (3, 2, [])
     """
+    sample, seed = whole("sample", sample, COUNT), whole("seed", seed, SEED)
+    threads = whole("threads", threads, THREADS)
     with watched(progress, "points") as tell:
         return Verified(**_core.Store(fspath(store)).verify(sample, seed, threads, tell))
 
@@ -176,7 +185,9 @@ def verify(
 def open(store: str | PathLike[str]) -> "xr.Dataset":
     """The Dataset of a store, read from it when it is looked at; `ds.vibro` draws it.
 
-    xarray opens a store without help too: `xarray.open_zarr(store)`. One in a bucket is read by s3fs.
+    Parameters that vary over none of its axes are scalar coordinates, so that they stay with the data where Datasets are joined.
+    xarray opens a store without help too: `xarray.open_zarr(store)`, but without these; they are then in the attribute `plan` only,
+    and figures do not state them. One in a bucket is read by s3fs.
 
     Examples
     --------
@@ -192,12 +203,13 @@ def open(store: str | PathLike[str]) -> "xr.Dataset":
     import xarray as xr
 
     from vibroimpact import _accessor  # noqa: F401  registers ds.vibro
+    from vibroimpact._stated import with_fixed
 
     place = fspath(store)
     _core.Store(place)
     need_readers(place)
     ds: xr.Dataset = xr.open_zarr(place, storage_options=_bucket() if place.startswith("s3://") else None)
-    return ds
+    return with_fixed(ds)
 
 
 def _bucket() -> dict[str, Any]:

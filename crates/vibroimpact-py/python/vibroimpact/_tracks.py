@@ -67,7 +67,8 @@ def _behind(branch: "Branch", ax: "Axes", unit: float, speed: float) -> None:
     from vibroimpact._grid import orbit_diagram
 
     also = {branch.also[0]: branch.also[1:]} if branch.also else None
-    ds = orbit_diagram(branch.osc, branch.vary, (*branch.ends, _VALUES), also=also)
+    first, last = map(float, branch.ends)
+    ds = orbit_diagram(branch.osc, branch.vary, f"{first!r}:{last!r}:{_VALUES}", also=also)
     for k in range(ds.sizes["sweep"]):
         one = ds.isel(sweep=k)
         xs = np.broadcast_to(one[branch.vary].values[:, None], one["velocity"].shape)

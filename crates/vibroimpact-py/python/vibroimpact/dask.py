@@ -23,6 +23,7 @@ from vibroimpact import _core
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
 from vibroimpact._store import Ran
+from vibroimpact._whole import COUNT, whole
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -65,6 +66,7 @@ def run(
     """
     from distributed import as_completed
 
+    retries = whole("retries", retries, COUNT)
     place = fspath(store)
     here = _core.Store(place, plan.json)
     computed = 0

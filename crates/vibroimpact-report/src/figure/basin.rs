@@ -4,7 +4,7 @@ use crate::figure::plane::Plane;
 use crate::figure::{title, variant};
 use crate::{Asked, ReportError};
 use vibroimpact_plot::{ClassStyle, Colour, Figure, Legend, Panel, Raster, Rects, class_style, legend_group};
-use vibroimpact_study::Basin;
+use vibroimpact_study::{Basin, counted};
 
 /// Motions with an entry of their own in the legend.
 const NAMED: usize = 12;
@@ -53,7 +53,7 @@ pub fn draw(plane: &Plane, motions: &[Motion], cells: Vec<u16>, title: String) -
         legend = legend.patch(ClassStyle::plain(colours[m]), format!("{name}, {share}"));
     }
     if motions.len() > NAMED {
-        let rest = format!("{} others", motions.len() - NAMED);
+        let rest = counted((motions.len() - NAMED) as u64, "other");
         legend = legend.patch(ClassStyle::plain(Colour::hex(0x9a_9a9a)), rest);
     }
     let panel = Panel::new(plane.x.axis(), plane.y.axis());

@@ -1,15 +1,15 @@
-//! The bifurcation diagram: impact velocities of orbits over the parameter, stable solid and unstable dashed, with the
-//! events, over what simulation finds.
+//! The bifurcation diagram: impact velocities of orbits over the parameter, or their positions at phase 0, stable solid and unstable
+//! dashed, with the events, over what simulation finds.
 
-use crate::figure::diagram::backdrop;
-use crate::figure::tracks::{Curves, Look, velocities};
+use crate::figure::diagram::{backdrop, ordinate};
+use crate::figure::tracks::{Curves, Followed as What, Look, curves};
 use crate::figure::{along, label, title_without, variant};
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
 use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
-use vibroimpact_study::diagram::Diagram;
-use vibroimpact_study::{Cut, Followed, Span};
+use vibroimpact_study::diagram::{Diagram, Show};
+use vibroimpact_study::{Cut, Followed, Span, counted};
 
 /// What simulation finds.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -26,7 +26,7 @@ const NAMED: usize = 12;
 const OTHERS: Colour = Colour::hex(0x50_5050);
 
 /// The figure of `vibro branch`: branches along a line, with simulation behind, and with solutions that are
-/// no motions where they are asked for.
+/// no motions where they are asked for. What the simulation shows is what is shown of the branches, impact velocities without one.
 ///
 /// # Errors
 /// [`ReportError::Plan`] where the values of the parameter leave the range of numbers in these units.
@@ -37,11 +37,17 @@ pub fn figure(
     show_virtual: bool,
     asked: &Asked,
 ) -> Result<Figure, ReportError> {
-    let (unit, speed) = (asked.units.of(cut.vary), asked.units.velocity());
+    let show = behind.map_or(Show::Velocity, |diagram| diagram.plan.show);
+    let oscillator = |value: f64| cut.oscillator(&asked.system, value).ok();
+    let (what, size) = match show {
+        Show::Velocity => (What::Velocity, asked.units.velocity()),
+        Show::Strobe => (What::Position(&oscillator), asked.units.length()),
+    };
+    let unit = asked.units.of(cut.vary);
     let (from, to) = cut.ends;
     let mut panel = Panel::new(
         Axis::new(along(cut, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
-        Axis::new(asked.units.named("arrival velocity *u*_−", "m/s")),
+        ordinate(show, asked),
     );
     let mut legend = Legend::below();
     if let Some(diagram) = behind {
@@ -51,7 +57,7 @@ pub fn figure(
             panel.add(dots);
         }
     }
-    let curves: Vec<Curves> = followed.iter().map(|branch| velocities(&branch.points)).collect();
+    let curves: Vec<Curves> = followed.iter().map(|branch| curves(&branch.points, what)).collect();
     let colours = colours(followed);
     let mut looks: Vec<Look> = Vec::new();
     for ((label, look), (xs, ys)) in curves.into_iter().flatten() {
@@ -63,7 +69,7 @@ pub fn figure(
         }
         let colour = colours.iter().find(|(name, _)| *name == label).map_or(Colour::BLACK, |(_, colour)| *colour);
         let xs: Vec<f64> = xs.into_iter().map(|x| x * unit).collect();
-        let ys: Vec<f64> = ys.into_iter().map(|y| y * speed).collect();
+        let ys: Vec<f64> = ys.into_iter().map(|y| y * size).collect();
         let (width, dash) = pen(look);
         panel.add(Line::new(xs, ys, colour).width(width).dash(dash));
     }
@@ -71,7 +77,7 @@ pub fn figure(
         legend = legend.line(Stroke::new(*colour).width(WIDTH), label(name));
     }
     if colours.len() > NAMED {
-        legend = legend.line(Stroke::new(OTHERS).width(WIDTH), format!("{} others", colours.len() - NAMED));
+        legend = legend.line(Stroke::new(OTHERS).width(WIDTH), counted((colours.len() - NAMED) as u64, "other"));
     }
     looks.sort_unstable();
     for look in looks {
@@ -83,7 +89,7 @@ pub fn figure(
         let (width, dash) = pen(look);
         legend = legend.line(Stroke::new(Colour::BLACK).width(width).dash(dash), name);
     }
-    for (kind, points) in marks(followed, show_virtual, unit, speed) {
+    for (kind, points) in marks(followed, show_virtual, what, (unit, size)) {
         legend = legend.points(&points, kind);
         panel.add(points);
     }
@@ -121,38 +127,44 @@ fn colours(followed: &[Followed]) -> Vec<(String, Colour)> {
 }
 
 /// The marks of events by kind.
-fn marks(followed: &[Followed], show_virtual: bool, unit: f64, speed: f64) -> BTreeMap<&'static str, Points> {
+fn marks(
+    followed: &[Followed],
+    show_virtual: bool,
+    what: What<'_>,
+    (unit, size): (f64, f64),
+) -> BTreeMap<&'static str, Points> {
     let mut places: BTreeMap<&'static str, (Shape, Vec<f64>, Vec<f64>)> = BTreeMap::new();
     for point in followed.iter().flat_map(|branch| &branch.points) {
-        let Some((shape, velocities)) = point.event.and_then(|event| mark(point, &event)) else { continue };
+        let Some((shape, ordinates)) = point.event.and_then(|event| mark(point, &event, what)) else { continue };
         if !point.physical && !show_virtual {
             continue;
         }
         let kind = point.event.map_or("", |event| event.name());
         let (_, xs, ys) = places.entry(kind).or_insert((shape, Vec::new(), Vec::new()));
-        xs.extend(velocities.iter().map(|_| point.value * unit));
-        ys.extend(velocities.iter().map(|velocity| velocity * speed));
+        xs.extend(ordinates.iter().map(|_| point.value * unit));
+        ys.extend(ordinates.iter().map(|ordinate| ordinate * size));
     }
     let count: usize = places.values().map(|(_, xs, _)| xs.len()).sum();
-    let size = if count > MANY { SMALL_MARK } else { MARK };
+    let wide = if count > MANY { SMALL_MARK } else { MARK };
     let style = |(shape, xs, ys): (Shape, Vec<f64>, Vec<f64>)| {
-        Points::new(xs, ys, Colour::WHITE).shape(shape).size(size).rim(Colour::BLACK)
+        Points::new(xs, ys, Colour::WHITE).shape(shape).size(wide).rim(Colour::BLACK)
     };
     places.into_iter().map(|(kind, place)| (kind, style(place))).collect()
 }
 
-/// The form of an event's mark, and the velocities it stands at: those of all impacts, or zero where one comes or goes.
-fn mark(point: &Point, event: &BranchEvent) -> Option<(Shape, Vec<f64>)> {
-    let all = || point.cycle.points.iter().map(|p| p.state.velocity).collect();
+/// The form of an event's mark, and where it stands: at all impacts or states, or at velocity zero where an impact comes or goes.
+fn mark(point: &Point, event: &BranchEvent, what: What<'_>) -> Option<(Shape, Vec<f64>)> {
+    let all = || what.ordinates(point);
+    let none = || if matches!(what, What::Velocity) { vec![0.0] } else { all() };
     Some(match event {
         BranchEvent::Fold => (Shape::Square, all()),
         BranchEvent::Flip => (Shape::Diamond, all()),
         BranchEvent::BranchPoint => (Shape::Circle, all()),
-        BranchEvent::Grazing { .. } => (Shape::TriangleUp, vec![0.0]),
-        BranchEvent::SoftLanding { .. } => (Shape::Plus, vec![0.0]),
-        BranchEvent::LossOfContact { .. } => (Shape::TriangleDown, vec![0.0]),
+        BranchEvent::Grazing { .. } => (Shape::TriangleUp, none()),
+        BranchEvent::SoftLanding { .. } => (Shape::Plus, none()),
+        BranchEvent::LossOfContact { .. } => (Shape::TriangleDown, none()),
         BranchEvent::EndOfRest { .. } | BranchEvent::RestForEver { .. } | BranchEvent::Chatter { .. } => {
-            (Shape::Cross, vec![0.0])
+            (Shape::Cross, none())
         }
         _ => return None,
     })

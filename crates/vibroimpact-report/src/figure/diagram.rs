@@ -8,8 +8,8 @@ use crate::units::shown_span;
 use crate::{Asked, ReportError};
 use std::collections::HashSet;
 use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Points, Raster, Rects, SERIES};
-use vibroimpact_study::Span;
 use vibroimpact_study::diagram::{Diagram, Direction, Point, Show, Step, Sweep};
+use vibroimpact_study::{Span, counted};
 
 /// Dots beyond which a picture of cells takes their place: a file of a few megabytes.
 const MOST_DOTS: usize = 50_000;
@@ -44,7 +44,7 @@ pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
     }
     let cut = found.plan.cut();
     let side = Side::new(along(&cut, &asked.units), &(*over).into())?;
-    let panel = Panel::new(side.axis(), ordinate(found, asked).range(range.0, range.1));
+    let panel = Panel::new(side.axis(), ordinate(found.plan.show, asked).range(range.0, range.1));
     let dots: usize = clouds.iter().map(|cloud| cloud.large.len() + cloud.small.len()).sum();
     let (panel, legend) =
         if dots > MOST_DOTS { as_cells(panel, &clouds, (over, &side), range)? } else { as_dots(panel, clouds, over) };
@@ -76,8 +76,9 @@ fn ordinate_of(point: &Point, asked: &Asked) -> f64 {
     }
 }
 
-fn ordinate(found: &Diagram, asked: &Asked) -> Axis {
-    Axis::new(match found.plan.show {
+/// The axis of what a diagram shows.
+pub(super) fn ordinate(show: Show, asked: &Asked) -> Axis {
+    Axis::new(match show {
         Show::Velocity => asked.units.named("arrival velocity *u*_−", "m/s"),
         Show::Strobe => asked.units.named("*ξ* at phase 0", "m"),
     })
@@ -92,7 +93,9 @@ fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
         Direction::Up => vec![rising()],
         Direction::Down => vec![falling()],
         Direction::Both => vec![rising(), falling()],
-        Direction::Scatter { starts, .. } => vec![cloud(format!("{starts} starts at each value"), SERIES[0])],
+        Direction::Scatter { starts, .. } => {
+            vec![cloud(format!("{} at each value", counted(starts, "start")), SERIES[0])]
+        }
     };
     let both = clouds.len() > 1;
     for step in &found.steps {

@@ -36,10 +36,14 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
     let stable = class_style(plan.label.trim()).colour;
     let mut legend = Legend::below();
     let name = label(plan.label.trim());
-    for (region, colour, what) in [(&found.existence, EXISTS, "exists, unstable"), (&found.stability, stable, "stable")]
-    {
+    let neutral = plan.neutral(&asked.system);
+    let exists = if neutral { "exists, neutrally stable" } else { "exists, unstable" };
+    for (region, colour, what) in [(&found.existence, EXISTS, exists), (&found.stability, stable, "stable")] {
         for area in areas(region) {
             panel.add(area.fill(colour));
+        }
+        if neutral && what == "stable" {
+            continue;
         }
         legend = legend.patch(ClassStyle::plain(colour), format!("{name} {what}"));
     }

@@ -21,8 +21,9 @@ const SMALL: f64 = 2.6;
 #[must_use]
 pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
     let units = &asked.units;
-    let mut above =
-        Panel::new(phases(found), Axis::new(units.named("arrival velocity *u*_−", "m/s"))).caption("impacts");
+    let speeds: Vec<f64> = found.impacts.iter().map(|impact| impact.velocity * units.velocity()).collect();
+    let ordinate = fitted(units.named("arrival velocity *u*_−", "m/s"), &speeds, units.velocity());
+    let mut above = Panel::new(phases(found), ordinate).caption("impacts");
     let second = osc.stop(Side::Lower);
     let of_second = |stop: Stop| {
         format!("second stop, *δ*_2 = {}, *ε*_2 = {}", short(stop.gap), short(stop.restitution)).replace('-', "−")
@@ -43,13 +44,30 @@ pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
     }
     let states = found.strobes.iter();
     let (xs, ys): (Vec<f64>, Vec<f64>) = states.map(|at| (at.x * units.length(), at.v * units.velocity())).unzip();
-    let below = Panel::new(Axis::new(units.named("*ξ*", "m")), Axis::new(units.named("velocity *u*", "m/s")))
+    let across = fitted(units.named("*ξ*", "m"), &xs, units.length());
+    let below = Panel::new(across, fitted(units.named("velocity *u*", "m/s"), &ys, units.velocity()))
         .caption("states at phase 0")
         .with(dots(xs, ys, Colour::BLACK));
     // the second stop stands in the legend: all on one line is too long for a column
     let title = title(&SystemPlan { second_stop: None, ..asked.system });
     let figure = Figure::grid(1, vec![above, below]).size(COLUMN, 860.0).title(title);
     if second.is_some() { figure.legend(legend) } else { figure }
+}
+
+/// Spreads below this fraction of the values, or of a unit of length or velocity, are rounding.
+const ROUNDING: f64 = 1e-6;
+
+/// An axis over these values. What is one value to rounding stands in the middle of a range of its own size, so that it is drawn as
+/// one point: an axis fitted to its last digits would show them as structure.
+fn fitted(name: String, values: &[f64], unit: f64) -> Axis {
+    let axis = Axis::new(name);
+    let (low, high) = extremes(values.iter().copied());
+    let size = low.abs().max(high.abs()).max(unit);
+    if high - low > ROUNDING * size || low > high {
+        return axis;
+    }
+    let middle = f64::midpoint(low, high);
+    axis.range(middle - 0.5 * size, middle + 0.5 * size)
 }
 
 /// The whole turn in parts of pi, or the part of it where all impacts are, if that is less than half of it but more than a point.
@@ -84,4 +102,34 @@ fn distinct(xs: &[f64], ys: &[f64]) -> usize {
     };
     let places: std::collections::HashSet<(i64, i64)> = cell(xs).into_iter().zip(cell(ys)).collect();
     places.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Units;
+    use vibroimpact::Start;
+    use vibroimpact::motion::ImpactState;
+
+    /// The states of 1/1 differ in their last digits: each panel shows one dot, on axes that show no digits of rounding.
+    #[test]
+    fn f10_rounding_is_no_structure() {
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let (asked, osc) = (Asked { system, units: Units::default() }, system.oscillator().unwrap());
+        for (x, v, velocity) in [(0.3, -1.2, 2.0), (0.0, 1e-17, 1e-9), (0.75, 0.0, 3.0)] {
+            let off = |k: u32| f64::from(k % 3) * 1e-15;
+            let strobes = (0..9).map(|k| Start { x: x + off(k), v: v + off(k + 1), phase: 0.0 }).collect();
+            let impact = |k| ImpactState { phase: 1.0 + off(k), velocity: velocity + off(k), side: Side::Upper };
+            let found = Section { impacts: (0..9).map(impact).collect(), strobes };
+            let figure = figure(&found, &osc, &asked);
+            for axis in figure.panels.iter().flat_map(|panel| [&panel.x, &panel.y]) {
+                let (low, high) = axis.range.expect("a range of its own");
+                assert!(high - low >= 0.99, "{low} {high}");
+            }
+        }
+        // what is apart is drawn apart
+        let strobes = [0.3, 0.3001].map(|x| Start { x, v: -1.0, phase: 0.0 }).to_vec();
+        let found = Section { impacts: Vec::new(), strobes };
+        assert_eq!(figure(&found, &osc, &asked).panels[1].x.range, None);
+    }
 }

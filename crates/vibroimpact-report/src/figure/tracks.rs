@@ -1,8 +1,10 @@
-//! The impacts of a branch as curves: each impact is followed from point to point, and a curve changes its look where its
-//! stability does.
+//! The impacts of a branch, or its states at phase 0, as curves: each is followed from point to point, and a curve changes its look
+//! where its stability does.
 
 use std::collections::BTreeMap;
+use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, Point};
+use vibroimpact::motion::Strobes;
 use vibroimpact::orbit::{Cycle, RestSpan};
 use vibroimpact::system::phase;
 
@@ -18,8 +20,53 @@ pub(crate) enum Look {
 /// Curves of one label and look: abscissae and ordinates, broken by `NaN`.
 pub(crate) type Curves = BTreeMap<(String, Look), (Vec<f64>, Vec<f64>)>;
 
-/// The arrival velocities of all impacts over the parameter, in nondimensional units.
-pub(crate) fn velocities(points: &[Point]) -> Curves {
+/// What is followed along a branch.
+#[derive(Clone, Copy)]
+pub(crate) enum Followed<'a> {
+    /// The arrival velocity of each impact.
+    Velocity,
+    /// The position at phase 0 of the force in each of its periods; of the oscillator at a value of the parameter.
+    Position(&'a dyn Fn(f64) -> Option<Oscillator>),
+}
+
+impl Followed<'_> {
+    /// Of each impact or state at a point two numbers that tell it from the others.
+    fn list(self, point: &Point) -> Vec<(f64, f64)> {
+        let cycle = &point.cycle;
+        let oscillator = match self {
+            Self::Velocity => return cycle.points.iter().map(|p| (p.state.phase, p.state.velocity)).collect(),
+            Self::Position(oscillator) => oscillator(point.value),
+        };
+        // what is no motion has no states
+        let (Some(osc), Some(first), true) = (oscillator, cycle.points.first(), point.physical) else {
+            return Vec::new();
+        };
+        let states = Strobes::new(&osc, first.state.rebound(&osc), 0.0).take(cycle.label.periods as usize);
+        states.map(|state| (state.v, state.x)).collect()
+    }
+
+    /// The square of the distance of two of them.
+    fn apart(self, a: &(f64, f64), b: &(f64, f64)) -> f64 {
+        let first = match self {
+            Self::Velocity => phase::difference(a.0, b.0),
+            Self::Position(_) => a.0 - b.0,
+        };
+        first.powi(2) + (a.1 - b.1).powi(2)
+    }
+
+    /// Whether the list may begin with another one at the next point.
+    fn turns(self, cycle: &Cycle) -> bool {
+        matches!(self, Self::Position(_)) || cycle.rests.is_empty()
+    }
+
+    /// What the ordinates are at a point.
+    pub(crate) fn ordinates(self, point: &Point) -> Vec<f64> {
+        self.list(point).into_iter().map(|(_, ordinate)| ordinate).collect()
+    }
+}
+
+/// The ordinates of all impacts or states over the parameter, in nondimensional units.
+pub(crate) fn curves(points: &[Point], what: Followed<'_>) -> Curves {
     let mut curves = Curves::new();
     let mut rest = points;
     while let Some(first) = rest.first() {
@@ -32,7 +79,7 @@ pub(crate) fn velocities(points: &[Point]) -> Curves {
         };
         let end = rest.iter().position(changes).map_or(other, |k| other.min(k + 1));
         let (run, others) = rest.split_at(end);
-        for track in tracks(run) {
+        for track in tracks(run, what) {
             add(&mut curves, &label.to_string(), run, &track);
         }
         rest = others;
@@ -40,28 +87,31 @@ pub(crate) fn velocities(points: &[Point]) -> Curves {
     curves
 }
 
-/// The velocity of each impact at all points of a run, `NaN` where it is not listed.
-fn tracks(run: &[Point]) -> Vec<Vec<f64>> {
+/// The ordinate of each impact or state at all points of a run, `NaN` where it is not listed.
+fn tracks(run: &[Point], what: Followed<'_>) -> Vec<Vec<f64>> {
     let mut tracks: BTreeMap<(usize, usize), Vec<f64>> = BTreeMap::new();
     let mut before: Option<Vec<(f64, f64)>> = None;
     for (n, point) in run.iter().enumerate() {
-        let mut here: Vec<(f64, f64)> = point.cycle.points.iter().map(|p| (p.state.phase, p.state.velocity)).collect();
-        if point.cycle.rests.is_empty() {
+        let mut here = what.list(point);
+        if what.turns(&point.cycle) {
             // the list begins with the fastest impact, which may have become another one
             let off = |shift: &usize| -> f64 {
                 let before = before.iter().flatten();
-                before
-                    .zip(here.iter().cycle().skip(*shift))
-                    .map(|(a, b)| phase::difference(a.0, b.0).powi(2) + (a.1 - b.1).powi(2))
-                    .sum()
+                before.zip(here.iter().cycle().skip(*shift)).map(|(a, b)| what.apart(a, b)).sum()
             };
             let shift = (0..here.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
             here.rotate_left(shift);
         }
-        for (place, impact) in places(&point.cycle).into_iter().zip(&here) {
-            tracks.entry(place).or_insert_with(|| vec![f64::NAN; run.len()])[n] = impact.1;
+        let places = match what {
+            Followed::Velocity => places(&point.cycle),
+            Followed::Position(_) => (0..here.len()).map(|k| (0, k)).collect(),
+        };
+        for (place, one) in places.into_iter().zip(&here) {
+            tracks.entry(place).or_insert_with(|| vec![f64::NAN; run.len()])[n] = one.1;
         }
-        before = Some(here);
+        if !here.is_empty() {
+            before = Some(here);
+        }
     }
     tracks.into_values().collect()
 }
@@ -118,7 +168,7 @@ mod tests {
     use super::*;
     use vibroimpact::continuation::{Branch, BranchOptions, Direction};
     use vibroimpact::orbit::{FindOptions, find};
-    use vibroimpact::{Label, Oscillator, Parameter};
+    use vibroimpact::{Label, Parameter};
 
     /// A cycle with a rest on either stop: of each chatter an impact is the same one whatever is listed before it.
     #[test]
@@ -131,7 +181,7 @@ mod tests {
         let points: Vec<Point> = branch.collect();
         let [one, two] = [points.first(), points.last()].map(|point| places(&point.unwrap().cycle));
         assert!(one.len() != two.len() && one.iter().filter(|place| place.1 == 0).count() == 2, "{one:?}");
-        let curves = velocities(&points);
+        let curves = curves(&points, Followed::Velocity);
         let (_, ys) = &curves[&("inf/1".to_owned(), Look::Stable)];
         let steps: Vec<f64> = ys.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| !s.is_nan()).collect();
         assert!(steps.len() > 500 && steps.iter().all(|step| *step < 0.05), "{:?}", steps.len());
@@ -147,7 +197,7 @@ mod tests {
             let (range, options) = (gap..=to, BranchOptions::default());
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range, Direction::Up, options).unwrap();
             let points: Vec<Point> = branch.collect();
-            let curves = velocities(&points);
+            let curves = curves(&points, Followed::Velocity);
             for (xs, ys) in curves.values() {
                 for pair in xs.iter().zip(ys).collect::<Vec<_>>().windows(2) {
                     let step = (pair[1].1 - pair[0].1).abs();

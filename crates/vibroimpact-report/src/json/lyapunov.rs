@@ -5,7 +5,6 @@ use super::motion::{HorizonObject, Motion, side};
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
-use vibroimpact::verdict::Verdict;
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::Plan;
 
@@ -30,9 +29,9 @@ pub fn document<'a>(
     asked: &Asked,
     plan: &'a Plan,
     (osc, start): (&Oscillator, &Start),
-    (verdict, found): (&Verdict, &Exponents),
+    found: &Exponents,
 ) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, Answer::new(verdict, found, osc, &asked.units)).start(start, &asked.units)
+    Document::new(asked, osc, plan, Answer::new(found, osc, &asked.units)).start(start, &asked.units)
 }
 
 /// A number with its error; where it is none, why.
@@ -79,11 +78,11 @@ impl Quantity {
 }
 
 impl Answer {
-    fn new(verdict: &Verdict, found: &Exponents, osc: &Oscillator, units: &Units) -> Self {
+    fn new(found: &Exponents, osc: &Oscillator, units: &Units) -> Self {
         let per_time = |of: Measured| Quantity::new(scaled(of, 1.0 / units.time()));
         let identity = found.identity / units.time();
         Self {
-            motion: Motion::new(verdict, osc, units).without_lyapunov(),
+            motion: Motion::new(&found.motion, osc, units).without_lyapunov(),
             exponents: found.exponents.map(per_time),
             exponents_per_period: found.per_period().map(Quantity::new),
             sum: per_time(found.sum),

@@ -6,7 +6,7 @@ use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::Cycle;
-use vibroimpact::verdict::{Count, NoImpact, Undecided, Verdict};
+use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side};
 
 /// The name of a side of the oscillator.
@@ -37,6 +37,12 @@ pub struct Motion {
     rests: Option<Vec<Rest>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     lyapunov: Option<Estimate>,
+    /// Impacts over which chaos was seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seen_impacts: Option<u64>,
+    /// Chaos that was seen before and ended.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    chaotic_transient: Option<Transient>,
     #[serde(skip_serializing_if = "Option::is_none")]
     horizon: Option<HorizonObject>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,6 +84,13 @@ impl Estimate {
 }
 
 #[derive(Serialize)]
+struct Transient {
+    /// The impact at which it had ended.
+    impacts: u64,
+    lyapunov: Estimate,
+}
+
+#[derive(Serialize)]
 struct Tried {
     #[serde(skip_serializing_if = "Option::is_none")]
     impacts: Option<u64>,
@@ -113,6 +126,7 @@ impl HorizonObject {
                 ..forever("common_period")
             },
             NoImpact::GrazeLimit { .. } => forever("graze_limit"),
+            NoImpact::Landing { .. } => forever("landing"),
             NoImpact::Grazing { .. } => forever("grazing"),
             NoImpact::ForPeriods(n) => Self { kind: "periods", periods: Some(*n), why: "search", common_period: None },
         }
@@ -136,6 +150,8 @@ impl Motion {
             release: None,
             rests: None,
             lyapunov: None,
+            seen_impacts: None,
+            chaotic_transient: None,
             horizon: None,
             residual: None,
             side: None,
@@ -146,14 +162,17 @@ impl Motion {
             Verdict::NoImpact(no_impact) => Self {
                 kind: "no_impact",
                 impacts: Some(0),
-                periods: Some(1),
-                sticks: Some(0),
+                periods: Some(if let NoImpact::Landing { periods, .. } = no_impact { *periods } else { 1 }),
+                sticks: Some(usize::from(matches!(no_impact, NoImpact::Landing { .. }))),
                 horizon: Some(HorizonObject::new(no_impact)),
                 ..bare
             },
-            Verdict::Chaotic(spectrum) => {
-                Self { kind: "chaotic", lyapunov: Some(Estimate::per_time(spectrum.exponents[0], units)), ..bare }
-            }
+            Verdict::Chaotic(chaos) => Self {
+                kind: "chaotic",
+                lyapunov: Some(Estimate::per_time(chaos.spectrum.exponents[0], units)),
+                seen_impacts: Some(chaos.impacts),
+                ..bare
+            },
             Verdict::Stuck(at) => Self {
                 kind: "stuck",
                 impacts: Some(0),
@@ -174,6 +193,15 @@ impl Motion {
                 Self { tried: Some(Tried { impacts: None, periods: Some(*periods), lyapunov: None }), ..bare }
             }
         }
+    }
+
+    /// With the chaos that was seen before.
+    pub(super) fn after(self, transient: Option<Chaos>, units: &Units) -> Self {
+        let told = |chaos: Chaos| Transient {
+            impacts: chaos.impacts,
+            lyapunov: Estimate::per_time(chaos.spectrum.exponents[0], units),
+        };
+        Self { chaotic_transient: transient.map(told), ..self }
     }
 
     /// Without the exponent of the verdict, beside a better one.

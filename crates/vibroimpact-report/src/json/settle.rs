@@ -42,7 +42,7 @@ pub fn document<'a>(
 ) -> impl Serialize + use<'a> {
     let units = &asked.units;
     let answer = Answer {
-        motion: Motion::new(&settled.verdict, osc, units),
+        motion: Motion::new(&settled.verdict, osc, units).after(settled.transient, units),
         impacts_followed: settled.impacts,
         time_followed: settled.time * units.time(),
         paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),

@@ -5,8 +5,8 @@ mod python;
 mod shell;
 
 pub use command::command;
-pub use python::python;
-pub use shell::{quoted, shell_line};
+pub use python::{python, python_showing};
+pub use shell::{quoted, shell_line, shell_line_showing};
 
 /// A number that reads back as the same double, in Rust, Python and the shell.
 fn number(x: f64) -> String {

@@ -2,6 +2,7 @@
 
 use super::number;
 use crate::answer::complete;
+use crate::scene::{SECTION_POINTS, View};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
 use vibroimpact_study::{
     Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, Plan, StartPlan,
@@ -57,6 +58,22 @@ pub fn python(plan: &Plan) -> Option<String> {
         _ => format!("{name} = {}\n", call.text()),
     };
     Some(format!("import vibroimpact as vi\n\nosc = {}\n{told}", oscillator(&plan.system)))
+}
+
+/// The same, and one view of the motion that a start settles into; of other tasks as [`python`].
+#[must_use]
+pub fn python_showing(plan: &Plan, view: View) -> Option<String> {
+    let text = python(plan)?;
+    let Task::Settle { start } = &plan.task else { return Some(text) };
+    let shown = match view {
+        View::Waveform => "motion.plot()".to_owned(),
+        View::Phase => "t, x, v = motion.waveform()  # of a periodic motion, v over x".to_owned(),
+        View::Multipliers => "motion.multipliers".to_owned(),
+        View::Sections => {
+            format!("{}.plot()", Call::new("lyapunov").start(start).named("points", SECTION_POINTS).text())
+        }
+    };
+    Some(format!("{text}{shown}\n"))
 }
 
 /// A call whose arguments are gathered; the first is the oscillator.

@@ -1,7 +1,8 @@
 //! A command line as one types it.
 
 use super::command;
-use vibroimpact_study::{Plan, Study};
+use crate::scene::View;
+use vibroimpact_study::{Plan, Study, Task};
 
 /// A word that a shell takes as it is.
 #[must_use]
@@ -23,6 +24,18 @@ pub fn shell_line(plan: &Plan) -> Option<String> {
     }
     let text = serde_json::to_string(plan).ok().filter(|_| Study::new(plan).is_ok())?;
     Some(format!("echo {} > plan.json && vibro run plan.json", quoted(&text)))
+}
+
+/// The same, drawing one view of the motion that a start settles into; of other tasks as [`shell_line`].
+#[must_use]
+pub fn shell_line_showing(plan: &Plan, view: View) -> Option<String> {
+    let line = shell_line(plan)?;
+    if !matches!(plan.task, Task::Settle { .. }) {
+        return Some(line);
+    }
+    let name = view.name();
+    let show = if view == View::default() { String::new() } else { format!(" --show {name}") };
+    Some(format!("{line}{show} --plot {name}.svg"))
 }
 
 #[cfg(test)]

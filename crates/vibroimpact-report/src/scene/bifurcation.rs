@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 use vibroimpact::Label;
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{
     BranchPlan, Control, DiagramPlan, Followed, RunError, Span, Stopped, Target, branches, diagram, tiles,
 };
@@ -25,7 +24,7 @@ const SEED: u64 = 1;
 /// Values closer than this part of the range to a branch are on it.
 const NEAR: f64 = 1e-9;
 
-/// The impact velocities that a diagram's plan asks for, and over them the branches of these labels, stable solid and unstable
+/// The impact velocities, or positions at phase 0, that a diagram's plan asks for, and over them the branches of these labels, stable solid and unstable
 /// dashed: from each orbit found on a grid of values, both ways to the ends of the range, through their events; and of the branches
 /// that begin at their flips and branch points those that come to one of these labels.
 ///
@@ -39,11 +38,10 @@ pub fn bifurcation(
     labels: &[String],
     control: &Control<'_>,
 ) -> Result<Figure, AnswerError> {
-    let plan = DiagramPlan { show: Show::Velocity, ..*plan };
-    let behind = diagram(&asked.system, &plan, control)?;
+    let behind = diagram(&asked.system, plan, control)?;
     let mut followed = Vec::new();
     for label in labels {
-        follow(asked, &plan, label, &mut followed, control)?;
+        follow(asked, plan, label, &mut followed, control)?;
     }
     let known = |branch: &Followed| branch.points.iter().any(|point| labels.contains(&point.cycle.label.to_string()));
     followed.retain(known);
@@ -139,10 +137,12 @@ pub fn labels(
 mod tests {
     use super::*;
     use crate::Units;
+    use vibroimpact_plot::{Dash, Mark};
+    use vibroimpact_study::diagram::{Point, Show};
     use vibroimpact_study::{Parameter, Stretch, SystemPlan};
 
     #[test]
-    fn the_branches_of_the_labels_on_a_line() {
+    fn f10b_the_branches_of_the_labels_on_a_line() {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
         let (asked, control) = (Asked { system, units: Units::default() }, Control::default());
         let task = r#"{"vary":"gap","over":"1.5:2.2:15","transient":100,"keep":8}"#;
@@ -164,6 +164,32 @@ mod tests {
         for word in [">flip<", "with", "1.05 to 1.12"] {
             assert!(svg.contains(word), "{word}");
         }
+        // positions once a period where these are asked for: 1/1 has one, which lies between the stop and the lowest position
+        let strobes = DiagramPlan { show: Show::Strobe, ..plan };
+        let figure = bifurcation(&asked, &strobes, &["1/1".into()], &control).unwrap();
+        let svg = figure.to_svg();
+        assert!(svg.contains("at phase 0") && !svg.contains("arrival velocity"), "{svg}");
+        // of the stable part, which simulation finds too
+        let ordinates = |figure: &Figure| -> Vec<f64> {
+            let lines = figure.panels[0].marks.iter().filter_map(|mark| match mark {
+                Mark::Line(line) if line.stroke.dash == Dash::Solid => Some(line),
+                _ => None,
+            });
+            lines.flat_map(|line| line.ys.clone()).filter(|y| !y.is_nan()).collect()
+        };
+        let behind = diagram(&asked.system, &strobes, &control).unwrap();
+        let positions: Vec<f64> = behind
+            .steps
+            .iter()
+            .flat_map(|step| &step.points)
+            .filter_map(|point| match point {
+                Point::State { x, .. } => Some(*x),
+                _ => None,
+            })
+            .collect();
+        let drawn = ordinates(&figure);
+        let near = |x: &f64| positions.iter().any(|y| (x - y).abs() < 0.2);
+        assert!(drawn.len() > 3 && drawn.iter().all(near), "{drawn:?}");
         let bad = bifurcation(&asked, &plan, &["1/0".into()], &control);
         assert!(matches!(bad, Err(AnswerError::Plan(_))), "{bad:?}");
     }

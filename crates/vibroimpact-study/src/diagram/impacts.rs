@@ -4,7 +4,7 @@ use super::follow::{Found, Kind, Point, SAME, budget};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
 use vibroimpact::system::phase;
-use vibroimpact::verdict::graze_limit;
+use vibroimpact::verdict::graze_limit::Fading;
 use vibroimpact::{Oscillator, Start};
 
 /// Follows the motion of `osc` from `start` for `transient` impacts and keeps the `keep` after them, fewer if they repeat
@@ -20,11 +20,12 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
             return ended(osc, &motion, start, transient);
         };
         events += 1;
+        let interval = motion.leg().map_or(0.0, |leg| leg.duration);
         match event.kind {
             EventKind::Impact { velocity_before: velocity, .. } => {
                 (struck, touches) = (struck + 1, 0);
                 let state = ImpactState { phase: event.phase, velocity, side: event.side };
-                if fading.recognised(osc, state, event.time) {
+                if fading.strikes(osc, state, interval) {
                     return halfway(osc, motion, start, Kind::NoImpact);
                 }
                 if struck <= transient {
@@ -40,15 +41,17 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
                 }
             }
             EventKind::Stick { chatter: true, .. } if !points.is_empty() => {
+                fading.rests();
                 points.push(Point::Chatter { phase: event.phase, side: event.side });
             }
             EventKind::Graze { .. } => {
                 touches += 1;
-                if touches > MAX_TOUCHES {
+                let state = ImpactState { phase: event.phase, velocity: 0.0, side: event.side };
+                if fading.strikes(osc, state, interval) || touches > MAX_TOUCHES {
                     return halfway(osc, motion, start, Kind::NoImpact);
                 }
             }
-            EventKind::Stick { .. } | EventKind::Release => {}
+            EventKind::Stick { .. } | EventKind::Release => fading.rests(),
         }
     }
     halfway(osc, motion, start, Kind::Undecided)
@@ -60,24 +63,6 @@ fn same(a: &Point, b: &Point) -> bool {
             here == there && phase::difference(*q, *p).abs() <= SAME && (w - u).abs() <= SAME * u.abs()
         }
         _ => false,
-    }
-}
-
-/// The last impacts, for the law by which impacts fade away without damping.
-#[derive(Default)]
-struct Fading {
-    run: Vec<(ImpactState, f64)>,
-    time: f64,
-}
-
-impl Fading {
-    fn recognised(&mut self, osc: &Oscillator, state: ImpactState, time: f64) -> bool {
-        if self.run.len() >= graze_limit::RUN {
-            self.run.remove(0);
-        }
-        self.run.push((state, time - self.time));
-        self.time = time;
-        graze_limit::recognised(osc, &self.run)
     }
 }
 

@@ -117,7 +117,7 @@ mod tests {
         };
         use Parameter::{Beta, Gap, InverseBeta, Restitution, SecondGap};
         for (plan, sentence) in [
-            (MapPlan { axes: vec![], ..good.clone() }, "0 axes were given; a map has 1 to 4"),
+            (MapPlan { axes: vec![], ..good.clone() }, "axes given: 0; a map has 1 to 4"),
             (MapPlan { axes: axes(&[(Gap, "0:1:3"), (Gap, "0:1:2")]), ..good.clone() }, "gap and gap do not span"),
             (
                 MapPlan { axes: axes(&[(Beta, "1:2:3"), (InverseBeta, "1:2:2")]), ..good.clone() },

@@ -30,15 +30,17 @@ pub struct Progress {
     pub left: Option<Duration>,
     /// Numbers of the tiles that are not done, up to a thousand of them.
     pub missing: Vec<u64>,
+    /// Tiles that are not done and not among these.
+    pub missing_left_out: u64,
     /// Bytes of the store.
     pub bytes: u64,
 }
 
-/// What is wrong with a tile.
+/// What is wrong with a tile, or with what describes the store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damage {
-    /// The tile.
-    pub tile: u64,
+    /// The tile; `None` for what belongs to the whole store.
+    pub tile: Option<u64>,
     /// What is wrong.
     pub what: String,
 }
@@ -100,6 +102,7 @@ impl Store {
             first: times.first().copied(),
             last: times.last().copied(),
             left,
+            missing_left_out: grid.tiles() - done - missing.len() as u64,
             missing,
             bytes: items.iter().map(|item| item.size).sum(),
         })
@@ -110,7 +113,7 @@ impl Store {
         Ok(self.root()?.pointer("/attributes/complete").and_then(serde_json::Value::as_i64) == Some(1))
     }
 
-    /// Reads the check sums of all finished tiles, computes `sample` of them again, chosen by `seed`, and compares the
+    /// Compares all that describes the store with its plan, reads the check sums of all finished tiles, computes `sample` of them again, chosen by `seed`, and compares the
     /// bytes. Changes nothing.
     ///
     /// # Errors
@@ -119,27 +122,33 @@ impl Store {
         let grid = self.study.grid();
         let tiles: Vec<u64> = (0..grid.tiles()).collect();
         let pool = control.pool()?;
-        let meter = Meter::new(control, 0, grid.points());
-        let stopped = || StoreError::Stopped(meter.stopped());
+        let stopping = || StoreError::Stopped(Meter::new(control, 0, grid.points()).kept());
         let states = pool.install(|| {
-            let state = |tile: &u64| if control.stopping() { Err(stopped()) } else { self.state(*tile) };
+            let state = |tile: &u64| if control.stopping() { Err(stopping()) } else { self.state(*tile) };
             tiles.par_iter().map(state).collect::<Result<Vec<State>, StoreError>>()
         })?;
-        let mut damage = self.descriptions()?;
-        let torn = |tile: u64| Damage { tile, what: "a chunk is missing, cut short or has a wrong check sum".into() };
+        let mut damage = self.description_damage(states.iter().all(|state| *state == State::Whole))?;
+        let torn = |tile: u64| Damage {
+            tile: Some(tile),
+            what: "a chunk is missing, cut short or has a wrong check sum".into(),
+        };
         let with =
             |wanted| (tiles.iter().zip(&states)).filter(move |(_, state)| **state == wanted).map(|(tile, _)| *tile);
         damage.extend(with(State::Damaged).map(torn));
         let whole: Vec<u64> = with(State::Whole).collect();
         let chosen = choose(&whole, sample, seed);
+        let points = |tile: u64| grid.tile(tile).points() as u64;
+        let meter = Meter::new(control, 0, chosen.iter().map(|tile| points(*tile)).sum());
         let twin = Self::over(Arc::new(Memory::default()), &self.plan, self.begun_by.clone())?;
         let concluded = self.concluded()?;
         let compared = pool.install(|| {
             let compare = |tile: &u64| -> Result<Option<Damage>, StoreError> {
-                if !twin.fill(*tile, &|| meter.tick())? {
-                    return Err(stopped());
+                let part = meter.tile(points(*tile));
+                if !twin.fill(*tile, &|| part.tick())? {
+                    return Err(StoreError::Stopped(meter.kept()));
                 }
-                Ok(self.differs(&twin, *tile, concluded)?.map(|what| Damage { tile: *tile, what }))
+                part.finish();
+                Ok(self.differs(&twin, *tile, concluded)?.map(|what| Damage { tile: Some(*tile), what }))
             };
             chosen.par_iter().map(compare).collect::<Result<Vec<_>, StoreError>>()
         })?;
@@ -153,24 +162,30 @@ impl Store {
         })
     }
 
-    /// What is wrong with the descriptions of arrays, and with the coordinates; as of tile 0.
-    fn descriptions(&self) -> Result<Vec<Damage>, StoreError> {
-        let mut damage = Vec::new();
-        for array in self.described() {
-            let key = array.description_key();
-            let reads =
-                self.get(&key)?.is_some_and(|bytes| serde_json::from_slice::<serde_json::Value>(&bytes).is_ok());
-            if !reads {
-                damage.push(Damage { tile: 0, what: format!("`{key}` is missing or does not read") });
+    /// Refuses a store with a tile that is done and damaged: all check sums are read, nothing is changed.
+    ///
+    /// # Errors
+    /// [`StoreError::DamagedTile`] for the first such tile, and where the place cannot be read.
+    pub fn whole(&self, control: &Control<'_>) -> Result<(), StoreError> {
+        let grid = self.study.grid();
+        let meter = Meter::new(control, 0, grid.points());
+        let read = |tile: u64| {
+            if control.stopping() {
+                return Err(StoreError::Stopped(meter.stopped()));
             }
-        }
-        for (array, values) in &self.layout.coordinates {
-            let whole = self.get(&array.key(&[0]))?.and_then(|bytes| array.decode(&[0], bytes).ok());
-            if whole.as_ref() != Some(values) {
-                damage.push(Damage { tile: 0, what: format!("the values of `{}` are damaged", array.name) });
-            }
-        }
-        Ok(damage)
+            meter.tile(grid.tile(tile).points() as u64).finish();
+            self.tile(tile).map(drop)
+        };
+        let tiles: Vec<_> = control.pool()?.install(|| (0..grid.tiles()).into_par_iter().map(read).collect());
+        // the first one, whatever the threads did
+        tiles.into_iter().collect()
+    }
+
+    /// The points that [`Store::verify`] computes again at most, for a count of what it has done.
+    #[must_use]
+    pub fn sample_points(&self, sample: u64) -> u64 {
+        let grid = self.study.grid();
+        sample.min(grid.tiles()).saturating_mul(grid.tile(0).points() as u64).min(grid.points())
     }
 
     /// How a tile here differs from the same tile there.
@@ -193,11 +208,6 @@ impl Store {
             }
         }
         Ok(None)
-    }
-
-    /// Writes descriptions and coordinates anew where they are damaged.
-    pub(super) fn mend_descriptions(&self) -> Result<(), StoreError> {
-        if self.descriptions()?.is_empty() { Ok(()) } else { self.describe() }
     }
 }
 

@@ -85,6 +85,11 @@ impl Chunked {
         self.array.chunk_key(place).as_str().to_owned()
     }
 
+    /// The place of the first chunk.
+    pub(super) fn first(&self) -> Vec<u64> {
+        vec![0; self.array.dimensionality()]
+    }
+
     /// Whether a key is that of a chunk.
     pub(super) fn chunk_prefix(&self) -> String {
         format!("{}/c/", self.name)
@@ -137,6 +142,27 @@ impl Chunked {
         };
         cells.map_err(|error| error.to_string())
     }
+}
+
+/// An array as its own description has it.
+fn described(name: &str, description: &Value) -> Result<Array<MemoryStore>, Defect> {
+    let metadata = serde_json::from_value(description.clone()).map_err(|error| error.to_string())?;
+    let array = Array::new_with_metadata(Arc::new(MemoryStore::new()), &format!("/{name}"), metadata);
+    array.map_err(|error| error.to_string())
+}
+
+/// The key of the first chunk of an array that is known by its description only.
+pub(super) fn first_key(name: &str, description: &Value) -> Result<String, Defect> {
+    let array = described(name, description)?;
+    Ok(array.chunk_key(&vec![0; array.dimensionality()]).as_str().to_owned())
+}
+
+/// Whether these bytes are the first chunk of such an array, whole to the last bit.
+pub(super) fn reads(name: &str, description: &Value, bytes: Vec<u8>) -> bool {
+    let Ok(array) = described(name, description) else { return false };
+    let Ok(shape) = array.chunk_shape(&vec![0; array.dimensionality()]) else { return false };
+    let options = Chunked::options();
+    array.codecs().decode(bytes.into(), &shape, array.data_type(), array.fill_value(), &options).is_ok()
 }
 
 /// Without the name of the library that wrote it, and every codec as an object: some readers know no other form.

@@ -1,12 +1,10 @@
 //! When all tiles are there: what only the whole can say, and the names of all labels that occur.
 
-use super::chunk::Chunked;
 use super::layout::{array_of, array_of_table};
-use super::root::pretty;
+use super::root::Conclusion;
 use super::{Store, StoreError};
 use crate::field::Column;
-use crate::study::{Tiles, label_of};
-use serde_json::Map;
+use crate::study::{Table, Tiles, label_of};
 use std::collections::BTreeSet;
 
 impl Tiles for &Store {
@@ -31,36 +29,26 @@ impl Store {
             return Ok(());
         }
         let mut tiles = self;
-        let tables = self.study.conclude(&mut tiles)?;
-        let mut descriptions = Map::new();
-        let mut describe = |array: &Chunked| {
-            let description = array.description().map_err(|why| self.defect(&array.name, why))?;
-            self.settle(&array.description_key(), &pretty(&description))?;
-            descriptions.insert(array.name.clone(), description);
-            Ok::<(), StoreError>(())
-        };
-        for (number, (field, array)) in self.layout.fields.iter().zip(&self.layout.arrays).enumerate() {
-            if field.name == "label" {
-                let labels = self.labels(number)?;
-                let array = array_of(field, &self.layout.grid, &labels).map_err(|why| self.defect(field.name, why))?;
-                describe(&array)?;
-            } else {
-                describe(array)?;
-            }
-        }
-        describe(&self.layout.status)?;
-        for (array, _) in &self.layout.coordinates {
-            describe(array)?;
-        }
-        for table in &tables {
-            let array = array_of_table(table).map_err(|why| self.defect(table.name, why))?;
-            let first = vec![0; table.dimensions.len()];
-            let bytes = array.encode(&first, &table.values).map_err(|why| self.defect(table.name, why))?;
-            self.settle(&array.key(&first), &bytes)?;
-            describe(&array)?;
-        }
-        self.write_root(&descriptions, true)?;
+        let conclusion = self.conclusion(&mut tiles)?;
+        self.settle_all(&self.descriptions(Some(&conclusion))?)?;
         self.shelf.sweep().map_err(|error| self.unread("", error))
+    }
+
+    /// What only the whole can say, from tiles that are all there; they are written anew as [`Study::conclude`] says.
+    ///
+    /// [`Study::conclude`]: crate::Study::conclude
+    pub(super) fn conclusion(&self, tiles: &mut impl Tiles<Error = StoreError>) -> Result<Conclusion, StoreError> {
+        let tables = self.study.conclude(tiles)?;
+        let mut labelled = Vec::new();
+        for (number, field) in self.layout.fields.iter().enumerate().filter(|(_, field)| field.name == "label") {
+            let array = array_of(field, &self.layout.grid, &self.labels(number)?);
+            labelled.push((number, array.map_err(|why| self.defect(field.name, why))?));
+        }
+        let array = |table: Table| match array_of_table(&table) {
+            Ok(array) => Ok((array, table.values)),
+            Err(why) => Err(self.defect(table.name, why)),
+        };
+        Ok(Conclusion { labelled, tables: tables.into_iter().map(array).collect::<Result<_, _>>()? })
     }
 
     /// The labels m/n that occur, with their numbers.

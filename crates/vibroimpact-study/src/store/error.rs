@@ -36,6 +36,14 @@ pub enum StoreError {
         /// Why.
         error: io::Error,
     },
+    /// A store cannot be begun.
+    #[error("the store {place} cannot be begun: {error}\nhint: choose a folder that can be written")]
+    Begin {
+        /// The store.
+        place: String,
+        /// Why.
+        error: io::Error,
+    },
     /// There is no store.
     #[error("there is no store at {0}\nhint: `vibro run PLAN --store {0}` begins one")]
     Absent(String),
@@ -79,6 +87,18 @@ pub enum StoreError {
         theirs: String,
         /// This one.
         ours: String,
+    },
+    /// A tile that is done has a chunk that is not whole.
+    #[error(
+        "`{key}` of tile {tile} in the store {place} is missing, cut short or has a wrong check sum\nhint: `vibro resume {place}` computes the tile anew"
+    )]
+    DamagedTile {
+        /// The store.
+        place: String,
+        /// The tile.
+        tile: u64,
+        /// The chunk.
+        key: String,
     },
     /// What describes the store is damaged.
     #[error(

@@ -32,12 +32,14 @@
 //! | filling tiles, over threads, until all are there | `run.rs` |
 //! | what only the whole can say | `conclude.rs` |
 //! | how far it is, and what is damaged | `check.rs` |
+//! | whether what describes it is whole | `described.rs` |
 
 #[cfg(feature = "s3")]
 mod bucket;
 mod check;
 mod chunk;
 mod conclude;
+mod described;
 mod error;
 mod layout;
 mod read;
@@ -83,6 +85,12 @@ pub fn shelf(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
     if place.trim().is_empty() {
         return Err(StoreError::Unreachable { place: "the store".into(), why: "its name is empty".into() });
     }
+    if place.trim() == "-" {
+        return Err(StoreError::Unreachable {
+            place: "the store".into(),
+            why: "`-` is stdout elsewhere, and a store is a folder".into(),
+        });
+    }
     match place.split_once("://") {
         None => Ok(Arc::new(Folder::new(Path::new(place)))),
         #[cfg(feature = "s3")]
@@ -107,6 +115,7 @@ impl Store {
     pub fn create(shelf: Arc<dyn Shelf>, plan: &Plan) -> Result<Self, StoreError> {
         let plan = &plan.canonical()?;
         let store = Self::over(shelf, plan, VERSION.to_owned())?;
+        let mut fresh = false;
         match store.root() {
             Ok(root) => return store.joined(&root),
             Err(StoreError::Absent(_)) => {
@@ -121,12 +130,16 @@ impl Store {
                 if there.iter().any(|item| !known(&item.key)) {
                     return Err(StoreError::Foreign(store.place()));
                 }
+                fresh = true;
             }
             // the plan is given: what describes it can be written anew
             Err(StoreError::Damaged { .. }) => {}
             Err(other) => return Err(other),
         }
-        store.describe()?;
+        store.describe().map_err(|failure| match failure {
+            StoreError::Write { place, error, .. } if fresh => StoreError::Begin { place, error },
+            other => other,
+        })?;
         Ok(store)
     }
 
@@ -152,7 +165,14 @@ impl Store {
             key: ROOT.into(),
             why: format!("its plan does not read: {error}"),
         })?;
-        Self::over(shelf, &plan, found.version)
+        let store = Self::over(shelf, &plan, found.version)?;
+        // another version may write the same plan in other words
+        if store.is_ours() && store.plan.hash() != found.hash {
+            let why =
+                format!("its plan has the name {}, not {}: one of them was changed", store.plan.hash(), found.hash);
+            return Err(store.defect(ROOT, why));
+        }
+        Ok(store)
     }
 
     fn over(shelf: Arc<dyn Shelf>, plan: &Plan, begun_by: String) -> Result<Self, StoreError> {

@@ -14,11 +14,11 @@ impl Store {
     /// The columns of a tile, one for each field; of a tile that is not done, what stands for that.
     ///
     /// # Errors
-    /// [`StoreError`] when the place cannot be read.
+    /// [`StoreError`] when the place cannot be read, and for a tile that is done and damaged.
     pub fn tile(&self, tile: u64) -> Result<(Block, Vec<Column>), StoreError> {
         let block = self.study.grid().tile(tile);
         let column = |(number, field): (usize, &crate::Field)| {
-            Ok(self.read(tile, number)?.unwrap_or_else(|| field.empty(block.points())))
+            Ok(self.kept(tile, number)?.unwrap_or_else(|| field.empty(block.points())))
         };
         let columns = self.layout.fields.iter().enumerate().map(column).collect::<Result<_, StoreError>>()?;
         Ok((block, columns))
@@ -27,16 +27,28 @@ impl Store {
     /// The array of a field over the whole grid, in row-major order.
     ///
     /// # Errors
-    /// [`StoreError`] when the place cannot be read.
+    /// [`StoreError`] when the place cannot be read, and for a tile that is done and damaged.
     pub fn column(&self, field: usize) -> Result<Column, StoreError> {
         let grid = self.study.grid();
         let (all, width) = (grid.whole(), self.layout.fields[field].width());
         let mut whole = self.layout.fields[field].empty(all.points());
         for tile in 0..grid.tiles() {
-            if let Some(part) = self.read(tile, field)? {
+            if let Some(part) = self.kept(tile, field)? {
                 grid.tile(tile).rows(&all, width, |at, from, len| whole.copy(at, &part, from, len));
             }
         }
         Ok(whole)
+    }
+
+    /// The column of a field in a tile; none where the tile is not done.
+    fn kept(&self, tile: u64, field: usize) -> Result<Option<Column>, StoreError> {
+        let found = self.read(tile, field)?;
+        let status = self.layout.status.key(&self.layout.status_place(tile));
+        if found.is_some() || self.get(&status)?.is_none() {
+            return Ok(found);
+        }
+        // what stands for a tile that is not done would be taken for its result
+        let key = self.layout.arrays[field].key(&self.layout.place(tile, field));
+        Err(StoreError::DamagedTile { place: self.place(), tile, key })
     }
 }

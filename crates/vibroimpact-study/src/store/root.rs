@@ -1,9 +1,10 @@
 //! What describes a store: the arrays that are there from the beginning, and the root, written after them.
 
-use super::chunk::Chunked;
+use super::chunk::{Chunked, Defect};
 use super::layout::Layout;
 use super::shelf::Shelf;
 use super::{FORMAT, Store, StoreError};
+use crate::study::Cells;
 use serde_json::{Map, Value, json};
 use std::io;
 
@@ -27,20 +28,36 @@ impl Store {
 
     /// Writes what is there from the beginning.
     pub(super) fn describe(&self) -> Result<(), StoreError> {
-        let mut descriptions = Map::new();
-        for array in self.described() {
-            let description = array.description().map_err(|why| self.defect(&array.name, why))?;
-            self.put(&array.description_key(), &pretty(&description))?;
-            descriptions.insert(array.name.clone(), description);
-        }
-        for (array, values) in &self.layout.coordinates {
-            let bytes = array.encode(&[0], values).map_err(|why| self.defect(&array.name, why))?;
-            self.put(&array.key(&[0]), &bytes)?;
-        }
-        self.write_root(&descriptions, false)
+        self.settle_all(&self.descriptions(None)?)
     }
 
-    pub(super) fn write_root(&self, descriptions: &Map<String, Value>, complete: bool) -> Result<(), StoreError> {
+    /// Writes those of these objects that are not there with these very bytes, the last one last.
+    pub(super) fn settle_all(&self, objects: &[Object]) -> Result<(), StoreError> {
+        objects.iter().try_for_each(|object| self.settle(&object.key, &object.bytes))
+    }
+
+    /// All objects but the chunks of fields and of the status, the root last: as they are from the beginning, or as they are when all
+    /// tiles are there.
+    pub(super) fn descriptions(&self, conclusion: Option<&Conclusion>) -> Result<Vec<Object>, StoreError> {
+        let mut written = Described::default();
+        let Layout { arrays, status, coordinates, .. } = &self.layout;
+        for (number, array) in arrays.iter().enumerate() {
+            let labels = conclusion.and_then(|found| found.labelled.iter().find(|(field, _)| *field == number));
+            let added = written.add(labels.map_or(array, |(_, labelled)| labelled), None);
+            added.map_err(|why| self.defect(&array.name, why))?;
+        }
+        let tables = conclusion.map_or(&[][..], |found| &found.tables);
+        for (array, values) in core::iter::once((status, None))
+            .chain(coordinates.iter().chain(tables).map(|(array, values)| (array, Some(values))))
+        {
+            written.add(array, values).map_err(|why| self.defect(&array.name, why))?;
+        }
+        let bytes = self.root_bytes(&written.consolidated, conclusion.is_some())?;
+        written.objects.push(Object { key: ROOT.into(), bytes });
+        Ok(written.objects)
+    }
+
+    fn root_bytes(&self, descriptions: &Map<String, Value>, complete: bool) -> Result<Vec<u8>, StoreError> {
         let plan = serde_json::to_string(&self.plan).map_err(|error| self.defect(ROOT, error.to_string()))?;
         let mut root = json!({
             "zarr_format": 3,
@@ -69,12 +86,47 @@ impl Store {
         if !beside.is_empty() {
             root["attributes"]["coordinates"] = beside.join(" ").into();
         }
-        self.settle(ROOT, &pretty(&root))
+        Ok(pretty(&root))
+    }
+}
+
+/// An object of a store: its key, and its bytes.
+pub(super) struct Object {
+    pub(super) key: String,
+    pub(super) bytes: Vec<u8>,
+}
+
+/// What only the whole can say.
+pub(super) struct Conclusion {
+    /// The arrays of labels with the names of all that occur, by the numbers of their fields.
+    pub(super) labelled: Vec<(usize, Chunked)>,
+    /// The tables and their values.
+    pub(super) tables: Vec<(Chunked, Cells)>,
+}
+
+/// Descriptions of arrays, gathered for the root too.
+#[derive(Default)]
+struct Described {
+    objects: Vec<Object>,
+    consolidated: Map<String, Value>,
+}
+
+impl Described {
+    /// Adds an array, with its values where they are one chunk.
+    fn add(&mut self, array: &Chunked, values: Option<&Cells>) -> Result<(), Defect> {
+        let description = array.description()?;
+        self.objects.push(Object { key: array.description_key(), bytes: pretty(&description) });
+        self.consolidated.insert(array.name.clone(), description);
+        if let Some(values) = values {
+            let first = array.first();
+            self.objects.push(Object { key: array.key(&first), bytes: array.encode(&first, values)? });
+        }
+        Ok(())
     }
 }
 
 /// JSON for people too.
-pub(super) fn pretty(value: &Value) -> Vec<u8> {
+fn pretty(value: &Value) -> Vec<u8> {
     let mut bytes = serde_json::to_vec_pretty(value).unwrap_or_default();
     bytes.push(b'\n');
     bytes

@@ -110,15 +110,16 @@ impl Store {
         let failure: Mutex<Option<StoreError>> = Mutex::new(None);
         let failed = AtomicBool::new(false);
         let (computed, elsewhere) = (AtomicU64::new(0), AtomicU64::new(0));
-        let tick = || meter.tick() || failed.load(Ordering::Relaxed);
         let one = |tile: u64| -> Result<(), StoreError> {
+            let part = meter.tile(points(tile));
             if !damaged(tile) && self.done(tile)? {
                 elsewhere.fetch_add(1, Ordering::Relaxed);
-                meter.add(points(tile));
+                part.finish();
                 return Ok(());
             }
-            if self.fill(tile, &tick)? {
+            if self.fill(tile, &|| part.tick() || failed.load(Ordering::Relaxed))? {
                 computed.fetch_add(1, Ordering::Relaxed);
+                part.finish();
             }
             Ok(())
         };
@@ -139,7 +140,7 @@ impl Store {
         }
         let (computed, elsewhere) = (computed.into_inner(), elsewhere.into_inner());
         if computed + elsewhere < open.len() as u64 {
-            return Err(StoreError::Stopped(meter.stopped()));
+            return Err(StoreError::Stopped(meter.kept()));
         }
         (control.progress)(total);
         let found = mine.len() as u64 - open.len() as u64 + elsewhere;

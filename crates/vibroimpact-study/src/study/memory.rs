@@ -33,7 +33,11 @@ pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError>
     let meter = Meter::new(control, 0, grid.points());
     let untold = Control { progress: &|_| {}, ..*control };
     let parts = tiles(grid.tiles(), 1, &untold, |range, finished| {
-        let columns = study.tile(range.start, &|| meter.tick());
+        let part = meter.tile(grid.tile(range.start).points() as u64);
+        let columns = study.tile(range.start, &|| part.tick());
+        if columns.is_some() {
+            part.finish();
+        }
         finished();
         columns
     });

@@ -1,22 +1,24 @@
 //! What the command tells of a plan: as JSON, as a table, as a figure, and the command itself.
 
-use super::{Asked, bytes, wants_events};
+use super::{Asked, Query, bytes, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;
 use crate::workshop::Bench;
 use axum::Json;
 use axum::body::Bytes;
-use axum::extract::{Query, State};
+use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode};
 use axum::response::Response;
 use core::sync::atomic::Ordering;
 use serde::Deserialize;
 use serde_json::{Value, json};
+use vibroimpact::verdict::Settled;
+use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::Figure;
 use vibroimpact_report::answer::Found;
-use vibroimpact_report::figure::settle::steady;
-use vibroimpact_report::question::{python, shell_line};
+use vibroimpact_report::question::{python, python_showing, shell_line, shell_line_showing};
+use vibroimpact_report::scene::{View, Viewed};
 use vibroimpact_report::{AnswerError, Units, answer as ask, scene};
 use vibroimpact_study::{Control, Plan};
 
@@ -43,12 +45,26 @@ pub(super) async fn answer(
     Ok(bytes("application/json", work.await?))
 }
 
-/// The table that `--csv` writes.
-pub(super) async fn table(State(explorer): State<Explorer>, asked: Asked) -> Result<Response, Refusal> {
+/// The table that `--csv` writes, or that of one view of a settled motion.
+pub(super) async fn table(
+    State(explorer): State<Explorer>,
+    Query(wanted): Query<Wanted>,
+    asked: Asked,
+) -> Result<Response, Refusal> {
     let plan = asked.plan;
     let work = move |control: &Control<'_>| {
         let answer = ask(&plan, Units::default(), control)?;
-        let table = answer.table().map_err(AnswerError::from)?.ok_or_else(|| nothing("table"))?;
+        let shown = match (&answer.found, wanted.kind) {
+            (Found::Settle(start, found), Some(view)) => {
+                Some(viewed(view, (&answer.osc, *start), found, &answer.asked)?)
+            }
+            _ => None,
+        };
+        let table = match &shown {
+            Some(shown) => Some(shown.table().map_err(AnswerError::from)?),
+            None => answer.table().map_err(AnswerError::from)?,
+        };
+        let table = table.ok_or_else(|| nothing("table"))?;
         let mut text = Vec::new();
         table.write(&mut text).map_err(|_| Refusal::fault("a table that cannot be written"))?;
         Ok(Bytes::from(text))
@@ -57,9 +73,15 @@ pub(super) async fn table(State(explorer): State<Explorer>, asked: Asked) -> Res
     Ok(bytes("text/csv; charset=utf-8", body))
 }
 
-/// What to type for the same in a shell and in Python; `null` where there are no words for it.
-pub(super) async fn command(asked: Asked) -> Json<Value> {
-    Json(json!({ "vibro": shell_line(&asked.plan), "python": python(&asked.plan) }))
+/// What to type for the same in a shell and in Python, and for the figure of one view of a settled motion where one is named; `null`
+/// where there are no words for it.
+pub(super) async fn command(Query(wanted): Query<Wanted>, asked: Asked) -> Json<Value> {
+    let plan = &asked.plan;
+    let (vibro, python) = match wanted.kind {
+        Some(view) => (shell_line_showing(plan, view), python_showing(plan, view)),
+        None => (shell_line(plan), python(plan)),
+    };
+    Json(json!({ "vibro": vibro, "python": python }))
 }
 
 /// How a figure is wanted; sizes in its units, of which a text is 20 high.
@@ -69,7 +91,8 @@ pub(super) struct Wanted {
     format: Format,
     width: Option<f64>,
     height: Option<f64>,
-    kind: Option<Kind>,
+    /// What is shown of a settled motion; without it what `--plot` draws.
+    kind: Option<View>,
 }
 
 #[derive(Clone, Copy, Default, Deserialize, PartialEq, Eq)]
@@ -80,18 +103,6 @@ enum Format {
     Png,
 }
 
-/// What is drawn of a motion; without it what `--plot` draws.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Kind {
-    Waveform,
-    Phase,
-    Multipliers,
-    Sections,
-}
-
-/// Impacts and states of a section.
-const SECTION: u64 = 2000;
 /// Sizes of figures, in their units.
 const SIZES: core::ops::RangeInclusive<f64> = 200.0..=4000.0;
 /// Pixels of a PNG to a unit.
@@ -139,26 +150,26 @@ pub(super) async fn figure(
     Ok(bytes(kind, body))
 }
 
-fn drawn(plan: &Plan, kind: Option<Kind>, control: &Control<'_>) -> Result<Option<Figure>, Refusal> {
+fn drawn(plan: &Plan, view: Option<View>, control: &Control<'_>) -> Result<Option<Figure>, Refusal> {
     let answer = ask(plan, Units::default(), control)?;
     let (asked, osc) = (&answer.asked, &answer.osc);
-    Ok(match (&answer.found, kind) {
-        (_, None | Some(Kind::Waveform)) | (Found::Lyapunov(..), Some(Kind::Sections)) => answer.figure(control)?,
-        (Found::Simulate(start, found), Some(Kind::Phase)) => {
+    Ok(match (&answer.found, view) {
+        (Found::Settle(start, found), Some(view)) => Some(viewed(view, (osc, *start), found, asked)?.figure()),
+        (_, None | Some(View::Waveform)) | (Found::Lyapunov(..), Some(View::Sections)) => answer.figure(control)?,
+        (Found::Simulate(start, found), Some(View::Phase)) => {
             Some(scene::phase_portrait(asked, osc, *start, (0.0, found.shown_until(osc))))
-        }
-        (Found::Settle(start, found), Some(Kind::Phase)) => {
-            let (_, (from, shown)) = steady(osc, *start, found);
-            Some(scene::phase_portrait(asked, osc, *start, (from, from + shown)))
-        }
-        (Found::Settle(start, found), Some(Kind::Sections)) => {
-            Some(scene::sections(asked, osc, *start, found, SECTION))
-        }
-        (Found::Settle(_, found), Some(Kind::Multipliers)) => {
-            found.verdict.multipliers(osc).map(|both| scene::multipliers(&both))
         }
         _ => None,
     })
+}
+
+fn viewed<'a>(
+    view: View,
+    from: (&'a Oscillator, Start),
+    found: &'a Settled,
+    asked: &'a vibroimpact_report::Asked,
+) -> Result<Viewed<'a>, Refusal> {
+    Viewed::new(view, from, found, asked).map_err(|error| Refusal::from(AnswerError::from(error)))
 }
 
 fn nothing(what: &str) -> Refusal {

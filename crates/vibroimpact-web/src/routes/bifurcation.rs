@@ -1,12 +1,12 @@
 //! The bifurcation diagram along a line: the orbit diagram, and the branches of its motions over it.
 
 use super::answer::Wanted;
-use super::{Asked, bytes, listed, wants_events};
+use super::{Asked, Query, bytes, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;
 use crate::workshop::Bench;
-use axum::extract::{Query, State};
+use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::response::Response;
 use core::sync::atomic::Ordering;

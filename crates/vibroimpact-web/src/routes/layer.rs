@@ -1,13 +1,13 @@
 //! Lines over a plane: the edges of the regions in which motions are stable, and where the motion without stops touches one.
 
-use super::{Asked, listed, wants_events};
+use super::{Asked, Query, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::packed::Named;
 use crate::refusal::Refusal;
 use crate::workshop::Bench;
 use axum::Json;
-use axum::extract::{Query, State};
+use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::response::{IntoResponse, Response};
 use core::sync::atomic::Ordering;

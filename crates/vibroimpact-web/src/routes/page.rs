@@ -3,6 +3,7 @@
 use crate::refusal::Refusal;
 use axum::body::Bytes;
 use axum::extract::Path;
+use axum::extract::rejection::PathRejection;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use rust_embed::RustEmbed;
@@ -15,12 +16,17 @@ pub(super) async fn index(headers: HeaderMap) -> Result<Response, Refusal> {
     file("index.html", &headers)
 }
 
-pub(super) async fn asset(Path(path): Path<String>, headers: HeaderMap) -> Result<Response, Refusal> {
+pub(super) async fn asset(path: Result<Path<String>, PathRejection>, headers: HeaderMap) -> Result<Response, Refusal> {
+    // what is no text names no part
+    let Path(path) = path.map_err(|_| nothing())?;
     file(&path, &headers)
 }
 
+fn nothing() -> Refusal {
+    Refusal::new(StatusCode::NOT_FOUND, "the page has no such part")
+}
+
 fn file(path: &str, headers: &HeaderMap) -> Result<Response, Refusal> {
-    let nothing = || Refusal::new(StatusCode::NOT_FOUND, "the page has no such part");
     if path.split(['/', '\\']).any(|part| part == ".." || part.is_empty()) {
         return Err(nothing());
     }

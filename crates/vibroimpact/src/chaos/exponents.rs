@@ -3,17 +3,21 @@
 //! The transient is passed first, the tangent vectors carried along all the while: they start anyhow and turn into their
 //! directions meanwhile. Then so many impacts are measured, in [blocks](super) that give the error bars.
 //!
+//! The motion is watched as [`settle`](crate::verdict::settle()) watches it, for cycles, rests and fading impacts, however long it is
+//! followed; what it is shown to settle into stands beside the exponents ([`Exponents::motion`]), and they are of that motion: where it
+//! settles after the measurement has begun, the measurement begins again. So a transient that was chaotic is not mixed with what it ended in.
+//!
 //! A stick ends everything that was measured: the release is one state, so nothing before it matters, and transient and
 //! measurement begin again from there. A second stick on the same stop is a proof that the motion is periodic and sticks in
 //! each turn, so that both exponents are $`-\infty`$. So a motion is begun again at most once for each stop.
 
 use super::blocks::{Block, MEASURE, quotient};
 use super::run::Run;
-use super::{Measured, dimension};
+use super::{Measured, Spectrum, dimension};
 use crate::flight::SearchLimits;
-use crate::motion::{EventKind, ImpactState, MAX_TOUCHES, Motion};
+use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Side, Start};
-use crate::verdict::{NoImpact, Verdict, ended};
+use crate::verdict::{Chaos, Follow, NoImpact, Releases, SettleOptions, Undecided, Verdict, ended};
 
 /// Impacts measured where no number is given.
 pub const DEFAULT_IMPACTS: u64 = 100_000;
@@ -79,8 +83,11 @@ pub enum Grounds {
 }
 
 /// The exponents of a motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Exponents {
+    /// What the motion settles into, as far as it was followed for the exponents: chaos where the larger exponent excludes 0 and nothing
+    /// else was shown.
+    pub motion: Verdict,
     /// Lyapunov exponents per unit of (nondimensional) time, the larger first; errors are three standard errors, and no less than
     /// 1 over the time measured. Minus infinity where everything is forgotten, not a
     /// number where there are none or none were found; see [`Grounds`].
@@ -115,11 +122,12 @@ impl Exponents {
     }
 
     /// Exact ones.
-    fn exact(osc: &Oscillator, values: [f64; 2], rate: f64, grounds: Grounds) -> Self {
+    fn exact(osc: &Oscillator, values: [f64; 2], rate: f64, (motion, grounds): (Verdict, Grounds)) -> Self {
         let exact = |value| Measured { value, error: 0.0 };
         let exponents = values.map(exact);
         let sum = values[0] + values[1];
         Self {
+            motion,
             exponents,
             sum: exact(sum),
             identity: sum,
@@ -130,7 +138,8 @@ impl Exponents {
         }
     }
 
-    fn measured(osc: &Oscillator, blocks: &[Block], transient: u64) -> Self {
+    fn measured(osc: &Oscillator, run: &Run, settled: Option<Verdict>, last: ImpactState) -> Self {
+        let (blocks, transient) = (run.blocks.as_slice(), run.transient);
         let total = blocks.iter().fold(Block::default(), |sum, block| sum.plus(block));
         let rate = |least: f64, of: &dyn Fn(&Block) -> f64| quotient(blocks, least, of, |block| block.time);
         let mut exponents = [0, 1].map(|k| rate(MEASURE, &|b| b.stretch[k]));
@@ -147,11 +156,19 @@ impl Exponents {
             time: total.time,
             blocks: u32::try_from(blocks.len()).unwrap_or(u32::MAX),
         };
+        let impacts_per_period = Measured { value: impacts.value * osc.period(), error: impacts.error * osc.period() };
+        let spectrum = Spectrum { exponents, impacts_per_period, time: total.time, last };
+        let motion = settled.unwrap_or(if spectrum.chaotic() {
+            Verdict::Chaotic(Chaos { spectrum, impacts: run.seen })
+        } else {
+            Verdict::Undecided(Undecided::Impacts { impacts: run.seen, spectrum: Some(spectrum) })
+        });
         Self {
+            motion,
             exponents,
             sum: rate(0.0, &|b| b.stretch[0] + b.stretch[1]),
             identity: total.area / total.time,
-            impacts_per_period: Measured { value: impacts.value * osc.period(), error: impacts.error * osc.period() },
+            impacts_per_period,
             section_dimension: dimension::of_section(&exponents, blocks),
             period: osc.period(),
             grounds,
@@ -173,7 +190,7 @@ impl Exponents {
 #[must_use]
 pub fn exponents(osc: &Oscillator, start: Start, options: &ExponentOptions) -> Exponents {
     // nothing stops it
-    exponents_while(osc, start, options, || true).unwrap_or_else(|| spent(osc, options, 0))
+    exponents_while(osc, start, options, || true).unwrap_or_else(|| spent(osc, options, None, 0))
 }
 
 /// The same as [`exponents`], as long as `go_on` says yes when asked, which it is at every event; `None` once it said no.
@@ -186,53 +203,69 @@ pub fn exponents_while(
 ) -> Option<Exponents> {
     let mut motion = Motion::with_limits(osc, start, options.limits);
     let mut run = Run::new(options.impacts, options.transient);
+    let watch = SettleOptions { chaos_over: 0, limits: options.limits, ..SettleOptions::default() };
+    let (mut follow, releases) = (Follow::default(), &mut Releases::default());
+    let mut settled: Option<Verdict> = None;
     while motion.steps() < options.max_steps {
         if !go_on() {
             return None;
         }
         let Some(event) = motion.next() else {
-            return Some(at_the_end(osc, &ended(osc, motion.end(), options.limits), run.seen));
+            return Some(at_the_end(osc, ended(osc, motion.end(), options.limits), run.seen));
         };
-        run.since += motion.leg().map_or(0.0, |leg| leg.duration);
+        let interval = motion.leg().map_or(0.0, |leg| leg.duration);
+        run.since += interval;
         match event.kind {
             EventKind::Impact { velocity_before, .. } => {
                 let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
                 run.impact(osc, state);
-                if run.fades(osc) {
-                    let limit = NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase };
-                    return Some(at_the_end(osc, &Verdict::NoImpact(limit), run.seen));
+                if settled.is_none() {
+                    settled = follow.impact(osc, &watch, state, interval);
+                    if settled.is_some() && run.measuring() {
+                        run.begin_again();
+                    }
                 }
                 if run.complete() {
-                    return Some(Exponents::measured(osc, &run.blocks, run.transient));
+                    return Some(Exponents::measured(osc, &run, settled, state));
                 }
             }
             EventKind::Graze { .. } => {
-                run.touches += 1;
-                if run.touches > MAX_TOUCHES {
-                    let grazing = NoImpact::Grazing { phase: event.phase };
-                    return Some(at_the_end(osc, &Verdict::NoImpact(grazing), run.seen));
+                if settled.is_none() {
+                    settled = follow.graze(osc, event.side, event.phase, interval);
                 }
             }
             EventKind::Stick { chatter, .. } => {
-                if let Some(rate) = run.stick(osc, event.side, event.time, chatter) {
-                    let nothing = [f64::NEG_INFINITY; 2];
-                    return Some(Exponents::exact(osc, nothing, rate, Grounds::Sticks(event.side)));
+                follow.stick(osc, interval);
+                if let Some(rate) = run.stick(osc, event.side, event.time, chatter)
+                    && let Some(cycle) = &settled
+                {
+                    let grounds = Grounds::Sticks(event.side);
+                    return Some(Exponents::exact(osc, [f64::NEG_INFINITY; 2], rate, (cycle.clone(), grounds)));
                 }
             }
-            EventKind::Release => run.begin_again(),
+            EventKind::Release => {
+                run.begin_again();
+                settled = settled.or_else(|| follow.release(osc, releases, event.side, interval));
+            }
+        }
+        if let Some(Verdict::NoImpact(why)) = settled
+            && !matches!(why, NoImpact::Landing { .. })
+        {
+            return Some(at_the_end(osc, Verdict::NoImpact(why), run.seen));
         }
     }
-    Some(spent(osc, options, run.seen))
+    Some(spent(osc, options, settled, run.seen))
 }
 
 /// The exponents of a motion whose search ran out.
-fn spent(osc: &Oscillator, options: &ExponentOptions, impacts: u64) -> Exponents {
-    at_the_end(osc, &ended(osc, None, options.limits), impacts)
+fn spent(osc: &Oscillator, options: &ExponentOptions, settled: Option<Verdict>, impacts: u64) -> Exponents {
+    let motion = settled.unwrap_or_else(|| ended(osc, None, options.limits));
+    Exponents::exact(osc, [f64::NAN; 2], f64::NAN, (motion, Grounds::Undecided { impacts }))
 }
 
 /// The exponents of a motion that ends so.
-fn at_the_end(osc: &Oscillator, end: &Verdict, impacts: u64) -> Exponents {
-    let (values, rate, grounds) = match end {
+fn at_the_end(osc: &Oscillator, end: Verdict, impacts: u64) -> Exponents {
+    let (values, rate, grounds) = match &end {
         Verdict::NoImpact(why @ NoImpact::Grazing { .. }) => ([f64::NAN; 2], 0.0, Grounds::Touches(*why)),
         // ever gentler impacts, but impacts all the same
         Verdict::NoImpact(why @ NoImpact::GrazeLimit { .. }) => ([f64::NAN; 2], f64::NAN, Grounds::Touches(*why)),
@@ -240,7 +273,7 @@ fn at_the_end(osc: &Oscillator, end: &Verdict, impacts: u64) -> Exponents {
         Verdict::Stuck(side) => ([f64::NEG_INFINITY; 2], 0.0, Grounds::Stuck(*side)),
         _ => ([f64::NAN; 2], f64::NAN, Grounds::Undecided { impacts }),
     };
-    Exponents::exact(osc, values, rate, grounds)
+    Exponents::exact(osc, values, rate, (end, grounds))
 }
 
 /// The real parts of the characteristic exponents.

@@ -51,9 +51,12 @@ impl Spectrum {
 }
 
 /// How far each flight is followed: a motion with longer ones is not one whose exponents can be measured.
-pub(crate) const LIMITS: SearchLimits = SearchLimits { periods: 1000.0, steps: 2_000 };
+const LIMITS: SearchLimits = SearchLimits { periods: 1000.0, steps: 2_000 };
 /// Blocks the run is divided into.
 const BLOCKS: u32 = 25;
+/// Fewer blocks say too little about their own scatter; and so many at the end have to diverge by themselves, or the divergence may
+/// be over.
+const FEWEST: usize = 5;
 
 /// The Lyapunov exponents along the motion that arrives at `from`, over `impacts` further impacts; `None` if the motion
 /// sticks (then it forgets everything and the larger exponent is minus infinity) or stops striking.
@@ -116,6 +119,12 @@ impl Measure {
         self.blocks.len() >= BLOCKS as usize
     }
 
+    /// Impacts still to come.
+    pub(crate) fn left(&self) -> u32 {
+        let blocks = BLOCKS - u32::try_from(self.blocks.len()).unwrap_or(BLOCKS).min(BLOCKS);
+        (blocks * self.per_block).saturating_sub(self.count)
+    }
+
     /// The next impact, `interval` after the last one.
     pub(crate) fn impact(&mut self, osc: &Oscillator, next: ImpactState, interval: f64) {
         let d = derivative(osc, &self.state, &next, interval);
@@ -137,6 +146,14 @@ impl Measure {
             (self.count, self.time) = (0, Sum::default());
             (self.one, self.two) = (LogSum::default(), LogSum::default());
         }
+    }
+
+    /// Whether the motion is chaotic by this measurement: [`Spectrum::chaotic`], and the last fifth of it diverges too. `None` for
+    /// fewer than [`FEWEST`] blocks, or where restitution 0 contracts one direction to nothing.
+    pub(crate) fn chaos(&self, osc: &Oscillator) -> Option<(Spectrum, bool)> {
+        let spectrum = self.spectrum(osc).filter(|_| self.blocks.len() >= FEWEST)?;
+        let last: f64 = self.blocks.iter().rev().take(FEWEST).map(|(means, t)| means[0] * t).sum();
+        Some((spectrum, spectrum.chaotic() && last > 0.0))
     }
 
     /// The exponents of all complete blocks; `None` where restitution 0 contracts one direction to nothing.

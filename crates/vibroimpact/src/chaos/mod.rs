@@ -40,6 +40,6 @@ pub mod tangent;
 pub use exponents::{
     DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions, Exponents, Grounds, exponents, exponents_while,
 };
-pub(crate) use measure::{LIMITS, Measure};
+pub(crate) use measure::Measure;
 pub use measure::{Measured, Spectrum, lyapunov};
 pub use section::{Section, section, section_while};

@@ -4,7 +4,6 @@ use super::blocks::{BLOCKS, Block};
 use super::tangent::Frame;
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, Side};
-use crate::verdict::graze_limit;
 
 /// Impacts passed in any case, for the tangent vectors to turn.
 const TURNING: u64 = 100;
@@ -21,11 +20,8 @@ pub(super) struct Run {
     /// Impacts and sticks after a chatter since the start.
     pub(super) seen: u64,
     chatters: u64,
-    pub(super) touches: u32,
     block: Block,
     pub(super) blocks: Vec<Block>,
-    /// The last impacts and the times between them, for the law by which they fade away.
-    recent: Vec<(ImpactState, f64)>,
     /// When each stop was stuck to, and the impacts and chatters until then.
     stuck: [Option<(f64, u64, u64)>; 2],
 }
@@ -40,10 +36,8 @@ impl Run {
             passed: 0,
             seen: 0,
             chatters: 0,
-            touches: 0,
             block: Block::default(),
             blocks: Vec::new(),
-            recent: Vec::new(),
             stuck: [None; 2],
         }
     }
@@ -51,11 +45,7 @@ impl Run {
     pub(super) fn impact(&mut self, osc: &Oscillator, state: ImpactState) {
         let interval = core::mem::take(&mut self.since);
         let area = self.frame.through(osc, interval, &state);
-        (self.seen, self.passed, self.touches) = (self.seen + 1, self.passed + 1, 0);
-        if self.recent.len() >= graze_limit::RUN {
-            self.recent.remove(0);
-        }
-        self.recent.push((state, interval));
+        (self.seen, self.passed) = (self.seen + 1, self.passed + 1);
         let Some(measured) = self.passed.checked_sub(self.transient) else { return };
         if measured == 0 {
             // the vectors have turned: from here on it counts
@@ -76,8 +66,9 @@ impl Run {
         self.blocks.len() as u64 >= BLOCKS.min(self.impacts)
     }
 
-    pub(super) fn fades(&self, osc: &Oscillator) -> bool {
-        graze_limit::recognised(osc, &self.recent)
+    /// Whether the transient is over and the measurement has begun.
+    pub(super) const fn measuring(&self) -> bool {
+        self.passed > self.transient
     }
 
     /// At rest on a stop; the second time, how many impacts there are in a forcing period.
@@ -91,10 +82,9 @@ impl Run {
         Some(if self.chatters > chatters { f64::INFINITY } else { impacts / periods })
     }
 
-    /// Nothing before a release matters.
+    /// Nothing before matters: the motion was released, or has settled after the measurement had begun.
     pub(super) fn begin_again(&mut self) {
         (self.frame, self.since, self.passed, self.block) = (Frame::default(), 0.0, 0, Block::default());
         self.blocks.clear();
-        self.recent.clear();
     }
 }

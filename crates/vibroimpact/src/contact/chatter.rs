@@ -67,8 +67,9 @@ pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smalln
         + 16.0 * (1.0 + eps * eps) * zeta * zeta * a * a
         - 6.0 * r * r * a * a;
     let third = sum * w * w / (18.0 * a * a * a * a * r * r * (1.0 + eps + eps * eps));
+    // powers of a tiny force underflow: then nothing is known of the sum
     let rho = second.abs().max(third.abs().sqrt());
-    (rho <= smallness)
+    (third.is_finite() && rho <= smallness)
         .then_some(Completion { duration: first * (1.0 + second + third), error: 10.0 * first * rho * rho * rho })
 }
 

@@ -2,9 +2,11 @@
 //!
 //! An impact sends the mass back with $`u_+ = -\varepsilon u_-`$ (eq. 9 of the 1971 paper). Under a force into the stop
 //! the rebounds shrink geometrically and accumulate in finite time - chattering, completed here by a formula with a
-//! known error ([`chatter`]) - after which the mass sticks until the force changes sign ([`sticking`]).
+//! known error ([`chatter`]) - after which the mass sticks until the force changes sign ([`sticking`]). At a few exact values
+//! of the parameters the mass comes back to the stop without speed and without an impact ([`landing`]).
 
 pub mod chatter;
+pub mod landing;
 pub mod sticking;
 
 use crate::system::Side;

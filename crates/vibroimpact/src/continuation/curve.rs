@@ -115,8 +115,11 @@ impl Curve {
             row
         };
         let rows = [row(p), row(q)];
-        let usable = |row: &&Vec<f64>| tangent(&plane, w, row).is_some_and(|t| t.iter().all(|t| t.is_finite()));
-        let row = rows.iter().find(usable)?.clone();
+        // a parameter that does not change at all along the curve, but by rounding, gives it no direction
+        let pace = |row: &Vec<f64>| tangent(&plane, w, row).map(|t| plane.pace(&t, row));
+        let usable =
+            |least: f64| rows.iter().find(|row| pace(row).is_some_and(|pace| pace > least && pace.is_finite()));
+        let row = usable(SLOWEST).or_else(|| usable(0.0))?.clone();
         let along = tangent(&plane, w, &row)?;
         let fix = plane.row(&along);
         let level = fix.iter().zip(w).map(|(r, w)| r * w).sum();
@@ -275,6 +278,8 @@ fn grazes(watched: &[Condition], spot: &Spot) -> bool {
 
 /// Nearer to an edge of the box than this a lost curve is at the edge.
 const AT_EDGE: f64 = 1e-8;
+/// A parameter that changes less than this, in quarters of its range over the length of the curve, does so by rounding.
+const SLOWEST: f64 = 1e-9;
 /// A course slower than this, parameters over arclength, is rounding.
 const STILL: f64 = 1e-4;
 

@@ -4,7 +4,7 @@
 //! converged solution of the equations, so the parameter of an event is right to rounding. A branch point is the exception:
 //! there two curves of solutions cross and the equations are singular, so it is interpolated from beside it.
 
-use super::arc::correct;
+use super::arc::{Equations, correct};
 use super::course::{Course, Here, sign};
 use super::interpolate;
 use super::point::BranchEvent;
@@ -20,8 +20,8 @@ impl Course {
         let mut found = Vec::new();
         for j in self.crosses(there) {
             // folds and branch points are looked at more closely later
-            let coarse = matches!(self.watches[j], Watch::Pace | Watch::PlusOne);
-            found.push((self.zero(j, there, h, if coarse { COARSE } else { RESOLUTION })?, Some(j)));
+            found
+                .push((self.zero(j, there, h, if self.watches[j].critical() { COARSE } else { RESOLUTION })?, Some(j)));
         }
         let (before, after) = (self.value(&self.here), self.value(there));
         for (end, beyond) in [(self.range.0, after < self.range.0), (self.range.1, after > self.range.1)] {
@@ -31,7 +31,55 @@ impl Course {
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.refine(&mut found, there, h);
         Some(found)
+    }
+
+    /// Puts a fold or a branch point that is close to another event in its order: it was located coarsely.
+    fn refine(&self, found: &mut [(f64, Option<usize>)], there: &Here, h: f64) {
+        let critical = |what: Option<usize>| what.map(|j| self.watches[j]).filter(Watch::critical);
+        for k in 0..found.len() {
+            let (s, what) = found[k];
+            let Some(watch) = critical(what) else { continue };
+            let close = |(other, what): &(f64, Option<usize>)| critical(*what).is_none() && (other - s).abs() < CLOSE;
+            if found.iter().any(close)
+                && let Some((w, Some(_))) = self.critical(watch, there, s, h)
+            {
+                found[k].0 = self.ahead(&w).unwrap_or(s);
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+
+    /// How far along the step a point of it is; `None` for a cycle with other impacts.
+    fn ahead(&self, w: &[f64]) -> Option<f64> {
+        let off: Vec<f64> = w.iter().zip(&self.here.w).map(|(a, b)| a - b).collect();
+        (w.len() == self.here.w.len()).then(|| self.equations.dot(&self.here.tangent, &off))
+    }
+
+    /// A point between two events of one step, `passed` being what has happened before it: no step ends there, and it is what says
+    /// whether the cycle is stable between them. None where the events are too close for their test functions to tell.
+    fn amid(&mut self, events: (Option<f64>, f64), passed: &[(f64, Option<usize>)], there: &Here, h: f64) {
+        let (Some(from), to) = events else { return };
+        let s = 0.5 * (from + to);
+        if s <= from || s >= to {
+            return;
+        }
+        let at = self.between(there, s, h).and_then(|w| {
+            let along = self.tangent_at(&w)?;
+            Self::look(&self.equations, &self.watches, w, along)
+        });
+        let Some(at) = at else { return };
+        let holds = |j: usize| {
+            let crossed = passed.iter().any(|(_, what)| *what == Some(j));
+            let expected = if crossed { sign(there.values[j]) } else { self.signs[j] };
+            expected.is_none_or(|positive| (at.values[j] > 0.0) == positive)
+        };
+        let told = |j: &usize| matches!(self.watches[*j], Watch::PlusOne | Watch::MinusOne);
+        if (0..self.watches.len()).filter(told).all(holds) {
+            self.pending.push_back(self.point(&at, None));
+            self.count += 1;
+        }
     }
 
     /// The solution a distance `s` along the step to `there`, which is `h` away.
@@ -63,6 +111,8 @@ impl Course {
     /// Passes the events of a step in their order, up to one that changes the signature or ends the branch.
     pub(super) fn go_through(&mut self, happenings: &[(f64, Option<usize>)], reached: Reached) {
         let Reached { there, length: h, end, .. } = reached;
+        // where the last event of this step is
+        let mut last = None;
         for (n, &(s, what)) in happenings.iter().enumerate() {
             let Some(j) = what else {
                 return self.end_of_range(&there);
@@ -81,13 +131,16 @@ impl Course {
             let Some((at, event)) = at else {
                 return self.finish(BranchEvent::NoConvergence);
             };
+            let place = self.ahead(&at.w).unwrap_or(s);
             if let Some(event) = event {
+                self.amid((last.replace(place), place), &happenings[..n], &there, h);
                 self.emit(&at, event);
                 if event.ends() {
                     self.over = true;
                     return;
                 }
             } else if watch.needed() && self.here.orbit.physical && !self.options.keep_signature {
+                self.amid((last, place), &happenings[..n], &there, h);
                 if let Watch::Pull(k) = watch {
                     let impact = self.listed(&at, k);
                     self.emit(&at, BranchEvent::Stick { impact });
@@ -192,5 +245,7 @@ const ASIDE: f64 = 6e-4;
 const FOUR: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 /// How closely folds and branch points are located before they are looked at.
 const COARSE: f64 = 3e-5;
+/// A fold or a branch point closer than this to another event is located before the two are put in order.
+const CLOSE: f64 = 1e-4;
 /// The halves of a cycle closer than this are the same, at a turn.
 const ALIKE: f64 = 1e-5;

@@ -27,13 +27,17 @@ impl Frame {
     }
 
     /// Its edges, each positive inside.
+    ///
+    /// A distance from the edge of a small frame is measured in a unit of its size: what is below the rounding of a walk has no
+    /// sign, and an edge whose distance never has one is never met.
     pub(super) fn edges(&self) -> [Condition; 4] {
-        let (p, q) = &self.ranges;
+        let ((p, q), scales) = (&self.ranges, self.scales());
+        let (a, b) = (unit(scales.0), unit(scales.1));
         [
-            Condition::Line(1.0, 0.0, *p.start()),
-            Condition::Line(-1.0, 0.0, -*p.end()),
-            Condition::Line(0.0, 1.0, *q.start()),
-            Condition::Line(0.0, -1.0, -*q.end()),
+            Condition::Line(a, 0.0, a * p.start()),
+            Condition::Line(-a, 0.0, -a * p.end()),
+            Condition::Line(0.0, b, b * q.start()),
+            Condition::Line(0.0, -b, -b * q.end()),
         ]
     }
 
@@ -51,3 +55,17 @@ impl Frame {
         self.ranges.0.contains(&p) && self.ranges.1.contains(&q)
     }
 }
+
+/// A power of two, so that nothing is rounded: 1 for a scale that is not small, otherwise about its inverse.
+fn unit(scale: f64) -> f64 {
+    let mut unit = 1.0;
+    while scale * unit < SMALL && unit < LARGEST {
+        unit *= 2.0;
+    }
+    unit
+}
+
+/// Scales from here on are not small.
+const SMALL: f64 = 1e-4;
+/// Units stay below this, where no range leaves anything to tell apart.
+const LARGEST: f64 = 1e200;

@@ -19,7 +19,10 @@ impl Round<'_> {
         let mut walk = self.along(Condition::Line(dq, -dp, dq * p - dp * q), from, &row)?;
         let here = |w: &[f64]| (w[width - 2] - p) * dp + (w[width - 1] - q) * dq;
         let full = dp * dp + dq * dq;
-        while (self.go_on)() {
+        for _ in 0..self.options.vertices {
+            if !(self.go_on)() {
+                break;
+            }
             let Stride { there, length, crossed } = walk.stride()?;
             let (before, after) = (here(&walk.here.w), here(&there.w));
             let passed = after >= full;

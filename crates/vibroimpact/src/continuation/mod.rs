@@ -18,6 +18,7 @@
 //! | curves of folds, flips and grazing impacts; a point of one; why one ends | [`Curve`], [`CurvePoint`], `curve_end` |
 //! | the box that is looked at | [`Frame`] |
 //! | where a motion exists or is stable, as polygons along these curves | [`region`], [`Region`], `search`, `round`, `inside`, `singular` |
+//! | the region of the motion without impacts, in closed form | `free_region` |
 //! | branches that begin at a flip or a branch point | `switch` |
 
 mod accumulation;
@@ -30,6 +31,7 @@ mod curve_point;
 mod events;
 mod frame;
 mod free;
+mod free_region;
 mod graze;
 mod inside;
 mod interpolate;

@@ -63,10 +63,14 @@ pub enum BranchError {
         "without damping the steady motion without impacts is one of many and cannot be followed\nhint: a damping above 0, or a branch from 1/1 towards it"
     )]
     Undamped,
-    /// Newton's method does not converge from the cycle at these parameters.
-    #[error("the cycle given does not solve its equations at these parameters")]
+    /// Newton's method does not converge from the cycle at these parameters, or the curve has no direction there.
+    #[error(
+        "the orbit cannot be followed from here: at these parameters its equations have no solution close by, or no single curve of them\nhint: begin a little beside a fold, a branch point or a grazing impact"
+    )]
     NoCycle,
     /// Not the event that a branch was asked from.
-    #[error("no branch of that kind begins at this point")]
+    #[error(
+        "what happens at this point begins no branch and no curve of that kind\nhint: branches begin at flips and branch points, curves go through folds, flips and grazing impacts"
+    )]
     NotThere,
 }

@@ -99,7 +99,8 @@ impl Polygon {
 pub struct Region {
     /// Its polygons.
     pub polygons: Vec<Polygon>,
-    /// Points of the grid where the search for orbits and the polygons do not agree: a walk was lost there.
+    /// Points of the grid where the search for orbits and the polygons do not agree: a walk was lost there, or an orbit rests on a
+    /// stop.
     pub unresolved: Vec<(f64, f64)>,
 }
 

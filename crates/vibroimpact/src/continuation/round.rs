@@ -20,7 +20,7 @@ pub(super) struct Round<'a> {
     w: Vec<f64>,
     /// The sign of the test function of a multiplier +1 on the sheet.
     pub(super) sheet: f64,
-    options: RegionOptions,
+    pub(super) options: RegionOptions,
     /// Asked at every step.
     pub(super) go_on: &'a dyn Fn() -> bool,
 }
@@ -76,7 +76,7 @@ impl<'a> Round<'a> {
         for k in 0..seed.ring.len() {
             bounds.push((Condition::Speed(k), 1.0, Bound::NoSpeed));
             bounds.extend(seed.osc.stops().map(|(side, _)| (Condition::Clear(k, side), 1.0, Bound::Touch)));
-            if seed.osc.stop(seed.ring.side(k)).is_some_and(|stop| stop.restitution == 0.0) {
+            if seed.osc.stop(seed.ring.side(k)).is_some_and(|stop| stop.restitution <= INELASTIC) {
                 bounds.push((Condition::Pull(k), 1.0, Bound::Touch));
             }
         }
@@ -104,7 +104,8 @@ impl<'a> Round<'a> {
         Some(walk)
     }
 
-    /// To the first bound in a direction: which, where, and the walk that led there.
+    /// To the first bound in a direction: which, where, and the walk that led there; `None` where it is lost, or has taken as many
+    /// steps as an edge may have vertices.
     pub(super) fn out(&self, (dp, dq): (f64, f64)) -> Option<(usize, Vec<f64>, Walk)> {
         let (p, q) = Plane::values(&self.w);
         let line = Condition::Line(dq, -dp, dq * p - dp * q);
@@ -112,7 +113,10 @@ impl<'a> Round<'a> {
         let width = row.len();
         (row[width - 2], row[width - 1]) = (dp, dq);
         let mut out = self.along(line, &self.w, &row)?;
-        while (self.go_on)() {
+        for _ in 0..self.options.vertices {
+            if !(self.go_on)() {
+                break;
+            }
             let Stride { there, length, crossed } = out.stride()?;
             if let Some(&(s, j)) = crossed.first() {
                 return Some((j, out.between(&there, s, length)?, out));
@@ -293,6 +297,9 @@ fn sagitta(plane: &Plane, here: &Spot, there: &Spot) -> f64 {
     crate::math::hypot(u - x, v - y) * turn / 8.0
 }
 
+/// With a restitution up to this the mass leaves a stop where the force pulls it off, to within about as much: the hop that the
+/// rebound itself makes is too low for its touches to be a bound.
+const INELASTIC: f64 = 1e-9;
 /// Bounds closer to zero than this at a corner meet there.
 const MEET: f64 = 1e-6;
 /// As many corners in one place as this are a walk that gets nowhere.

@@ -7,7 +7,7 @@ use super::region::{RegionKind, RegionOptions};
 use super::round::{Edge, Round};
 use super::singular::INWARDS;
 use crate::math::sin_cos;
-use crate::orbit::{Cycle, FindOptions, Orbit, Ring, struck};
+use crate::orbit::{Cycle, DEFAULT_EVENTS, FindOptions, Orbit, Ring, from_release, struck};
 use crate::system::Oscillator;
 use crate::verdict::{Count, Label};
 
@@ -139,10 +139,19 @@ impl<'a> Search<'a> {
             inside.peek().is_none() || inside.any(|has| has)
         });
         for (at, seeds) in places.into_iter().zip(&seeds).take(nodes.len()) {
-            if self.region.contains(at) == seeds.is_empty() {
+            let none = seeds.is_empty() && !self.rests(label, at);
+            if self.region.contains(at) == none {
                 self.region.unresolved.push(at);
             }
         }
+    }
+
+    /// Whether at a point an orbit of this label rests on a stop, as m/n may with restitution 0: it has no equations to walk along.
+    fn rests(&self, label: Label, at: (f64, f64)) -> bool {
+        let Some(osc) = self.oscillator(at).filter(|_| (self.go_on)()) else { return false };
+        let sticky = osc.stops().filter(|(_, stop)| stop.restitution == 0.0);
+        let mut cycles = sticky.filter_map(|(side, _)| from_release(&osc, side, DEFAULT_EVENTS));
+        cycles.any(|cycle| cycle.label == label && (self.kind == RegionKind::Existence || cycle.stable()))
     }
 
     /// The orbits at a point that belong to the region.

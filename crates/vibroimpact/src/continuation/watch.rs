@@ -46,6 +46,11 @@ impl Watch {
         matches!(self, Self::Speed(_) | Self::Clear(..) | Self::Room(_) | Self::Pull(_))
     }
 
+    /// Whether it is zero where folds and branch points are.
+    pub(super) const fn critical(&self) -> bool {
+        matches!(self, Self::Pace | Self::PlusOne)
+    }
+
     /// Its value at a point: the tangent and the flights there.
     pub(super) fn value(self, equations: &Varied, tangent: &[f64], at: &Place<'_>) -> f64 {
         let Place { osc, ring, flights } = *at;

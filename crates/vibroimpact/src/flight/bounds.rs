@@ -126,6 +126,10 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option
         // natural period at least, whatever rounding makes of the derivatives at a force that just balances
         return Some(window);
     }
+    if gap <= -1.0 {
+        // the force never pulls, at most it vanishes for a moment, as at gap -1 and phase 3 pi/2: held for ever
+        return None;
+    }
     let bounds = Window::new(flight, r, p.abs(), window);
     if q < 0.0 {
         // q/2 + (j + b4 H) h/6 < 0

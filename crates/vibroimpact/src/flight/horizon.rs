@@ -5,9 +5,7 @@
 //!
 //! 1. $`\rho e^{-\kappa s} + |f| < \delta`$ from some time on: never again after it (at once when it holds at $`s = 0`$).
 //! 2. Undamped with $`\beta = p/q`$: the flight repeats after $`2\pi q`$, so one common period without contact is for ever.
-//!    Every double is a fraction; here $`\beta`$ counts as $`p/q`$ when $`q \le 1000`$ and $`\beta`$ is that fraction to within
-//!    two units in the last place - what $`1/0.7`$ is to $`10/7`$. The answer is exact for the fraction. For the stored
-//!    number the phase drifts by at most $`4\cdot10^{-16}\,\beta`$ per unit of time, some $`10^{-9}`$ in a million periods.
+//!    [`Oscillator::fraction`] says which numbers count as fractions.
 //!    At resonance, 1/1, the flight grows instead of repeating, and the rule does not apply.
 //! 3. Otherwise contact is only a matter of time ($`\rho + |f| \ge \delta`$, phases incommensurate or $`|f| > \delta`$), and a search
 //!    that ends at its limit says so: none until then.
@@ -121,29 +119,6 @@ fn slow_root(zeta: f64) -> f64 {
     1.0 / (zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt())
 }
 
-/// The fraction `p/q`, `q <= 1000`, that `beta` is to within two units in the last place.
-#[must_use]
-pub(super) fn as_fraction(beta: f64) -> Option<(u32, u32)> {
-    // convergents of the continued fraction
-    let (mut p0, mut q0, mut p1, mut q1) = (0.0, 1.0, 1.0, 0.0);
-    let mut rest = beta;
-    for _ in 0..20 {
-        let whole = rest.floor();
-        (p0, p1) = (p1, whole * p1 + p0);
-        (q0, q1) = (q1, whole * q1 + q0);
-        if q1 > 1000.0 || p1 > 1e9 {
-            return None;
-        }
-        if (p1 / q1 - beta).abs() <= 2.0 * f64::EPSILON * beta {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            // whole numbers below 1e9
-            return Some((p1 as u32, q1 as u32));
-        }
-        rest = 1.0 / (rest - whole);
-    }
-    None
-}
-
 /// What is known in advance about the whole flight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outlook {
@@ -163,30 +138,11 @@ impl Outlook {
         });
         if let Some(clear) = clear {
             (outlook.until, outlook.never) = (clear, Some(Horizon::Amplitude));
-        } else if osc.damping() == 0.0
-            && osc.beta() != 1.0
-            && let Some((p, q)) = as_fraction(osc.beta())
-            && p != q
+        } else if let Some((p, q)) = osc.common_period()
             && TAU * f64::from(q) <= outlook.until
         {
             (outlook.until, outlook.never) = (TAU * f64::from(q), Some(Horizon::CommonPeriod { p, q }));
         }
         outlook
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fractions_are_recognised() {
-        assert_eq!(as_fraction(1.0 / 0.7), Some((10, 7)));
-        assert_eq!(as_fraction(1.0 / 0.6), Some((5, 3)));
-        assert_eq!(as_fraction(1.0 / 1.11), Some((100, 111)));
-        assert_eq!(as_fraction(2.0), Some((2, 1)));
-        assert_eq!(as_fraction(1.0 / 3.0), Some((1, 3)));
-        assert_eq!(as_fraction(core::f64::consts::SQRT_2), None);
-        assert_eq!(as_fraction(1e-6), None);
     }
 }

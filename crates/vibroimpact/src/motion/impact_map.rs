@@ -72,7 +72,8 @@ pub const MAX_TOUCHES: u32 = 8;
 /// ```
 #[must_use]
 pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -> Mapped {
-    let mut motion = Motion::with_limits(osc, state.rebound(osc), limits);
+    // a chatter that follows is completed, as in a motion: iterated, the map would sum it impact by impact for ever
+    let mut motion = Motion::after(osc, state, limits);
     let mut passed = 0;
     loop {
         match motion.next() {

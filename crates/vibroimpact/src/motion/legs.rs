@@ -4,7 +4,7 @@
 //! a motion carries is phase and velocity at the stop, and nothing in it grows old.
 
 use super::{End, Event, EventKind, ImpactState};
-use crate::contact::{chatter, sticking};
+use crate::contact::{chatter, landing, sticking};
 use crate::flight::{Contact, Flight, SearchLimits};
 use crate::lanes::{self, Stride};
 use crate::math::Sum;
@@ -82,6 +82,8 @@ pub struct Motion<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Mode {
     Flying(Flight),
+    /// It flies from a release of the stop on this side.
+    Released(Side, Flight),
     /// The chatter after an impact is summed: at rest after `duration`.
     Settling {
         side: Side,
@@ -124,7 +126,7 @@ impl<'a> Motion<'a> {
     #[must_use]
     pub fn released(osc: &'a Oscillator, side: Side) -> Self {
         let mode = match sticking::release_phase(osc, side) {
-            Some(phase) => Mode::Flying(Flight::release(osc, side, phase)),
+            Some(phase) => Mode::Released(side, Flight::release(osc, side, phase)),
             None => Mode::Ended(End::Stuck(side)),
         };
         Self::begin(osc, SearchLimits::default(), mode)
@@ -166,11 +168,20 @@ impl<'a> Motion<'a> {
         self.mode = Mode::Ended(end);
     }
 
-    fn fly(&mut self, flight: Flight) -> Option<Event> {
+    /// To the end of a flight, which begins with a release from the stop on that side if one is given.
+    fn fly(&mut self, flight: Flight, released: Option<Side>) -> Option<Event> {
         let leg =
             |duration| Leg { begin: self.time.value(), duration, phase: flight.phase, path: Path::Flight(flight) };
         let (contact, steps) = lanes::found(self.stride.as_ref(), self.osc, &flight, self.limits);
         self.steps += u64::from(steps);
+        if let Contact::Impact { time, side, .. } | Contact::Grazing { time, side, .. } = contact
+            && released == Some(side)
+            && let Some(landing) = landing::landing(self.osc, side).filter(|landing| landing.is_at(self.osc, time))
+        {
+            let (phase, leg) = (landing.phase, leg(landing.duration));
+            self.mode = Mode::Resting { side, phase };
+            return Some(self.event(leg, phase, side, EventKind::Stick { chatter: false, error: 0.0 }));
+        }
         let (duration, side, velocity) = match contact {
             Contact::Impact { time, side, velocity } => (time, side, velocity),
             Contact::Contact { side } => {
@@ -230,7 +241,8 @@ impl Iterator for Motion<'_> {
 
     fn next(&mut self) -> Option<Event> {
         match self.mode {
-            Mode::Flying(flight) => self.fly(flight),
+            Mode::Flying(flight) => self.fly(flight, None),
+            Mode::Released(side, flight) => self.fly(flight, Some(side)),
             Mode::Settling { side, phase, duration, error, chatter } => {
                 let leg = Leg { begin: self.time.value(), duration, phase, path: Path::Rest(side) };
                 let phase = phase::advance(phase, self.osc.beta(), duration);
@@ -240,7 +252,7 @@ impl Iterator for Motion<'_> {
             Mode::Resting { side, phase } => match sticking::rest(self.osc, side, phase) {
                 sticking::Rest::Until { time, phase: release } => {
                     let leg = Leg { begin: self.time.value(), duration: time, phase, path: Path::Rest(side) };
-                    self.mode = Mode::Flying(Flight::release(self.osc, side, release));
+                    self.mode = Mode::Released(side, Flight::release(self.osc, side, release));
                     Some(self.event(leg, release, side, EventKind::Release))
                 }
                 sticking::Rest::Forever => {

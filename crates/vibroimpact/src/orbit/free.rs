@@ -54,6 +54,20 @@ pub(crate) fn room(osc: &Oscillator, side: Side) -> f64 {
     osc.stop(side).map_or(f64::INFINITY, |stop| stop.gap - osc.free_amplitude())
 }
 
+/// $`\delta^2/f^2 - 1`$ for the stop on `side`: negative where the motion would pass it, and 0 where it touches.
+///
+/// Where $`\delta|f|^{-1} = 1`$ exactly this is 0; so it is where the gap differs from the amplitude by no more than the rounding
+/// of that, which a few operations of half a unit in the last place each make.
+pub(super) fn excess(osc: &Oscillator, side: Side) -> f64 {
+    let Some(stop) = osc.stop(side) else { return f64::INFINITY };
+    let (gap, amplitude) = (stop.gap.abs(), osc.free_amplitude());
+    let off = gap - amplitude;
+    if amplitude == f64::INFINITY {
+        return -1.0;
+    }
+    if off.abs() <= ROUNDING * amplitude { 0.0 } else { (off / amplitude) * (gap / amplitude + 1.0) }
+}
+
 /// The phase at which it is nearest to the stop on `side`.
 pub(crate) fn crest(osc: &Oscillator, side: Side) -> f64 {
     let beta = osc.beta();

@@ -10,6 +10,7 @@
 //! | Newton's method on these equations, and their linear systems | [`refine`], `newton`, `condense` |
 //! | multipliers and test functions from them | `floquet` |
 //! | whether a solution is a motion, and how close it comes to a stop | [`earlier_contact`], `clearance` |
+//! | whether an impact has no speed to within rounding | `grazing` |
 //! | the steady motion without impacts | [`without_impacts`] |
 //! | all orbits of a label from many seeds | [`find`] |
 
@@ -20,6 +21,7 @@ mod cyclic;
 mod find;
 mod floquet;
 mod free;
+mod grazing;
 mod newton;
 mod one_impact;
 mod physical;
@@ -37,7 +39,7 @@ pub use physical::{EarlierContact, earlier_contact};
 pub use release::{DEFAULT_EVENTS, from_release};
 pub use shooting::{ShootingError, shoot};
 
-pub(crate) use clearance::{closest, turning_near};
+pub(crate) use clearance::{closest, nearest, turning_near};
 pub(crate) use cycle::distance as cycle_distance;
 pub(crate) use cyclic::{Block, blocks, by_parameter, fill};
 pub(crate) use floquet::Floquet;

@@ -13,7 +13,7 @@
 //! doi:10.1016/0022-460X(83)90407-8). An algebraic solution need not be a motion: it may pass through the stop on its
 //! way. [`OneImpact::physical`] says, by flying it.
 
-use super::{Cycle, shooting};
+use super::{Cycle, free, shooting};
 use crate::flight::{Contact, Flight, SearchLimits, first_contact};
 use crate::math::atan2;
 use crate::motion::ImpactState;
@@ -29,6 +29,9 @@ pub struct OneImpact {
 }
 
 /// All orbits with one impact on the first stop in `n` forcing periods, the slower arrival first.
+///
+/// At $`U = 0`$ the quadratic is $`\delta^2/f^2 - 1`$: where the gap is $`|f|`$, exactly or to within the rounding of $`|f|`$, one
+/// root is 0. That is the motion without impacts, which touches the stop, and no orbit of this kind.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, orbit::one_impact};
@@ -58,6 +61,8 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     // |base + U slope|^2 = 1
     let (qa, qb) = (slope[0] * slope[0] + slope[1] * slope[1], base[0] * slope[0] + base[1] * slope[1]);
     let qc = base[0] * base[0] + base[1] * base[1] - 1.0;
+    // that is delta^2/f^2 - 1, which cancels where the motion without impacts touches the stop
+    let qc = if qc.abs() < NEAR_TOUCH { free::excess(osc, Side::Upper) } else { qc };
     let disc = qb * qb - qa * qc;
     if !(disc >= 0.0 && qa > 0.0) {
         return Vec::new();
@@ -65,9 +70,12 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     let large = if qb > 0.0 { -qb - disc.sqrt() } else { -qb + disc.sqrt() };
     let mut roots = [large / qa, if large == 0.0 { 0.0 } else { qc / large }];
     roots.sort_by(f64::total_cmp);
+    // at the touch one root is exactly 0; where the other one is too, it is so to within what rounding makes of base and slope
+    let rounding = f64::EPSILON * (4.0 + 2.0 * interval) * (a * a + b * b + c * c + d * d) / det.abs();
+    let zero = if qc == 0.0 { 2.0 * rounding / qa.sqrt() } else { 0.0 };
     let mut orbits = Vec::new();
     for velocity in roots {
-        if !(velocity > 0.0 && velocity.is_finite()) {
+        if !(velocity > zero && velocity.is_finite()) {
             continue;
         }
         let theta = phase::wrap(atan2(base[0] + velocity * slope[0], base[1] + velocity * slope[1]));
@@ -84,6 +92,9 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     }
     orbits
 }
+
+/// Closer to a touch than this, in the square of the gap over the amplitude, the difference is worked out without cancellation.
+const NEAR_TOUCH: f64 = 1e-6;
 
 #[cfg(test)]
 mod tests {

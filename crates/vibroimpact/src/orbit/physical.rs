@@ -1,6 +1,8 @@
 //! Whether a solution of the equations is a motion: each flight has to reach its own end first.
 
 use super::cycle::Cycle;
+use super::grazing::grazes;
+use super::ring::Ring;
 use crate::flight::{Contact, Flight, SearchLimits, first_contact};
 use crate::motion::MAX_TOUCHES;
 use crate::system::{Oscillator, Side, Start};
@@ -23,7 +25,8 @@ const END: f64 = 1e-6;
 /// The first contact of `cycle` with a stop that is not an impact of it, found by flying each of its flights; `None` if
 /// there is none, so that the cycle is a possible motion. A touch without effect does not count.
 ///
-/// An impact with a speed of zero or less counts as one that is not left.
+/// An impact with a speed of zero or less counts as one that is not left. Zero to within rounding is zero: without that impact
+/// the cycle would be the same and touch the stop there.
 #[must_use]
 pub fn earlier_contact(osc: &Oscillator, cycle: &Cycle) -> Option<EarlierContact> {
     if !cycle.rests.is_empty() {
@@ -33,9 +36,10 @@ pub fn earlier_contact(osc: &Oscillator, cycle: &Cycle) -> Option<EarlierContact
     if m == 0 {
         return super::free::met(osc);
     }
+    let ring = Ring::of(osc, cycle);
     (0..m).find_map(|k| {
         let (point, next) = (&cycle.points[k], &cycle.points[(k + 1) % m]);
-        if point.state.velocity <= 0.0 {
+        if point.state.velocity <= 0.0 || ring.as_ref().is_some_and(|ring| grazes(osc, ring, k)) {
             return Some(EarlierContact { flight: k, side: point.state.side, time: 0.0 });
         }
         let (side, time) = blocked(osc, point.state.rebound(osc), point.interval, next.state.side)?;

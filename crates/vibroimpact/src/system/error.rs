@@ -67,6 +67,11 @@ pub enum SystemError {
         /// The value given.
         value: f64,
     },
+    /// A phase so large that its double tells no place on the circle.
+    #[error(
+        "start phase = {0:?} lies outside -1e15 <= phase <= 1e15\nhint: numbers that large are too far apart to be angles; give the phase modulo 2 pi"
+    )]
+    LargePhase(f64),
     /// A physical quantity outside its range.
     #[error("{name} = {value} {unit} lies outside {range}\nhint: {hint}")]
     Quantity {

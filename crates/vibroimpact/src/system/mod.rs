@@ -3,12 +3,14 @@
 //! | idea | file |
 //! |---|---|
 //! | checked parameters of one oscillator | [`Oscillator`] |
+//! | frequency ratios that are fractions | [`Oscillator::fraction`] |
 //! | its parameters by name, read and changed | [`Parameter`] |
 //! | a line through them | [`Varying`] |
 //! | a starting point allowed by the stops | [`Start`] |
 //! | kilograms, newtons and millimetres to nondimensional numbers and back | [`Machine`] |
 //! | angles of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 
+mod commensurable;
 mod error;
 mod oscillator;
 mod parameter;

@@ -15,7 +15,11 @@ const TAU_PIECES: [f64; 3] = [6.283_185_306_936_502_5, 2.430_840_202_521_586_4e-
 /// Angles up to here make fewer turns than that.
 const SHORT: f64 = 6_000_000.0;
 
-/// `angle` modulo $`2\pi`$, in $`[0, 2\pi)`$.
+/// The largest magnitude of a phase that may be given. Up to here [`wrap`] is right to its last place; there neighbouring doubles
+/// are an eighth of a radian apart, so that a larger one is no phase that anybody means.
+pub const LARGEST: f64 = 1e15;
+
+/// `angle` modulo $`2\pi`$, in $`[0, 2\pi)`$; for angles up to [`LARGEST`] in magnitude.
 #[must_use]
 pub fn wrap(angle: f64) -> f64 {
     reduce(angle, 0.0)
@@ -90,6 +94,28 @@ mod tests {
         }
         assert_eq!(wrap(1.5), 1.5);
         assert_eq!(wrap(-0.0).abs(), 0.0);
+    }
+
+    /// Angles up to the largest against 2 pi of 190 bits: digits from Python's mpmath, `mpf(angle) % (2 * pi)`.
+    #[test]
+    fn f10_phases_up_to_the_largest_are_reduced() {
+        for (angle, want) in [
+            (1000000000000000.0, 2.1096981170701126),
+            (-1000000000000000.0, 4.173487190109474),
+            (999999999999999.9, 1.9846981170701126),
+            (-123456789012345.67, 6.253134088031678),
+            (500000000000000.0, 4.19644171212485),
+            (628318530717958.6, 6.260492778502931),
+            (30000000000000.0, 5.403998454614752),
+            (-7000000000000.0, 4.603373313957506),
+            (930484283104246.0, 1.8900544710682181),
+            (-976690612415717.8, 0.23514445688793228),
+            (471983239593751.0, 5.289442664532788),
+            (-683974550470503.8, 1.768808432869804),
+        ] {
+            let found = wrap(angle);
+            assert!(difference(found, want).abs() < 1e-15 && (0.0..TAU).contains(&found), "{angle:e}: {found} {want}");
+        }
     }
 
     #[test]

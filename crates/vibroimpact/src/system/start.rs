@@ -19,7 +19,7 @@ impl Start {
     /// A start of `osc`, its phase wrapped into $`[0, 2\pi)`$.
     ///
     /// # Errors
-    /// [`SystemError::StartNotFinite`] or [`SystemError::BeyondStop`].
+    /// [`SystemError::StartNotFinite`], [`SystemError::LargePhase`] or [`SystemError::BeyondStop`].
     ///
     /// ```
     /// use vibroimpact::{Oscillator, Start};
@@ -33,6 +33,9 @@ impl Start {
             if !value.is_finite() {
                 return Err(SystemError::StartNotFinite { name, value });
             }
+        }
+        if phase.abs() > phase::LARGEST {
+            return Err(SystemError::LargePhase(phase));
         }
         let (lowest, highest) = Self::room(osc);
         if !(lowest..=highest).contains(&x) {
@@ -73,6 +76,18 @@ impl Start {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn f10b_a_phase_beyond_the_largest_is_refused() {
+        let osc = Oscillator::new(1.3, 1.0, 0.5).unwrap();
+        for phase in [1e15, -1e15, 7.0] {
+            assert!((0.0..core::f64::consts::TAU).contains(&Start::new(&osc, 0.0, 0.0, phase).unwrap().phase));
+        }
+        for phase in [1e18, -1e18, 1.000_000_1e15, f64::MAX] {
+            let message = Start::new(&osc, 0.0, 0.0, phase).unwrap_err().to_string();
+            assert!(message.contains("lies outside -1e15 <= phase <= 1e15"), "{message}");
+        }
+    }
 
     #[test]
     fn the_free_motion_goes_on_without_a_trace_of_transient() {

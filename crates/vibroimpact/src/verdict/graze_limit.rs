@@ -1,44 +1,100 @@
 //! Ever gentler impacts: the undamped limit without impacts.
 //!
 //! Without damping an impact with speed $`u > 0`$ is always followed by another ($`0 < \varepsilon`$): if $`\beta = p/q`$ and none
-//! came within the common period $`2\pi q`$, the state would return to $`x = \delta`$ with velocity $`-\varepsilon u`$, so it
-//! would have been beyond the stop just before. What there is instead is a limit: let $`u`$ be small and the flight be
-//! free of contact for a whole common period. It returns to the phase of the impact, crosses $`\delta`$ a little earlier
-//! on the same arc, $`\ddot x = -|a|`$, and strikes with
+//! came within the common period $`T = 2\pi q`$, the state would return to $`x = \delta`$ with velocity $`-\varepsilon u`$, so it
+//! would have been beyond the stop just before. What there is instead is a limit. Let the impact at phase $`\theta`$ have the
+//! rebound speed $`w = \varepsilon u`$ and let the force pull away, $`\ddot x = -a`$ with $`a = \delta - \sin\theta > 0`$; let
+//! $`j = \beta\cos\theta + w`$ be the third derivative. A flight without contact on the way returns after $`T`$ to the state it left
+//! with, so it crosses $`\delta`$ a little earlier on the same arc:
 //!
-//! $$`u_{j+1} = \varepsilon u_j\,(1 + O(u_j)), \qquad s_j = 2\pi q - \frac{2\varepsilon u_j}{|a|}(1 + O(u_j)).`$$
+//! $$`s = T - \frac{2w}{a}\Bigl(1 - \frac{2jw}{3a^2} + \dots\Bigr), \qquad
+//!    u_1 = w\Bigl(1 + \frac{2jw}{3a^2} + \dots\Bigr), \qquad w_1 = \varepsilon u_1.`$$
 //!
-//! So the speeds fall geometrically for ever, in infinite time, to a motion that just touches the stop and strikes no
-//! more: label `0`. A labeller with a tolerance calls it 1/10 or 1/20, by the common period; and from $`u \approx 10^{-7}`$ on,
-//! where the arc rises above the stop by less than rounding, a search finds nothing and reports a fluke. The limit is
-//! recognised here by its law, over several impacts in a row, well before that.
+//! So the speeds fall geometrically for ever, in infinite time, to a motion that just touches the stop and strikes no more: label
+//! `0`. That it goes on so *for ever* is shown from one impact:
+//!
+//! 1. $`w\,|j|/a^2 \le \tfrac1{10}(1-\varepsilon)`$. Then each speed is below $`\varepsilon\,(1 + (1-\varepsilon)/15)`$ of the one before, all
+//!    rebounds together are below $`1.2\,w/(1-\varepsilon)`$, and the phase of the impacts moves by at most
+//!    $`D = 2.5\,\beta w/(a(1-\varepsilon))`$ in all, over which $`a`$ changes by less than a quarter: the estimate holds all the way.
+//! 2. The flights that follow differ from this one by a phase of at most $`D`$ and a speed of at most $`w`$. As
+//!    $`|\partial x/\partial\varphi| \le |f|(2+\beta)`$ and $`|\partial x/\partial v_0| \le 1`$, they clear the stops on the way if this one
+//!    does by more than $`|f|(2+\beta)D + w`$.
+//!
+//! With restitution 0 there is nothing to sum: $`w = D = 0`$, and one tangential return decides. Near the end of the law the arc
+//! rises above the stop by less than rounding, and a computed speed is noise below $`\sqrt{2a\rho}`$, $`\rho`$ being the rounding of the
+//! position after $`T`$; speeds below that count as that.
+//!
+//! $`\beta`$ has to be a fraction in the sense of [`Oscillator::fraction`]. For a number close to one the flights miss the return by the
+//! drift of the phase over $`T`$, and the speeds level off at about that: no limit is claimed.
 
+use crate::flight::Flight;
 use crate::motion::ImpactState;
-use crate::system::{Oscillator, phase};
+use crate::orbit::nearest;
+use crate::system::Oscillator;
+use core::f64::consts::TAU;
 
-/// Impacts in a row that must obey the law.
-pub const RUN: usize = 5;
-/// Speed below which the law is tested: its corrections are of the order of the speed, and the law must hold to 2 %.
-const SLOW: f64 = 1e-3;
+/// Speed above which the law is not tried; it needs speeds far below 1 in any case.
+const SLOW: f64 = 1e-2;
+/// See the first condition in the description of the module.
+const SHARE: f64 = 0.1;
 
-/// Whether the last [`RUN`] impacts (state and the time since the impact before) follow the law of the graze limit.
+/// Whether the motion that strikes at `before` and then, after `interval`, at `after` - or only touches the stop there, with speed 0 -
+/// has reached the graze limit: its impacts fade away for ever. `false` says that this was not shown.
 #[must_use]
-pub fn recognised(osc: &Oscillator, impacts: &[(ImpactState, f64)]) -> bool {
-    let Some(run) = impacts.len().checked_sub(RUN).and_then(|first| impacts.get(first..)) else {
-        return false;
-    };
-    let eps = osc.stop(run[0].0.side).map_or(0.0, |stop| stop.restitution);
-    if osc.damping() > 0.0 || run[0].0.velocity > SLOW || eps >= 1.0 {
+pub fn recognised(osc: &Oscillator, before: &ImpactState, after: &ImpactState, interval: f64) -> bool {
+    if after.velocity > SLOW || osc.damping() > 0.0 || before.side != after.side {
         return false;
     }
-    run.windows(2).all(|pair| {
-        let ((before, _), (after, interval)) = (&pair[0], &pair[1]);
-        let away = -crate::contact::sticking::pressure(osc, after.side, after.phase);
-        let early = 4.0 * (1.0 + eps) * before.velocity / away + 1e-9;
-        before.side == after.side
-            && away > 0.0
-            && (after.velocity / (eps * before.velocity) - 1.0).abs() < 0.02
-            && phase::difference(osc.beta() * interval, 0.0).abs() < early * (1.0 + osc.beta())
-            && phase::difference(*interval, 0.0).abs() < early
-    })
+    let (Some(stop), Some((_, q))) = (osc.stop(after.side), osc.common_period()) else { return false };
+    let (eps, common) = (stop.restitution, TAU * f64::from(q));
+    let pull = -crate::contact::sticking::pressure(osc, after.side, after.phase);
+    if eps >= 1.0 || pull <= 0.0 {
+        return false;
+    }
+    let flight = Flight::new(osc, after.rebound(osc));
+    // no speed is known better than this after a common period
+    let noise = 2.0 * (2.0 * pull * flight.at(common).rounding).sqrt();
+    let speed = after.velocity.max(noise);
+    // it came back after a common period, up to twice the time by which the arc is crossed early
+    let early = 4.0 * (eps * before.velocity + speed) / pull;
+    if (common - interval).abs() > early || early > 0.1 {
+        return false;
+    }
+    let rebound = eps * speed;
+    let jerk = (osc.beta() * crate::math::sin_cos(after.phase).1).abs() + rebound;
+    if rebound * jerk > SHARE * (1.0 - eps) * pull * pull {
+        return false;
+    }
+    let drift = 2.5 * osc.beta() * rebound / (pull * (1.0 - eps));
+    let perturbed = osc.free_amplitude() * (2.0 + osc.beta()) * drift + rebound;
+    // the last stretch, up to the return itself, is the arc that the law is about
+    let way = common - early.max(4.0 * speed / pull);
+    osc.stops().all(|(side, _)| nearest(osc, &flight, side, way).is_some_and(|distance| distance > perturbed))
+}
+
+/// The last impact of a motion, from which the next tells whether impacts fade away.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fading {
+    last: Option<ImpactState>,
+    /// Time since then.
+    since: f64,
+}
+
+impl Fading {
+    /// An impact, or a graze with speed 0, a time `interval` after the last event: whether the graze limit is reached.
+    pub fn strikes(&mut self, osc: &Oscillator, state: ImpactState, interval: f64) -> bool {
+        let since = self.since + interval;
+        let fades = self.last.is_some_and(|last| recognised(osc, &last, &state, since));
+        if state.velocity > 0.0 {
+            (self.last, self.since) = (Some(state), 0.0);
+        } else {
+            self.since = since;
+        }
+        fades
+    }
+
+    /// The mass came to rest: what follows has nothing to do with the impacts before.
+    pub fn rests(&mut self) {
+        *self = Self::default();
+    }
 }

@@ -13,10 +13,9 @@ use super::follow::{Follow, Releases, ended};
 use super::outcome::Verdict;
 use super::settle::{Drive, SettleOptions, settle, settle_knowing};
 use super::trap::Trap;
-use crate::chaos::{self, Measure, Spectrum, lyapunov};
 use crate::flight::Contact;
 use crate::lanes::{ABREAST, Batch, Width};
-use crate::motion::{End, ImpactState, Motion};
+use crate::motion::{End, Motion};
 use crate::system::{Oscillator, Start};
 use core::ops::Range;
 
@@ -163,8 +162,6 @@ impl Part {
 struct Track {
     place: usize,
     follow: Follow,
-    /// The measurement for chaos under way, and the impact it began at, from where the motion goes on if it shows nothing.
-    measure: Option<(Measure, ImpactState)>,
     done: bool,
 }
 
@@ -181,9 +178,7 @@ impl Question<'_> {
         let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
         let alone = count < FEW && atlas.known.is_empty();
         let batch = if alone { None } else { Batch::new(self.osc, ABREAST.min(count), self.width) };
-        let batch = batch.filter(|batch| {
-            batch.longest() < self.options.limits.horizon(self.osc).min(chaos::LIMITS.horizon(self.osc))
-        });
+        let batch = batch.filter(|batch| batch.longest() < self.options.limits.horizon(self.osc));
         let mut releases = atlas.releases.clone();
         let Some(batch) = batch else {
             for (place, index) in range.enumerate() {
@@ -216,7 +211,7 @@ impl Pool<'_> {
         let mut next = 0;
         while next < count.min(ABREAST) {
             self.batch.push(start(self.first + next as u64));
-            self.tracks.push(Track { place: next, follow: Follow::default(), measure: None, done: false });
+            self.tracks.push(Track { place: next, follow: Follow::default(), done: false });
             next += 1;
         }
         let (mut list, mut free) = (Vec::new(), Vec::new());
@@ -246,7 +241,7 @@ impl Pool<'_> {
                     self.batch.launch(slot, start(self.first + next as u64));
                     let track = &mut self.tracks[slot as usize];
                     track.follow.reset();
-                    (track.place, track.measure, track.done) = (next, None, false);
+                    (track.place, track.done) = (next, false);
                     next += 1;
                 } else {
                     self.batch.remove(slot);
@@ -269,44 +264,18 @@ impl Pool<'_> {
         let (state, interval) = self.batch.arrival(slot);
         let track = &mut self.tracks[slot as usize];
         track.follow.steps += 1;
-        if let Some((measure, _)) = &mut track.measure {
-            measure.impact(osc, state, interval);
-            if measure.complete() {
-                let spectrum = measure.spectrum(osc);
-                self.measured(slot, spectrum);
-            }
-            return;
-        }
-        if let Some((verdict, _)) = self.known.iter().find(|(_, trap)| trap.catches(&state)) {
+        if let Some((verdict, trap)) = self.known.iter().find(|(_, trap)| trap.catches(&state))
+            && track.follow.reaches(trap.depth(), options)
+        {
             track.done = true;
             self.part.caught(track.place, self.first + track.place as u64, verdict);
             return;
         }
         if let Some(verdict) = track.follow.impact(osc, options, state, interval) {
             self.followed(slot, verdict);
-        } else if track.follow.wants_measure(options) {
-            track.measure = Some((Measure::new(state, options.chaos_over), state));
         } else if !track.follow.within(options) {
             let verdict = track.follow.last_look(osc, options);
             self.followed(slot, verdict);
-        }
-    }
-
-    /// The exponents are measured: chaotic, or the motion goes on from where the measurement began.
-    fn measured(&mut self, slot: u32, spectrum: Option<Spectrum>) {
-        let track = &mut self.tracks[slot as usize];
-        let Some((_, from)) = track.measure.take() else { return };
-        track.follow.spectrum = Some(spectrum);
-        if let Some(found) = spectrum.filter(Spectrum::chaotic) {
-            self.followed(slot, Verdict::Chaotic(found));
-            return;
-        }
-        self.batch.launch(slot, from.rebound(self.question.osc));
-        if !track.follow.within(self.question.options) {
-            let verdict = track.follow.last_look(self.question.osc, self.question.options);
-            self.followed(slot, verdict);
-        } else if self.batch.settles_after(&from) {
-            self.hand_over(slot, Motion::after(self.question.osc, &from, self.question.options.limits));
         }
     }
 
@@ -317,36 +286,14 @@ impl Pool<'_> {
             return;
         }
         let (state, _) = self.batch.arrival(slot);
-        if track.measure.is_some() {
-            // the impact map flies every rebound there is
-            if state.rebound(self.question.osc).v == 0.0 {
-                self.measure_alone(slot);
-            }
-        } else if self.batch.settles_after(&state) {
+        if self.batch.settles_after(&state) {
             self.hand_over(slot, Motion::after(self.question.osc, &state, self.question.options.limits));
-        }
-    }
-
-    /// A measurement that meets what lanes do not fly is made again, from its beginning, by itself.
-    fn measure_alone(&mut self, slot: u32) {
-        let track = &self.tracks[slot as usize];
-        if let Some((_, from)) = &track.measure {
-            let spectrum = lyapunov(self.question.osc, *from, self.question.options.chaos_over);
-            self.measured(slot, spectrum);
         }
     }
 
     /// The flight in the slot takes the careful search.
     fn rare(&mut self, slot: u32) {
         let options = self.question.options;
-        let measuring = self.tracks[slot as usize].measure.is_some();
-        if measuring {
-            match self.batch.carefully(slot, chaos::LIMITS) {
-                (Contact::Impact { .. }, _) => self.struck(slot),
-                _ => self.measure_alone(slot),
-            }
-            return;
-        }
         let launched = self.batch.launched(slot);
         let (contact, steps) = self.batch.carefully(slot, options.limits);
         match contact {

@@ -23,9 +23,9 @@ mod settle;
 mod trap;
 
 pub use attractors::{Census, Found, StartBox, attractors, scattered_starts};
-pub(crate) use follow::ended;
+pub(crate) use follow::{Follow, Releases, ended};
 pub use label::{Count, Label, LabelError};
 pub use many::{Atlas, Settlement, settle_many};
-pub use outcome::{NoImpact, Undecided, Verdict};
+pub use outcome::{Chaos, NoImpact, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};
 pub use settle::{SettleOptions, Settled, settle, settle_while};

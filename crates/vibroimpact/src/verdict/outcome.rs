@@ -15,12 +15,24 @@ pub enum Verdict {
     Periodic(Cycle),
     /// No more impacts, and on what grounds.
     NoImpact(NoImpact),
-    /// A chaotic motion: the largest Lyapunov exponent exceeds its error bar.
-    Chaotic(Spectrum),
+    /// A chaotic motion: the largest Lyapunov exponent exceeds its error bar for as long as it was followed.
+    Chaotic(Chaos),
     /// At rest on a stop for ever.
     Stuck(Side),
     /// None of these could be shown within the budget, and what was tried.
     Undecided(Undecided),
+}
+
+/// Chaos as it was seen: what was measured, and for how long the motion was followed without an end of it.
+///
+/// Chaos may be a transient, and no finite time tells: this says how long it lasted at least.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chaos {
+    /// The Lyapunov exponents.
+    pub spectrum: Spectrum,
+    /// Impacts from the start of the motion over which no cycle, no second rest on a stop and no fading of the impacts was found; of a
+    /// transient, the impact at which it had ended.
+    pub impacts: u64,
 }
 
 /// On what grounds there are no more impacts, and how far that reaches.
@@ -35,6 +47,14 @@ pub enum NoImpact {
         velocity: f64,
         /// Phase of the touch.
         phase: f64,
+    },
+    /// It rests on a stop, leaves it when the force changes sign, and lands on it again without speed: for ever, without an impact
+    /// ([`landing`](crate::contact::landing)).
+    Landing {
+        /// The stop.
+        side: Side,
+        /// Forcing periods from one release to the next.
+        periods: u32,
     },
     /// It touches the stop again and again without speed: for ever, to rounding.
     Grazing {
@@ -92,11 +112,13 @@ impl Verdict {
     pub fn multipliers(&self, osc: &Oscillator) -> Option<[Multiplier; 2]> {
         match self {
             Self::Periodic(cycle) => Some(cycle.multipliers),
+            Self::NoImpact(NoImpact::Landing { .. }) => Some([Multiplier::default(); 2]),
             Self::NoImpact(_) => {
                 let p = osc.response().at(TAU / osc.beta());
                 let trace = 2.0 * (p.c - osc.damping() * p.s);
                 Some(crate::math::eigenvalues(trace, crate::math::exp(-2.0 * osc.damping() * osc.period())))
             }
+            // a rest forgets how neighbours differed
             Self::Stuck(_) => Some([Multiplier::default(); 2]),
             Self::Chaotic(_) | Self::Undecided(_) => None,
         }
@@ -108,6 +130,7 @@ impl Verdict {
     pub fn stable(&self, osc: &Oscillator) -> Option<bool> {
         match self {
             Self::Periodic(cycle) => Some(cycle.stable()),
+            Self::NoImpact(NoImpact::Landing { .. }) => Some(true),
             Self::NoImpact(_) => (osc.damping() > 0.0).then_some(true),
             Self::Chaotic(_) => Some(false),
             Self::Stuck(_) => Some(true),
@@ -121,6 +144,10 @@ impl Verdict {
         match (self, other) {
             (Self::Periodic(a), Self::Periodic(b)) => a.same_as(b, tolerance),
             (Self::Stuck(a), Self::Stuck(b)) => a == b,
+            (Self::NoImpact(NoImpact::Landing { side: a, .. }), Self::NoImpact(NoImpact::Landing { side: b, .. })) => {
+                a == b
+            }
+            (Self::NoImpact(NoImpact::Landing { .. }), _) | (_, Self::NoImpact(NoImpact::Landing { .. })) => false,
             (Self::NoImpact(_), Self::NoImpact(_))
             | (Self::Chaotic(_), Self::Chaotic(_))
             | (Self::Undecided(_), Self::Undecided(_)) => true,

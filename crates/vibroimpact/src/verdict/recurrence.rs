@@ -1,30 +1,43 @@
-//! Recurrence suggests a period; the proof comes after.
+//! Recurrence suggests a period; Newton's method confirms it after.
 
 use crate::motion::ImpactState;
 use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits};
 use crate::system::Oscillator;
 use core::f64::consts::TAU;
 
-/// The numbers of impacts m after which the last impacts resemble those before, smallest first, and the forcing
-/// periods n that took. `impacts` holds states and the time since the impact before; at most `longest` impacts back.
+/// A period that the last impacts suggest.
+pub(super) struct Candidate {
+    /// Impacts.
+    pub(super) m: usize,
+    /// Forcing periods.
+    pub(super) n: u32,
+    /// Whether the last impacts are those before to within what is left of a transient that is all but over.
+    pub(super) close: bool,
+}
+
+/// The numbers of impacts after which the last impacts resemble those before, smallest first. `impacts` holds states and the time since the impact before; at most `longest` impacts back.
 /// The more impacts back, the likelier a chance resemblance, so the tolerance shrinks like 1/m.
 pub(super) fn candidates(
     osc: &Oscillator,
     impacts: &[(ImpactState, f64)],
     longest: usize,
     tolerance: f64,
-) -> impl Iterator<Item = (usize, u32)> {
+) -> impl Iterator<Item = Candidate> {
     let j = impacts.len() - 1;
     let mut time = 0.0;
     let beta = osc.beta();
     (1..=longest.min(j / 2)).filter_map(move |m| {
         time += impacts[j + 1 - m].1;
         #[allow(clippy::cast_precision_loss)] // a small count
-        let close = |k: usize| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
+        let close = |k: usize, tolerance: f64| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
         let periods = (beta * time / TAU).round();
         // the phases agree, so the time is close to whole periods
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
-        (close(j) && close(j - 1) && (1.0..1e6).contains(&periods)).then_some((m, periods as u32))
+        (close(j, tolerance) && close(j - 1, tolerance) && (1.0..1e6).contains(&periods)).then(|| Candidate {
+            m,
+            n: periods as u32,
+            close: close(j, CLOSE) && close(j - 1, CLOSE),
+        })
     })
 }
 
@@ -58,6 +71,8 @@ pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> 
     left_over <= 0.3 * (1.0 - largest) * size(before) + 1e-12
 }
 
+/// See [`Candidate::close`].
+const CLOSE: f64 = 1e-8;
 /// Distance from a cycle below which capture is tested.
 const NEAR: f64 = 1e-3;
 /// Distance at which only rounding separates the two.

@@ -11,14 +11,15 @@
 //!   cycle is physical by construction;
 //! - **periodic with a stick**: what follows a release is one motion, so a release that leads back to itself is a proof
 //!   by itself ([`from_release`]); the multipliers are 0;
-//! - **chaotic**: the largest Lyapunov exponent exceeds its error bar of three standard errors, and neighbours have parted by more than
-//!   they can on the way from an unstable cycle to a stable one ([`Spectrum::chaotic`](crate::chaos::Spectrum::chaotic));
+//! - **chaotic**: the largest Lyapunov exponent, measured along the motion as it is followed, exceeds its error bar of three standard
+//!   errors, neighbours have parted by more than they can on the way from an unstable cycle to a stable one
+//!   ([`Spectrum::chaotic`](crate::chaos::Spectrum::chaotic)), and nothing of the above was shown in the meantime. Chaos that ends within the
+//!   budget is told with what it ended in ([`Settled::transient`]); of chaos that does not, the verdict says for how long it was seen;
 //! - **stuck**: the force will never lift the mass again;
 //! - **undecided**: none of these within the budget; what was tried is in the verdict.
 
 use super::follow::{Follow, Releases, ended};
-use super::outcome::Verdict;
-use crate::chaos::{Spectrum, lyapunov};
+use super::outcome::{Chaos, Verdict};
 use crate::flight::SearchLimits;
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Start};
@@ -30,8 +31,11 @@ pub struct SettleOptions {
     pub max_impacts: u32,
     /// Impacts after which a motion without a cycle is measured for chaos.
     pub chaos_after: u32,
-    /// Impacts over which the Lyapunov exponents are measured; 0 for never, and no motion is called chaotic.
+    /// Impacts over which the Lyapunov exponents are measured first; where that does not decide, over the next three times as many, and
+    /// then over eight times as many, again and again. 0 for never, and no motion is called chaotic.
     pub chaos_over: u32,
+    /// Whether the third measurement is completed beyond `max_impacts` where the second diverges too little to tell.
+    pub extend: bool,
     /// The longest period looked for, in impacts.
     pub longest: u32,
     /// How close the last impacts must come to earlier ones, in phase and relative velocity, to try Newton's method.
@@ -50,6 +54,7 @@ impl Default for SettleOptions {
             max_impacts: 20_000,
             chaos_after: 1_000,
             chaos_over: 4_000,
+            extend: true,
             longest: 128,
             recurrence: 1e-2,
             limits: SearchLimits::default(),
@@ -59,8 +64,9 @@ impl Default for SettleOptions {
 }
 
 impl SettleOptions {
-    /// At most so many impacts. A budget below that of the default has search steps for that many ordinary flights, and no chaos below
-    /// `chaos_after`; what it decides, the default decides alike, and the rest is undecided.
+    /// At most so many impacts. A budget below that of the default has search steps for that many ordinary flights, and chaos is decided
+    /// at the same numbers of impacts as by the default, the first of which is 5000; what it decides, the default decides alike, and the
+    /// rest is undecided.
     #[must_use]
     pub fn at_most(impacts: u32) -> Self {
         let usual = Self::default();
@@ -71,7 +77,7 @@ impl SettleOptions {
         Self {
             max_impacts: impacts,
             max_steps: 20 * u64::from(impacts),
-            chaos_over: if impacts > usual.chaos_after { usual.chaos_over } else { 0 },
+            extend: false,
             limits: SearchLimits { steps, ..usual.limits },
             ..usual
         }
@@ -90,6 +96,8 @@ pub struct Settled {
     pub impacts: u64,
     /// Time followed until it was clear.
     pub time: f64,
+    /// Chaos that was seen on the way and ended; of the starts that lead to one motion each has its own.
+    pub transient: Option<Chaos>,
 }
 
 /// What the motion of `osc` from `start` settles into.
@@ -115,13 +123,7 @@ pub fn settle_while(
     options: &SettleOptions,
     go_on: impl Fn() -> bool,
 ) -> Option<Settled> {
-    let mut follow = Follow::default();
-    let mut motion = Motion::with_limits(osc, start, options.limits);
-    let releases = &mut Releases::default();
-    let mut drive = Drive { osc, options, follow: &mut follow, releases, time: 0.0 };
-    let verdict = drive.on(&mut motion, |_| !go_on())?;
-    let time = drive.time;
-    Some(Settled { verdict, impacts: follow.count() as u64, time })
+    drive(osc, start, options, &mut Releases::default(), go_on)
 }
 
 /// The same where other motions of the oscillator were settled before.
@@ -131,14 +133,30 @@ pub(super) fn settle_knowing(
     options: &SettleOptions,
     releases: &mut Releases,
 ) -> Settled {
+    // nothing stops it but a verdict
+    drive(osc, start, options, releases, || true).unwrap_or_else(|| Settled {
+        verdict: ended(osc, None, options.limits),
+        impacts: 0,
+        time: 0.0,
+        transient: None,
+    })
+}
+
+fn drive(
+    osc: &Oscillator,
+    start: Start,
+    options: &SettleOptions,
+    releases: &mut Releases,
+    go_on: impl Fn() -> bool,
+) -> Option<Settled> {
     let mut follow = Follow::default();
     let mut motion = Motion::with_limits(osc, start, options.limits);
     let mut drive = Drive { osc, options, follow: &mut follow, releases, time: 0.0 };
-    let verdict = drive.on(&mut motion, |_| false);
+    let verdict = drive.on(&mut motion, |_| !go_on())?;
     let time = drive.time;
-    // nothing stops the drive but a verdict
-    let verdict = verdict.unwrap_or_else(|| follow.last_look(osc, options));
-    Settled { verdict, impacts: follow.count() as u64, time }
+    let transient =
+        if matches!(verdict, Verdict::Chaotic(_) | Verdict::Undecided(_)) { None } else { follow.transient(osc) };
+    Some(Settled { verdict, impacts: follow.count() as u64, time, transient })
 }
 
 /// Follows a motion event by event.
@@ -169,8 +187,11 @@ impl Drive<'_> {
                     let state = ImpactState { phase: event.phase, velocity: velocity_before, side: event.side };
                     follow.impact(osc, options, state, interval)
                 }
-                EventKind::Graze { .. } => follow.graze(event.phase, interval),
-                EventKind::Stick { .. } => follow.pass(interval),
+                EventKind::Graze { .. } => follow.graze(osc, event.side, event.phase, interval),
+                EventKind::Stick { .. } => {
+                    follow.stick(osc, interval);
+                    None
+                }
                 EventKind::Release => follow.release(osc, self.releases, event.side, interval),
             };
             if shown.is_some() {
@@ -179,15 +200,7 @@ impl Drive<'_> {
             if !matches!(event.kind, EventKind::Impact { .. }) {
                 continue;
             }
-            let state = follow.last();
-            if follow.wants_measure(options) {
-                let spectrum = lyapunov(osc, state, options.chaos_over);
-                follow.spectrum = Some(spectrum);
-                if let Some(found) = spectrum.filter(Spectrum::chaotic) {
-                    return Some(Verdict::Chaotic(found));
-                }
-            }
-            if follow.within(options) && leave(&state) {
+            if follow.within(options) && leave(&follow.last()) {
                 return None;
             }
         }
@@ -198,6 +211,7 @@ impl Drive<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::chaos::lyapunov;
     use crate::scenario;
     use crate::system::Side;
     use crate::verdict::{Count, Label, NoImpact};

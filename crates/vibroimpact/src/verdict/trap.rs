@@ -8,11 +8,14 @@
 //! stays, and shrinks from disc to disc onto the cycle.
 //!
 //! The rims are sampled, in 32 directions, and the radius used is two discs inside the last one that passed. What is
-//! decided by a trap is the same as what [`settle`](super::settle()) decides; tests compare, and
-//! [`settle_many`](super::settle_many) checks the first start of every motion.
+//! decided by a trap is the same as what [`settle`](super::settle()) decides, within the same budget: a trap is used only where the budget
+//! left suffices for the motion to be followed until it is captured by the cycle as `settle` means it ([`Trap::depth`]). So which cycles are
+//! known changes the time it takes and no verdict. Tests compare, and [`settle_many`](super::settle_many) checks the first start of every
+//! motion.
 
+use super::recurrence;
 use crate::math::{Matrix2, sin_cos};
-use crate::motion::ImpactState;
+use crate::motion::{EventKind, ImpactState, Motion};
 use crate::orbit::{Cycle, Lap, flight_limits};
 use crate::system::Oscillator;
 use core::f64::consts::{PI, TAU};
@@ -23,6 +26,17 @@ pub(super) struct Trap {
     center: ImpactState,
     /// $`P/r^2`$: 11, 12, 22.
     form: [f64; 3],
+    depth: Depth,
+}
+
+/// How long a motion is in a trap until it is so close to the cycle that it counts as captured: what [`settle`](super::settle()) needs to
+/// decide it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Depth {
+    /// Impacts, at most.
+    pub(super) impacts: usize,
+    /// Search steps; twice those of the cycle.
+    pub(super) steps: u64,
 }
 
 /// The smallest and the largest radius tried (in radians and relative speed), and the ratio of one to the next.
@@ -33,6 +47,8 @@ const RATIO: f64 = 1.4;
 const INSIDE: usize = 2;
 /// Directions in which a rim is sampled.
 const DIRECTIONS: u32 = 32;
+/// Radii of discs, the largest first, on whose rims a motion may count as captured by the cycle.
+const CAPTURED: [f64; 6] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// Cycles that contract more slowly than this are left to be followed.
 const SLOWEST: f64 = 0.97;
 
@@ -62,7 +78,22 @@ impl Trap {
         for _ in 0..=INSIDE {
             r /= RATIO;
         }
-        Some(Self { center, form: p.map(|x| x / (r * r)) })
+        let captured = CAPTURED
+            .into_iter()
+            .find(|radius| rim(cycle, p, *radius).all(|from| recurrence::captured(osc, &from, cycle)))?;
+        let turns = (crate::math::ln(captured / r) / crate::math::ln(bound)).max(0.0).ceil() + 2.0;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a few thousand
+        let turns = turns as u32;
+        let depth = Depth {
+            impacts: turns as usize * cycle.points.len(),
+            steps: 2 * u64::from(turns) * steps(osc, cycle, center),
+        };
+        Some(Self { center, form: p.map(|x| x / (r * r)), depth })
+    }
+
+    /// How long a motion that is caught takes to be decided without the trap.
+    pub(super) const fn depth(&self) -> Depth {
+        self.depth
     }
 
     /// Whether a motion that arrives so is caught.
@@ -78,6 +109,13 @@ impl Trap {
         let [a, b, c] = self.form;
         state.side == self.center.side && (a * turn + 2.0 * b * speed) * turn + c * speed * speed < 1.0
     }
+}
+
+/// Search steps of a turn of the cycle.
+fn steps(osc: &Oscillator, cycle: &Cycle, from: ImpactState) -> u64 {
+    let mut motion = Motion::after(osc, &from, flight_limits(cycle.label.periods));
+    let _ = motion.by_ref().filter(|event| matches!(event.kind, EventKind::Impact { .. })).nth(cycle.points.len() - 1);
+    motion.steps()
 }
 
 /// $`P`$ for $`Q = \mathrm{diag}(1, 1/U^2)`$.
@@ -106,21 +144,28 @@ fn lap(osc: &Oscillator, cycle: &Cycle, from: ImpactState) -> Option<Lap> {
     (same && whole && lap.last.side == from.side).then_some(lap)
 }
 
-fn rim_returns(osc: &Oscillator, cycle: &Cycle, [a, b, c]: [f64; 3], r: f64, bound: f64) -> bool {
+/// States on the rim of the disc of radius `r` about the first impact of a cycle, in directions that are evenly spaced in the norm.
+fn rim(cycle: &Cycle, [a, b, c]: [f64; 3], r: f64) -> impl Iterator<Item = ImpactState> {
     let center = cycle.points[0].state;
     // P = L L^T, so |L^-T e| = 1 for unit vectors e
     let l11 = a.sqrt();
     let l21 = b / l11;
     let l22 = (c - l21 * l21).sqrt();
-    (0..DIRECTIONS).all(|k| {
+    (0..DIRECTIONS).map(move |k| {
         let (sin, cos) = sin_cos(TAU * f64::from(k) / f64::from(DIRECTIONS));
         let speed = r * sin / l22;
         let turn = (r * cos - l21 * speed) / l11;
-        let from = ImpactState {
+        ImpactState {
             phase: crate::system::phase::wrap(center.phase + turn),
             velocity: center.velocity + speed,
             side: center.side,
-        };
+        }
+    })
+}
+
+fn rim_returns(osc: &Oscillator, cycle: &Cycle, p: [f64; 3], r: f64, bound: f64) -> bool {
+    let (center, [a, b, c]) = (cycle.points[0].state, p);
+    rim(cycle, p, r).all(|from| {
         if from.velocity <= 0.0 {
             return false;
         }

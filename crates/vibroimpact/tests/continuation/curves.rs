@@ -147,3 +147,35 @@ fn two_folds_meet_in_a_cusp() {
     // on the other side of the cusp nothing folds
     assert_eq!(count(p - 0.003, q - 0.02), count(p - 0.003, q + 0.02));
 }
+
+/// Item 10: without damping 1/1 touches at delta = |f| whatever the restitution, which does not enter the equations of an impact
+/// without speed. The curve was refused with a sentence about its equations.
+#[test]
+fn f10_a_grazing_curve_along_which_one_parameter_does_not_change() {
+    let osc = Oscillator::from_inverse_beta(0.632_645_083_847_320_9, 1.422_755_681_087_771, 0.5).unwrap();
+    let orbit = find(&osc, Label::new(1, 1), FindOptions::default()).pop().unwrap();
+    for (parameters, ranges) in [
+        ((Parameter::Gap, Parameter::Restitution), (-0.8..=3.0, 0.3..=0.7)),
+        ((Parameter::Restitution, Parameter::Gap), (0.3..=0.7, -0.8..=3.0)),
+    ] {
+        let frame = Frame { parameters, ranges };
+        let branch = |direction| {
+            let options = BranchOptions::default();
+            Branch::new(&osc, &orbit.cycle, Parameter::Gap, -0.8..=3.0, direction, options).unwrap()
+        };
+        let lost = |point: &Point| matches!(point.event, Some(BranchEvent::LossOfContact { .. }));
+        let touch = [Direction::Up, Direction::Down].into_iter().flat_map(branch).find(lost).unwrap();
+        let both = Curve::through(&osc, &touch, Parameter::Gap, &frame, CurveOptions::default()).unwrap();
+        let mut ends = both.map(|curve| {
+            let points: Vec<_> = curve.collect();
+            let gap = |p: &CurvePoint| {
+                if parameters.0 == Parameter::Gap { p.values } else { (p.values.1, p.values.0) }
+            };
+            assert!(points.iter().all(|p| (gap(p).0 - osc.free_amplitude()).abs() < 1e-12));
+            assert_eq!(points.last().unwrap().event, Some(CurveEvent::EndOfBox));
+            gap(points.last().unwrap()).1
+        });
+        ends.sort_by(f64::total_cmp);
+        assert!((ends[0] - 0.3).abs() < 1e-12 && (ends[1] - 0.7).abs() < 1e-12, "{ends:?}");
+    }
+}

@@ -107,3 +107,25 @@ fn one_impact_in_three_and_in_four_periods() {
     let [grazing, folds, flips] = total(Label::new(1, 4), 4.8, 3.0..=6.0);
     assert!(grazing >= 1 && folds + flips >= 1, "{grazing} {folds} {flips}");
 }
+
+/// Item 11: a fold and a flip 3e-6 apart lie on one step, and nothing between them said whether the cycle is stable.
+#[test]
+fn f11_between_two_events_of_one_step_there_is_a_point() {
+    let osc = Oscillator::new(2.55, 0.0, 0.8).unwrap();
+    let one = find(&osc, Label::new(1, 1), FindOptions::default()).pop().unwrap();
+    let over = |branch: Branch| branch.collect::<Vec<Point>>();
+    let flip = |points: &[Point]| points.iter().find(|p| p.event == Some(BranchEvent::Flip)).cloned().unwrap();
+    let options = BranchOptions::default();
+    let first = Branch::new(&osc, &one.cycle, Parameter::Beta, 2.55..=3.0, Direction::Up, options).unwrap();
+    let mut points = over(first);
+    for _ in 0..2 {
+        points = over(Branch::from_flip(&osc, &flip(&points), Parameter::Beta, 2.55..=3.0, options).unwrap());
+    }
+    let events: Vec<usize> = (0..points.len()).filter(|&k| points[k].event.is_some()).collect();
+    let fold = *events.iter().find(|&&k| points[k].event == Some(BranchEvent::Fold)).unwrap();
+    let next = *events.iter().find(|&&k| k > fold).unwrap();
+    assert_eq!(points[next].event, Some(BranchEvent::Flip));
+    assert!((points[next].value - points[fold].value).abs() < 4e-6);
+    assert!(next > fold + 1 && (fold + 1..next).all(|k| points[k].stable() && points[k].event.is_none()));
+    assert!(!points[fold - 1].stable() && !points[next + 1].stable());
+}

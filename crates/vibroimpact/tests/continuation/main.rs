@@ -20,6 +20,7 @@ mod codimension;
 mod curves;
 mod events;
 mod free;
+mod free_region;
 mod grazing;
 mod line;
 mod oblique;

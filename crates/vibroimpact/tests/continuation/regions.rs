@@ -235,3 +235,41 @@ fn both_sheets_at_a_fold() {
     }
     assert!(thin > 10, "{thin}");
 }
+
+/// Item 12: a frame of restitutions up to 1e-12. No walk ever met its edges, which were closer than what counts as zero: 46 s, and
+/// nothing found.
+#[test]
+fn f12_a_frame_smaller_than_what_counts_as_zero() {
+    let osc = Oscillator::from_inverse_beta(0.836_654_282_595_934_9, 1e-9, 0.0).unwrap();
+    let frame = Frame { parameters: (Parameter::Gap, Parameter::Restitution), ranges: (1e-9..=1.0, 0.0..=1e-12) };
+    let case = Case { osc, label: Label::new(1, 1), frame };
+    for kind in [RegionKind::Existence, RegionKind::Stability] {
+        let options = RegionOptions { grid: (8, 8), ..RegionOptions::default() };
+        let region = region(&case.osc, case.label, kind, &case.frame, options);
+        assert_eq!((region.polygons.len(), region.unresolved.len()), (1, 0));
+        let mut numbers = Random(12);
+        let (mut inside, mut outside) = (0, 0);
+        for _ in 0..60 {
+            let at = (numbers.between(1e-9, 1.0), numbers.between(0.0, 1e-12));
+            *(if case.assert(&region, kind, at) { &mut inside } else { &mut outside }) += 1;
+        }
+        assert!(inside > 5 && outside > 5, "{inside} {outside}");
+    }
+}
+
+/// The family of item 6: with restitution 0 an orbit 1/1 may rest on the stop, which has no polygon. "None found" was said of it.
+#[test]
+fn f06d_orbits_that_rest_are_not_passed_over() {
+    let osc = Oscillator::from_inverse_beta(1.3, 0.0, 0.0).unwrap();
+    let frame = Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (1.1..=1.5, -0.6..=0.6) };
+    for kind in [RegionKind::Existence, RegionKind::Stability] {
+        let options = RegionOptions { grid: (6, 6), ..RegionOptions::default() };
+        let found = region(&osc, Label::new(1, 1), kind, &frame, options);
+        assert!(!found.unresolved.is_empty());
+        for (p, q) in found.unresolved {
+            let osc = Oscillator::from_inverse_beta(p, q, 0.0).unwrap();
+            let orbits = find(&osc, Label::new(1, 1), FindOptions::default());
+            assert!(orbits.iter().any(|orbit| orbit.physical && !orbit.cycle.rests.is_empty()), "{p} {q}");
+        }
+    }
+}

@@ -1,8 +1,15 @@
 //! `A:B:N`: N values from A to B, both included; `A:B:N:log` spaced evenly in their logarithms.
+//!
+//! These are the values of every grid: of the command, of plans, of the Python package and of the page, which all send the text
+//! and leave the numbers to [`Span::at`].
+
+mod double;
+mod even;
 
 use crate::PlanError;
 use core::fmt;
 use core::str::FromStr;
+use even::Rule;
 use serde::{Deserialize, Serialize};
 
 /// Evenly spaced values, or values in equal ratios, both ends included.
@@ -12,7 +19,7 @@ use serde::{Deserialize, Serialize};
 /// let span: Span = "0.4:2:33".parse()?;
 /// assert_eq!((span.at(0), span.at(32), span.count()), (0.4, 2.0, 33));
 /// let decades: Span = "0.01:100:5:log".parse()?;
-/// assert!(decades.values().zip([0.01, 0.1, 1.0, 10.0, 100.0]).all(|(a, b)| (a / b - 1.0).abs() < 1e-15));
+/// assert_eq!(decades.values().collect::<Vec<_>>(), [0.01, 0.1, 1.0, 10.0, 100.0]);
 /// assert!("1:2".parse::<Span>().is_err() && "2:1:0".parse::<Span>().is_err());
 /// # Ok::<(), vibroimpact_study::PlanError>(())
 /// ```
@@ -22,7 +29,7 @@ pub struct Span {
     first: f64,
     last: f64,
     count: u32,
-    logarithmic: bool,
+    rule: Rule,
 }
 
 /// The most values on one axis.
@@ -35,7 +42,7 @@ impl Span {
     /// [`PlanError`] for ends that are not finite or equal (with more than one value) and for a count outside
     /// 1 to 1 000 000.
     pub fn new(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
-        Self { first, last, count, logarithmic: false }.checked()
+        Self::checked(first, last, count, false)
     }
 
     /// `count` values from `first` to `last`, neighbours in equal ratios.
@@ -43,40 +50,36 @@ impl Span {
     /// # Errors
     /// As for [`Span::new`], and [`PlanError::Logarithmic`] for ends that are not both positive.
     pub fn logarithmic(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
-        Self { first, last, count, logarithmic: true }.checked()
+        Self::checked(first, last, count, true)
     }
 
-    fn checked(self) -> Result<Self, PlanError> {
-        let (span, Self { first, last, count, logarithmic }) = (self, self);
+    fn checked(first: f64, last: f64, count: u32, logarithmic: bool) -> Result<Self, PlanError> {
+        let given = || written(first, last, count, logarithmic);
         if !(first.is_finite() && last.is_finite()) {
-            return Err(PlanError::Range { given: span.to_string() });
+            return Err(PlanError::Range { given: given() });
         }
         if logarithmic && (first <= 0.0 || last <= 0.0) {
-            return Err(PlanError::Logarithmic { given: span.to_string() });
+            return Err(PlanError::Logarithmic { given: given() });
         }
         // one value over a distance, or many at one place, is a slip of the pen
         let many = u64::from(count);
         if !(1..=MOST).contains(&many) || (count == 1) != (first == last) {
-            return Err(PlanError::Count { given: span.to_string(), count: many, most: MOST });
+            return Err(PlanError::Count { given: given(), count: many, most: MOST });
         }
-        Ok(span)
+        let rule = if logarithmic { Rule::geometric(first, last) } else { Rule::even(first, last, count - 1) };
+        Ok(Self { first, last, count, rule })
     }
 
-    /// Value number `k`, counted from 0. The last one is exactly the end.
+    /// Value number `k`, counted from 0. The first and the last are exactly the ends, those between the nearest doubles to the
+    /// exact values between the ends as they are written; so the one in the middle is exact where a double is.
     #[must_use]
     pub fn at(&self, k: u32) -> f64 {
-        if k + 1 >= self.count && self.count > 1 {
-            return self.last;
+        let steps = self.count - 1;
+        match k {
+            0 => self.first,
+            _ if k >= steps => self.last,
+            _ => self.rule.at(self.first, self.last, k, steps),
         }
-        if self.logarithmic && k > 0 {
-            let share = f64::from(k) / f64::from(self.count - 1);
-            // not the platform's power, whose last bit differs from machine to machine
-            return self.first * libm::exp(share * libm::log(self.last / self.first));
-        }
-        // a weighted mean, not first + k step: 0.4:2:33 passes through 1.2 and not through 1.2000000000000002
-        let (k, last) = (f64::from(k), f64::from((self.count - 1).max(1)));
-        let sum = (last - k) * self.first + k * self.last;
-        if sum.is_finite() { sum / last } else { self.first * ((last - k) / last) + self.last * (k / last) }
     }
 
     /// How many values.
@@ -88,7 +91,7 @@ impl Span {
     /// Whether neighbours are in equal ratios rather than at equal distances.
     #[must_use]
     pub const fn is_logarithmic(&self) -> bool {
-        self.logarithmic
+        matches!(self.rule, Rule::Geometric { .. })
     }
 
     /// The same number of values, spaced in the same way, with both ends divided by `unit`.
@@ -96,7 +99,7 @@ impl Span {
     /// # Errors
     /// [`PlanError`] where that leaves the range of numbers.
     pub fn scaled(&self, unit: f64) -> Result<Self, PlanError> {
-        Self { first: self.first / unit, last: self.last / unit, ..*self }.checked()
+        Self::checked(self.first / unit, self.last / unit, self.count, self.is_logarithmic())
     }
 
     /// The two ends.
@@ -111,9 +114,14 @@ impl Span {
     }
 }
 
+/// A range as it is written.
+fn written(first: f64, last: f64, count: u32, logarithmic: bool) -> String {
+    format!("{first}:{last}:{count}{}", if logarithmic { ":log" } else { "" })
+}
+
 impl fmt::Display for Span {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}{}", self.first, self.last, self.count, if self.logarithmic { ":log" } else { "" })
+        f.write_str(&written(self.first, self.last, self.count, self.is_logarithmic()))
     }
 }
 
@@ -136,7 +144,7 @@ impl FromStr for Span {
         let Ok(count) = u32::try_from(count) else {
             return Err(PlanError::Count { given: text.to_owned(), count, most: MOST });
         };
-        Self { first, last, count, logarithmic }.checked()
+        Self::checked(first, last, count, logarithmic)
     }
 }
 
@@ -169,7 +177,10 @@ impl From<Span> for String {
 }
 
 #[cfg(test)]
-mod tests {
+mod tests;
+
+#[cfg(test)]
+mod refusals {
     use super::*;
 
     #[test]

@@ -1,0 +1,158 @@
+//! The edges of the interface: ranges with exact ends, `-` for stdout, places that hold nothing, counts and their words.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use crate::{S, json, vibro};
+use std::fs;
+
+/// Exit code, stdout and stderr.
+fn ran(line: &str) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let output = vibro(line).current_dir(&folder).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    assert!(!folder.path().join("-").exists(), "{line} made a file or folder named -");
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+fn refused(line: &str, sentence: &str) {
+    let (code, out, complaint) = ran(line);
+    assert_eq!(code, Some(2), "{line}: {complaint}");
+    assert!(complaint.contains(sentence) && out.is_empty(), "{line}: {complaint}");
+}
+
+/// The first column of a table, each value once.
+fn first_column(line: &str) -> Vec<String> {
+    let (code, out, complaint) = ran(line);
+    assert_eq!(code, Some(0), "{line}: {complaint}");
+    let mut cells: Vec<String> = out.lines().skip(1).map(|row| row.split(',').next().unwrap().to_owned()).collect();
+    cells.dedup();
+    cells
+}
+
+#[test]
+fn f07_a_range_begins_at_its_first_value() {
+    let (code, ..) =
+        ran("basin --beta 0.8 --gap 0.7 --second-gap 0.4 --restitution 0.5 --x=-0.4:0.7:13 --v=-1:1:3 --impacts 50");
+    assert_eq!(code, Some(0));
+}
+
+#[test]
+fn f07b_the_same_values_with_and_without_a_store() {
+    let map = "map --inverse-beta 0.4:2:13 --gap 0.5 --restitution 0.5 --starts 1 --impacts 50";
+    let plain = first_column(&format!("{map} --csv -"));
+    assert_eq!((plain.len(), plain[0].as_str(), plain[6].as_str(), plain[12].as_str()), (13, "0.4", "1.2", "2"));
+    assert_eq!(first_column(&format!("{map} --store s.zarr --csv -")), plain);
+    let diagram = "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over=-0.1:0.3:5 --direction up --keep 2";
+    assert_eq!(first_column(&format!("{diagram} --csv -")), ["-0.1", "0", "0.1", "0.2", "0.3"]);
+    assert_eq!(first_column(&format!("{diagram} --store s.zarr --csv -")), ["-0.1", "0", "0.1", "0.2", "0.3"]);
+    let decades = "map --beta 0.01:100:5:log --gap 0.5 --restitution 0.5 --starts 1 --impacts 50 --csv -";
+    assert_eq!(first_column(decades), ["0.01", "0.1", "1", "10", "100"]);
+}
+
+#[test]
+fn f10_phases_that_are_no_angles_are_refused() {
+    for phase in ["1e18", "-1e18", "1.1e15", "1e300"] {
+        for line in [
+            format!("settle {S} --phase={phase}"),
+            format!("simulate {S} --phase={phase}"),
+            format!("lyapunov {S} --phase={phase}"),
+            format!("basin {S} --x -1:0.5:2 --v 0:1:2 --phase={phase}"),
+        ] {
+            refused(&line, "lies outside -1e15 <= phase <= 1e15");
+        }
+    }
+    let start = json(&format!("simulate {S} --phase 1e15 --impacts 1"))["start"]["phase"].as_f64().unwrap();
+    assert!((start - 2.109_698_117_070_112_6).abs() < 1e-15);
+}
+
+#[test]
+fn f10b_a_dash_is_stdout() {
+    let (code, out, _) = ran(&format!("simulate {S} --impacts 3 --csv -"));
+    assert!(code == Some(0) && out.starts_with("t,x,v\n0,0,0\n") && !out.contains("end "), "{out}");
+    refused(&format!("simulate {S} --csv - --json"), "both want stdout");
+    refused(&format!("simulate {S} --plot -"), "a figure cannot go to stdout");
+    for name in ["basin --x -1:0.5:2 --v 0:1:2", "attractors --starts 2"] {
+        refused(&format!("{name} {S} --store -"), "a store is a folder");
+    }
+    refused("status -", "a store is a folder");
+    refused("reproduce --quick --out -", "--out names a folder");
+}
+
+/// A store of 2000 tiles, of which a part fills 10: all that are missing are counted.
+#[test]
+fn f10c_missing_tiles_are_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = "version = 1\ntile = 1\nsystem = { inverse_beta = 1.3, gap = 0.75, restitution = 0.5 }\n\
+                [task.attractors]\nstarts = 2000\nseed = 1\n";
+    fs::write(folder.path().join("p.toml"), plan).unwrap();
+    let run = |line: &str| vibro(line).current_dir(&folder).output().unwrap();
+    assert!(run("run p.toml --store s.zarr --tiles 1/200 --quiet").status.success());
+    let told: serde_json::Value = serde_json::from_slice(&run("status s.zarr --json").stdout).unwrap();
+    let named = told["missing"].as_array().unwrap().len() as u64;
+    assert_eq!((named, told["missing_left_out"].as_u64()), (1000, Some(990)), "{told}");
+    let text = String::from_utf8(run("status s.zarr").stdout).unwrap();
+    assert!(text.contains("missing tiles: 1 to 199, 201 to 399,") && text.contains(" more\n"), "{text}");
+}
+
+#[test]
+fn f11_places_that_take_no_files() {
+    #[cfg(target_os = "linux")]
+    {
+        refused(&format!("settle {S} --plot /proc/foo.png"), "the directory `/proc` takes no files");
+        let store = format!("basin {S} --x -1:0.5:2 --v 0:1:2 --store /proc/foo.zarr");
+        let (code, _, complaint) = ran(&store);
+        assert!(code == Some(1) && complaint.contains("the store /proc/foo.zarr cannot be begun"), "{complaint}");
+        assert!(!complaint.contains("finished"), "nothing is kept of a store that was never begun: {complaint}");
+    }
+    refused(&format!("settle {S} --plot nowhere/foo.png"), "there is no directory `nowhere`");
+}
+
+#[test]
+fn f11b_whole_numbers_with_an_exponent() {
+    let told = json(&format!("attractors {S} --starts 1e2"));
+    assert_eq!(told["starts"], 100);
+    refused(&format!("attractors {S} --starts 1e-2"), "is not a whole number, such as 1000 or 1e3");
+    refused(&format!("attractors {S} --starts 2e9"), "starts = 2000000000 lies outside");
+    refused(&format!("branch {S} --label 2/1 --vary gap --to 1 --follow 1e3"), "follow = 1000 lies outside");
+}
+
+#[test]
+fn f11c_all_that_is_missing_is_named() {
+    for (line, sentence) in [
+        (
+            "settle",
+            "the frequency ratio, the gap and the restitution are not given\nhint: --beta B or --inverse-beta X, --gap D, --restitution E",
+        ),
+        ("settle --beta 1", "the gap and the restitution are not given"),
+        ("settle --gap 1 --restitution 0.5", "the frequency is given nowhere"),
+        ("settle --mass-kg 1", "missing: --stiffness-n-per-m, --force-n, --frequency-hz, --gap-m, --restitution"),
+        ("diagram --vary gap --over 0:1:3", "the frequency ratio and the restitution are not given"),
+        ("map --starts 3", "--gap <VALUES>"),
+        ("map --starts 3", "--beta <VALUES>|--inverse-beta <VALUES>"),
+    ] {
+        refused(line, sentence);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("p.toml"), "version = 1\n[task.attractors]\nstarts = 5\nseed = 1\n").unwrap();
+    let output = vibro("run p.toml").current_dir(&folder).output().unwrap();
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    assert!(complaint.contains("beta or inverse_beta, gap, restitution"), "{complaint}");
+}
+
+#[test]
+fn f11d_one_of_a_kind_is_no_plural() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |line: &str| vibro(line).current_dir(&folder).output().unwrap();
+    let filled = run(&format!("basin {S} --x -1:0.5:4 --v 0:1:4 --store s.zarr"));
+    assert!(String::from_utf8_lossy(&filled.stderr).contains("1 of 1 tile computed"));
+    // damage one chunk
+    let chunk = folder.path().join("s.zarr/label/c/0/0");
+    assert!(chunk.exists());
+    fs::write(&chunk, b"damaged").unwrap();
+    let verified = run("verify s.zarr");
+    assert_eq!(verified.status.code(), Some(1));
+    let complaint = String::from_utf8_lossy(&verified.stderr).into_owned();
+    assert!(complaint.contains("error: 1 fault in s.zarr"), "{complaint}");
+    assert!(String::from_utf8_lossy(&run("status s.zarr").stdout).contains("1 of 1 tile, 16 of 16 points"));
+    let (_, one, _) = ran("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 1:1:1");
+    assert!(one.starts_with("1 value of gap"), "{one}");
+}

@@ -1,0 +1,161 @@
+//! One case: drawn from its number, checked, and made smaller where it has a fault.
+
+use proptest::prelude::BoxedStrategy;
+use proptest::strategy::{Strategy, ValueTree};
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// A family of cases and what must hold of each.
+pub trait Property {
+    /// What is asked.
+    type Case: Clone + core::fmt::Debug;
+
+    /// How cases are drawn.
+    fn strategy(&self) -> BoxedStrategy<Self::Case>;
+
+    /// The case in the form in which a person can repeat it.
+    fn describe(&self, case: &Self::Case) -> String;
+
+    /// Asks, and looks at the answer.
+    ///
+    /// # Errors
+    /// The sentence that says what does not hold.
+    fn check(&mut self, case: &Self::Case) -> Result<(), String>;
+}
+
+/// A case with a fault.
+#[derive(Clone, Debug)]
+pub struct Fault {
+    /// What does not hold.
+    pub why: String,
+    /// The smallest case found with a fault.
+    pub case: String,
+}
+
+/// The kind of a fault: the same with other numbers in it is the same.
+#[must_use]
+pub fn kind(why: &str) -> String {
+    why.chars().filter(|c| !c.is_ascii_digit()).take(60).collect()
+}
+
+/// Trials of smaller cases for one fault, and how long they may take.
+const TRIALS: u32 = 300;
+const PATIENCE: Duration = Duration::from_secs(8);
+
+/// The source of random numbers of case number `k`.
+#[must_use]
+pub fn runner(seed: u64, family: &str, k: u64) -> TestRunner {
+    let mut bytes = [0_u8; 32];
+    bytes[..8].copy_from_slice(&seed.to_le_bytes());
+    bytes[8..16].copy_from_slice(&k.to_le_bytes());
+    for (to, from) in bytes[16..].iter_mut().zip(family.bytes()) {
+        *to = from;
+    }
+    let config = Config { failure_persistence: None, ..Config::default() };
+    TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
+}
+
+/// Draws a case and checks it. `begun` is told the case before anything is asked; a kind of fault that is `known` is not made
+/// smaller again.
+///
+/// # Errors
+/// The [`Fault`] that was found.
+pub fn run<P: Property>(
+    property: &mut P,
+    mut runner: TestRunner,
+    known: &mut BTreeSet<String>,
+    begun: impl FnOnce(&str),
+) -> Result<(), Fault> {
+    let drawn = property.strategy().new_tree(&mut runner);
+    let mut tree = drawn.map_err(|why| Fault { why: format!("no case can be drawn: {why}"), case: String::new() })?;
+    let case = tree.current();
+    begun(&property.describe(&case));
+    let Err(mut why) = guarded(property, &case) else { return Ok(()) };
+    if !known.insert(kind(&why)) {
+        return Err(Fault { why, case: property.describe(&case) });
+    }
+    let mut smallest = case;
+    let limit = Instant::now() + PATIENCE;
+    let mut smaller = tree.simplify();
+    for _ in 0..TRIALS {
+        if !smaller || Instant::now() > limit {
+            break;
+        }
+        let case = tree.current();
+        smaller = match guarded(property, &case) {
+            Err(sentence) => {
+                (why, smallest) = (sentence, case);
+                tree.simplify()
+            }
+            Ok(()) => tree.complicate(),
+        };
+    }
+    Err(Fault { why, case: property.describe(&smallest) })
+}
+
+/// What the first panic of a case said; `None` outside of cases.
+static PANIC: Mutex<Option<String>> = Mutex::new(None);
+
+/// Keeps what panics within cases say for [`run`], of any thread, instead of printing it.
+pub fn keep_panics() {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| match PANIC.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+        Some(kept) if kept.is_empty() => *kept = panic.to_string(),
+        Some(_) => {}
+        None => usual(panic),
+    }));
+}
+
+fn keep(text: Option<String>) -> Option<String> {
+    core::mem::replace(&mut *PANIC.lock().unwrap_or_else(PoisonError::into_inner), text)
+}
+
+fn guarded<P: Property>(property: &mut P, case: &P::Case) -> Result<(), String> {
+    keep(Some(String::new()));
+    let result = catch_unwind(AssertUnwindSafe(|| property.check(case)));
+    let kept = keep(None).unwrap_or_default();
+    result.unwrap_or_else(|_| Err(format!("panic: {kept}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Holds of numbers below a hundred, panics from a thousand on.
+    struct Small;
+
+    impl Property for Small {
+        type Case = u32;
+        fn strategy(&self) -> BoxedStrategy<u32> {
+            (0..1_000_000_u32).boxed()
+        }
+        fn describe(&self, case: &u32) -> String {
+            case.to_string()
+        }
+        fn check(&mut self, case: &u32) -> Result<(), String> {
+            assert!(*case < 1000, "a thousand");
+            if *case < 100 { Ok(()) } else { Err(format!("{case} is a hundred or more")) }
+        }
+    }
+
+    #[test]
+    fn a_fault_is_found_and_made_smaller() {
+        keep_panics();
+        let found = (0..20)
+            .filter_map(|k| run(&mut Small, runner(1, "small", k), &mut BTreeSet::new(), |_| {}).err())
+            .collect::<Vec<_>>();
+        let _ = std::panic::take_hook();
+        assert!(found.len() > 15, "{found:?}");
+        assert!(found.iter().any(|fault| fault.case == "100"), "{found:?}");
+    }
+
+    #[test]
+    fn a_case_follows_from_its_number() {
+        let first = |seed, k| Small.strategy().new_tree(&mut runner(seed, "small", k)).unwrap().current();
+        assert_eq!(first(1, 2), first(1, 2));
+        assert!(first(1, 2) != first(1, 3) && first(1, 2) != first(2, 2));
+    }
+}

@@ -1,0 +1,173 @@
+//! Command lines of `vibro`: an answer or a refusal, soon, and the same one the next time.
+
+mod others;
+mod parts;
+mod planes;
+mod verbs;
+
+use crate::case::Property;
+use crate::limits::{Limits, Ran, run};
+use crate::rules;
+use proptest::prelude::*;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use tempfile::TempDir;
+use vibroimpact_report::question::quoted;
+use vibroimpact_report::{Units, answer};
+use vibroimpact_study::{Control, Plan};
+
+/// A command line, and whether its budget is one that nobody waits for.
+#[derive(Clone, Debug)]
+pub struct Line {
+    words: Vec<String>,
+    heavy: bool,
+}
+
+/// The family.
+#[derive(Debug)]
+pub struct Commands {
+    vibro: PathBuf,
+    scratch: TempDir,
+}
+
+/// What is asked a second time must have been answered soon.
+const SOON: Duration = Duration::from_secs(4);
+/// When a question of a large budget is interrupted.
+const INTERRUPT: Duration = Duration::from_millis(1500);
+
+impl Commands {
+    /// Tests this command.
+    ///
+    /// # Errors
+    /// Where there is no such command, or no place for temporary files.
+    pub fn new(vibro: &Path) -> io::Result<Self> {
+        let vibro =
+            vibro.canonicalize().map_err(|why| io::Error::new(why.kind(), format!("{}: {why}", vibro.display())))?;
+        Ok(Self { vibro, scratch: TempDir::new()? })
+    }
+
+    /// Runs a line in a folder of its own; what it left there besides the files of every case.
+    fn ask(&self, words: &[String], limits: &Limits) -> io::Result<(Ran, Vec<String>)> {
+        // always under the same name, which some answers have in them
+        let folder = self.scratch.path().join("case");
+        if folder.exists() {
+            fs::remove_dir_all(&folder)?;
+        }
+        fs::create_dir(&folder)?;
+        for (name, text) in others::FILES {
+            fs::write(folder.join(name), text)?;
+        }
+        let ran = run(&self.vibro, words, (&folder, self.scratch.path()), limits)?;
+        let mut left = Vec::new();
+        for entry in fs::read_dir(&folder)? {
+            let name = entry?.file_name().to_string_lossy().into_owned();
+            match others::FILES.iter().find(|(file, _)| *file == name) {
+                Some((_, text)) if fs::read_to_string(folder.join(&name)).is_ok_and(|now| now == *text) => {}
+                _ => left.push(name),
+            }
+        }
+        Ok((ran, left))
+    }
+}
+
+impl Property for Commands {
+    type Case = Line;
+
+    fn strategy(&self) -> BoxedStrategy<Line> {
+        let line = |heavy| move |words| Line { words, heavy };
+        prop_oneof![
+            12 => verbs::lines().prop_map(line(false)),
+            10 => planes::lines().prop_map(line(false)),
+            6 => others::lines().prop_map(line(false)),
+            1 => others::heavy().prop_map(line(true)),
+        ]
+        .boxed()
+    }
+
+    fn describe(&self, case: &Line) -> String {
+        let quoted: Vec<String> = case.words.iter().map(|word| quoted(word)).collect();
+        format!("vibro {}{}", quoted.join(" "), if case.heavy { "   # and Ctrl-C" } else { "" })
+    }
+
+    fn check(&mut self, case: &Line) -> Result<(), String> {
+        let failed = |why: io::Error| format!("the command cannot be run: {why}");
+        let interrupt = case.heavy.then_some(INTERRUPT);
+        let limits = Limits { interrupt, ..Limits::default() };
+        let (ran, left) = self.ask(&case.words, &limits).map_err(failed)?;
+        let code = ran.ended_with(if case.heavy { &[0, 1, 2, 130] } else { &[0, 1, 2] })?;
+        let verb = case.words.first().map_or("", String::as_str);
+        if code != 0 {
+            rules::sentence(&ran.stderr)?;
+            // what was found wrong in a store is the answer of `verify`
+            if !ran.stdout.is_empty() && verb != "verify" {
+                return Err(format!("exit code {code} with {} bytes on stdout: {}", ran.stdout.len(), ran.stderr));
+            }
+            // what a store holds already stays; a figure that fails leaves none
+            if let Some(name) = left.iter().find(|name| code != 130 && !name.ends_with(".zarr")) {
+                return Err(format!("exit code {code} and a file `{name}` is left: {}", ran.stderr));
+            }
+            return Ok(());
+        }
+        if !ran.stderr.is_empty() {
+            rules::sentence(&ran.stderr)?;
+        }
+        if case.heavy || matches!(verb, "bench" | "status") {
+            return Ok(());
+        }
+        let has = |flag: &str| case.words.iter().any(|word| word == flag || word.starts_with(&format!("{flag}=")));
+        if has("--json") && !has("--help") {
+            told(verb, &ran.stdout, has("--store") || verb == "run", !has("--mass-kg") && !has("--rule"))?;
+        }
+        if ran.took < SOON {
+            again(self, case, &ran)?;
+        }
+        Ok(())
+    }
+}
+
+/// The object reads, has what programs rely on, and its plan gives the same.
+fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), String> {
+    let object = rules::object(stdout)?;
+    if stored || matches!(verb, "resume" | "verify" | "status") {
+        return Ok(());
+    }
+    rules::answer(verb, &object)?;
+    let Some(plan) = object.get("plan").filter(|_| plain) else { return Ok(()) };
+    let plan = Plan::from_text(&plan.to_string()).map_err(|why| format!("the plan it prints does not read: {why}"))?;
+    let asked = answer(&plan, Units::default(), &Control { threads: 1, ..Control::default() });
+    let second = asked.map_err(|why| format!("the plan it prints is refused: {why}"))?.json();
+    let first = String::from_utf8_lossy(stdout);
+    same(first.trim_end().as_bytes(), second.as_bytes()).map_err(|why| format!("its plan gives another answer: {why}"))
+}
+
+/// The same line with another number of threads gives the same bytes.
+fn again(commands: &Commands, case: &Line, first: &Ran) -> Result<(), String> {
+    if case.words.iter().any(|word| word.starts_with("--threads")) {
+        return Ok(());
+    }
+    let words: Vec<String> = ["--threads=3".to_owned()].into_iter().chain(case.words.iter().cloned()).collect();
+    let (second, _) = commands.ask(&words, &Limits::default()).map_err(|why| why.to_string())?;
+    if second.code != first.code {
+        return Err(format!("the same question with --threads=3 ends with {:?}: {}", second.code, second.stderr));
+    }
+    same(&first.stdout, &second.stdout)
+        .map_err(|why| format!("the same question with --threads=3 has another answer: {why}"))
+}
+
+/// Equal, or where they part.
+///
+/// # Errors
+/// Where they part.
+pub(crate) fn same(a: &[u8], b: &[u8]) -> Result<(), String> {
+    if a == b {
+        return Ok(());
+    }
+    let at = a.iter().zip(b).take_while(|(a, b)| a == b).count();
+    let part = |text: &[u8]| {
+        let from = at.saturating_sub(40).min(text.len());
+        String::from_utf8_lossy(&text[from..(at + 40).min(text.len())]).into_owned()
+    };
+    Err(format!("at byte {at}: `{}` and `{}`", part(a), part(b)))
+}

@@ -1,0 +1,110 @@
+//! Parts of a command line: flags with their values, systems, starts, outputs, and words that nobody asked for.
+
+use crate::system::{self, Values};
+use crate::values::{Text, file, number, odd, restitution, typed};
+use proptest::prelude::*;
+
+/// Words of a command line.
+pub(super) type Words = BoxedStrategy<Vec<String>>;
+
+/// `--name=value`, this often, 1 for always.
+pub(super) fn flag(name: &'static str, often: f64, value: Text) -> Words {
+    let given = value.prop_map(move |value| vec![format!("--{name}={value}")]);
+    sometimes(often, given.boxed())
+}
+
+/// `--name`, this often, 1 for always.
+pub(super) fn switch(name: &'static str, often: f64) -> Words {
+    sometimes(often, Just(vec![format!("--{name}")]).boxed())
+}
+
+fn sometimes(often: f64, words: Words) -> Words {
+    if often >= 1.0 {
+        return words;
+    }
+    prop::option::weighted(often, words).prop_map(Option::unwrap_or_default).boxed()
+}
+
+/// One of these words.
+pub(super) fn word(words: &'static [&'static str]) -> Text {
+    prop::sample::select(words).prop_map(str::to_owned).boxed()
+}
+
+/// Values as flags.
+#[must_use]
+pub(super) fn flags(values: &Values) -> Vec<String> {
+    values.iter().map(|(name, value)| format!("--{}={value}", name.replace('_', "-"))).collect()
+}
+
+/// A system; one in ten in physical units.
+pub(super) fn system() -> Words {
+    prop_oneof![9 => system::system().prop_map(|values| flags(&values)), 1 => machine()].boxed()
+}
+
+/// A system in physical units, of which something may be missing.
+fn machine() -> Words {
+    let positive = || prop_oneof![8 => (0.05..20.0_f64).prop_map(typed), 1 => number()].boxed();
+    let parts: Vec<Words> = vec![
+        flag("mass-kg", 0.97, positive()),
+        flag("stiffness-n-per-m", 0.97, positive()),
+        flag("force-n", 0.97, positive()),
+        flag("frequency-hz", 0.95, positive()),
+        flag("omega-rad-per-s", 0.05, positive()),
+        flag("gap-m", 0.97, prop_oneof![(-0.1..0.5_f64).prop_map(typed), number()].boxed()),
+        flag("damping-ns-per-m", 0.4, positive()),
+        flag("second-gap-m", 0.2, positive()),
+        flag("restitution", 0.97, restitution()),
+        flag("units", 0.6, word(&["si", "nondimensional", "imperial"])),
+        flag("gap", 0.03, number()),
+    ];
+    all(parts)
+}
+
+/// A start.
+pub(super) fn start() -> Words {
+    system::start().prop_map(|values| flags(&values)).boxed()
+}
+
+/// What is written: a table, a figure, JSON.
+pub(super) fn outputs(table: &'static str) -> Words {
+    const TABLES: &[&str] = &[".csv", ".csv", ".txt"];
+    const FIGURES: &[&str] = &[".svg", ".svg", ".png", ".jpg"];
+    let table_to = prop_oneof![2 => file(TABLES), 1 => Just("-".to_owned())].boxed();
+    let table = if table.is_empty() { Just(Vec::new()).boxed() } else { flag(table, 0.15, table_to) };
+    all(vec![table, flag("plot", 0.1, file(FIGURES)), switch("json", 0.5)])
+}
+
+/// Words after each other.
+pub(super) fn all(parts: Vec<Words>) -> Words {
+    parts.prop_map(|parts| parts.concat()).boxed()
+}
+
+/// A command line: its verb, its parts, what every command understands, and sometimes a word too many, one twice or one cut.
+pub(super) fn line(verb: &'static str, parts: Vec<Words>) -> Words {
+    let usual = all(vec![
+        flag("threads", 0.1, word(&["0", "1", "3", "1024", "1025", "-1", "x"])),
+        switch("quiet", 0.2),
+        switch("force", 0.05),
+    ]);
+    let spoil = prop::option::weighted(0.06, (any::<prop::sample::Index>(), 0..5_u8, odd()));
+    (all(parts), usual, spoil)
+        .prop_map(move |(parts, usual, spoil)| {
+            let mut line: Vec<String> = [verb.to_owned()].into_iter().chain(parts).chain(usual).collect();
+            let Some((place, how, odd)) = spoil else { return line };
+            let k = place.index(line.len());
+            match how {
+                0 => line.insert(k + 1, odd),
+                1 => line.insert(k + 1, format!("--{odd}")),
+                2 => line.push(line[k].clone()),
+                3 => {
+                    let kept = line[k].chars().count() / 2;
+                    line[k] = line[k].chars().take(kept).collect();
+                }
+                _ => line[k].push_str(&odd),
+            }
+            // no operating system passes such a word
+            line.iter_mut().for_each(|word| word.retain(|c| c != '\0'));
+            line
+        })
+        .boxed()
+}

@@ -1,0 +1,154 @@
+//! Command lines of the verbs that ask over ranges: basin, map, diagram, region and curve.
+
+use super::parts::{Words, all, flag, flags, line, outputs, start, switch, word};
+use crate::system::{parameter, system, without};
+use crate::values::{Text, count, interval, label, range};
+use proptest::prelude::*;
+
+/// Any of them.
+pub(super) fn lines() -> Words {
+    prop_oneof![3 => basin(), 3 => map(), 3 => diagram(), 2 => region(), 2 => curve()].boxed()
+}
+
+fn few() -> Text {
+    prop_oneof![5 => word(&["1", "2", "3"]), 1 => count()].boxed()
+}
+
+fn budget() -> Text {
+    prop_oneof![4 => word(&["1", "60", "200", "1500"]), 1 => count()].boxed()
+}
+
+/// A store in the current folder, and what goes with one.
+fn store() -> Words {
+    let asked = all(vec![
+        flag("store", 1.0, word(&["s.zarr", "s.zarr", "ünï.zarr", "none/s.zarr", "", "."])),
+        flag("tile", 0.5, word(&["1", "2", "4096", "4097", "0", "-1"])),
+        flag("refine", 0.2, word(&["2", "3", "64", "65", "0"])),
+    ]);
+    prop_oneof![4 => Just(Vec::new()), 1 => asked].boxed()
+}
+
+fn basin() -> Words {
+    let system = super::parts::system();
+    line(
+        "basin",
+        vec![
+            system,
+            flag("x", 0.98, range(-4.0, -0.5)),
+            flag("v", 0.98, range(-4.0, 4.0)),
+            flag("phase", 0.3, crate::values::number()),
+            flag("impacts", 0.6, budget()),
+            store(),
+            outputs("csv"),
+        ],
+    )
+}
+
+/// A system of which so many parameters vary over ranges.
+fn varied(
+    most: usize,
+    over: fn(f64, f64) -> Text,
+) -> BoxedStrategy<(Vec<(&'static str, String)>, crate::system::Values)> {
+    (
+        prop::collection::vec(parameter().prop_flat_map(move |(name, low, high)| (Just(name), over(low, high))), most),
+        system(),
+    )
+        .prop_map(|(mut over, system)| {
+            let mut seen: Vec<&str> = Vec::new();
+            // nine in ten would be refused for a parameter that is given twice
+            over.retain(|(name, _)| {
+                let same = |other: &&str| other == name || other.ends_with("beta") && name.ends_with("beta");
+                let new = !seen.iter().any(same);
+                seen.push(*name);
+                new
+            });
+            let names: Vec<&str> = over.iter().map(|(name, _)| *name).collect();
+            let system = without(system, &names);
+            (over, system)
+        })
+        .boxed()
+}
+
+fn map() -> Words {
+    let system = (1..3_usize)
+        .prop_flat_map(|n| varied(n, range))
+        .prop_map(|(over, system)| [flags(&over), flags(&system)].concat());
+    line(
+        "map",
+        vec![
+            system.boxed(),
+            flag("starts", 0.97, few()),
+            flag("seed", 0.2, count()),
+            flag("impacts", 0.6, budget()),
+            flag("axes", 0.05, word(&["gap,inverse-beta", "gap", "mass", ""])),
+            store(),
+            outputs("csv"),
+        ],
+    )
+}
+
+fn diagram() -> Words {
+    let system = varied(1, range).prop_map(|(over, system)| {
+        let mut words = flags(&system);
+        for (name, range) in over {
+            words.extend([format!("--vary={}", name.replace('_', "-")), format!("--over={range}")]);
+        }
+        words
+    });
+    line(
+        "diagram",
+        vec![
+            system.boxed(),
+            flag("also", 0.1, word(&["gap=1:2", "restitution=0.5:0.4", "damping=0:0.1", "gap=1", "mass=1:2"])),
+            flag("direction", 0.5, word(&["up", "down", "both", "scatter", "left"])),
+            flag("starts", 0.1, few()),
+            flag("show", 0.4, word(&["velocity", "strobe", "all"])),
+            flag("transient", 0.9, word(&["0", "10", "100", "-1", "1000001"])),
+            flag("keep", 0.7, word(&["1", "5", "64", "0", "100001"])),
+            store(),
+            outputs("csv"),
+        ],
+    )
+}
+
+fn region() -> Words {
+    let system = varied(2, interval).prop_map(|(over, system)| [flags(&over), flags(&system)].concat());
+    line(
+        "region",
+        vec![
+            system.boxed(),
+            flag("label", 0.98, label()),
+            flag("grid", 0.97, word(&["2", "3", "4", "1", "401", "-1"])),
+            flag("axes", 0.05, word(&["gap,inverse-beta", "gap", ""])),
+            outputs("csv"),
+        ],
+    )
+}
+
+fn curve() -> Words {
+    let system = (varied(2, interval), start()).prop_map(|((over, system), _)| {
+        let names = ["--vary", "--and"];
+        let ranges =
+            over.iter().zip(names).map(|((name, range), flag)| format!("{flag}={}={range}", name.replace('_', "-")));
+        // the orbit is looked for in the middle of both ranges
+        let middle = |(name, range): &(&'static str, String)| {
+            let (a, b) = range.split_once(':')?;
+            let at = 0.5 * (a.parse::<f64>().ok()? + b.parse::<f64>().ok()?);
+            Some((*name, at.to_string()))
+        };
+        let values: Vec<_> = over.iter().filter_map(middle).chain(system).collect();
+        ranges.chain(flags(&values)).collect::<Vec<_>>()
+    });
+    line(
+        "curve",
+        vec![
+            system.boxed(),
+            flag("label", 0.98, label()),
+            flag("kind", 0.98, word(&["fold", "flip", "grazing", "cusp"])),
+            flag("orbit", 0.05, count()),
+            flag("event", 0.1, count()),
+            switch("json", 0.3),
+            outputs("csv"),
+        ],
+    )
+}

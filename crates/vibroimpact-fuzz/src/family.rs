@@ -1,0 +1,75 @@
+//! The families of cases.
+
+use core::fmt;
+
+/// What is asked, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Command lines.
+    Commands,
+    /// Plans in memory.
+    Plans,
+    /// Damaged stores.
+    Stores,
+    /// Requests to the explorer.
+    Page,
+    /// Starts alone and among others.
+    Verdicts,
+}
+
+impl Family {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Commands, Self::Plans, Self::Stores, Self::Page, Self::Verdicts];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Commands => "commands",
+            Self::Plans => "plans",
+            Self::Stores => "stores",
+            Self::Page => "page",
+            Self::Verdicts => "verdicts",
+        }
+    }
+
+    /// The family of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|family| family.name() == name)
+    }
+
+    /// Its part of the time, out of [`Self::TOTAL`].
+    #[must_use]
+    pub const fn weight(self) -> u32 {
+        match self {
+            Self::Commands => 4,
+            Self::Plans => 2,
+            Self::Stores | Self::Page => 1,
+            Self::Verdicts => 2,
+        }
+    }
+
+    /// The sum of all weights.
+    pub const TOTAL: u32 = 10;
+}
+
+impl fmt::Display for Family {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weights_add_up_and_names_are_found() {
+        assert_eq!(Family::ALL.iter().map(|family| family.weight()).sum::<u32>(), Family::TOTAL);
+        for family in Family::ALL {
+            assert_eq!(Family::named(family.name()), Some(family));
+        }
+        assert_eq!(Family::named("all"), None);
+    }
+}

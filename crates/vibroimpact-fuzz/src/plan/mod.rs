@@ -1,0 +1,250 @@
+//! Plans in TOML and JSON, valid and mutated: read, checked and answered in memory.
+
+mod draw;
+mod mutate;
+
+pub use draw::{of as system, plan as drawn};
+
+use crate::case::Property;
+use crate::command::same;
+use crate::limits::processor_time;
+use crate::rules;
+use core::sync::atomic::{AtomicBool, Ordering};
+use mutate::{Change, Edit};
+use proptest::prelude::*;
+use serde_json::Value;
+use std::sync::mpsc;
+use std::time::{Duration, Instant};
+use vibroimpact_report::answer::work;
+use vibroimpact_report::{AnswerError, Units, answer};
+use vibroimpact_study::{Control, Plan, Task};
+
+/// A plan, what happened to it, and how it is written.
+#[derive(Clone, Debug)]
+pub struct Written {
+    plan: Value,
+    changes: Vec<Change>,
+    edits: Vec<Edit>,
+    toml: bool,
+}
+
+impl Written {
+    /// How plans are drawn.
+    pub fn strategy() -> BoxedStrategy<Self> {
+        (draw::plan(), mutate::changes(), mutate::edits(), any::<bool>())
+            .prop_map(|(plan, changes, edits, toml)| Self { plan, changes, edits, toml })
+            .boxed()
+    }
+
+    /// Its text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let tree = mutate::changed(self.plan.clone(), &self.changes);
+        let toml = if self.toml { toml::to_string(&tree).ok() } else { None };
+        // what TOML has no words for is JSON
+        mutate::edited(&toml.unwrap_or_else(|| tree.to_string()), &self.edits)
+    }
+
+    /// The same as JSON.
+    #[must_use]
+    pub fn json(&self) -> String {
+        Self { toml: false, ..self.clone() }.text()
+    }
+}
+
+/// The family.
+#[derive(Clone, Copy, Debug)]
+pub struct Plans;
+
+/// Processor time of a plan of a small budget.
+const SMALL: Duration = Duration::from_secs(30);
+/// Of one of a large budget, after which it is stopped.
+const LARGE: Duration = Duration::from_secs(2);
+/// Impacts that are few.
+const FEW: u64 = 200_000;
+/// Points that fit into memory.
+const POINTS: u64 = 100_000;
+
+impl Property for Plans {
+    type Case = Written;
+
+    fn strategy(&self) -> BoxedStrategy<Written> {
+        Written::strategy()
+    }
+
+    fn describe(&self, case: &Written) -> String {
+        format!("the plan\n{}", case.text().chars().take(4000).collect::<String>())
+    }
+
+    fn check(&mut self, case: &Written) -> Result<(), String> {
+        let plan = match Plan::from_text(&case.text()) {
+            Ok(plan) => plan,
+            Err(why) => return rules::sentence(&why.to_string()),
+        };
+        if let Err(why) = plan.check() {
+            return rules::sentence(&why.to_string());
+        }
+        as_written(&plan)?;
+        if work(&plan).is_some_and(|(points, _)| points > POINTS) {
+            return Ok(());
+        }
+        let limit = if small(&plan) { SMALL } else { LARGE };
+        match stopped_after(limit, |stop| asked(&plan, 1, stop)) {
+            Ok(first) => answered(&plan, &first),
+            Err(Refused::Sentence(why)) => rules::sentence(&why),
+            Err(Refused::Stopped) if limit == LARGE => Ok(()),
+            Err(Refused::Stopped) => {
+                Err(format!("a plan of a small budget is not answered within {} s", SMALL.as_secs()))
+            }
+        }
+    }
+}
+
+/// Written out and read again it is the same plan.
+fn as_written(plan: &Plan) -> Result<(), String> {
+    let json = serde_json::to_string(plan).map_err(|why| format!("it cannot be written: {why}"))?;
+    for (kind, text) in [("JSON", json), ("TOML", plan.to_toml())] {
+        let again = Plan::from_text(&text).map_err(|why| format!("its own {kind} does not read: {why}: {text}"))?;
+        let canonical = plan.canonical().map_err(|why| why.to_string())?;
+        if again.canonical().map_err(|why| why.to_string())? != canonical || again.hash() != canonical.hash() {
+            return Err(format!("its own {kind} is another plan: {text}"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether it asks for so little that its answer is waited for.
+pub(crate) fn small(plan: &Plan) -> bool {
+    budget(plan) <= FEW
+}
+
+/// Impacts it asks for, about.
+fn budget(plan: &Plan) -> u64 {
+    match &plan.task {
+        Task::Simulate { impacts, periods, .. } => {
+            let periods = periods.map_or(0.0, |periods| periods.min(1e9));
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // saturating
+            let more = (100.0 * periods).max(0.0).round() as u64;
+            impacts.unwrap_or(100).saturating_add(more)
+        }
+        Task::Settle { .. } | Task::Region(_) | Task::Curve(_) => 1,
+        Task::Orbit { label } => {
+            if label.len() > 3 {
+                u64::MAX
+            } else {
+                1
+            }
+        }
+        Task::Attractors { starts, .. } => starts.saturating_mul(5000),
+        Task::Basin(basin) => basin.starts().saturating_mul(basin.impacts.map_or(5000, u64::from)),
+        Task::Map(map) => map.points().saturating_mul(map.starts).saturating_mul(map.impacts.map_or(5000, u64::from)),
+        Task::Diagram(diagram) => {
+            let each = diagram.transient.saturating_add(diagram.keep);
+            u64::from(diagram.over.count()).saturating_mul(diagram.runs()).saturating_mul(each)
+        }
+        Task::Lyapunov(lyapunov) => {
+            lyapunov.impacts.saturating_add(lyapunov.transient).saturating_add(lyapunov.points.unwrap_or(0))
+        }
+        Task::Branch(branch) => {
+            u64::from(branch.points).saturating_mul(u64::from(branch.follow) + 1).saturating_mul(100)
+        }
+    }
+}
+
+enum Refused {
+    Sentence(String),
+    Stopped,
+}
+
+/// Everything that is told of it: JSON, table, figure.
+struct Told {
+    json: String,
+    table: Vec<u8>,
+    figure: Result<String, String>,
+}
+
+fn asked(plan: &Plan, threads: usize, stop: &AtomicBool) -> Result<Told, Refused> {
+    let control = Control { stop, threads, ..Control::default() };
+    let refused = |why: AnswerError| match why {
+        AnswerError::Stopped(_) => Refused::Stopped,
+        other => Refused::Sentence(other.to_string()),
+    };
+    let answer = answer(plan, Units::default(), &control).map_err(refused)?;
+    let mut table = Vec::new();
+    match answer.table() {
+        Ok(Some(found)) => found.write(&mut table).map_err(|why| Refused::Sentence(why.to_string()))?,
+        Ok(None) => {}
+        Err(why) => table = why.to_string().into_bytes(),
+    }
+    let figure = match answer.figure(&control) {
+        Ok(figure) => Ok(figure.map(|figure| figure.to_svg()).unwrap_or_default()),
+        Err(AnswerError::Stopped(_)) => return Err(Refused::Stopped),
+        Err(why) => Err(why.to_string()),
+    };
+    Ok(Told { json: answer.json(), table, figure })
+}
+
+/// The answer has what programs rely on, and is the same with other threads and from the plan it prints.
+fn answered(plan: &Plan, first: &Told) -> Result<(), String> {
+    let object = rules::object(first.json.as_bytes())?;
+    let task = serde_json::to_value(&plan.task).unwrap_or_default();
+    let name = task.as_object().and_then(|task| task.keys().next().cloned()).unwrap_or_default();
+    rules::answer(&name, &object)?;
+    rules::table(&first.table)?;
+    match &first.figure {
+        Ok(svg) => rules::figure(svg)?,
+        Err(why) => rules::sentence(why)?,
+    }
+    let printed = Plan::from_text(&object["plan"].to_string())
+        .map_err(|why| format!("the plan it prints does not read: {why}"))?;
+    match stopped_after(SMALL * 2, |stop| asked(&printed, 3, stop)) {
+        Ok(second) => {
+            same(first.json.as_bytes(), second.json.as_bytes())
+                .map_err(|why| format!("its plan gives another answer: {why}"))?;
+            same(&first.table, &second.table).map_err(|why| format!("its plan gives another table: {why}"))?;
+            let (a, b) = (first.figure.clone().unwrap_or_else(|why| why), second.figure.unwrap_or_else(|why| why));
+            same(a.as_bytes(), b.as_bytes()).map_err(|why| format!("its plan gives another figure: {why}"))
+        }
+        Err(Refused::Stopped) => Ok(()),
+        Err(Refused::Sentence(why)) => Err(format!("the plan it prints is refused: {why}")),
+    }
+}
+
+/// Work with a flag that says stop after so long, in processor time where the system tells it.
+fn stopped_after<T>(limit: Duration, work: impl FnOnce(&AtomicBool) -> T) -> T {
+    const LOOK: Duration = Duration::from_millis(100);
+    let stop = AtomicBool::new(false);
+    let (done, over) = mpsc::channel::<()>();
+    std::thread::scope(|scope| {
+        let stop = &stop;
+        scope.spawn(move || {
+            let id = std::process::id();
+            let (begun, before) = (Instant::now(), processor_time(id));
+            // the work is over when its end of the channel is gone, by a panic too
+            while over.recv_timeout(LOOK) == Err(mpsc::RecvTimeoutError::Timeout) {
+                let taken = processor_time(id).zip(before).map(|(now, before)| now - before);
+                let taken = taken.unwrap_or_else(|| begun.elapsed().as_secs_f64());
+                if taken > limit.as_secs_f64() || begun.elapsed() > 10 * limit {
+                    stop.store(true, Ordering::Relaxed);
+                }
+            }
+        });
+        let _done = done;
+        work(stop)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::runner;
+    use proptest::strategy::ValueTree;
+
+    /// Most plans make sense, or nothing would be computed.
+    #[test]
+    fn most_plans_are_sound() {
+        let texts = (0..400).map(|k| Plans.strategy().new_tree(&mut runner(1, "plans", k)).unwrap().current());
+        let sound = texts.filter(|case| Plan::from_text(&case.text()).is_ok_and(|plan| plan.check().is_ok())).count();
+        assert!((120..330).contains(&sound), "{sound} of 400");
+    }
+}

@@ -1,0 +1,111 @@
+//! A worker: the cases of one family, one after another, told line by line to the driver.
+
+use crate::case::{self, Fault, Property};
+use crate::{Family, command, page, plan, store, verdicts};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// What a worker is to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Task {
+    /// Which cases.
+    pub family: Family,
+    /// Of which seed.
+    pub seed: u64,
+    /// The first of them.
+    pub from: u64,
+    /// Up to here.
+    pub until: u64,
+    /// And so many seconds.
+    pub seconds: f64,
+    /// The command to test.
+    pub vibro: PathBuf,
+}
+
+impl Task {
+    /// As words for [`Self::parse`].
+    #[must_use]
+    pub fn words(&self) -> Vec<String> {
+        let Self { family, seed, from, until, seconds, vibro } = self;
+        let numbers = [seed.to_string(), from.to_string(), until.to_string(), seconds.to_string()];
+        [family.to_string()].into_iter().chain(numbers).chain([vibro.display().to_string()]).collect()
+    }
+
+    /// Reads the words of [`Self::words`].
+    #[must_use]
+    pub fn parse(words: &[String]) -> Option<Self> {
+        let [family, seed, from, until, seconds, vibro] = words else { return None };
+        Some(Self {
+            family: Family::named(family)?,
+            seed: seed.parse().ok()?,
+            from: from.parse().ok()?,
+            until: until.parse().ok()?,
+            seconds: seconds.parse().ok()?,
+            vibro: vibro.into(),
+        })
+    }
+}
+
+/// Does it. Each line is `{"begin": K, "case": ...}`, `{"end": K}` or `{"fault": K, "why": ..., "case": ...}`.
+///
+/// # Errors
+/// Where there is no place for temporary files, or nobody reads.
+pub fn work(task: &Task, out: &mut impl Write) -> io::Result<()> {
+    case::keep_panics();
+    let vibro = task.vibro.as_path();
+    match task.family {
+        Family::Commands => all(&mut command::Commands::new(vibro)?, task, out),
+        Family::Plans => all(&mut plan::Plans, task, out),
+        Family::Stores => all(&mut store::Stores::new(vibro)?, task, out),
+        Family::Page => all(&mut page::Page::new()?, task, out),
+        Family::Verdicts => all(&mut verdicts::Verdicts, task, out),
+    }
+}
+
+fn all<P: Property>(property: &mut P, task: &Task, out: &mut impl Write) -> io::Result<()> {
+    let end = Instant::now() + Duration::from_secs_f64(task.seconds);
+    let mut known = BTreeSet::new();
+    for k in task.from..task.until {
+        if Instant::now() >= end {
+            break;
+        }
+        let mut told = Ok(());
+        let runner = case::runner(task.seed, task.family.name(), k);
+        let found =
+            case::run(property, runner, &mut known, |case| told = tell(out, &json!({ "begin": k, "case": case })));
+        told?;
+        match found {
+            Ok(()) => tell(out, &json!({ "end": k }))?,
+            Err(Fault { why, case }) => tell(out, &json!({ "fault": k, "why": why, "case": case }))?,
+        }
+    }
+    Ok(())
+}
+
+fn tell(out: &mut impl Write, line: &Value) -> io::Result<()> {
+    writeln!(out, "{line}")?;
+    out.flush()
+}
+
+/// The command beside a program: `vibro` in its folder.
+#[must_use]
+pub fn beside(program: &Path) -> PathBuf {
+    program.with_file_name(format!("vibro{}", std::env::consts::EXE_SUFFIX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_task_survives_its_words() {
+        let task =
+            Task { family: Family::Page, seed: 7, from: 3, until: u64::MAX, seconds: 1.5, vibro: "a b/vibro".into() };
+        assert_eq!(Task::parse(&task.words()), Some(task));
+        assert_eq!(Task::parse(&[]), None);
+        assert_eq!(beside(Path::new("target/debug/fuzz")).parent(), Some(Path::new("target/debug")));
+    }
+}

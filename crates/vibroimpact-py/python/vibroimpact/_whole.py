@@ -1,0 +1,72 @@
+"""Whole numbers as arguments: those that no count can be are refused here, by name; the compiled part checks the others."""
+
+import operator
+from typing import Any, NamedTuple, SupportsIndex
+
+from vibroimpact._core import QuestionError
+
+
+class Range(NamedTuple):
+    """What an argument may be, as the sentences of the compiled part say it."""
+
+    least: int
+    most: int | None = None
+
+
+_UNSIGNED = 2**64 - 1
+
+STARTS = Range(1, 1_000_000_000)
+SEED = Range(0, _UNSIGNED)
+#: As the command has it.
+THREADS = Range(0, 65_535)
+TILE = Range(1, 4096)
+REFINE = Range(2, 64)
+KEEP = Range(1, 100_000)
+TRANSIENT = Range(0, 1_000_000)
+#: Impacts of a simulation, of each start of a grid, and those that exponents are measured over.
+SIMULATED = Range(1, 10_000_000)
+BUDGET = Range(1, 1_000_000)
+MEASURED = Range(1000, 10_000_000)
+#: Points of a section, and of a branch.
+SECTION = Range(1, 100_000)
+BRANCH = Range(2, 100_000)
+FOLLOW = Range(0, 100)
+GRID = Range(2, 400)
+#: Orbits and events are numbered from 1; how many there are is not known beforehand.
+NUMBER = Range(1)
+#: Tiles to compute again, times to try.
+COUNT = Range(0, _UNSIGNED)
+
+#: Of 32 bits, as most counts in a plan are.
+_SMALL = 2**32 - 1
+
+
+def whole(name: str, value: SupportsIndex, allowed: Range) -> int:
+    """The number, if it is one that the compiled part can look at."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name} = {value!r} is not a whole number") from None
+    least, most = allowed
+    # what fits is left to the compiled part, whose sentences have hints; it takes any number of threads
+    largest = THREADS.most if allowed == THREADS else max(most or 0, _SMALL)
+    if number < 0 or (largest is not None and number > largest):
+        upper = "" if most is None else f" <= {most}"
+        raise QuestionError(f"{name} = {number} lies outside {least} <= {name}{upper}")
+    return number
+
+
+def maybe(name: str, value: SupportsIndex | None, allowed: Range) -> int | None:
+    """The same of an argument that need not be given."""
+    return None if value is None else whole(name, value, allowed)
+
+
+def part(given: Any) -> tuple[int, int]:
+    """Which tiles: (i, n)."""
+    try:
+        index, of = (operator.index(number) for number in given)
+    except (TypeError, ValueError):
+        raise TypeError(f"part = {given!r} is not (i, n), two whole numbers") from None
+    if not 1 <= index <= of <= _UNSIGNED:
+        raise QuestionError(f"tiles {index}/{of} is no part of a whole: I/N needs 1 <= I <= N")
+    return index, of

@@ -1,0 +1,85 @@
+"""Machines in physical units: their units are kept or refused, and never lost on the way."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+MACHINE = vi.Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.005, restitution=0.5)
+PLAIN = MACHINE.replace(units=None)
+
+
+def test_f08_a_gap_of_a_machine_is_given_in_metres() -> None:
+    assert MACHINE.replace(gap_m=0.004).gap == 0.004 / 0.005
+    assert MACHINE.replace(gap_m=0.004).units == MACHINE.units
+    both = MACHINE.replace(second_gap_m=0.01)
+    assert both.second_gap == 2 and both.replace(second_gap=None).second_gap is None
+    assert MACHINE.replace(gap=0.8, units=MACHINE.units).gap == 0.8
+    assert MACHINE.replace(gap=0.8, units=None) == PLAIN.replace(gap=0.8)
+    assert MACHINE.replace(beta=1.5, restitution=0.6).units == MACHINE.units
+    for changes, sentence in (
+        ({"gap": 0.004}, "gap = 0.004 of a machine may be meant in F/k or in m\nhint: gap_m"),
+        ({"second_gap": 0.004}, "second_gap = 0.004 of a machine may be meant"),
+        ({"damping": 1.5}, "damping = 1.5 of a machine may be meant as a ratio or in N s/m"),
+        ({"gap": 1, "gap_m": 0.005}, "one parameter, and both are given"),
+    ):
+        with pytest.raises(vi.QuestionError, match=sentence.replace("(", r"\(")):
+            MACHINE.replace(**changes)  # type: ignore[arg-type]
+    with pytest.raises(vi.QuestionError, match="gap_m needs the system in physical units"):
+        PLAIN.replace(gap_m=0.004)
+
+
+DATASETS: list[tuple[str, Callable[..., "object"]]] = [
+    ("basin", lambda osc, **more: vi.basin(osc, x="-1:0.9:4", v=(-1, 1, 3), **more)),
+    ("region_map", lambda osc, **more: vi.region_map(osc, {"gap": "0.5:1.5:3", "beta": [1.1, 1.2]}, starts=3, **more)),
+    ("orbit_diagram", lambda osc, **more: vi.orbit_diagram(osc, "gap", "0.5:1:5", keep=4, **more)),
+    ("strobe", lambda osc, **more: vi.orbit_diagram(osc, "gap", "0.5:1:5", keep=4, show="strobe", **more)),
+]
+
+
+@pytest.mark.parametrize(("name", "ask"), DATASETS, ids=[name for name, _ in DATASETS])
+def test_f08b_datasets_keep_the_units_of_a_machine(name: str, ask: Callable[..., "object"], tmp_path: Path) -> None:
+    machine, plain = ask(MACHINE), ask(PLAIN)
+    # the same numbers in the same units, and what one unit is beside them
+    assert (machine.attrs.pop("unit_length_m"), machine.attrs.pop("unit_time_s")) == (0.005, 0.05)  # type: ignore[attr-defined]
+    assert machine.identical(plain) and "unit_length_m" not in plain.attrs  # type: ignore[attr-defined]
+    si = ask(MACHINE).vibro.si()  # type: ignore[attr-defined]
+    factors = {"m": 0.005, "m/s": 0.005 / 0.05, "s": 0.05}
+    converted = 0
+    for variable, of in si.variables.items():
+        before = plain.variables[variable]  # type: ignore[attr-defined]
+        unit = of.attrs.get("units") or "1"
+        assert unit in {"1", "radian", *factors} and of.dims == before.dims
+        if unit in factors:
+            converted += 1
+            np.testing.assert_array_equal(of.values, before.values * factors[unit])
+        else:
+            np.testing.assert_array_equal(of.values, before.values)
+    assert converted > 1 and si.attrs["units"] == "si"
+    assert plain.vibro.si(MACHINE.units).identical(si)  # type: ignore[attr-defined]
+    with pytest.raises(vi.QuestionError, match="in metres and seconds already"):
+        si.vibro.si()
+    with pytest.raises(vi.QuestionError, match="plot it before"):
+        si.vibro.plot()
+    with pytest.raises(vi.QuestionError, match="no units of a machine"):
+        plain.vibro.si()  # type: ignore[attr-defined]
+    # a store has no place for them
+    with pytest.raises(vi.QuestionError, match="a store keeps no units of a machine\nhint: osc.replace"):
+        ask(MACHINE, store=tmp_path / "s.zarr")
+    assert not (tmp_path / "s.zarr").exists()
+
+
+def test_f08c_plans_refuse_units() -> None:
+    for make in (
+        lambda osc: vi.Plan.map(osc, {"gap": "0:1:3"}),
+        lambda osc: vi.Plan.basin(osc, {"x": "-1:0:3"}),
+        lambda osc: vi.Plan.diagram(osc, "gap", "0:1:3"),
+        lambda osc: vi.Plan.lyapunov(osc, {"gap": "0:1:3"}),
+        lambda osc: vi.Plan.attractors(osc, 10),
+    ):
+        with pytest.raises(vi.QuestionError, match="a plan is nondimensional and keeps no units of a machine"):
+            make(MACHINE)
+        assert make(PLAIN).points > 0

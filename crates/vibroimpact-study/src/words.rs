@@ -1,0 +1,12 @@
+//! Counts in words.
+
+/// A count with its noun, which takes an `s` where there are several: `1 tile`, `0 tiles`.
+///
+/// ```
+/// use vibroimpact_study::counted;
+/// assert_eq!([counted(0, "tile"), counted(1, "tile"), counted(2, "tile")], ["0 tiles", "1 tile", "2 tiles"]);
+/// ```
+#[must_use]
+pub fn counted(count: u64, noun: &str) -> String {
+    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+}

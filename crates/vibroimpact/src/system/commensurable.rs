@@ -1,0 +1,89 @@
+//! Frequency ratios that are fractions, and what a typed $`\beta`$ means.
+//!
+//! Every double is a fraction, so it has to be decided which of them stand for a small one. **$`\beta`$ is $`p/q`$ when
+//! $`q \le 1000`$ and the stored number is that fraction to within two units in the last place**; that is what `1/0.7` is
+//! to $`10/7`$, and what is left when a fraction is typed with all its digits or as its reciprocal. Any other number
+//! is taken as it is stored: `1.428571428571` is not $`10/7`$. Fractions with $`q \le 1000`$ are about $`10^{-6}`$ apart, so
+//! another number falls into such a window by chance once in $`10^{9}`$.
+//!
+//! This is the only place where that is decided. What follows from $`\beta = p/q`$ without damping: a flight without contact
+//! repeats after $`2\pi q`$ (not at resonance, 1/1, where it grows), so that "never again" can be decided
+//! ([`Horizon`](crate::flight::Horizon)), and impacts can fade away to a grazing motion
+//! ([`graze_limit`](crate::verdict::graze_limit)). The answers are exact for the fraction. The phase of the stored number drifts from it by
+//! at most $`4\cdot10^{-16}\,\beta`$ per unit of time, some $`10^{-9}`$ in a million periods.
+
+use super::Oscillator;
+
+/// The largest denominator.
+const LARGEST: f64 = 1000.0;
+/// The largest numerator: beyond, the force is a billion times faster than the oscillator.
+const LARGEST_NUMERATOR: f64 = 1e9;
+
+impl Oscillator {
+    /// The fraction $`p/q`$ in lowest terms, $`q \le 1000`$, that $`\beta`$ is to within two units in the last place.
+    ///
+    /// ```
+    /// use vibroimpact::Oscillator;
+    /// assert_eq!(Oscillator::from_inverse_beta(0.7, 2.5, 0.5)?.fraction(), Some((10, 7)));
+    /// assert_eq!(Oscillator::new(1.4285714285728572, 2.5, 0.5)?.fraction(), None);
+    /// # Ok::<(), vibroimpact::SystemError>(())
+    /// ```
+    #[must_use]
+    pub fn fraction(&self) -> Option<(u32, u32)> {
+        fraction(self.beta())
+    }
+
+    /// The same where it makes flights repeat: without damping and away from resonance.
+    pub(crate) fn common_period(&self) -> Option<(u32, u32)> {
+        if self.damping() > 0.0 { None } else { self.fraction().filter(|(p, q)| p != q) }
+    }
+}
+
+fn fraction(beta: f64) -> Option<(u32, u32)> {
+    // convergents of the continued fraction
+    let (mut p0, mut q0, mut p1, mut q1) = (0.0, 1.0, 1.0, 0.0);
+    let mut rest = beta;
+    for _ in 0..20 {
+        let whole = rest.floor();
+        (p0, p1) = (p1, whole * p1 + p0);
+        (q0, q1) = (q1, whole * q1 + q0);
+        if q1 > LARGEST || p1 > LARGEST_NUMERATOR {
+            return None;
+        }
+        if (p1 / q1 - beta).abs() <= 2.0 * f64::EPSILON * beta {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            // whole numbers below 1e9
+            return Some((p1 as u32, q1 as u32));
+        }
+        rest = 1.0 / (rest - whole);
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_are_recognised() {
+        assert_eq!(fraction(1.0 / 0.7), Some((10, 7)));
+        assert_eq!(fraction(1.0 / 0.6), Some((5, 3)));
+        assert_eq!(fraction(1.0 / 1.11), Some((100, 111)));
+        assert_eq!(fraction(2.0), Some((2, 1)));
+        assert_eq!(fraction(1.0 / 3.0), Some((1, 3)));
+        assert_eq!(fraction(core::f64::consts::SQRT_2), None);
+        assert_eq!(fraction(1e-6), None);
+    }
+
+    /// Near a fraction is not at it.
+    #[test]
+    fn numbers_beside_a_fraction_are_taken_as_they_are() {
+        for (p, q) in [(10.0, 7.0), (10.0, 17.0), (2.0, 1.0), (1.0, 3.0), (100.0, 111.0)] {
+            for relative in [1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-9] {
+                for sign in [-1.0, 1.0] {
+                    assert_eq!(fraction(p / q * (1.0 + sign * relative)), None, "{p}/{q} {relative}");
+                }
+            }
+        }
+    }
+}
