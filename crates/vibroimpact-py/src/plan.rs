@@ -3,19 +3,17 @@
 use crate::error::Trouble;
 use crate::oscillator::Oscillator;
 use pyo3::prelude::*;
-use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, StartPlan, Task};
+use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, Task};
 
 /// The plan of a text.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
-    let plan = if text.trim_start().starts_with('{') {
-        serde_json::from_str::<Plan>(text).map_err(|error| {
-            // where in a text that nobody wrote by hand helps nobody
-            let sentence = error.to_string();
+    let plan = Plan::from_text(text).map_err(|error| match error {
+        // JSON is written by this package, and a place in it is of no use to its user
+        PlanError::Text(sentence) if text.trim_start().starts_with('{') => {
             Trouble::question(sentence.rsplit_once(" at line ").map_or(sentence.as_str(), |(before, _)| before))
-        })?
-    } else {
-        Plan::from_text(text)?
-    };
+        }
+        other => other.into(),
+    })?;
     let plan = plan.canonical()?;
     plan.check()?;
     Ok(plan)

@@ -27,7 +27,7 @@ fn part<'py>(py: Python<'py>, region: &Region) -> PyResult<Part<'py>> {
     Ok((polygons, pairs(py, region.unresolved.iter().map(|point| (*point).into()))?))
 }
 
-/// The regions of existence and of stability, and the plan.
+/// The regions of existence and of stability, whether the motion is neutrally stable, and the plan.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // keywords
 pub(crate) fn region<'py>(
@@ -38,14 +38,15 @@ pub(crate) fn region<'py>(
     up: (String, f64, f64),
     grid: u32,
     threads: usize,
-) -> Result<(Part<'py>, Part<'py>, String), Trouble> {
+) -> Result<(Part<'py>, Part<'py>, bool, String), Trouble> {
     let task = RegionPlan { label, across: stretch(across)?, up: stretch(up)?, grid };
     let plan = Plan::new(osc.plan, Task::Region(task.clone()));
     plan.check()?;
     let system = osc.plan;
+    let neutral = task.neutral(&system);
     let watch = Watch { what: "looking for regions", total: 2, progress: None, threads };
     let found = door::run(py, watch, move |control| Ok(regions(&system, &task, control)?))?;
-    Ok((part(py, &found.existence)?, part(py, &found.stability)?, text(&plan)?))
+    Ok((part(py, &found.existence)?, part(py, &found.stability)?, neutral, text(&plan)?))
 }
 
 /// Which points lie in a region, its polygons given by their vertices and whether multipliers are below +1.

@@ -235,7 +235,7 @@ pub enum PlanError {
     },
     /// A range of a parameter that rounding leaves no steps in.
     #[error(
-        "{name} from {from:?} to {to:?} is too narrow a range to follow curves through: rounding leaves no steps in it\nhint: a width of at least {least:e}"
+        "{name} from {from:?} to {to:?} is too narrow a range to follow curves through: rounding leaves no steps in it\nhint: a width of at least {least:.1e}"
     )]
     Narrow {
         /// The parameter.

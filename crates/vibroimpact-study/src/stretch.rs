@@ -52,7 +52,8 @@ pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> 
         let least = (NARROW * stretch.from.abs().max(stretch.to.abs())).max(NARROWEST);
         if stretch.to - stretch.from < least {
             let name = stretch.parameter.name();
-            return Err(PlanError::Narrow { name, from: stretch.from, to: stretch.to, least });
+            // a little more, as it is written with two digits
+            return Err(PlanError::Narrow { name, from: stretch.from, to: stretch.to, least: 1.05 * least });
         }
     }
     let (p, q) = (one.parameter, two.parameter);
@@ -89,6 +90,11 @@ mod tests {
         ] {
             let message = check_plane(&system, &one, &two).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
+            if let Some((_, least)) = message.split_once("a width of at least ") {
+                let wide = over(one.parameter, one.from, one.from + least.parse::<f64>().unwrap());
+                let narrow = matches!(check_plane(&system, &wide, &two), Err(PlanError::Narrow { .. }));
+                assert!(least.len() < 9 && !narrow, "{message}");
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Groups of arguments that several commands share; what belongs to one command is in its file.
 
 mod axes;
-mod count;
+mod numbers;
 mod output;
 mod plane;
 mod ranged;
@@ -11,7 +11,7 @@ mod system;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
-pub(crate) use count::whole;
+pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;
 pub(crate) use plane::{Ends, Named, Over, Place};
 pub(crate) use ranged::Ranged;

@@ -1,5 +1,6 @@
 //! Options that every command understands.
 
+use super::within;
 use clap::Args;
 
 #[derive(Clone, Copy, Debug, Args)]
@@ -7,7 +8,7 @@ use clap::Args;
 pub(crate) struct Globals {
     /// Threads to use, 0 for one per core; results never depend on it
     #[arg(long, global = true, value_name = "N", default_value_t = 0,
-          value_parser = clap::value_parser!(u16).range(0..=1024))]
+          value_parser = within::<u16, 0, 1024>)]
     pub(crate) threads: u16,
 
     /// No progress bar and no remarks on stderr

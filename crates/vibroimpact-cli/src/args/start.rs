@@ -1,5 +1,6 @@
 //! START: where a motion begins.
 
+use super::number;
 use clap::Args;
 use vibroimpact_report::Units;
 use vibroimpact_study::StartPlan;
@@ -8,15 +9,15 @@ use vibroimpact_study::StartPlan;
 #[command(next_help_heading = "Start")]
 pub(crate) struct StartArgs {
     /// Position, not beyond the stop [default: 0, or on the stop when the gap is negative]
-    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "X", allow_hyphen_values = true)]
     x: Option<f64>,
 
     /// Velocity
-    #[arg(long, value_name = "V", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "V", default_value_t = 0.0, allow_hyphen_values = true)]
     v: f64,
 
     /// Phase of the force in radians
-    #[arg(long, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true)]
     phase: f64,
 }
 

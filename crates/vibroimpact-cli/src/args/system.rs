@@ -1,5 +1,6 @@
 //! SYSTEM: the oscillator, nondimensional or as a machine in physical units.
 
+use super::number;
 use crate::exit::Failure;
 use clap::{Args, ValueEnum};
 use vibroimpact::{Frequency, Machine};
@@ -10,31 +11,31 @@ use vibroimpact_study::{Parameter, SecondStop, SystemPlan};
 #[command(next_help_heading = "System")]
 pub(crate) struct SystemArgs {
     /// Frequency ratio: forcing over natural frequency, omega/omega_n; positive
-    #[arg(long, value_name = "B", allow_hyphen_values = true, conflicts_with = "inverse_beta")]
+    #[arg(long, value_parser = number, value_name = "B", allow_hyphen_values = true, conflicts_with = "inverse_beta")]
     beta: Option<f64>,
 
     /// Its inverse omega_n/omega instead, the abscissa of the 1971 paper; positive
-    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "X", allow_hyphen_values = true)]
     inverse_beta: Option<f64>,
 
     /// Distance of the stop from the rest position in units of F/k; negative presses the mass against it
-    #[arg(long, value_name = "D", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "D", allow_hyphen_values = true)]
     gap: Option<f64>,
 
     /// Restitution: rebound speed over arrival speed, 0 to 1
-    #[arg(long, value_name = "E", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "E", allow_hyphen_values = true)]
     restitution: Option<f64>,
 
     /// Damping ratio zeta = c / (2 sqrt(k m)), 0 or more [default: 0]
-    #[arg(long, value_name = "Z", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "Z", allow_hyphen_values = true)]
     damping: Option<f64>,
 
     /// A second stop on the other side, at x = -D2
-    #[arg(long, value_name = "D2", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "D2", allow_hyphen_values = true)]
     second_gap: Option<f64>,
 
     /// Restitution of the second stop [default: that of the first]
-    #[arg(long, value_name = "E2", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "E2", allow_hyphen_values = true)]
     second_restitution: Option<f64>,
 
     #[command(flatten)]
@@ -50,35 +51,35 @@ pub(crate) struct SystemArgs {
 #[command(next_help_heading = "System in physical units (instead of beta, gap and damping)")]
 pub(crate) struct MachineArgs {
     /// Mass in kg, positive
-    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "M", allow_hyphen_values = true)]
     mass_kg: Option<f64>,
 
     /// Viscous damping in N s/m, 0 or more [default: 0]
-    #[arg(long, value_name = "C", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "C", allow_hyphen_values = true)]
     damping_ns_per_m: Option<f64>,
 
     /// Stiffness in N/m, positive
-    #[arg(long, value_name = "K", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "K", allow_hyphen_values = true)]
     stiffness_n_per_m: Option<f64>,
 
     /// Amplitude of the force in N, positive
-    #[arg(long, value_name = "F", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "F", allow_hyphen_values = true)]
     force_n: Option<f64>,
 
     /// Frequency of the force in Hz, positive
-    #[arg(long, value_name = "HZ", allow_hyphen_values = true, conflicts_with = "omega_rad_per_s")]
+    #[arg(long, value_parser = number, value_name = "HZ", allow_hyphen_values = true, conflicts_with = "omega_rad_per_s")]
     frequency_hz: Option<f64>,
 
     /// Frequency of the force in rad/s instead
-    #[arg(long, value_name = "W", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "W", allow_hyphen_values = true)]
     omega_rad_per_s: Option<f64>,
 
     /// Distance of the stop from the rest position in m
-    #[arg(long, value_name = "D", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "D", allow_hyphen_values = true)]
     gap_m: Option<f64>,
 
     /// A second stop on the other side, its distance in m
-    #[arg(long, value_name = "D2", allow_hyphen_values = true)]
+    #[arg(long, value_parser = number, value_name = "D2", allow_hyphen_values = true)]
     second_gap_m: Option<f64>,
 }
 

@@ -1,6 +1,6 @@
 //! `vibro basin`: which motion each start of a plane leads to.
 
-use crate::args::{StoreArgs, SystemArgs, whole};
+use crate::args::{StoreArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
 use crate::exit::Failure;
@@ -38,7 +38,7 @@ pub(crate) struct Basin {
     v: Span,
 
     /// Phase of the force at all starts, in radians
-    #[arg(long, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "Starts")]
+    #[arg(long, value_parser = number, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "Starts")]
     phase: f64,
 
     /// Follow each start for so many impacts at most, 1 to 1000000; what is not settled by then is undecided

@@ -1,6 +1,6 @@
 //! `vibro branch`: an orbit followed in one parameter, through its events.
 
-use crate::args::{Named, SystemArgs, parameter, whole};
+use crate::args::{Named, SystemArgs, number, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::branch::text;
@@ -51,7 +51,7 @@ pub(crate) struct Branch {
     vary: Parameter,
 
     /// The other end of its range
-    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, help_heading = "Branch")]
+    #[arg(long, value_parser = number, value_name = "VALUE", allow_hyphen_values = true, help_heading = "Branch")]
     to: f64,
 
     /// A second parameter that varies with it in proportion, from its value in the system to this one when the first is at --to:

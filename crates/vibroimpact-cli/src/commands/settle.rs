@@ -1,6 +1,6 @@
 //! `vibro settle`: what the motion from one start settles into.
 
-use crate::args::{StartArgs, SystemArgs, whole};
+use crate::args::{StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::text;
@@ -40,7 +40,7 @@ pub(crate) struct Settle {
     rule: Rule,
 
     /// Tolerance of the paper's rule in per cent, positive [default: 0.1]
-    #[arg(long, value_name = "P", allow_hyphen_values = true, help_heading = "Rule")]
+    #[arg(long, value_parser = number, value_name = "P", allow_hyphen_values = true, help_heading = "Rule")]
     percent: Option<f64>,
 
     /// Impacts after which the paper's rule calls a motion unstable, 2 to 100000 [default: 100]

@@ -1,6 +1,6 @@
 //! `vibro simulate`: the events of a motion, one after another.
 
-use crate::args::{StartArgs, SystemArgs, whole};
+use crate::args::{StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::exit::Failure;
 use crate::report::text;
@@ -40,7 +40,7 @@ pub(crate) struct Simulate {
     impacts: Option<u64>,
 
     /// Stop after so many forcing periods, up to 1e9, of 2 pi / beta each
-    #[arg(long, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
+    #[arg(long, value_parser = number, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
     periods: Option<f64>,
 
     /// Print one JSON object instead of text
@@ -52,7 +52,7 @@ pub(crate) struct Simulate {
     csv: Option<PathBuf>,
 
     /// Time between points of the waveform [default: a hundredth of the forcing period]
-    #[arg(long, value_name = "T", requires = "csv", allow_hyphen_values = true, help_heading = "Output")]
+    #[arg(long, value_parser = number, value_name = "T", requires = "csv", allow_hyphen_values = true, help_heading = "Output")]
     step: Option<f64>,
 
     /// Draw the waveform into this file, .svg or .png

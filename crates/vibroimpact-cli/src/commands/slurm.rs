@@ -1,6 +1,7 @@
 //! `vibro slurm`: a job script for a cluster, that works as it stands.
 
 use super::run::{default_store, read};
+use crate::args::within;
 use crate::exit::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -26,11 +27,11 @@ pub(crate) struct Slurm {
     store: Option<String>,
 
     /// Jobs of the array
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = within::<u64, 1, 100_000>)]
     jobs: u64,
 
     /// Processors of each job
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = within::<u64, 1, 1024>)]
     cpus: u64,
 
     /// Time limit of each job, as Slurm writes it

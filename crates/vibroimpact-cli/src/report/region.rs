@@ -50,7 +50,7 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: 
         if !region.unresolved.is_empty() {
             let _ = writeln!(
                 text,
-                "  at {} of {} points of the grid the polygons and the search for orbits do not agree",
+                "  at {} of {} points of the grid the polygons and the search for orbits do not agree: a curve was lost there, or the orbits rest on a stop",
                 region.unresolved.len(),
                 u64::from(plan.grid).pow(2)
             );

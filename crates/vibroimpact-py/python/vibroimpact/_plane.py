@@ -82,11 +82,9 @@ def region(of: "Region", ax: "Axes | None") -> "Axes":
     """Both regions, their edges in the colour of what bounds them; those of the sheet above are thin."""
     ax = new_axes(ax, (7.2, 5.2))
     name = named(of.label)
-    # without damping the motion without impacts is neutrally stable; with damping it is stable wherever it exists
-    neutral = of.label == "0" and not of.stability.polygons
-    exists = "exists, neutrally stable" if neutral else "exists, unstable"
+    exists = "exists, neutrally stable" if of.neutrally_stable else "exists, unstable"
     fills = ((of.existence, "#ececec", exists), (of.stability, class_colour(of.label), "stable"))
-    for part, colour, words in fills[: 1 if neutral else 2]:
+    for part, colour, words in fills[: 1 if of.neutrally_stable else 2]:
         _fill(ax, part, colour)
         ax.fill([], [], color=colour, label=f"{name} {words}")
     polygons = of.existence.polygons + of.stability.polygons

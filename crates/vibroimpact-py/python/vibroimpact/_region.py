@@ -89,6 +89,8 @@ class Region:
         The parameters on the abscissa and the ordinate.
     ranges : ((float, float), (float, float))
         The frame.
+    neutrally_stable : bool
+        Whether nothing is lost at impacts or between them: the motion is stable nowhere then, and neutrally stable where it exists.
     existence, stability : Part
         Where it exists, and where it is stable.
     plan : str
@@ -99,6 +101,7 @@ class Region:
     label: str
     parameters: tuple[str, str]
     ranges: tuple[tuple[float, float], tuple[float, float]]
+    neutrally_stable: bool
     existence: Part
     stability: Part
     plan: str
@@ -118,6 +121,7 @@ class Region:
         return {
             "label": self.label,
             "parameters": list(self.parameters),
+            "neutrally_stable": self.neutrally_stable,
             "existence": self.existence.to_dict(),
             "stability": self.stability.to_dict(),
         }
@@ -154,11 +158,11 @@ def region(
     """
     first, second = plane(over)
     grid, threads = whole("grid", grid, GRID), whole("threads", threads, THREADS)
-    existence, stability, plan = _core.region(osc, label, first, second, grid, threads)
+    existence, stability, neutral, plan = _core.region(osc, label, first, second, grid, threads)
     parts = [
         Part([Polygon(v, b, hole, "below" if below else "above") for v, b, hole, below in polygons], unresolved)
         for polygons, unresolved in (existence, stability)
     ]
     return Region(
-        osc, label.strip(), (first[0], second[0]), (first[1:], second[1:]), parts[0], parts[1], plan
+        osc, label.strip(), (first[0], second[0]), (first[1:], second[1:]), neutral, parts[0], parts[1], plan
     )

@@ -11,6 +11,8 @@ use vibroimpact_study::{Parameter, Plan, RegionPlan, Regions};
 struct Answer {
     label: String,
     parameters: [&'static str; 2],
+    /// Nothing is lost at impacts or between them: the motion is neutrally stable wherever it exists, and stable nowhere.
+    neutrally_stable: bool,
     existence: RegionObject,
     stability: RegionObject,
 }
@@ -75,7 +77,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, (task, found): (&RegionPlan, 
             second_restitution: fixed(Parameter::SecondRestitution, second.map(|stop| stop.restitution)),
             scales: Scales::new(units),
         },
-        answer: Answer::new(found, task, units),
+        answer: Answer::new(found, task, asked),
         units: units.name(),
         plan,
         program: PROGRAM,
@@ -83,11 +85,12 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, (task, found): (&RegionPlan, 
 }
 
 impl Answer {
-    fn new(found: &Regions, plan: &RegionPlan, units: &Units) -> Self {
+    fn new(found: &Regions, plan: &RegionPlan, Asked { system, units }: &Asked) -> Self {
         let unit = unit(plan, units);
         Self {
             label: plan.label.trim().to_owned(),
             parameters: [plan.across.parameter.name(), plan.up.parameter.name()],
+            neutrally_stable: plan.neutral(system),
             existence: RegionObject::new(&found.existence, unit),
             stability: RegionObject::new(&found.stability, unit),
         }

@@ -133,6 +133,17 @@ mod tests {
         assert_eq!(checked, 60);
     }
 
+    /// The fourth power of the force and the square of the speed are zero in doubles here, and their quotient was NaN.
+    #[test]
+    fn powers_that_underflow_give_no_sum() {
+        let osc = Oscillator::new(1.0, -1e-85, 0.5).unwrap();
+        assert_eq!(completion(&osc, Side::Upper, 0.0, 1e-180, DEFAULT_SMALLNESS), None);
+        // and where they do not, there is one
+        let osc = Oscillator::new(1.0, -1e-60, 0.5).unwrap();
+        let sum = completion(&osc, Side::Upper, 0.0, 1e-130, DEFAULT_SMALLNESS).unwrap();
+        assert!((sum.duration / 4e-70 - 1.0).abs() < 1e-9, "{sum:?}");
+    }
+
     #[test]
     fn no_chatter_without_a_force_into_the_stop() {
         let osc = Oscillator::new(1.0, 0.5, 0.5).unwrap();

@@ -13,8 +13,7 @@
 //! doi:10.1016/0022-460X(83)90407-8). An algebraic solution need not be a motion: it may pass through the stop on its
 //! way. [`OneImpact::physical`] says, by flying it.
 
-use super::{Cycle, free, shooting};
-use crate::flight::{Contact, Flight, SearchLimits, first_contact};
+use super::{Cycle, earlier_contact, free, shooting};
 use crate::math::atan2;
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, Side, phase};
@@ -81,13 +80,7 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
         let theta = phase::wrap(atan2(base[0] + velocity * slope[0], base[1] + velocity * slope[1]));
         let state = ImpactState { phase: theta, velocity, side: Side::Upper };
         let cycle = shooting::assemble(osc, vec![(state, interval)], n, 0.0);
-        let flight = Flight::new(osc, state.rebound(osc));
-        let physical =
-            match first_contact(osc, &flight, SearchLimits { periods: 2.0 * f64::from(n), ..Default::default() }) {
-                // an unstable orbit is missed by rounding times what its flight amplifies
-                Contact::Impact { time, side: Side::Upper, .. } => (time - interval).abs() <= 1e-6 * interval,
-                _ => false,
-            };
+        let physical = earlier_contact(osc, &cycle).is_none();
         orbits.push(OneImpact { cycle, physical });
     }
     orbits

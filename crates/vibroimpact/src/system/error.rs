@@ -2,17 +2,26 @@
 
 use thiserror::Error;
 
+/// A number in as few digits as tell it, with an exponent where it is far from 1.
+fn written(x: f64) -> String {
+    if x == 0.0 || (1e-5..1e16).contains(&x.abs()) || !x.is_finite() { format!("{x}") } else { format!("{x:e}") }
+}
+
 /// A parameter or start that no oscillator can have. Each variant carries the offending value.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SystemError {
-    /// The frequency ratio is not a positive finite number.
+    /// The frequency ratio is not a number in [1e-15, 1e15].
     #[error(
-        "frequency ratio beta = {0} lies outside 0 < beta < infinity\nhint: beta = omega / omega_n; its inverse is given by --inverse-beta"
+        "frequency ratio beta = {} lies outside 1e-15 <= beta <= 1e15\nhint: beta = omega / omega_n; its inverse is given by --inverse-beta",
+        written(*.0)
     )]
     Beta(f64),
-    /// The inverse frequency ratio is not a positive finite number.
-    #[error("inverse frequency ratio 1/beta = {0} lies outside 0 < 1/beta < infinity\nhint: 1/beta = omega_n / omega")]
+    /// The inverse frequency ratio is not a number in [1e-15, 1e15].
+    #[error(
+        "inverse frequency ratio 1/beta = {} lies outside 1e-15 <= 1/beta <= 1e15\nhint: 1/beta = omega_n / omega",
+        written(*.0)
+    )]
     InverseBeta(f64),
     /// The gap is not finite.
     #[error("gap delta = {0} is not a finite number\nhint: a negative gap presses the mass against the stop at rest")]
@@ -20,8 +29,11 @@ pub enum SystemError {
     /// The restitution is outside [0, 1].
     #[error("restitution eps = {0} lies outside 0 <= eps <= 1\nhint: eps is the ratio of velocities, not of energies")]
     Restitution(f64),
-    /// The damping ratio is negative or not finite.
-    #[error("damping ratio zeta = {0} lies outside 0 <= zeta < infinity\nhint: zeta = c / (2 sqrt(k m))")]
+    /// The damping ratio is not a number in [0, 1e15].
+    #[error(
+        "damping ratio zeta = {} lies outside 0 <= zeta <= 1e15\nhint: zeta = c / (2 sqrt(k m))",
+        written(*.0)
+    )]
     Damping(f64),
     /// Two stops that leave no room between them.
     #[error(

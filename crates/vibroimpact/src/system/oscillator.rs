@@ -5,16 +5,16 @@
 //!
 //! | symbol | name here | meaning | range |
 //! |---|---|---|---|
-//! | $`\beta`$ | `beta` | forcing frequency over natural frequency | $`> 0`$ |
+//! | $`\beta`$ | `beta` | forcing frequency over natural frequency | $`[10^{-15}, 10^{15}]`$ |
 //! | $`\delta`$ | `gap` | distance of the stop from the rest position; negative: preload | any |
 //! | $`\varepsilon`$ | `restitution` | rebound speed over arrival speed | $`[0, 1]`$ |
-//! | $`\zeta`$ | `damping` | damping ratio | $`\ge 0`$ |
+//! | $`\zeta`$ | `damping` | damping ratio | $`[0, 10^{15}]`$ |
 //! | $`\delta_2, \varepsilon_2`$ | second stop | stands at $`\xi = -\delta_2`$ | $`\delta + \delta_2 > 0`$ |
 //!
 //! Equation numbers are those of K. Fukaya and T. Irie, "On the Transient Oscillation of a Vibro-Impact System",
 //! Bull. Fac. Eng. Hokkaido Univ. 62 (1971) 31-39, <https://hdl.handle.net/2115/41063>, which has no damping and one stop.
 
-use super::SystemError;
+use super::{SystemError, phase};
 use crate::flight::Response;
 use crate::math::hypot;
 
@@ -54,6 +54,10 @@ pub struct Stop {
     pub restitution: f64,
 }
 
+/// Frequency ratios of an oscillator. At a larger one, the phase of the force changes in one radian of natural time by more than a
+/// double can tell from a whole number of turns; at a smaller one, the natural phase does so in one radian of the force.
+const RATIOS: core::ops::RangeInclusive<f64> = 1.0 / phase::LARGEST..=phase::LARGEST;
+
 /// An oscillator whose parameters are known to make sense. Cheap to copy.
 ///
 /// ```
@@ -74,10 +78,10 @@ impl Oscillator {
     /// An undamped oscillator with one stop.
     ///
     /// # Errors
-    /// [`SystemError`] names a `beta` that is not positive and finite, a `gap` that is not finite, or a `restitution`
+    /// [`SystemError`] names a `beta` outside [1e-15, 1e15], a `gap` that is not finite, or a `restitution`
     /// outside [0, 1].
     pub fn new(beta: f64, gap: f64, restitution: f64) -> Result<Self, SystemError> {
-        if !(beta > 0.0 && beta.is_finite()) {
+        if !RATIOS.contains(&beta) {
             return Err(SystemError::Beta(beta));
         }
         Ok(Self { response: Response::new(beta, 0.0), upper: stop(gap, restitution)?, lower: None })
@@ -88,18 +92,18 @@ impl Oscillator {
     /// # Errors
     /// As [`Oscillator::new`].
     pub fn from_inverse_beta(inverse_beta: f64, gap: f64, restitution: f64) -> Result<Self, SystemError> {
-        if !(inverse_beta > 0.0 && inverse_beta.is_finite() && (1.0 / inverse_beta).is_finite()) {
+        if !(RATIOS.contains(&inverse_beta) && RATIOS.contains(&(1.0 / inverse_beta))) {
             return Err(SystemError::InverseBeta(inverse_beta));
         }
         Self::new(1.0 / inverse_beta, gap, restitution)
     }
 
-    /// The same oscillator with viscous damping $`\zeta \ge 0`$; 1 is critical.
+    /// The same oscillator with viscous damping $`0 \le \zeta \le 10^{15}`$; 1 is critical.
     ///
     /// # Errors
-    /// [`SystemError::Damping`] for a negative, infinite or NaN `damping`.
+    /// [`SystemError::Damping`] for any other `damping`.
     pub fn with_damping(self, damping: f64) -> Result<Self, SystemError> {
-        if !(damping >= 0.0 && damping.is_finite()) {
+        if !(0.0..=*RATIOS.end()).contains(&damping) {
             return Err(SystemError::Damping(damping));
         }
         Ok(Self { response: Response::new(self.beta(), damping), ..self })
@@ -206,7 +210,7 @@ mod tests {
 
     #[test]
     fn impossible_systems_are_named() {
-        for beta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for beta in [0.0, -1.0, f64::NAN, f64::INFINITY, 9e-16, 1.1e15, 5e-324, 1e50] {
             assert!(matches!(Oscillator::new(beta, 1.0, 0.5), Err(SystemError::Beta(_))));
             assert!(matches!(Oscillator::from_inverse_beta(beta, 1.0, 0.5), Err(SystemError::InverseBeta(_))));
         }
@@ -215,6 +219,11 @@ mod tests {
         }
         let osc = Oscillator::new(1.0, 1.0, 0.5).unwrap();
         assert_eq!(osc.with_damping(-0.1), Err(SystemError::Damping(-0.1)));
+        assert!(osc.with_damping(1e155).is_err() && osc.with_damping(1e15).is_ok());
+        for beta in [1e-15, 1e15] {
+            assert!(Oscillator::new(beta, 1.0, 0.5).is_ok() && Oscillator::from_inverse_beta(beta, 1.0, 0.5).is_ok());
+        }
+        assert!(SystemError::Beta(5e-324).to_string().starts_with("frequency ratio beta = 5e-324 lies outside"));
         assert!(matches!(osc.with_second_stop(-1.0, 0.5), Err(SystemError::NoRoom { .. })));
         assert!(osc.with_second_stop(-0.5, 0.5).is_ok());
         let sentence = SystemError::Restitution(1.4).to_string();
