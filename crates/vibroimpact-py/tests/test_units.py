@@ -33,7 +33,7 @@ def test_f08_a_gap_of_a_machine_is_given_in_metres() -> None:
 
 
 DATASETS: list[tuple[str, Callable[..., "object"]]] = [
-    ("basin", lambda osc, **more: vi.basin(osc, x="-1:0.9:4", v=(-1, 1, 3), **more)),
+    ("basin", lambda osc, **more: vi.basin(osc, x="-1:0.9:4", v="-1:1:3", **more)),
     ("region_map", lambda osc, **more: vi.region_map(osc, {"gap": "0.5:1.5:3", "beta": [1.1, 1.2]}, starts=3, **more)),
     ("orbit_diagram", lambda osc, **more: vi.orbit_diagram(osc, "gap", "0.5:1:5", keep=4, **more)),
     ("strobe", lambda osc, **more: vi.orbit_diagram(osc, "gap", "0.5:1:5", keep=4, show="strobe", **more)),

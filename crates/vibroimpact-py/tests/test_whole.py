@@ -27,7 +27,7 @@ ARGUMENTS: list[tuple[Callable[..., Any], str, int, int | None]] = [
     (lambda osc, **of: vi.curve(osc, "1/1", "fold", {"gap": (0, 1), "beta": (0.5, 1)}, **of), "event", 1, None),
     (lambda osc, **of: vi.region(osc, "1/1", {"gap": (0, 1), "beta": (0.5, 1)}, **of), "grid", 2, 400),
     (lambda osc, **of: vi.region(osc, "1/1", {"gap": (0, 1), "beta": (0.5, 1)}, **of), "threads", 0, 65_535),
-    (lambda osc, **of: vi.region_map(osc, OVER, **of), "starts", 1, 1_000_000_000),
+    (lambda osc, **of: vi.region_map(osc, OVER, **of), "starts", 1, 10_000_000),
     (lambda osc, **of: vi.region_map(osc, OVER, **of), "seed", 0, 2**64 - 1),
     (lambda osc, **of: vi.region_map(osc, OVER, **of), "refine", 2, 64),
     (lambda osc, **of: vi.region_map(osc, OVER, **of), "impacts", 1, 1_000_000),

@@ -113,8 +113,13 @@ pub enum PlanError {
     )]
     Frequency(&'static str),
     /// A number of starts that makes no sense.
-    #[error("starts = {0} lies outside 1 <= starts <= 1000000000")]
-    Starts(u64),
+    #[error("starts = {given} lies outside 1 <= starts <= {most}")]
+    Starts {
+        /// What was asked for.
+        given: u64,
+        /// The most allowed.
+        most: u64,
+    },
     /// A number of impacts that makes no sense.
     #[error("impacts = {0} lies outside 1 <= impacts <= 10000000")]
     Impacts(u64),

@@ -87,7 +87,7 @@ impl Plan {
                 start.start(&osc).map(|_| ())
             }
             Task::Settle { start } => start.start(&osc).map(|_| ()),
-            Task::Attractors { starts: n, .. } => starts(*n),
+            Task::Attractors { starts: n, .. } => starts(*n, MOST_STARTS),
             Task::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
             Task::Basin(basin) => basin.check(&self.system),
             Task::Map(map) => map.check(&self.system),
@@ -100,12 +100,15 @@ impl Plan {
     }
 }
 
+/// Starts of one question.
+pub(crate) const MOST_STARTS: u64 = 1_000_000_000;
+
 /// Checks a number of starts.
 ///
 /// # Errors
-/// [`PlanError::Starts`] for none, or more than a thousand million.
-pub(crate) fn starts(n: u64) -> Result<(), PlanError> {
-    if (1..=1_000_000_000).contains(&n) { Ok(()) } else { Err(PlanError::Starts(n)) }
+/// [`PlanError::Starts`] for none, or more than `most`.
+pub(crate) fn starts(given: u64, most: u64) -> Result<(), PlanError> {
+    if (1..=most).contains(&given) { Ok(()) } else { Err(PlanError::Starts { given, most }) }
 }
 
 /// The oscillator: exactly one of `beta` and `inverse_beta`, one or two stops.
@@ -263,7 +266,7 @@ mod tests {
         later.version = 2;
         assert_eq!(later.check(), Err(PlanError::Version(2)));
         let none = Plan { task: Task::Attractors { starts: 0, seed: 0 }, ..plan() };
-        assert_eq!(none.check(), Err(PlanError::Starts(0)));
+        assert_eq!(none.check(), Err(PlanError::Starts { given: 0, most: MOST_STARTS }));
         for (task, sentence) in [
             (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
             (simulate(Some(0), None), "impacts = 0"),

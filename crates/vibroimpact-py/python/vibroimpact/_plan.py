@@ -10,7 +10,7 @@ from typing import Any
 from vibroimpact import _core
 from vibroimpact._axis import Axis, Interval, axes, beside, interval, span
 from vibroimpact._core import Oscillator
-from vibroimpact._whole import BUDGET, KEEP, MEASURED, REFINE, SEED, STARTS, TILE, TRANSIENT, maybe, whole
+from vibroimpact._whole import BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, STARTS, TILE, TRANSIENT, maybe, whole
 
 #: Version of the fields of a plan.
 _VERSION = 1
@@ -86,7 +86,7 @@ class Plan:
         """Which motions there are at each point of a plane of parameters; the arguments are those of `region_map`."""
         task = {
             "axes": axes(over),
-            "starts": whole("starts", starts, STARTS),
+            "starts": whole("starts", starts, POINT_STARTS),
             "seed": whole("seed", seed, SEED),
             "refine": maybe("refine", refine, REFINE),
             "impacts": maybe("impacts", impacts, BUDGET),

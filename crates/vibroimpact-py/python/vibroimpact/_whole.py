@@ -16,6 +16,8 @@ class Range(NamedTuple):
 _UNSIGNED = 2**64 - 1
 
 STARTS = Range(1, 1_000_000_000)
+#: Of each point of a map.
+POINT_STARTS = Range(1, 10_000_000)
 SEED = Range(0, _UNSIGNED)
 #: As the command has it.
 THREADS = Range(0, 65_535)

@@ -1,5 +1,6 @@
 //! What an orbit diagram asks: which parameter varies over what, from which starts, and what is shown.
 
+use crate::plan::{MOST_STARTS, starts};
 use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
@@ -97,10 +98,8 @@ impl DiagramPlan {
         if !(1..=MOST_KEPT).contains(&self.keep) {
             return Err(PlanError::Keep { given: self.keep, most: MOST_KEPT });
         }
-        if let Direction::Scatter { starts, .. } = self.direction
-            && !(1..=1_000_000_000).contains(&starts)
-        {
-            return Err(PlanError::Starts(starts));
+        if let Direction::Scatter { starts: given, .. } = self.direction {
+            starts(given, MOST_STARTS)?;
         }
         let (columns, rows) = (u64::from(self.over.count()), self.runs() * self.keep);
         if columns.saturating_mul(rows) > MOST_POINTS {

@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::SettleOptions;
 
+/// Starts at one point: each thread holds the verdict on every start of its point.
+const MOST_AT_A_POINT: u64 = 10_000_000;
+
 /// The points of a map: a grid over two parameters or more, several starts each.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -73,7 +76,7 @@ impl MapPlan {
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let allowed = (|c: Coordinate| !c.is_start()) as fn(Coordinate) -> bool;
         axis::check("map", &self.axes, (1, MOST_AXES), (allowed, "the parameters of the system"))?;
-        starts(self.starts)?;
+        starts(self.starts, MOST_AT_A_POINT)?;
         check_refine(self.refine)?;
         check_impacts(self.impacts)?;
         for corner in axis::corners(&self.axes) {

@@ -8,6 +8,7 @@ use crate::axis;
 use crate::basin::start_at;
 use crate::field::{Column, Field, Kind};
 use crate::grid::{Block, Dimension, Grid};
+use crate::plan::MOST_STARTS;
 use crate::{BasinPlan, PlanError, SystemPlan};
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{Atlas, Census, Found, SettleOptions, StartBox, Verdict, scattered_starts, settle_many};
@@ -63,7 +64,7 @@ impl BasinFill {
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let osc = system.oscillator()?;
-        let count = usize::try_from(starts).map_err(|_| PlanError::Starts(starts))?;
+        let count = usize::try_from(starts).map_err(|_| PlanError::Starts { given: starts, most: MOST_STARTS })?;
         let tile = tile.map_or(side(TILE, 1), |tile| tile as usize).min(count);
         let dimension = Dimension { name: "start".into(), count, tile };
         let grid = Grid { dimensions: vec![dimension] };

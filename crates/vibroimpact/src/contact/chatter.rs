@@ -59,17 +59,19 @@ pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smalln
     if !(a > 0.0 && r > 0.0 && w < SLOW * a) {
         return None;
     }
-    let first = 2.0 * w / (a * r);
-    // the other terms over the first
-    let second = -2.0 * (j + zeta * a) * w / (3.0 * a * a * r);
-    let sum = 8.0 * (2.0 + 3.0 * eps + 2.0 * eps * eps) * j * j - 6.0 * (1.0 + eps) * (1.0 + eps) * a * q
-        + 4.0 * (5.0 + 6.0 * eps + 5.0 * eps * eps) * zeta * a * j
-        + 16.0 * (1.0 + eps * eps) * zeta * zeta * a * a
-        - 6.0 * r * r * a * a;
-    let third = sum * w * w / (18.0 * a * a * a * a * r * r * (1.0 + eps + eps * eps));
-    // powers of a tiny force underflow: then nothing is known of the sum
+    // all terms over the first, in products that do not underflow while the force a, and with it the speed w, is tiny
+    let k = w / a;
+    let (jerk, snap, drag) = (j / a * k, q / a * k * k, zeta * k);
+    let first = 2.0 * k / r;
+    let second = -2.0 * (jerk + drag) / (3.0 * r);
+    let sum = 8.0 * (2.0 + 3.0 * eps + 2.0 * eps * eps) * jerk * jerk - 6.0 * (1.0 + eps) * (1.0 + eps) * snap
+        + 4.0 * (5.0 + 6.0 * eps + 5.0 * eps * eps) * drag * jerk
+        + 16.0 * (1.0 + eps * eps) * drag * drag
+        - 6.0 * r * r * k * k;
+    let third = sum / (18.0 * r * r * (1.0 + eps + eps * eps));
+    // next to the smallest doubles j / a is infinite: then nothing is known of the sum
     let rho = second.abs().max(third.abs().sqrt());
-    (third.is_finite() && rho <= smallness)
+    (second.is_finite() && third.is_finite() && rho <= smallness)
         .then_some(Completion { duration: first * (1.0 + second + third), error: 10.0 * first * rho * rho * rho })
 }
 
@@ -135,13 +137,14 @@ mod tests {
 
     /// The fourth power of the force and the square of the speed are zero in doubles here, and their quotient was NaN.
     #[test]
-    fn powers_that_underflow_give_no_sum() {
-        let osc = Oscillator::new(1.0, -1e-85, 0.5).unwrap();
-        assert_eq!(completion(&osc, Side::Upper, 0.0, 1e-180, DEFAULT_SMALLNESS), None);
-        // and where they do not, there is one
-        let osc = Oscillator::new(1.0, -1e-60, 0.5).unwrap();
-        let sum = completion(&osc, Side::Upper, 0.0, 1e-130, DEFAULT_SMALLNESS).unwrap();
-        assert!((sum.duration / 4e-70 - 1.0).abs() < 1e-9, "{sum:?}");
+    fn tiny_forces_have_a_sum() {
+        for (gap, w) in [(-1e-60, 1e-130), (-1e-85, 1e-180), (-1e-150, 1e-305)] {
+            let osc = Oscillator::new(1.0, gap, 0.5).unwrap();
+            let sum = completion(&osc, Side::Upper, 0.0, w, DEFAULT_SMALLNESS).unwrap();
+            assert!((sum.duration / (4.0 * w / -gap) - 1.0).abs() < 1e-4, "{gap:e} {sum:?}");
+        }
+        let osc = Oscillator::new(1.0, -5e-324, 0.5).unwrap();
+        assert_eq!(completion(&osc, Side::Upper, 0.0, 0.0, DEFAULT_SMALLNESS), None);
     }
 
     #[test]
