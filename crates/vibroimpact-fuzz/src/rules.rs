@@ -118,8 +118,10 @@ fn motion(motion: &Value) -> Result<(), String> {
     let (kind, label) = (motion["kind"].as_str().unwrap_or(""), motion["label"].as_str().unwrap_or(""));
     let agrees = match kind {
         "periodic" => {
-            label.contains('/')
-                && motion["cycle"].as_array().is_some_and(|cycle| !cycle.is_empty() || label.starts_with("inf"))
+            let cycle = motion["cycle"].as_array();
+            // the steady motion without impacts has none in its cycle
+            (label.contains('/') || label == "0")
+                && cycle.is_some_and(|cycle| cycle.is_empty() == (label == "0") || label.starts_with("inf"))
         }
         "no_impact" => label == "0",
         "transient" => !label.is_empty(),

@@ -95,6 +95,7 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
             let rests = u32::try_from(cycle.rests.len()).unwrap_or(u32::MAX);
             let rest = if rests == 0 { String::new() } else { format!(", and {} on the stop", counted(rests, "rest")) };
             match cycle.label.impacts {
+                Count::Finite(0) if rests > 0 => format!("it rests on the stop once {periods}, without impacts"),
                 Count::Finite(0) => "the steady motion, without impacts".to_owned(),
                 Count::Finite(m) => format!("{}{rest} {periods}", counted(m, "impact")),
                 Count::Infinite => format!("a complete chatter (infinitely many impacts){rest} {periods}"),
@@ -138,7 +139,7 @@ const fn stability(stable: Option<bool>, verdict: &Verdict) -> &'static str {
 /// Why it is so.
 fn grounds(verdict: &Verdict, units: &Units) -> String {
     match verdict {
-        Verdict::Periodic(cycle) if cycle.points.is_empty() => "a closed form; it stays short of the stops".into(),
+        Verdict::Periodic(cycle) if cycle.points.is_empty() && cycle.rests.is_empty() => "a closed form; it stays short of the stops".into(),
         Verdict::Periodic(cycle) if cycle.rests.is_empty() => format!(
             "Newton's method on the {}-fold impact map returns to itself within {:.0e}; no earlier contact",
             cycle.points.len(),

@@ -193,6 +193,17 @@ fn text_help_and_pages() {
     }
 }
 
+/// At gap 0 and 1/beta = 5 the mass rests on the stop once a period and lands without speed: `orbit` says so as `settle` does.
+#[test]
+fn f05_a_landing_without_impact_rests_on_the_stop() {
+    let line = "--beta 0.2 --gap 0 --restitution 0";
+    for line in [format!("settle {line}"), format!("orbit {line} --label 0")] {
+        let said = String::from_utf8(vibro(&line).output().unwrap().stdout).unwrap();
+        assert!(said.contains("0: it rests on the stop once every forcing period, without impacts"), "{said}");
+        assert!(!said.contains("stays short"), "{said}");
+    }
+}
+
 /// Item 5: at beta 3 and gap 1/8 = |f| orbits of speed 1.3e-16 were listed as motions.
 #[test]
 fn f05_a_touch_is_listed_as_no_orbit() {

@@ -10,6 +10,9 @@ use vibroimpact_plot::Figure;
 /// Forcing periods shown of a steady motion.
 const SHOWN: f64 = 6.0;
 
+/// Events shown at most: at a low frequency of the force a forcing period may have thousands of millions.
+const MOST_EVENTS: usize = 200_000;
+
 /// The figure of `vibro settle`: the motion once it has settled.
 #[must_use]
 pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> Figure {
@@ -36,7 +39,9 @@ fn shown(settled: &Settled) -> f64 {
 #[must_use]
 pub fn steady(osc: &Oscillator, start: Start, settled: &Settled) -> (Start, (f64, f64)) {
     let (from, time) = last_event(osc, start, settled.time);
-    (from, (time, shown(settled) * osc.period()))
+    let span = shown(settled) * osc.period();
+    let last = Motion::new(osc, from).take_while(|event| event.time <= span).nth(MOST_EVENTS);
+    (from, (time, last.map_or(span, |event| event.time)))
 }
 
 /// The state after the last event up to a time, and the time of that event.
@@ -52,4 +57,19 @@ pub(crate) fn last_event(osc: &Oscillator, start: Start, until: f64) -> (Start, 
         (state, time) = (at_stop.rebound(osc), event.time);
     }
     (state, time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vibroimpact::verdict::{SettleOptions, settle};
+
+    /// At beta = 1e-9 there are 1e9 impacts in a forcing period.
+    #[test]
+    fn what_is_shown_has_an_end() {
+        let osc = Oscillator::new(1e-9, 3.9, 0.28).unwrap().with_damping(1e-10).unwrap();
+        let start = Start { x: -1.4, v: -5.3, phase: 0.0 };
+        let (_, (from, span)) = steady(&osc, start, &settle(&osc, start, &SettleOptions::at_most(200)));
+        assert!(from > 100.0 && span > 1e5 && span < 1e-3 * osc.period(), "{from} {span}");
+    }
 }

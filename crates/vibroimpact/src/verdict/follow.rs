@@ -33,8 +33,8 @@ pub(crate) struct Follow {
     next_look: usize,
     /// Search steps taken.
     pub(crate) steps: u64,
-    /// The measurement for chaos under way.
-    measure: Option<Measure>,
+    /// The measurement for chaos under way. Apart, because most motions settle before it begins, and a reset writes all that is here.
+    measure: Option<Box<Measure>>,
     /// Measurements completed since the last release, and the exponents of the last one.
     windows: usize,
     spectrum: Option<Spectrum>,
@@ -169,7 +169,7 @@ impl Follow {
             }
             None => {
                 if options.chaos_over > 0 && self.count() - self.forgotten >= options.chaos_after as usize {
-                    self.measure = Some(Measure::new(state, window(options, self.windows)));
+                    self.measure = Some(Box::new(Measure::new(state, window(options, self.windows))));
                 }
                 false
             }
@@ -182,7 +182,7 @@ impl Follow {
         (self.spectrum, self.windows) = (spectrum, self.windows + 1);
         let chaos = spectrum.filter(|_| chaotic == Some(true));
         if chaos.is_none() {
-            self.measure = Some(Measure::new(self.last(), window(options, self.windows)));
+            self.measure = Some(Box::new(Measure::new(self.last(), window(options, self.windows))));
         }
         chaos.map(|spectrum| Verdict::Chaotic(Chaos { spectrum, impacts: self.count() as u64 }))
     }

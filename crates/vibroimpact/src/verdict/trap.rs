@@ -80,7 +80,9 @@ impl Trap {
         }
         let captured = CAPTURED
             .into_iter()
-            .find(|radius| rim(cycle, p, *radius).all(|from| recurrence::captured(osc, &from, cycle)))?;
+            .find(|radius| rim(cycle, p, *radius).step_by(4).all(|from| recurrence::captured(osc, &from, cycle)))?;
+        // what is not linear falls with the square of the radius, so half of it is enough in the directions between
+        let captured = 0.5 * captured;
         let turns = (crate::math::ln(captured / r) / crate::math::ln(bound)).max(0.0).ceil() + 2.0;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a few thousand
         let turns = turns as u32;
