@@ -49,9 +49,12 @@ def test_ctrl_c_is_heard(question: str) -> None:
     program = f"""
 import time
 import numpy as np
+import signal
 import vibroimpact as vi
 u = vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5)
 print("ready", flush=True)
+# where the tests run in the background of a shell, Ctrl-C would be ignored
+signal.signal(signal.SIGINT, signal.default_int_handler)
 try:
     {question}
     print("done", flush=True)

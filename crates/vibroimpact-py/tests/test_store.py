@@ -101,8 +101,11 @@ def test_killed_and_resumed(tmp_path: Path, u: vi.Oscillator) -> None:
 
 def test_ctrl_c_keeps_what_is_done(tmp_path: Path) -> None:
     program = f"""
+import signal
 import vibroimpact as vi
 u = vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5)
+# where the tests run in the background of a shell, Ctrl-C would be ignored
+signal.signal(signal.SIGINT, signal.default_int_handler)
 try:
     vi.basin(u, x="-4:3:400", v="-4:4:400", tile=8, store={str(tmp_path / 'chaos.zarr')!r},
              progress=lambda done, total: print(done, flush=True))

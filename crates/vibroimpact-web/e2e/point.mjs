@@ -135,7 +135,8 @@ export async function f10_positions_on_a_line_are_positions({ open, folder }) {
   const image = page.locator("#line .sheet img");
   const drawn = () => page.evaluate(async () => {
     const shown = document.querySelector("#line .sheet img");
-    return shown.src ? (await fetch(shown.src)).text() : "";
+    // an image that is being replaced cannot be fetched any more
+    return shown.src ? fetch(shown.src).then((picture) => picture.text()).catch(() => "") : "";
   });
   await image.waitFor({ timeout: 120000 });
   await until("velocities", async () => (await drawn()).includes("arrival velocity"), 120);

@@ -82,12 +82,11 @@ impl Step {
 fn steps(nextest: bool, python: bool) -> Vec<Step> {
     // with all features in all steps: others would have the crates that derive built anew, and all that depends on them;
     // the Python package is built without any, as its users build it
-    // the fuzz crate starts hundreds of programs, so its tests are run with it: `cargo test -p vibroimpact-fuzz`
     // the library of the Python package has no tests of Rust, and `--lib` would ask for them
     let tests = if nextest {
-        "cargo nextest run --workspace --exclude vibroimpact-fuzz --all-features --no-fail-fast"
+        "cargo nextest run --workspace --all-features --no-fail-fast"
     } else {
-        "cargo test --workspace --exclude vibroimpact-py --exclude vibroimpact-fuzz --all-features --lib --bins --tests --examples --no-fail-fast"
+        "cargo test --workspace --exclude vibroimpact-py --all-features --lib --bins --tests --examples --no-fail-fast"
     };
     let mut steps = vec![
         Step::check("tools", "rustup component add rustfmt clippy", tools::ensure).fast(),
@@ -97,6 +96,8 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::command("lints", "cargo clippy --workspace --all-targets --all-features -- -D warnings").fast(),
         Step::tests("tests", tests).fast(),
         Step::tests("doc tests", "cargo test --workspace --all-features --doc --no-fail-fast"),
+        // the same questions in every run, so that one that fails was made to fail by a change
+        Step::tests("fuzz", "cargo xtask fuzz --seconds 60 --seed 1"),
         Step::tests("explorer", "cargo xtask explorer"),
         Step::check("documentation", "cargo xtask docs", docs::build),
         Step::check("Python package", "cargo xtask python", python::install),

@@ -139,7 +139,9 @@ const fn stability(stable: Option<bool>, verdict: &Verdict) -> &'static str {
 /// Why it is so.
 fn grounds(verdict: &Verdict, units: &Units) -> String {
     match verdict {
-        Verdict::Periodic(cycle) if cycle.points.is_empty() && cycle.rests.is_empty() => "a closed form; it stays short of the stops".into(),
+        Verdict::Periodic(cycle) if cycle.points.is_empty() && cycle.rests.is_empty() => {
+            "a closed form; it stays short of the stops".into()
+        }
         Verdict::Periodic(cycle) if cycle.rests.is_empty() => format!(
             "Newton's method on the {}-fold impact map returns to itself within {:.0e}; no earlier contact",
             cycle.points.len(),

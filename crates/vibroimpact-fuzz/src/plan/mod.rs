@@ -174,7 +174,8 @@ fn asked(plan: &Plan, threads: usize, stop: &AtomicBool) -> Result<Told, Refused
     match answer.table() {
         Ok(Some(found)) => found.write(&mut table).map_err(|why| Refused::Sentence(why.to_string()))?,
         Ok(None) => {}
-        Err(why) => table = why.to_string().into_bytes(),
+        // no table is a refusal of the table alone, as one of too many points
+        Err(why) => rules::sentence(&why.to_string()).map_err(Refused::Sentence)?,
     }
     let figure = match answer.figure(&control) {
         Ok(figure) => Ok(figure.map(|figure| figure.to_svg()).unwrap_or_default()),

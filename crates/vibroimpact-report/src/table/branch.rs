@@ -43,6 +43,11 @@ pub(super) fn values(cut: &Cut, value: f64, units: &Units) -> String {
     cut.values(value).map(cell).collect::<Vec<_>>().join(",")
 }
 
+/// A number, or an empty cell where there is none.
+fn finite(x: f64) -> String {
+    if x.is_finite() { Number(x).to_string() } else { String::new() }
+}
+
 /// Multipliers, phases and velocities of a cycle.
 pub(super) fn cells(cycle: &Cycle, units: &Units) -> String {
     let list = |of: &dyn Fn(&vibroimpact::orbit::CyclePoint) -> f64| {
@@ -52,10 +57,10 @@ pub(super) fn cells(cycle: &Cycle, units: &Units) -> String {
     let [[a, b], [c, d]] = pairs(cycle.multipliers);
     format!(
         "{},{},{},{},{},{}",
-        Number(a),
-        Number(b),
-        Number(c),
-        Number(d),
+        finite(a),
+        finite(b),
+        finite(c),
+        finite(d),
         list(&|point| point.state.phase),
         list(&|point| point.state.velocity * units.velocity())
     )

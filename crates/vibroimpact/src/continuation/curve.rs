@@ -8,7 +8,7 @@ use super::options::BranchError;
 use super::plane::{Condition, Plane};
 use super::point::{BranchEvent, Change, Point};
 use super::walk::{Spot, Stride, Walk};
-use crate::math::hypot;
+use crate::math::{Multiplier, hypot};
 use crate::orbit::{Floquet, Orbit, Ring, ring_cycle};
 use crate::system::{Oscillator, Parameter, Side};
 use std::collections::VecDeque;
@@ -150,7 +150,11 @@ impl Curve {
 
     fn point(&self, spot: &Spot, event: Option<CurveEvent>) -> Option<CurvePoint> {
         let (osc, ring, flights) = self.walk.plane.flights(&spot.w)?;
-        let cycle = ring_cycle(&osc, &ring, &flights);
+        let mut cycle = ring_cycle(&osc, &ring, &flights);
+        if self.grazing.is_some() {
+            // the derivative grows like the inverse of the speed, and without speed there is none
+            cycle.multipliers = [Multiplier { re: f64::NAN, im: f64::NAN }; 2];
+        }
         let physical = match self.grazing {
             // where an impact has no speed, or a flight just touches, a motion may be the limit of motions
             None if event.is_none() => Orbit::judged(&osc, cycle.clone()).physical,

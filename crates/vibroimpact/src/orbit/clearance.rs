@@ -51,16 +51,6 @@ pub(crate) fn closest(osc: &Oscillator, ring: &Ring, k: usize, side: Side) -> Op
     extrema.into_iter().min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-/// How far a flight stays from the stop on `side` where it turns back from it within `time`, rounding taken off; infinite where it never
-/// does. `None` if it is too long to be scanned without gaps.
-pub(crate) fn nearest(osc: &Oscillator, flight: &Flight, side: Side, time: f64) -> Option<f64> {
-    let sign = side.sign();
-    let room = osc.stop(side)?.gap - sign * flight.x;
-    let left = |point: &Point| room - sign * point.displacement - point.rounding;
-    let scanned = time * fastest(osc) / STEP <= MAX_STEPS;
-    scanned.then(|| maxima(osc, flight, time, sign).iter().map(|(_, point)| left(point)).fold(f64::INFINITY, f64::min))
-}
-
 /// Of the places within `time` where a flight turns back from the stop on `side`, or beyond it, the one nearest in time to `near`.
 pub(crate) fn turning_near(osc: &Oscillator, flight: &Flight, side: Side, time: f64, near: f64) -> Option<Closest> {
     let sign = side.sign();

@@ -39,7 +39,7 @@ pub use physical::{EarlierContact, earlier_contact};
 pub use release::{DEFAULT_EVENTS, from_release};
 pub use shooting::{ShootingError, shoot};
 
-pub(crate) use clearance::{closest, nearest, turning_near};
+pub(crate) use clearance::{closest, turning_near};
 pub(crate) use cycle::distance as cycle_distance;
 pub(crate) use cyclic::{Block, blocks, by_parameter, fill};
 pub(crate) use floquet::Floquet;

@@ -23,8 +23,11 @@ pub enum SystemError {
         written(*.0)
     )]
     InverseBeta(f64),
-    /// The gap is not finite.
-    #[error("gap delta = {0} is not a finite number\nhint: a negative gap presses the mass against the stop at rest")]
+    /// The gap is not a number in [-1e100, 1e100].
+    #[error(
+        "gap delta = {} lies outside -1e100 <= delta <= 1e100\nhint: a negative gap presses the mass against the stop at rest",
+        written(*.0)
+    )]
     Gap(f64),
     /// The restitution is outside [0, 1].
     #[error("restitution eps = {0} lies outside 0 <= eps <= 1\nhint: eps is the ratio of velocities, not of energies")]
@@ -75,6 +78,14 @@ pub enum SystemError {
     #[error("start {name} = {value} is not a finite number")]
     StartNotFinite {
         /// Which of `x`, `v`, `phase`.
+        name: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// A start so far away or so fast that its energy is beyond the range of a double.
+    #[error("start {name} = {} lies outside -1e100 <= {name} <= 1e100", written(*.value))]
+    LargeStart {
+        /// Which of `x`, `v`.
         name: &'static str,
         /// The value given.
         value: f64,

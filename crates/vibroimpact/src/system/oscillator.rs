@@ -6,7 +6,7 @@
 //! | symbol | name here | meaning | range |
 //! |---|---|---|---|
 //! | $`\beta`$ | `beta` | forcing frequency over natural frequency | $`[10^{-15}, 10^{15}]`$ |
-//! | $`\delta`$ | `gap` | distance of the stop from the rest position; negative: preload | any |
+//! | $`\delta`$ | `gap` | distance of the stop from the rest position; negative: preload | $`[-10^{100}, 10^{100}]`$ |
 //! | $`\varepsilon`$ | `restitution` | rebound speed over arrival speed | $`[0, 1]`$ |
 //! | $`\zeta`$ | `damping` | damping ratio | $`[0, 10^{15}]`$ |
 //! | $`\delta_2, \varepsilon_2`$ | second stop | stands at $`\xi = -\delta_2`$ | $`\delta + \delta_2 > 0`$ |
@@ -58,6 +58,9 @@ pub struct Stop {
 /// double can tell from a whole number of turns; at a smaller one, the natural phase does so in one radian of the force.
 const RATIOS: core::ops::RangeInclusive<f64> = 1.0 / phase::LARGEST..=phase::LARGEST;
 
+/// Gaps, and positions and velocities of starts: their squares, and their products with the largest ratios, are finite.
+pub(super) const LENGTHS: core::ops::RangeInclusive<f64> = -1e100..=1e100;
+
 /// An oscillator whose parameters are known to make sense. Cheap to copy.
 ///
 /// ```
@@ -78,7 +81,7 @@ impl Oscillator {
     /// An undamped oscillator with one stop.
     ///
     /// # Errors
-    /// [`SystemError`] names a `beta` outside [1e-15, 1e15], a `gap` that is not finite, or a `restitution`
+    /// [`SystemError`] names a `beta` outside [1e-15, 1e15], a `gap` outside [-1e100, 1e100], or a `restitution`
     /// outside [0, 1].
     pub fn new(beta: f64, gap: f64, restitution: f64) -> Result<Self, SystemError> {
         if !RATIOS.contains(&beta) {
@@ -195,7 +198,7 @@ impl Oscillator {
 }
 
 fn stop(gap: f64, restitution: f64) -> Result<Stop, SystemError> {
-    if !gap.is_finite() {
+    if !LENGTHS.contains(&gap) {
         return Err(SystemError::Gap(gap));
     }
     if !(0.0..=1.0).contains(&restitution) {
@@ -213,6 +216,9 @@ mod tests {
         for beta in [0.0, -1.0, f64::NAN, f64::INFINITY, 9e-16, 1.1e15, 5e-324, 1e50] {
             assert!(matches!(Oscillator::new(beta, 1.0, 0.5), Err(SystemError::Beta(_))));
             assert!(matches!(Oscillator::from_inverse_beta(beta, 1.0, 0.5), Err(SystemError::InverseBeta(_))));
+        }
+        for gap in [f64::NAN, f64::INFINITY, -1.1e100, 1e300] {
+            assert!(matches!(Oscillator::new(1.0, gap, 0.5), Err(SystemError::Gap(_))));
         }
         for eps in [-1e-9, 1.0 + 1e-9, f64::NAN] {
             assert!(matches!(Oscillator::new(1.0, 1.0, eps), Err(SystemError::Restitution(_))));

@@ -1,5 +1,6 @@
 //! Where a motion starts: any phase of the force, anywhere the stops allow.
 
+use super::oscillator::LENGTHS;
 use super::{Oscillator, SystemError, phase};
 
 /// A starting point: position `x`, velocity `v`, phase of the force in $`[0, 2\pi)`$.
@@ -19,7 +20,7 @@ impl Start {
     /// A start of `osc`, its phase wrapped into $`[0, 2\pi)`$.
     ///
     /// # Errors
-    /// [`SystemError::StartNotFinite`], [`SystemError::LargePhase`] or [`SystemError::BeyondStop`].
+    /// [`SystemError::StartNotFinite`], [`SystemError::LargeStart`], [`SystemError::LargePhase`] or [`SystemError::BeyondStop`].
     ///
     /// ```
     /// use vibroimpact::{Oscillator, Start};
@@ -33,6 +34,9 @@ impl Start {
             if !value.is_finite() {
                 return Err(SystemError::StartNotFinite { name, value });
             }
+        }
+        if let Some((name, value)) = [("x", x), ("v", v)].into_iter().find(|(_, value)| !LENGTHS.contains(value)) {
+            return Err(SystemError::LargeStart { name, value });
         }
         if phase.abs() > phase::LARGEST {
             return Err(SystemError::LargePhase(phase));
@@ -90,6 +94,16 @@ mod tests {
     }
 
     #[test]
+    fn starts_too_far_or_too_fast_are_refused() {
+        let osc = Oscillator::new(1.3, 1.0, 0.5).unwrap();
+        for (x, v, name) in [(-1e300, 0.0, "x"), (0.0, 1e200, "v"), (0.0, -1e200, "v")] {
+            let message = Start::new(&osc, x, v, 0.0).unwrap_err().to_string();
+            assert!(message.contains(&format!("lies outside -1e100 <= {name} <= 1e100")), "{message}");
+        }
+        assert!(Start::new(&osc, -1e100, 1e100, 0.0).is_ok());
+    }
+
+    #[test]
     fn the_free_motion_goes_on_without_a_trace_of_transient() {
         for (beta, damping, gap) in [(0.5, 0.0, 2.0), (1.7, 0.2, 1.0), (1.0, 0.3, 2.0)] {
             let osc = Oscillator::new(beta, gap, 0.5).unwrap().with_damping(damping).unwrap();
@@ -98,6 +112,6 @@ mod tests {
             assert!((x - start.x).abs() < 1e-14 && (v - start.v).abs() < 1e-14);
         }
         assert_eq!(Start::free_motion(&Oscillator::new(0.9, 2.0, 0.5).unwrap()), None);
-        assert_eq!(Start::free_motion(&Oscillator::new(1.0, 1e300, 0.5).unwrap()), None);
+        assert_eq!(Start::free_motion(&Oscillator::new(1.0, 1e100, 0.5).unwrap()), None);
     }
 }

@@ -18,7 +18,8 @@
 //!    $`D = 2.5\,\beta w/(a(1-\varepsilon))`$ in all, over which $`a`$ changes by less than a quarter: the estimate holds all the way.
 //! 2. The flights that follow differ from this one by a phase of at most $`D`$ and a speed of at most $`w`$. As
 //!    $`|\partial x/\partial\varphi| \le |f|(2+\beta)`$ and $`|\partial x/\partial v_0| \le 1`$, they clear the stops on the way if this one
-//!    does by more than $`|f|(2+\beta)D + w`$.
+//!    does by more than $`|f|(2+\beta)D + w =: \eta`$. Next to its ends, for $`s_0 = 4w/a + 2\sqrt{\eta/a}`$, it does so on arcs that
+//!    bend away from the stop with at least $`a/2`$, if $`s_0(\beta + w + 2as_0) \le a/2`$; between them it is flown with the stops nearer by $`\eta`$.
 //!
 //! With restitution 0 there is nothing to sum: $`w = D = 0`$, and one tangential return decides. Near the end of the law the arc
 //! rises above the stop by less than rounding, and a computed speed is noise below $`\sqrt{2a\rho}`$, $`\rho`$ being the rounding of the
@@ -27,10 +28,9 @@
 //! $`\beta`$ has to be a fraction in the sense of [`Oscillator::fraction`]. For a number close to one the flights miss the return by the
 //! drift of the phase over $`T`$, and the speeds level off at about that: no limit is claimed.
 
-use crate::flight::Flight;
+use crate::flight::{Contact, Flight, SearchLimits, first_contact};
 use crate::motion::ImpactState;
-use crate::orbit::nearest;
-use crate::system::Oscillator;
+use crate::system::{Oscillator, Side, Start};
 use core::f64::consts::TAU;
 
 /// Speed above which the law is not tried; it needs speeds far below 1 in any case.
@@ -67,9 +67,30 @@ pub fn recognised(osc: &Oscillator, before: &ImpactState, after: &ImpactState, i
     }
     let drift = 2.5 * osc.beta() * rebound / (pull * (1.0 - eps));
     let perturbed = osc.free_amplitude() * (2.0 + osc.beta()) * drift + rebound;
-    // the last stretch, up to the return itself, is the arc that the law is about
-    let way = common - early.max(4.0 * speed / pull);
-    osc.stops().all(|(side, _)| nearest(osc, &flight, side, way).is_some_and(|distance| distance > perturbed))
+    // it leaves the stop and comes back to it on arcs that bend away from it, which the law is about
+    let arc = early.max(4.0 * speed / pull) + 2.0 * (perturbed / pull).sqrt();
+    let bends = arc * (osc.beta() + rebound + 2.0 * pull * arc) <= 0.5 * pull && arc < 1.0;
+    bends && clears(osc, &flight, (arc, common - arc), perturbed)
+}
+
+/// Whether a flight stays further than `by` from the stops between two times: whether it is free of contacts with stops that are so much
+/// nearer.
+fn clears(osc: &Oscillator, flight: &Flight, (from, until): (f64, f64), by: f64) -> bool {
+    let upper = Oscillator::new(osc.beta(), osc.gap() - by, osc.restitution());
+    let nearer = upper.and_then(|upper| match osc.stop(Side::Lower) {
+        Some(stop) => upper.with_second_stop(stop.gap - by, stop.restitution),
+        None => Ok(upper),
+    });
+    let (x, v) = flight.state(from);
+    let Ok((nearer, start)) = nearer.and_then(|osc| Ok((osc, Start::new(&osc, x, v, flight.phase_at(from))?))) else {
+        return false;
+    };
+    let limits = SearchLimits { periods: (until - from) / osc.period().max(TAU), ..SearchLimits::default() };
+    match first_contact(&nearer, &Flight::new(&nearer, start), limits) {
+        Contact::Impact { time, .. } | Contact::Grazing { time, .. } | Contact::NoneUntil(time) => time >= until - from,
+        Contact::Never(_) => true,
+        Contact::Contact { .. } => false,
+    }
 }
 
 /// The last impact of a motion, from which the next tells whether impacts fade away.
