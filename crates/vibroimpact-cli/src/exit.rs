@@ -1,6 +1,6 @@
 //! How a run ends: 0 done, 1 failed, 2 bad question, 130 stopped.
 
-use crate::session::complain;
+use crate::complain::complain;
 use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;

@@ -5,6 +5,7 @@
 
 mod args;
 mod commands;
+mod complain;
 mod exit;
 mod files;
 mod measure;

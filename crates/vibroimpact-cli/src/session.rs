@@ -1,6 +1,7 @@
 //! What all commands share: the global options and the two output streams.
 
 use crate::args::Globals;
+use crate::complain::complain;
 use crate::exit::Failure;
 use crate::progress::Progress;
 use crate::signal;
@@ -12,11 +13,6 @@ pub(crate) struct Session {
     pub(crate) quiet: bool,
     pub(crate) force: bool,
     threads: usize,
-}
-
-/// A line on stderr; if stderr is gone there is no one to tell.
-pub(crate) fn complain(line: &str) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
 }
 
 impl Session {

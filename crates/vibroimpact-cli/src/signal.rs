@@ -3,8 +3,9 @@
 //! Work that checks the flag stops within milliseconds. A single motion that takes longer cannot hold the program: a
 //! little later it ends anyhow, just as cleanly, because files appear only when they are complete.
 
+use crate::complain::complain;
 use crate::exit::Failure;
-use crate::{files, session};
+use crate::files;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -24,7 +25,7 @@ pub(crate) fn listen() {
         }
         std::thread::spawn(|| {
             std::thread::sleep(PATIENCE);
-            session::complain("stopped in the middle of a long motion; nothing is left half-written");
+            complain("stopped in the middle of a long motion; nothing is left half-written");
             end();
         });
     });

@@ -1,16 +1,7 @@
 //! An axis: its label, range, scale and ticks.
 
+use crate::scale::Scale;
 use crate::ticks::{Tick, ticks};
-
-/// How values are spread along an axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Scale {
-    /// Evenly.
-    #[default]
-    Linear,
-    /// By decimal logarithm; values at or below zero are not shown.
-    Log10,
-}
 
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]

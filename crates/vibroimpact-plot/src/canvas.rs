@@ -102,7 +102,7 @@ impl Frame {
 /// A frame of 100 by 100 units at the origin over these ranges.
 #[cfg(test)]
 pub(crate) fn test_frame(x: (f64, f64), y: (f64, f64)) -> Frame {
-    let scale = crate::axis::Scale::Linear;
+    let scale = crate::scale::Scale::Linear;
     Frame {
         left: 0.0,
         top: 0.0,

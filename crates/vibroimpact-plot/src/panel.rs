@@ -3,7 +3,8 @@
 use crate::axis::{Axis, Mapping};
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
-use crate::mark::{Extent, Mark};
+use crate::mark::Mark;
+use crate::mark::extent::Extent;
 use crate::markup;
 use crate::stroke::Stroke;
 use crate::theme;
@@ -49,7 +50,7 @@ impl Panel {
 
     /// Ranges and ticks for a frame of about this size.
     pub(crate) fn prepare(&self, width: f64, height: f64) -> Prepared {
-        use crate::axis::Scale::Log10;
+        use crate::scale::Scale::Log10;
         let (mut x, mut y) = (Extent::new(self.x.scale == Log10), Extent::new(self.y.scale == Log10));
         for mark in &self.marks {
             mark.extent(&mut x, &mut y);

@@ -4,7 +4,7 @@
 //! labels", Graphics Gems, 1990); logarithmic ones mark decades, and fall back to linear steps
 //! when they show less than one.
 
-use crate::axis::Scale;
+use crate::scale::Scale;
 
 /// One mark on an axis.
 #[derive(Clone, Debug, PartialEq)]

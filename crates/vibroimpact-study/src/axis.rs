@@ -1,5 +1,6 @@
 //! An axis of a grid: what varies, and over which values.
 
+use crate::limits::MOST_CELLS;
 use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
@@ -244,6 +245,12 @@ impl Axis {
     pub fn parameter(parameter: Parameter, over: impl Into<Values>) -> Self {
         Self::new(Coordinate::Parameter(parameter), over)
     }
+}
+
+/// More results than fit any memory, on these axes.
+pub(crate) fn too_many(what: &'static str, axes: &[Axis]) -> PlanError {
+    let (first, others) = axes.split_at(axes.len().min(1));
+    PlanError::Size { what, columns: points(first), rows: points(others), most: MOST_CELLS }
 }
 
 /// The system at a point of the axes; what is on no axis is as given.

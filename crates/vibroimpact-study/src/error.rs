@@ -1,9 +1,7 @@
 //! Why a plan makes no sense.
 
-use crate::Axis;
-use crate::axis;
+use crate::control::Stopped;
 use crate::counted;
-use crate::plan::MOST_CELLS;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
 use vibroimpact::verdict::LabelError;
@@ -324,11 +322,13 @@ pub enum PlanError {
     Version(u32),
 }
 
-impl PlanError {
-    /// More results than fit any memory, on these axes.
-    pub(crate) fn too_many(what: &'static str, axes: &[Axis]) -> Self {
-        let (first, others) = axes.split_at(axes.len().min(1));
-        let (columns, rows) = (axis::points(first), axis::points(others));
-        Self::Size { what, columns, rows, most: MOST_CELLS }
-    }
+/// Why a run was not completed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// The plan makes no sense.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// It was stopped from outside.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }

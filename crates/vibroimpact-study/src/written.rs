@@ -1,6 +1,7 @@
 //! A plan as it is written by hand: what an axis varies need not be given twice.
 
-use crate::plan::{Plan, SecondStop, SystemPlan, Task};
+use crate::plan::{Plan, Task};
+use crate::system::{SecondStop, SystemPlan};
 use crate::{Axis, Coordinate, Parameter, PlanError};
 use schemars::JsonSchema;
 use serde::Deserialize;

@@ -10,7 +10,7 @@
 //! - **no impact is missed** ([`flight::first_contact`]): the search only advances over times in which contact is proven impossible;
 //! - **chatter and sticking are completed** ([`contact`]): infinitely many impacts in finite time are summed with a bounded error,
 //!   the mass sticks, and is released where the force changes sign;
-//! - **verdicts are proved** ([`verdict::settle`]): a motion is called periodic when Newton's method on its impact map has
+//! - **verdicts are confirmed** ([`verdict::settle`]): a motion is called periodic when Newton's method on its impact map has
 //!   converged and the motion is captured by that cycle, chaotic when its Lyapunov exponent exceeds its error bar, free of impacts for a
 //!   stated reason, and else undecided.
 //!
@@ -29,7 +29,7 @@
 //! # One direction of data
 //!
 //! [`Oscillator`] → [`Flight`](flight::Flight) → [`Contact`](flight::Contact) → [`Event`](motion::Event) →
-//! [`Motion`](motion::Motion) → [`Verdict`](verdict::Verdict) → [`Orbit`](orbit::Orbit). Each arrow is one function in one
+//! [`Motion`](motion::Motion) → [`Cycle`](orbit::Cycle) → [`Verdict`](verdict::Verdict). Each arrow is one function in one
 //! place; each name is a plain value that knows only what stands to its left. The crate is pure: values in, values out,
 //! no files, threads, clocks, randomness or logging, and the same bits on every platform ([`math`]).
 //!
@@ -63,6 +63,7 @@ pub mod contact;
 pub mod continuation;
 pub mod flight;
 pub mod lanes;
+mod lyapunov;
 pub mod math;
 pub mod motion;
 pub mod orbit;
@@ -70,8 +71,8 @@ pub mod scenario;
 pub mod system;
 pub mod verdict;
 
+pub use orbit::Label;
 pub use system::{Frequency, Machine, Oscillator, Parameter, Scales, Side, Start, Stop, SystemError, Varying};
-pub use verdict::Label;
 
 /// The listings of the README are compiled and run.
 #[cfg(doctest)]

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use crate::command;
+use crate::finish::finish;
 
 /// The command and the driver, as the tests of the workspace need them.
 const BUILD: &str = "cargo test --workspace --all-features --no-run --test cli --test fuzz";
@@ -22,6 +23,6 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> ExitCode {
     });
     match driver {
         Ok(status) => ExitCode::from(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)),
-        Err(sentence) => crate::finish(Err(sentence)),
+        Err(sentence) => finish(Err(sentence)),
     }
 }

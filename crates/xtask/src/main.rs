@@ -9,6 +9,7 @@ mod command;
 mod docs;
 mod explorer;
 mod figures;
+mod finish;
 mod fuzz;
 mod licences;
 mod line;
@@ -21,6 +22,7 @@ mod tools;
 mod totals;
 mod venv;
 
+use finish::finish;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
@@ -76,20 +78,6 @@ fn main() -> ExitCode {
         }
         [] => bad_question("no command is given"),
         other => bad_question(&format!("`{}` is not a command of xtask", other.join(" "))),
-    }
-}
-
-/// Prints what a check found, and turns it into an exit status.
-fn finish(outcome: Result<String, String>) -> ExitCode {
-    match outcome {
-        Ok(sentence) => {
-            println!("{sentence}");
-            ExitCode::SUCCESS
-        }
-        Err(sentence) => {
-            eprintln!("{sentence}");
-            ExitCode::FAILURE
-        }
     }
 }
 

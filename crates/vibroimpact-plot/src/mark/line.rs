@@ -2,7 +2,8 @@
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
-use crate::mark::{Extent, thin};
+use crate::mark::extent::Extent;
+use crate::mark::thin;
 use crate::stroke::{Dash, Stroke};
 
 /// A polyline; a `NaN` or infinite coordinate breaks it.

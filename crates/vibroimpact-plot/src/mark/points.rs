@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
-use crate::mark::Extent;
+use crate::mark::extent::Extent;
 use crate::number::N;
 
 /// The form of a point.

@@ -2,13 +2,13 @@
 
 use resvg::tiny_skia::{IntSize, Pixmap};
 
-use crate::axis::Scale;
 use crate::base64;
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
 use crate::error::{MAX_SIDE, PlotError};
-use crate::mark::Extent;
+use crate::mark::extent::Extent;
 use crate::number::N;
+use crate::scale::Scale;
 
 /// Equal cells over a rectangle, each the colour of its class.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Rectangles of classes: the cells of a map, whole or split in stripes.
 
 use crate::canvas::{Canvas, Frame};
-use crate::mark::Extent;
+use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::palette::ClassStyle;
 

@@ -3,7 +3,7 @@
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
 use crate::label::{Anchor, Placed};
-use crate::mark::Extent;
+use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::theme;
 

@@ -4,8 +4,8 @@ mod plan;
 
 pub use plan::BasinPlan;
 
-use crate::plan::MOST_CELLS;
-use crate::{Control, PlanError, Stopped, SystemPlan, axis, tiles};
+use crate::limits::MOST_CELLS;
+use crate::{Control, PlanError, RunError, SystemPlan, axis, tiles};
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{Atlas, Census, Found, settle_many};
 use vibroimpact::{Oscillator, Start};
@@ -19,17 +19,6 @@ pub struct Basin {
     pub motions: Vec<Found>,
     /// The motion of each start as an index into `motions`, the first axis running fastest.
     pub cells: Vec<u16>,
-}
-
-/// Why a basin or map was not completed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RunError {
-    /// The plan makes no sense.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// It was stopped from outside.
-    #[error(transparent)]
-    Stopped(#[from] Stopped),
 }
 
 impl Basin {
@@ -94,7 +83,7 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
         return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
     }
     if total > MOST_CELLS {
-        return Err(PlanError::too_many("starts", &plan.axes).into());
+        return Err(axis::too_many("starts", &plan.axes).into());
     }
     let start = |k: u64| start(osc, plan, k);
     let atlas = Atlas::survey(osc, (0..SURVEY.min(total)).map(|k| start(total / SURVEY.min(total) * k)), options);

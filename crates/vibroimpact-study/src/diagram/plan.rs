@@ -1,6 +1,6 @@
 //! What an orbit diagram asks: which parameter varies over what, from which starts, and what is shown.
 
-use crate::plan::{MOST_STARTS, starts};
+use crate::limits::{MOST_STARTS, starts};
 use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;

@@ -5,9 +5,8 @@ mod plan;
 pub use plan::MapPlan;
 pub(crate) use plan::{check_impacts, check_refine};
 
-use crate::basin::RunError;
-use crate::plan::MOST_CELLS;
-use crate::{Control, PlanError, SystemPlan, axis, tiles};
+use crate::limits::MOST_CELLS;
+use crate::{Control, RunError, SystemPlan, axis, tiles};
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{Atlas, Found, SettleOptions, StartBox, Verdict, scattered_starts, settle_many};
@@ -48,7 +47,7 @@ pub fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result
     let options = &plan.options();
     let total = plan.points();
     if total > MOST_CELLS {
-        return Err(PlanError::too_many("points", &plan.axes).into());
+        return Err(axis::too_many("points", &plan.axes).into());
     }
     let all = axis::whole(&plan.axes);
     let parts = tiles(total, 4, control, |range, tick| {

@@ -1,7 +1,7 @@
 //! What a map asks: over which parameters, with how many starts at each point.
 
 use crate::axis::{self, Axis, Coordinate};
-use crate::plan::starts;
+use crate::limits::starts;
 use crate::{Parameter, PlanError, Span, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;

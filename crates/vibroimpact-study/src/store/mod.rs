@@ -41,6 +41,7 @@ mod chunk;
 mod conclude;
 mod described;
 mod error;
+mod handle;
 mod layout;
 mod read;
 mod root;
@@ -51,31 +52,19 @@ mod shelf;
 pub use bucket::Bucket;
 pub use check::{Damage, Progress, Verified};
 pub use error::StoreError;
+pub use handle::{FORMAT, Store};
 pub use run::{Part, Ran};
 pub use shelf::{Folder, Item, Shelf};
 
 use crate::study::{Cells, Study};
 use crate::{Column, Plan};
+use handle::VERSION;
 use layout::{DONE, Layout};
 use root::{Found, ROOT, read_root};
 use serde_json::Value;
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
-
-/// The version of the arrangement described here; a store of a later one is refused.
-pub const FORMAT: u64 = 1;
-/// This program.
-const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// A study and where it is stored.
-pub struct Store {
-    shelf: Arc<dyn Shelf>,
-    plan: Plan,
-    study: Study,
-    layout: Layout,
-    /// The version that began it.
-    begun_by: String,
-}
 
 /// The shelf at a place: a folder, or `s3://bucket/prefix`.
 ///

@@ -1,14 +1,15 @@
 //! The tiles of a basin: for each start the motion it leads to.
 
+use super::code;
 use super::cycles::{self, Numbering};
+use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
-use super::{Along, Fill, along, code, grid_of, on_axis};
 use crate::axis;
 use crate::basin::start_at;
 use crate::field::{Column, Field, Kind};
 use crate::grid::{Block, Dimension, Grid};
-use crate::plan::MOST_STARTS;
+use crate::limits::MOST_STARTS;
 use crate::{BasinPlan, PlanError, SystemPlan};
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{Atlas, Census, Found, SettleOptions, StartBox, Verdict, scattered_starts, settle_many};

@@ -4,7 +4,7 @@
 //! A tile that meets another one numbers it for itself, below [`NONE`]; when all tiles are there these few are computed
 //! again, and numbered in their order.
 
-use super::{Cells, Table, Tiles};
+use super::tables::{Cells, Table, Tiles};
 use crate::field::Column;
 use crate::grid::Grid;
 use vibroimpact::verdict::{Census, Found, Verdict};

@@ -1,6 +1,6 @@
 //! The tiles of an orbit diagram: a carried sweep is one tile, scattered starts are many.
 
-use super::{Along, Fill};
+use super::fill::{Along, Fill};
 use crate::axis::Coordinate;
 use crate::diagram::{Diagram, Direction, Kind as Motion, Point, Show, Step, Sweep, carried, step};
 use crate::field::{Column, Extra, Field, Kind};

@@ -1,7 +1,7 @@
 //! The tiles of a study of Lyapunov exponents: at each point both, and what they say.
 
+use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::map::side;
-use super::{Along, Fill, along, grid_of, on_axis};
 use crate::axis;
 use crate::field::{Column, Extra, Field, Kind};
 use crate::{Block, Grid, LyapunovPlan, PlanError, SystemPlan};

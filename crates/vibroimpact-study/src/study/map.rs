@@ -1,7 +1,8 @@
 //! The tiles of a map: at each point its motions, the most frequent first.
 
+use super::code;
+use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::refine::{self, Cell};
-use super::{Along, Fill, along, code, grid_of, on_axis};
 use crate::field::{Column, Extra, Field, Kind};
 use crate::map::motions;
 use crate::{Block, Grid, MapPlan, SystemPlan};

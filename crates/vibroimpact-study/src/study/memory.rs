@@ -3,7 +3,7 @@
 use super::{Study, Table, Tiles};
 use crate::field::{Column, Field};
 use crate::grid::Grid;
-use crate::plan::MOST_CELLS;
+use crate::limits::MOST_CELLS;
 use crate::{Control, Meter, PlanError, RunError, tiles};
 
 /// A study with all its arrays.

@@ -8,96 +8,22 @@ mod basin;
 mod code;
 mod cycles;
 mod diagram;
+mod fill;
 mod lyapunov;
 mod map;
 mod memory;
 mod refine;
+mod tables;
 #[cfg(test)]
 mod tests;
 
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, STUCK, UNDECIDED, code, label_of};
 pub use diagram::diagram_of;
+pub use fill::{Along, Fill};
 pub use memory::{Sheet, in_memory};
+pub use tables::{Cells, Table, Tiles};
 
-use crate::grid::Dimension;
-use crate::{Axis, Block, Column, Field, Grid, Plan, PlanError, Task};
-
-/// Positions along a dimension of the grid.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Along {
-    /// What it is called: as its dimension, or, beside that one, otherwise.
-    pub name: String,
-    /// The dimension.
-    pub dimension: String,
-    /// A value for each index.
-    pub values: Vec<f64>,
-    /// What it is, for people.
-    pub long_name: &'static str,
-    /// Its unit.
-    pub units: &'static str,
-}
-
-/// A small array about the whole, over dimensions of its own.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    /// Its name.
-    pub name: &'static str,
-    /// What it is, for people.
-    pub long_name: &'static str,
-    /// Its unit.
-    pub units: &'static str,
-    /// Its dimensions and their lengths, the slowest first.
-    pub dimensions: Vec<(&'static str, usize)>,
-    /// Its values, in row-major order.
-    pub values: Cells,
-}
-
-/// The values of a [`Table`].
-#[derive(Clone, Debug, PartialEq)]
-pub enum Cells {
-    /// Numbers.
-    Numbers(Column),
-    /// Words.
-    Text(Vec<String>),
-}
-
-/// The finished tiles of a study, wherever they are kept.
-pub trait Tiles {
-    /// Why they cannot be read or written.
-    type Error;
-
-    /// Field number `field` of tile number `tile`.
-    ///
-    /// # Errors
-    /// When it cannot be read.
-    fn read(&mut self, tile: u64, field: usize) -> Result<Column, Self::Error>;
-
-    /// Replaces field number `field` of tile number `tile`.
-    ///
-    /// # Errors
-    /// When it cannot be written.
-    fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), Self::Error>;
-}
-
-/// What each tile holds.
-pub trait Fill: Send + Sync {
-    /// The grid and its tiles.
-    fn grid(&self) -> &Grid;
-
-    /// The values along its dimensions, where they have any.
-    fn coordinates(&self) -> Vec<Along>;
-
-    /// The arrays.
-    fn fields(&self) -> Vec<Field>;
-
-    /// The columns of a tile, one for each field. `tick` is called for each point and says whether to stop.
-    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
-
-    /// The field that numbers cycles, and the cycles known beforehand, where there is such a field.
-    fn numbered(&self) -> Option<cycles::Numbering<'_>> {
-        None
-    }
-}
+use crate::{Column, Field, Grid, Plan, PlanError, Task};
 
 /// A plan that fills a grid.
 pub struct Study {
@@ -166,36 +92,4 @@ impl Study {
             None => Ok(Vec::new()),
         }
     }
-}
-
-/// Tiles along an axis there are at least, so that all processors have something to do and little is lost in a break.
-const FEWEST: usize = 16;
-
-/// The grid of some axes, the first running fastest. Tiles have the side asked for; where nobody asks, `side` or, on short axes,
-/// less, but no less than a quarter of it.
-fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
-    let dimension = |axis: &Axis| {
-        let count = axis.over.count();
-        let fair = || (count / FEWEST).next_power_of_two().clamp(side.div_ceil(4), side);
-        let tile = asked.map_or_else(fair, |tile| tile as usize).min(count);
-        Dimension { name: axis.vary.name().to_owned(), count, tile }
-    };
-    Grid { dimensions: axes.iter().rev().map(dimension).collect() }
-}
-
-/// The values along the axes.
-fn along(axes: &[Axis]) -> Vec<Along> {
-    let one = |axis: &Axis| Along {
-        name: axis.vary.name().to_owned(),
-        dimension: axis.vary.name().to_owned(),
-        values: axis.over.all(),
-        long_name: axis.vary.long_name(),
-        units: axis.vary.units(),
-    };
-    axes.iter().rev().map(one).collect()
-}
-
-/// The place on axis number `k` of a point with these indices in the grid.
-fn on_axis(index: &[usize], k: usize) -> usize {
-    index[index.len() - 1 - k]
 }

@@ -1,6 +1,7 @@
 //! Studies against the questions asked one by one.
 
 use super::*;
+use crate::Axis;
 use crate::axis::{Coordinate, Values};
 use crate::{BasinPlan, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Span, StartPlan, Stretch, SystemPlan};
 use vibroimpact::verdict::SettleOptions;

@@ -9,8 +9,8 @@
 //! space of position, velocity and phase has a third exponent 0, along itself, and the dimension $`D + 1`$. It is the
 //! dimension that the measure on the attractor has if the conjecture of its authors holds, not a count of boxes.
 
-use super::Measured;
-use super::blocks::{Block, MEASURE, quotient};
+use crate::lyapunov::Measured;
+use crate::lyapunov::blocks::{Block, MEASURE, quotient};
 
 /// Of the section, from exponents and the blocks they were measured over; `None` where the larger exponent is not known
 /// to differ from 0.

@@ -11,10 +11,11 @@
 //! measurement begin again from there. A second stick on the same stop is a proof that the motion is periodic and sticks in
 //! each turn, so that both exponents are $`-\infty`$. So a motion is begun again at most once for each stop.
 
-use super::blocks::{Block, MEASURE, quotient};
+use super::dimension;
 use super::run::Run;
-use super::{Measured, Spectrum, dimension};
 use crate::flight::SearchLimits;
+use crate::lyapunov::blocks::{Block, MEASURE, quotient};
+use crate::lyapunov::{Measured, Spectrum};
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Side, Start};
 use crate::verdict::{Chaos, Follow, NoImpact, Releases, SettleOptions, Undecided, Verdict, ended};

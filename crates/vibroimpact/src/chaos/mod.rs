@@ -24,22 +24,17 @@
 //! |---|---|
 //! | the exponents of the motion from a start | [`exponents()`], [`Exponents`] |
 //! | how neighbours move: flight and saltation | [`tangent`] |
-//! | error bars of a correlated run | `blocks` |
 //! | the Kaplan-Yorke dimension | `dimension` |
 //! | points of the attractor in both sections | [`section`] |
 //! | exponents along impacts, as verdicts measure them | [`lyapunov`] |
 
-mod blocks;
 mod dimension;
 mod exponents;
-mod measure;
 mod run;
 mod section;
-pub mod tangent;
 
+pub use crate::lyapunov::{Measured, Spectrum, lyapunov, tangent};
 pub use exponents::{
     DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions, Exponents, Grounds, exponents, exponents_while,
 };
-pub(crate) use measure::Measure;
-pub use measure::{Measured, Spectrum, lyapunov};
 pub use section::{Section, section, section_while};

@@ -1,7 +1,7 @@
 //! A measurement under way, fed event by event.
 
-use super::blocks::{BLOCKS, Block};
-use super::tangent::Frame;
+use crate::lyapunov::blocks::{BLOCKS, Block};
+use crate::lyapunov::tangent::Frame;
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, Side};
 

@@ -6,8 +6,11 @@
 //! of the parameters the mass comes back to the stop without speed and without an impact ([`landing`]).
 
 pub mod chatter;
+mod impact;
 pub mod landing;
 pub mod sticking;
+
+pub use impact::ImpactState;
 
 use crate::system::Side;
 use core::f64::consts::PI;

@@ -18,7 +18,7 @@
 
 use super::frame::Frame;
 use super::polygon::{Bound, Polygon, Region, Vertex};
-use super::region::{RegionKind, RegionOptions};
+use super::region_options::{RegionKind, RegionOptions};
 use crate::math::hypot;
 use crate::system::{Oscillator, Parameter, Side};
 

@@ -4,7 +4,7 @@ use super::arc::tangent;
 use super::plane::{Condition, Plane};
 use super::polygon::Bound;
 use super::round::{REPEATED, Round};
-use super::search::Seed;
+use super::seed::Seed;
 use super::walk::Stride;
 use crate::orbit::{Floquet, Orbit, ring_cycle, solve};
 

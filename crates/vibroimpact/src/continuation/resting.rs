@@ -9,11 +9,17 @@ use super::course::{place, scale};
 use super::likeness::{Likeness, likeness};
 use super::options::{BranchError, BranchOptions, Direction};
 use super::point::{BranchEvent, Change, Point};
-use super::resting_event::Found;
 use crate::orbit::{Cycle, DEFAULT_EVENTS, Excursion};
 use crate::system::{Oscillator, Side, Varying};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
+
+/// An event: where, what, and the cycle there.
+pub(super) struct Found {
+    pub(super) value: f64,
+    pub(super) event: BranchEvent,
+    pub(super) cycle: Cycle,
+}
 
 /// A branch of cycles with rests.
 #[derive(Clone, Debug)]

@@ -9,21 +9,14 @@
 
 use super::likeness::{Likeness, likeness, shape, stretch};
 use super::point::{BranchEvent, Change, Touch};
-use super::resting::Resting;
+use super::resting::{Found, Resting};
 use super::root;
 use crate::contact::sticking::release_phase;
 use crate::flight::Flight;
 use crate::math::sin_cos;
-use crate::orbit::{Cycle, Excursion, Stretch, turning_near};
+use crate::orbit::{Excursion, Stretch, turning_near};
 use crate::system::{Oscillator, Side, phase};
 use core::f64::consts::PI;
-
-/// An event: where, what, and the cycle there.
-pub(super) struct Found {
-    pub(super) value: f64,
-    pub(super) event: BranchEvent,
-    pub(super) cycle: Cycle,
-}
 
 /// An impact that comes or goes.
 struct Touched {

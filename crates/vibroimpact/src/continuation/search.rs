@@ -3,21 +3,14 @@
 use super::frame::Frame;
 use super::plane::Plane;
 use super::polygon::{Bound, Polygon, Region};
-use super::region::{RegionKind, RegionOptions};
+use super::region_options::{RegionKind, RegionOptions};
 use super::round::{Edge, Round};
+use super::seed::Seed;
 use super::singular::INWARDS;
 use crate::math::sin_cos;
 use crate::orbit::{Cycle, DEFAULT_EVENTS, FindOptions, Orbit, Ring, from_release, struck};
 use crate::system::Oscillator;
 use crate::verdict::{Count, Label};
-
-/// An orbit at a point of the plane.
-#[derive(Clone, Debug)]
-pub(super) struct Seed {
-    pub(super) ring: Ring,
-    pub(super) osc: Oscillator,
-    pub(super) below: bool,
-}
 
 /// A closed walk, and what it went along.
 struct Sheet<'a> {

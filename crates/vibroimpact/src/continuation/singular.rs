@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::plane::Condition;
-use super::search::Seed;
+use super::seed::Seed;
 use crate::system::Side;
 
 /// What a cycle becomes when half of it is shifted onto the other half, on the same stops or mirrored.

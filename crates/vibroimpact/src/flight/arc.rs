@@ -9,8 +9,8 @@
 //! while $`\mu s`$ is small, $`\mu = \max(\beta, 1 + 2\zeta)`$ being the fastest rate in the system; beyond that it is
 //! taken from [`Response`](super::Response).
 
-use super::response::Response;
 use crate::math::sin_cos;
+use crate::system::Response;
 use crate::system::{Oscillator, Side, Start, phase};
 
 /// A point of a flight, a time `s` after its beginning.

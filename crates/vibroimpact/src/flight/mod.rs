@@ -11,15 +11,15 @@
 
 mod arc;
 mod bounds;
+mod contact;
 mod first_contact;
-mod free;
 mod horizon;
 mod reach;
-mod response;
 mod search;
 
+pub use crate::system::{Propagator, Response};
 pub use arc::{Flight, Point};
+pub use contact::Contact;
 pub(crate) use first_contact::counted;
-pub use first_contact::{Contact, first_contact};
+pub use first_contact::first_contact;
 pub use horizon::{Horizon, SearchLimits};
-pub use response::{Propagator, Response};

@@ -9,7 +9,7 @@
 use super::pack::Pack;
 use super::pair::Half;
 use super::single::EightSingle;
-use crate::math::{Lane, Mask, Numbers};
+use crate::math::{Lane, Mask, Numbers, sin_cos_lanes};
 use core::arch::x86_64::{
     __m256d, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_si256,
     _mm256_castps128_ps256, _mm256_castps256_ps128, _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_cvtpd_ps,
@@ -121,6 +121,11 @@ impl Half for Four {
 
 impl Lane for Four {
     type Rough = Pack<f32, 4>;
+
+    #[inline(always)]
+    fn sine_and_cosine(self) -> (Self, Self) {
+        sin_cos_lanes(self)
+    }
 
     #[inline(always)]
     fn widened(from: Pack<f32, 4>) -> Self {

@@ -7,7 +7,7 @@
 
 use super::pair::{Half, Pair};
 use super::single::EightSingle;
-use crate::math::{Lane, Mask, Numbers};
+use crate::math::{Lane, Mask, Numbers, sin_cos_lanes};
 use core::arch::x86_64::{
     __m512d, _CMP_LT_OQ, _MM_FROUND_NO_EXC, _MM_FROUND_TO_NEG_INF, _mm512_abs_pd, _mm512_add_pd, _mm512_and_pd,
     _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_cvtpd_ps, _mm512_cvtps_pd, _mm512_div_pd,
@@ -110,6 +110,11 @@ impl Half for Eight {
 
 impl Lane for Eight {
     type Rough = EightSingle;
+
+    #[inline(always)]
+    fn sine_and_cosine(self) -> (Self, Self) {
+        sin_cos_lanes(self)
+    }
 
     #[inline(always)]
     fn widened(from: EightSingle) -> Self {

@@ -12,9 +12,9 @@ use super::slots::{ARRIVAL, COS, INTERVAL, Lists, PHASE, SIDE, SIN, Slots, V, X,
 use super::stride::{NODES, Stride, Table};
 use super::strike::Launch;
 use super::width::Width;
+use crate::contact::ImpactState;
 use crate::contact::chatter;
 use crate::flight::{Contact, Flight, SearchLimits, counted};
-use crate::motion::ImpactState;
 use crate::system::{Oscillator, Side, Start};
 
 /// Motions under way at once that keep the lanes full and stay in the nearer caches: what [`Batch::new`] is best given where there

@@ -1,7 +1,7 @@
 //! The portable lane type: an array, operated on place by place, which the compiler turns into whatever vector
 //! instructions the target has (NEON on ARM, SSE2 on any x86-64).
 
-use crate::math::{Lane, Mask, Numbers, Single, turned};
+use crate::math::{Lane, Mask, Numbers, Single, sin_cos_lanes, turned};
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -84,6 +84,11 @@ impl<T: Numbers<Mask = bool>, const N: usize> Numbers for Pack<T, N> {
 
 impl<const N: usize> Lane for Pack<f64, N> {
     type Rough = Pack<f32, N>;
+
+    #[inline(always)]
+    fn sine_and_cosine(self) -> (Self, Self) {
+        sin_cos_lanes(self)
+    }
 
     #[inline(always)]
     fn widened(from: Pack<f32, N>) -> Self {

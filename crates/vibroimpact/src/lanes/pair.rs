@@ -1,6 +1,6 @@
 //! Two lanes side by side: twice the independent work between one result and the next that needs it.
 
-use crate::math::{Lane, Mask, Numbers, Single};
+use crate::math::{Lane, Mask, Numbers, Single, sin_cos_lanes};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A lane type of which two make one of a single-precision type.
@@ -93,6 +93,11 @@ impl<L: Numbers> Numbers for Pair<L> {
 
 impl<L: Half> Lane for Pair<L> {
     type Rough = L::Double;
+
+    #[inline(always)]
+    fn sine_and_cosine(self) -> (Self, Self) {
+        sin_cos_lanes(self)
+    }
 
     #[inline(always)]
     fn widened(from: L::Double) -> Self {

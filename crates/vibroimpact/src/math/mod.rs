@@ -9,6 +9,7 @@ mod exact;
 mod lane;
 mod lu;
 mod matrix;
+mod scalar;
 mod trig;
 
 pub(crate) use exact::{Sum, two_prod, two_sum};

@@ -14,31 +14,10 @@
 //!
 //! Its determinant is $`\varepsilon^2 e^{-2\zeta s}\,U_0/U_1`$ (in time and velocity), which the tests check.
 
-use super::{End, Event, EventKind, Motion};
+use super::{End, Event, EventKind, ImpactState, Motion};
 use crate::flight::SearchLimits;
 use crate::math::{Matrix2, sin_cos};
-use crate::system::{Oscillator, Side, Start};
-
-/// An arrival at a stop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImpactState {
-    /// Phase of the force, in $`[0, 2\pi)`$.
-    pub phase: f64,
-    /// Speed of arrival, towards the stop, not negative.
-    pub velocity: f64,
-    /// Which stop.
-    pub side: Side,
-}
-
-impl ImpactState {
-    /// The start that leaves the stop after this impact.
-    #[must_use]
-    pub fn rebound(&self, osc: &Oscillator) -> Start {
-        let (sign, stop) = (self.side.sign(), osc.stop(self.side));
-        let (gap, eps) = stop.map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
-        Start { x: sign * gap, v: -sign * eps * self.velocity, phase: self.phase }
-    }
-}
+use crate::system::Oscillator;
 
 /// What follows an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,7 +99,7 @@ pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, int
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::phase;
+    use crate::system::{Side, phase};
 
     fn step(osc: &Oscillator, state: &ImpactState) -> (ImpactState, f64) {
         match impact_map(osc, state, SearchLimits::default()) {

@@ -16,8 +16,9 @@ mod sample;
 mod strobes;
 mod stroboscopic;
 
+pub use crate::contact::ImpactState;
 pub use event::{End, Event, EventKind};
-pub use impact_map::{ImpactState, MAX_TOUCHES, Mapped, derivative, impact_map};
+pub use impact_map::{MAX_TOUCHES, Mapped, derivative, impact_map};
 pub use legs::{Leg, Motion, Path};
 pub use sample::{Sample, sample};
 pub use strobes::Strobes;

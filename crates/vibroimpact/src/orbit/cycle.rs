@@ -1,9 +1,9 @@
 //! A periodic motion: its impacts over one smallest period, its label and its Floquet multipliers.
 
+use super::label::Label;
 use crate::math::Multiplier;
 use crate::motion::ImpactState;
 use crate::system::{Side, phase};
-use crate::verdict::Label;
 
 /// An impact of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,35 +1,13 @@
 //! All periodic orbits of a label: Newton's method on the equations of the whole cycle, from many seeds.
 
 use super::grazing::grazes;
+use super::label::{Count, Label};
+use super::physical::Orbit;
 use super::ring::Ring;
-use super::{
-    Cycle, DEFAULT_EVENTS, EarlierContact, earlier_contact, flight_limits, from_release, newton, one_impact,
-    without_impacts,
-};
+use super::{DEFAULT_EVENTS, flight_limits, from_release, newton, one_impact, without_impacts};
 use crate::motion::{ImpactState, Mapped, impact_map};
 use crate::system::{Oscillator, Side};
-use crate::verdict::{Count, Label};
 use core::f64::consts::TAU;
-
-/// A periodic orbit, and whether it is a possible motion.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Orbit {
-    /// The cycle.
-    pub cycle: Cycle,
-    /// False for a solution of the equations that passes through a stop on its way.
-    pub physical: bool,
-    /// Where it does so first, `None` for a possible motion.
-    pub earlier: Option<EarlierContact>,
-}
-
-impl Orbit {
-    /// A cycle, and the judgement whether it is a possible motion.
-    #[must_use]
-    pub fn judged(osc: &Oscillator, cycle: Cycle) -> Self {
-        let earlier = earlier_contact(osc, &cycle);
-        Self { cycle, physical: earlier.is_none(), earlier }
-    }
-}
 
 /// How hard to look.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,10 +5,9 @@
 //! of the free oscillator over a period, $`e^{-2\pi\zeta/\beta}e^{\pm 2\pi i\sqrt{1-\zeta^2}/\beta}`$.
 
 use super::cycle::Cycle;
-use super::physical::EarlierContact;
+use super::label::Label;
 use crate::math::{Multiplier, asin, atan2, exp, sin_cos};
 use crate::system::{Oscillator, Side, phase};
-use crate::verdict::Label;
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// The steady motion of `osc` without impacts, a cycle called 0 that has no points; `None` without damping, where it is
@@ -75,10 +74,10 @@ pub(crate) fn crest(osc: &Oscillator, side: Side) -> f64 {
     phase::wrap(if side == Side::Upper { upper } else { upper + PI })
 }
 
-/// The first stop it meets from phase 0 on, if it is not possible; a touch to rounding counts as none.
-pub(super) fn met(osc: &Oscillator) -> Option<EarlierContact> {
+/// The first stop it meets from phase 0 on, and after what time, if it is not possible; a touch to rounding counts as none.
+pub(super) fn met(osc: &Oscillator) -> Option<(Side, f64)> {
     let beyond = |side: &Side| room(osc, *side) < -ROUNDING * osc.free_amplitude();
-    let mut met: Vec<EarlierContact> = osc
+    let mut met: Vec<(Side, f64)> = osc
         .stops()
         .map(|(side, _)| side)
         .filter(beyond)
@@ -86,10 +85,10 @@ pub(super) fn met(osc: &Oscillator) -> Option<EarlierContact> {
             let gap = osc.stop(side).map_or(0.0, |stop| stop.gap);
             // f cos(theta - crest) rises through the gap this long before the crest
             let ahead = FRAC_PI_2 - asin((gap / osc.free_amplitude()).clamp(-1.0, 1.0));
-            EarlierContact { flight: 0, side, time: phase::wrap(crest(osc, side) - ahead) / osc.beta() }
+            (side, phase::wrap(crest(osc, side) - ahead) / osc.beta())
         })
         .collect();
-    met.sort_by(|a, b| a.time.total_cmp(&b.time));
+    met.sort_by(|a, b| a.1.total_cmp(&b.1));
     met.first().copied()
 }
 

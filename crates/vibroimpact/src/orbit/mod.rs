@@ -3,11 +3,12 @@
 //! | idea | file |
 //! |---|---|
 //! | a periodic motion: its impacts, label, multipliers | [`Cycle`] |
+//! | its name m/n | [`Label`] |
 //! | one impact in n forcing periods, in closed form | [`one_impact`] |
 //! | Newton's method on the m-fold impact map | [`shoot`] |
 //! | cycles that stick, from their release | [`from_release`] |
 //! | the impacts of a cycle as unknowns, and their equations, smooth through grazing | `ring`, `cyclic` |
-//! | Newton's method on these equations, and their linear systems | [`refine`], `newton`, `condense` |
+//! | Newton's method on these equations, and their linear systems | `newton`, `condense`; [`refine`] |
 //! | multipliers and test functions from them | `floquet` |
 //! | whether a solution is a motion, and how close it comes to a stop | [`earlier_contact`], `clearance` |
 //! | whether an impact has no speed to within rounding | `grazing` |
@@ -22,20 +23,23 @@ mod find;
 mod floquet;
 mod free;
 mod grazing;
+mod label;
 mod newton;
 mod one_impact;
 mod physical;
+mod refine;
 mod release;
 mod ring;
 mod shooting;
 
 pub use cycle::{Cycle, CyclePoint, RestSpan};
 pub(crate) use find::struck;
-pub use find::{FindOptions, Orbit, find, find_while};
+pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
-pub use newton::refine;
+pub use label::{Count, Label, LabelError};
 pub use one_impact::{OneImpact, one_impact};
-pub use physical::{EarlierContact, earlier_contact};
+pub use physical::{EarlierContact, Orbit, earlier_contact};
+pub use refine::refine;
 pub use release::{DEFAULT_EVENTS, from_release};
 pub use shooting::{ShootingError, shoot};
 

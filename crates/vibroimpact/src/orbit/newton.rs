@@ -1,15 +1,14 @@
 //! Newton's method on the equations of a cycle at fixed parameters.
 
-use super::Orbit;
 use super::condense::correction;
 use super::cycle::{Cycle, CyclePoint};
 use super::cyclic::{Block, blocks, residual};
 use super::floquet::Floquet;
 use super::free;
+use super::label::Label;
 use super::ring::Ring;
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, phase};
-use crate::verdict::Label;
 
 /// A correction this small, relative, leaves nothing but rounding after it: convergence is quadratic.
 const SETTLED: f64 = 1e-8;
@@ -59,29 +58,6 @@ fn admissible(ring: &Ring, change: &[f64]) -> f64 {
         share = share.min(2.0 * speed / change[2 * k + 1].abs());
     }
     share
-}
-
-/// The cycle with the impacts of `guess`, on the same stops and in the same order, that solves the equations of `osc`;
-/// `None` if Newton's method does not converge from there, or `guess` has rests.
-///
-/// Only phases, speeds and intervals of the guess are used. Newton's method takes all impacts as unknown at once and no
-/// first contact, so it converges through grazing as elsewhere, also to solutions that are no motions: those are
-/// marked. The speed of an impact may come out zero or negative then.
-///
-/// ```
-/// use vibroimpact::{Oscillator, orbit::{one_impact, refine}};
-/// // followed by hand: from a damping of 0.05 to one of 0.06
-/// let osc = Oscillator::new(1.0, 2.0, 0.8)?.with_damping(0.05)?;
-/// let orbit = one_impact(&osc, 1).pop().expect("it exists");
-/// let other = osc.with_damping(0.06)?;
-/// let refined = refine(&other, &orbit.cycle).expect("it is near");
-/// assert!(refined.physical && refined.cycle.residual < 1e-14);
-/// # Ok::<(), vibroimpact::SystemError>(())
-/// ```
-#[must_use]
-pub fn refine(osc: &Oscillator, guess: &Cycle) -> Option<Orbit> {
-    let (ring, flights) = solve(osc, Ring::of(osc, guess)?)?;
-    Some(Orbit::judged(osc, cycle(osc, &ring, &flights)))
 }
 
 /// A ring as a cycle, with its multipliers; the fastest arrival first.

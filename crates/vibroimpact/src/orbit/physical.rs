@@ -18,6 +18,26 @@ pub struct EarlierContact {
     pub time: f64,
 }
 
+/// A periodic orbit, and whether it is a possible motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orbit {
+    /// The cycle.
+    pub cycle: Cycle,
+    /// False for a solution of the equations that passes through a stop on its way.
+    pub physical: bool,
+    /// Where it does so first, `None` for a possible motion.
+    pub earlier: Option<EarlierContact>,
+}
+
+impl Orbit {
+    /// A cycle, and the judgement whether it is a possible motion.
+    #[must_use]
+    pub fn judged(osc: &Oscillator, cycle: Cycle) -> Self {
+        let earlier = earlier_contact(osc, &cycle);
+        Self { cycle, physical: earlier.is_none(), earlier }
+    }
+}
+
 /// A contact this much of the flight's length before its end is the end itself, moved by the rounding that an
 /// unstable flight amplifies.
 const END: f64 = 1e-6;
@@ -34,7 +54,7 @@ pub fn earlier_contact(osc: &Oscillator, cycle: &Cycle) -> Option<EarlierContact
     }
     let m = cycle.points.len();
     if m == 0 {
-        return super::free::met(osc);
+        return super::free::met(osc).map(|(side, time)| EarlierContact { flight: 0, side, time });
     }
     let ring = Ring::of(osc, cycle);
     (0..m).find_map(|k| {

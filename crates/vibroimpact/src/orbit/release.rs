@@ -5,11 +5,11 @@
 //! has to converge, and both multipliers are 0: a neighbour that sticks forgets how it differed.
 
 use super::cycle::{Cycle, CyclePoint, RestSpan};
+use super::label::{Count, Label};
 use crate::contact::sticking::release_phase;
 use crate::math::Multiplier;
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Side};
-use crate::verdict::{Count, Label};
 
 /// Events followed before it counts as not coming back. A chatter takes some fifteen impacts at restitution 1/2.
 pub const DEFAULT_EVENTS: u32 = 4_000;

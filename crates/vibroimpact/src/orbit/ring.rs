@@ -1,8 +1,8 @@
 //! A closed sequence of impacts as a list of numbers: what the equations of a cycle are solved for.
 
 use super::cycle::Cycle;
+use super::label::Count;
 use crate::system::{Oscillator, Side, phase};
-use crate::verdict::Count;
 use core::f64::consts::TAU;
 
 /// The impacts of a cycle with their phases lifted, so that they increase along the cycle; speeds may be zero or

@@ -7,11 +7,11 @@
 //! exactly, give the multipliers, so a tiny one keeps its digits.
 
 use super::cycle::{Cycle, CyclePoint, distance};
+use super::label::Label;
 use crate::flight::SearchLimits;
 use crate::math::{Matrix2, eigenvalues, exp};
 use crate::motion::{ImpactState, Mapped, derivative, impact_map};
 use crate::system::{Oscillator, phase};
-use crate::verdict::Label;
 use core::f64::consts::TAU;
 use thiserror::Error;
 

@@ -3,6 +3,7 @@
 //! | idea | file |
 //! |---|---|
 //! | checked parameters of one oscillator | [`Oscillator`] |
+//! | its response in closed form, free and forced | [`Response`], `free` |
 //! | frequency ratios that are fractions | [`Oscillator::fraction`] |
 //! | its parameters by name, read and changed | [`Parameter`] |
 //! | a line through them | [`Varying`] |
@@ -12,9 +13,11 @@
 
 mod commensurable;
 mod error;
+mod free;
 mod oscillator;
 mod parameter;
 pub mod phase;
+mod response;
 mod start;
 mod units;
 mod varying;
@@ -22,6 +25,7 @@ mod varying;
 pub use error::SystemError;
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
+pub use response::{Propagator, Response};
 pub use start::Start;
 pub use units::{Frequency, Machine, Scales};
 pub use varying::Varying;

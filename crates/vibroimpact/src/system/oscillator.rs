@@ -14,8 +14,8 @@
 //! Equation numbers are those of K. Fukaya and T. Irie, "On the Transient Oscillation of a Vibro-Impact System",
 //! Bull. Fac. Eng. Hokkaido Univ. 62 (1971) 31-39, <https://hdl.handle.net/2115/41063>, which has no damping and one stop.
 
+use super::response::Response;
 use super::{SystemError, phase};
-use crate::flight::Response;
 use crate::math::hypot;
 
 /// Which of the two stops: the first, at `x = gap`, or the second, at `x = -gap` of its own.

@@ -1,7 +1,8 @@
 //! The distinct steady motions of a system, and the share of starts that lead to each.
 
+use super::options::SettleOptions;
 use super::outcome::Verdict;
-use super::settle::{SettleOptions, settle};
+use super::settle::settle;
 use crate::system::{Oscillator, Start};
 use core::f64::consts::TAU;
 

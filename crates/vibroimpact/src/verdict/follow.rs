@@ -4,12 +4,12 @@
 //! same bits, and so is the verdict.
 
 use super::graze_limit::Fading;
+use super::options::SettleOptions;
 use super::outcome::{Chaos, NoImpact, Undecided, Verdict};
 use super::recurrence::{self, Candidate};
-use super::settle::SettleOptions;
 use super::trap::Depth;
-use crate::chaos::{Measure, Spectrum};
 use crate::flight::SearchLimits;
+use crate::lyapunov::{Measure, Spectrum};
 use crate::motion::{End, ImpactState, MAX_TOUCHES};
 use crate::orbit::{Cycle, DEFAULT_EVENTS, from_release, shoot};
 use crate::system::{Oscillator, Side};

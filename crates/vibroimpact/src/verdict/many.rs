@@ -10,8 +10,9 @@
 use super::Found;
 use super::attractors::SAME;
 use super::follow::{Follow, Releases, ended};
+use super::options::SettleOptions;
 use super::outcome::Verdict;
-use super::settle::{Drive, SettleOptions, settle, settle_knowing};
+use super::settle::{Drive, settle, settle_knowing};
 use super::trap::Trap;
 use crate::flight::Contact;
 use crate::lanes::{ABREAST, Batch, Width};

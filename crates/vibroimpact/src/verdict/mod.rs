@@ -1,4 +1,4 @@
-//! Verdicts: what a motion settles into, proved rather than timed out.
+//! Verdicts: what a motion settles into, confirmed rather than timed out.
 //!
 //! | idea | file |
 //! |---|---|
@@ -14,18 +14,19 @@
 mod attractors;
 mod follow;
 pub mod graze_limit;
-mod label;
 mod many;
+mod options;
 mod outcome;
 mod paper_rule;
 mod recurrence;
 mod settle;
 mod trap;
 
+pub use crate::orbit::{Count, Label, LabelError};
 pub use attractors::{Census, Found, StartBox, attractors, scattered_starts};
 pub(crate) use follow::{Follow, Releases, ended};
-pub use label::{Count, Label, LabelError};
 pub use many::{Atlas, Settlement, settle_many};
+pub use options::SettleOptions;
 pub use outcome::{Chaos, NoImpact, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};
-pub use settle::{SettleOptions, Settled, settle, settle_while};
+pub use settle::{Settled, settle, settle_while};

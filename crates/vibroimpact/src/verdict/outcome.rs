@@ -1,7 +1,7 @@
 //! What a motion can settle into.
 
-use crate::chaos::Spectrum;
 use crate::flight::Horizon;
+use crate::lyapunov::Spectrum;
 use crate::math::Multiplier;
 use crate::orbit::Cycle;
 use crate::system::{Oscillator, Side};

@@ -25,11 +25,9 @@
 //! cancel and the plain quotient $`K = (e^{i\beta s} - C - i\beta S)/Z`$, $`Z = 1-\beta^2+2i\zeta\beta`$, is the better
 //! one: it takes $`\beta s`$ as it is, where the sum $`ws + 2h`$ would carry the rounding of the larger into the smaller.
 //!
-use super::free::{FreeResponse, decay, versine};
+use super::free::{FreeResponse, HEAVY, decay, versine};
 use crate::math::{Lane, sin_cos};
 
-/// From this damping on resonance is too flat to cancel anything.
-pub(super) const HEAVY: f64 = 0.5;
 /// Frequency ratios near enough to resonance for the formula that holds through it.
 const NEAR: core::ops::RangeInclusive<f64> = 0.5..=2.0;
 

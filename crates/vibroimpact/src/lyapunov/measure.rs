@@ -171,7 +171,7 @@ impl Measure {
 
 /// The logarithm of a product of many factors: they are multiplied as long as the product stays a number of ordinary size.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LogSum {
+pub(crate) struct LogSum {
     product: f64,
     sum: Sum,
 }
@@ -183,7 +183,7 @@ impl Default for LogSum {
 }
 
 impl LogSum {
-    pub(super) fn multiply(&mut self, factor: f64) {
+    pub(crate) fn multiply(&mut self, factor: f64) {
         let product = self.product * factor;
         if (1e-100..=1e100).contains(&product) {
             self.product = product;
@@ -194,11 +194,11 @@ impl LogSum {
     }
 
     /// A factor given by its logarithm.
-    pub(super) fn add(&mut self, logarithm: f64) {
+    pub(crate) fn add(&mut self, logarithm: f64) {
         self.sum.add(logarithm);
     }
 
-    pub(super) fn value(mut self) -> f64 {
+    pub(crate) fn value(mut self) -> f64 {
         self.sum.add(ln(self.product));
         self.sum.value()
     }

@@ -16,30 +16,30 @@
 use super::Measured;
 
 /// Blocks a run is cut into.
-pub(super) const BLOCKS: u64 = 128;
+pub(crate) const BLOCKS: u64 = 128;
 /// Fewer blocks say too little about their own scatter.
 const FEWEST: usize = 32;
 /// Sums are not known better than this, in parts of the sum of their absolute values.
 const ROUNDING: f64 = 1e-13;
 /// What another measure of length would change a logarithm of a stretch by.
-pub(super) const MEASURE: f64 = 1.0;
+pub(crate) const MEASURE: f64 = 1.0;
 
 /// What is summed over a block.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Block {
+pub(crate) struct Block {
     /// Logarithms of both stretches.
-    pub(super) stretch: [f64; 2],
+    pub(crate) stretch: [f64; 2],
     /// Logarithm of the area's change, exact.
-    pub(super) area: f64,
+    pub(crate) area: f64,
     /// Its length.
-    pub(super) time: f64,
+    pub(crate) time: f64,
     /// Its impacts.
-    pub(super) impacts: f64,
+    pub(crate) impacts: f64,
 }
 
 impl Block {
     /// Both one after the other.
-    pub(super) fn plus(&self, other: &Self) -> Self {
+    pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             stretch: [self.stretch[0] + other.stretch[0], self.stretch[1] + other.stretch[1]],
             area: self.area + other.area,
@@ -51,7 +51,7 @@ impl Block {
 
 /// The quotient of two sums and three standard errors of it, the upper sum being known to within `least` at best. Infinite sums
 /// have an infinite quotient without error.
-pub(super) fn quotient(
+pub(crate) fn quotient(
     blocks: &[Block],
     least: f64,
     above: impl Fn(&Block) -> f64,

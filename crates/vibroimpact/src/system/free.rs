@@ -7,8 +7,10 @@
 //! as $`\sin^2/(1+\cos)`$ where the cosine is positive, which holds its digits at each return to a whole period too, and
 //! under damping by its Taylor series while $`s`$ is small.
 
-use super::response::HEAVY;
 use crate::math::{Lane, exp, exp_m1, sin_cos, two_prod};
+
+/// From this damping on resonance is too flat to cancel anything.
+pub(super) const HEAVY: f64 = 0.5;
 
 /// From this damping on the two exponents are far enough apart to divide by their difference.
 const TWO_ROOTS: f64 = 1.2;

@@ -52,7 +52,7 @@ const NARROW: f64 = 1e-10;
 
 /// Two vectors at right angles that are carried along, and the logarithms of how they were stretched.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(crate) struct Frame {
     /// The first vector; the second stands upright on it, to the left.
     first: [f64; 2],
     stretch: [LogSum; 2],
@@ -68,7 +68,7 @@ impl Default for Frame {
 
 impl Frame {
     /// Through a flight of length `s` and the impact `at` its end; returns the logarithm of the area's exact change.
-    pub(super) fn through(&mut self, osc: &Oscillator, s: f64, at: &ImpactState) -> f64 {
+    pub(crate) fn through(&mut self, osc: &Oscillator, s: f64, at: &ImpactState) -> f64 {
         let pieces = (s / LONGEST).ceil().clamp(1.0, MOST_PIECES);
         let length = s / pieces;
         let (piece, decay) = (flight(osc, length), -2.0 * osc.damping() * length);
@@ -110,7 +110,7 @@ impl Frame {
     }
 
     /// The logarithms of both stretches since the last call, minus infinity for a stretch by 0.
-    pub(super) fn take(&mut self) -> [f64; 2] {
+    pub(crate) fn take(&mut self) -> [f64; 2] {
         let (stretch, lost) = (core::mem::take(&mut self.stretch), core::mem::take(&mut self.lost));
         [0, 1].map(|k| if lost[k] { f64::NEG_INFINITY } else { stretch[k].value() })
     }

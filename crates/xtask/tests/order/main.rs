@@ -1,0 +1,117 @@
+//! The order of the parts: folders of the core use those before them only, and no files of a crate use each other in a circle.
+//!
+//! Imports and paths are followed through what modules export again to the file that defines the name, so that an import from `mod.rs`
+//! hides nothing. Tests and documentation may look anywhere.
+
+mod tree;
+mod uses;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Folders of the core; each uses only those before it.
+const ORDER: [&str; 12] = [
+    "math",
+    "system",
+    "scenario.rs",
+    "flight",
+    "contact",
+    "lanes",
+    "motion",
+    "orbit",
+    "lyapunov",
+    "verdict",
+    "chaos",
+    "continuation",
+];
+
+/// The crates, and how many files stand in circles there.
+const CRATES: [(&str, usize); 9] = [
+    ("crates/vibroimpact/src/lib.rs", 0),
+    ("crates/vibroimpact-study/src/lib.rs", 0),
+    ("crates/vibroimpact-plot/src/lib.rs", 0),
+    ("crates/vibroimpact-report/src/lib.rs", 0),
+    ("crates/vibroimpact-web/src/lib.rs", 0),
+    ("crates/vibroimpact-cli/src/main.rs", 0),
+    ("crates/vibroimpact-py/src/lib.rs", 0),
+    ("crates/vibroimpact-fuzz/src/lib.rs", 0),
+    // its comparison with other programs is to become a script
+    ("crates/xtask/src/main.rs", 6),
+];
+
+fn file(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path)
+}
+
+/// Uses from one folder to another that does not stand before it.
+fn upwards(uses: &uses::Uses, source: &Path) -> BTreeSet<String> {
+    let name = |path: &Path| path.strip_prefix(source).map(|path| path.display().to_string()).unwrap_or_default();
+    let place = |path: &Path| {
+        let folder = name(path);
+        let folder = folder.split('/').next().unwrap_or_default();
+        ORDER.iter().position(|known| *known == folder)
+    };
+    let mut found = BTreeSet::new();
+    for (from, to) in uses.iter().flat_map(|(from, all)| all.iter().map(move |to| (from, to))) {
+        // the root exports what all of them have
+        if let Some(own) = place(from)
+            && place(to).is_none_or(|other| other > own)
+        {
+            found.insert(format!("{} uses {}", name(from), name(to)));
+        }
+    }
+    found
+}
+
+#[test]
+fn folders_of_the_core_use_those_before_them() {
+    let root = file("crates/vibroimpact/src/lib.rs");
+    let source = root.parent().expect("a file is in a folder");
+    let folders = std::fs::read_dir(source).expect("the folder is there").filter_map(Result::ok);
+    let unknown: Vec<String> = folders
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| name != "lib.rs" && !ORDER.contains(&name.as_str()))
+        .collect();
+    assert!(unknown.is_empty(), "these have no place in the order: {unknown:?}");
+    let found = upwards(&uses::of(&tree::read(&root)), source);
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn no_files_use_each_other_in_a_circle() {
+    for (path, known) in CRATES {
+        let circles = uses::circles(&uses::of(&tree::read(&file(path))));
+        let files: usize = circles.iter().map(Vec::len).sum();
+        assert!(files <= known, "{path}: {circles:#?}");
+        assert!(files >= known, "{path}: only {files} files stand in circles now, so the number here can be lowered");
+    }
+}
+
+/// The checks above can fail: a crate with an import upwards, once through a `pub use`.
+#[test]
+fn an_import_upwards_and_a_circle_are_found() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let at = |name: &str| folder.path().join(name);
+    for name in ["math", "verdict"] {
+        std::fs::create_dir(at(name)).expect("it can be made");
+    }
+    let write = |name: &str, text: &str| std::fs::write(at(name), text).expect("it can be written");
+    write("lib.rs", "pub mod math;\npub mod verdict;\npub use verdict::Verdict;\n");
+    write("math/mod.rs", "mod sum;\npub use sum::Sum;\n");
+    write("verdict/mod.rs", "mod verdict;\nmod other;\npub use verdict::Verdict;\n");
+    write("verdict/verdict.rs", "use crate::math::Sum;\npub struct Verdict(Sum);\n");
+    write("verdict/other.rs", "pub fn other() {}\n");
+    write("math/sum.rs", "pub struct Sum;\n#[cfg(test)]\nmod tests { use crate::Verdict; }\n");
+    let found = |root: &Path| {
+        let uses = uses::of(&tree::read(root));
+        (upwards(&uses, folder.path()), uses::circles(&uses).len())
+    };
+    let (none, no_circle) = found(&at("lib.rs"));
+    assert!(none.is_empty() && no_circle == 0, "{none:?}");
+    write("math/sum.rs", "use crate::Verdict;\npub struct Sum;\npub type Other = Option<Verdict>;\n");
+    let (one, circle) = found(&at("lib.rs"));
+    assert_eq!(one.into_iter().collect::<Vec<_>>(), ["math/sum.rs uses verdict/verdict.rs"]);
+    assert_eq!(circle, 1);
+    write("math/sum.rs", "pub struct Sum;\nfn there() { crate::verdict::Verdict::new(format!(\"{}\", 1)); }\n");
+    assert_eq!(found(&at("lib.rs")).0.len(), 1);
+}

@@ -1,0 +1,89 @@
+//! Which file uses which: imports and paths followed, through what other modules export again, to the file that defines the name.
+
+use crate::tree::{Module, Tree};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+/// For each file, those that it uses.
+pub(crate) type Uses = BTreeMap<PathBuf, BTreeSet<PathBuf>>;
+
+/// Re-exports followed one after another at most.
+const DEPTH: usize = 16;
+
+/// Follows every import and path of a crate. What a `mod.rs` or `lib.rs` only exports again is no use of it by that file.
+pub(crate) fn of(tree: &Tree) -> Uses {
+    let mut uses = Uses::new();
+    for (at, module) in tree {
+        let entry = uses.entry(module.file.clone()).or_default();
+        let root = module.file.ends_with("mod.rs") || at.is_empty();
+        let imported = module.imports.iter().filter(|import| !(root && import.exported)).map(|import| &import.path);
+        for path in imported.chain(&module.paths) {
+            entry.extend(resolve(tree, at, path, DEPTH).filter(|file| *file != module.file));
+        }
+    }
+    uses
+}
+
+/// The file that defines what `path`, written in the module `at`, means; `None` for what is of another crate or of the language.
+fn resolve(tree: &Tree, at: &[String], path: &[String], depth: usize) -> Option<PathBuf> {
+    let (first, rest) = path.split_first()?;
+    let depth = depth.checked_sub(1)?;
+    match first.as_str() {
+        "crate" => inside(tree, &[], rest, depth),
+        "self" => inside(tree, at, rest, depth),
+        "super" => {
+            let (mut at, mut rest) = (at.split_last()?.1, rest);
+            while let Some((next, after)) = rest.split_first().filter(|(next, _)| *next == "super") {
+                let _ = next;
+                (at, rest) = (at.split_last()?.1, after);
+            }
+            inside(tree, at, rest, depth)
+        }
+        _ => inside(tree, at, path, depth),
+    }
+}
+
+/// The same for a path within a module.
+fn inside(tree: &Tree, at: &[String], path: &[String], depth: usize) -> Option<PathBuf> {
+    let module: &Module = tree.get(at)?;
+    let Some((first, rest)) = path.split_first() else { return Some(module.file.clone()) };
+    let child = [at, core::slice::from_ref(first)].concat();
+    if tree.contains_key(&child) {
+        return inside(tree, &child, rest, depth);
+    }
+    if module.items.contains(first) {
+        return Some(module.file.clone());
+    }
+    let joined = |path: &[String]| [path, rest].concat();
+    let named = module.imports.iter().filter(|import| import.name.as_ref() == Some(first));
+    let named =
+        named.filter(|import| import.path != path).find_map(|import| resolve(tree, at, &joined(&import.path), depth));
+    named.or_else(|| {
+        let globs = module.imports.iter().filter(|import| import.name.is_none());
+        globs.into_iter().find_map(|import| resolve(tree, at, &[&import.path[..], path].concat(), depth))
+    })
+}
+
+/// Groups of files that use each other in a circle.
+pub(crate) fn circles(uses: &Uses) -> Vec<Vec<PathBuf>> {
+    let reach: BTreeMap<&PathBuf, BTreeSet<&PathBuf>> = uses.keys().map(|from| (from, reached(uses, from))).collect();
+    let mut found: BTreeSet<Vec<PathBuf>> = BTreeSet::new();
+    for (from, to) in &reach {
+        if to.contains(*from) {
+            found
+                .insert(to.iter().filter(|other| reach[**other].contains(*from)).map(|path| (*path).clone()).collect());
+        }
+    }
+    found.into_iter().collect()
+}
+
+fn reached<'a>(uses: &'a Uses, from: &PathBuf) -> BTreeSet<&'a PathBuf> {
+    let mut found = BTreeSet::new();
+    let mut next: Vec<&PathBuf> = uses[from].iter().collect();
+    while let Some(path) = next.pop() {
+        if found.insert(path) {
+            next.extend(uses.get(path).into_iter().flatten());
+        }
+    }
+    found
+}
