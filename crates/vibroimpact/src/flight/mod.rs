@@ -2,9 +2,9 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | the free response for every $`\zeta`$ | `free` |
-//! | free and forced response for every $`\beta`$ and $`\zeta`$ | [`Response`] |
+//! | free and forced response for every $`\beta`$ and $`\zeta`$ | [`Response`], in `system` |
 //! | the arc from a state | [`Flight`] |
+//! | what it meets first | [`Contact`] |
 //! | what can be said before searching: never, or how far to look | [`Horizon`] |
 //! | when it can reach a stop at all | `reach` |
 //! | the first contact, never missed, and the search for it | [`first_contact`], `search` |
