@@ -1,6 +1,6 @@
 //! What the command tells of a plan: as JSON, as a table, as a figure, and the command itself.
 
-use super::{Asked, Query, bytes, wants_events};
+use super::asked::{Asked, Query, bytes, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;

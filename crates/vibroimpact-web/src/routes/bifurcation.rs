@@ -1,7 +1,7 @@
 //! The bifurcation diagram along a line: the orbit diagram, and the branches of its motions over it.
 
 use super::answer::Wanted;
-use super::{Asked, Query, bytes, listed, wants_events};
+use super::asked::{Asked, Query, bytes, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;

@@ -1,6 +1,6 @@
 //! Lines over a plane: the edges of the regions in which motions are stable, and where the motion without stops touches one.
 
-use super::{Asked, Query, listed, wants_events};
+use super::asked::{Asked, Query, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::packed::Named;

@@ -1,6 +1,6 @@
 //! A piece of a plane: of a map, or of a basin.
 
-use super::{Asked, bytes};
+use super::asked::{Asked, bytes};
 use crate::refusal::Refusal;
 use crate::workshop::Bench;
 use crate::{Explorer, packed};

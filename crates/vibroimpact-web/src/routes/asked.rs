@@ -1,0 +1,74 @@
+//! What a request asks, read and checked, and bytes as an answer.
+
+use crate::bounds;
+use crate::refusal::Refusal;
+use axum::body::Bytes;
+use axum::extract::{FromRequest, FromRequestParts, Request};
+use axum::http::request::Parts;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use core::time::Duration;
+use serde::de::DeserializeOwned;
+use vibroimpact_report::answer::work;
+use vibroimpact_study::{Plan, PlanError};
+
+/// A plan that makes sense and is not too much.
+pub(crate) struct Asked {
+    pub(crate) plan: Plan,
+    /// Its points, for progress.
+    pub(crate) points: u64,
+}
+
+/// What a query asks for; one that does not read is refused as a plan that does not.
+pub(crate) struct Query<T>(pub(crate) T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
+    type Rejection = Refusal;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Refusal> {
+        let read = axum::extract::Query::<T>::from_request_parts(parts, state).await;
+        read.map(|query| Self(query.0)).map_err(|refused| {
+            let why = refused.body_text();
+            // what the parser was at is in the first words of ours
+            let why = why.strip_prefix("Failed to deserialize query string: ").unwrap_or(&why);
+            Refusal::bad(format!("the query `{}` does not read: {why}", parts.uri.query().unwrap_or_default()))
+        })
+    }
+}
+
+/// How long a client may take to send a plan.
+const SENDING: Duration = Duration::from_secs(10);
+
+impl<S: Send + Sync> FromRequest<S> for Asked {
+    type Rejection = Refusal;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Refusal> {
+        let body = tokio::time::timeout(SENDING, Bytes::from_request(request, state)).await;
+        let body = body
+            .map_err(|_| Refusal::new(StatusCode::REQUEST_TIMEOUT, "the plan did not arrive within 10 seconds"))?
+            .map_err(|why| Refusal::new(why.status(), format!("the plan cannot be read: {}", why.body_text())))?;
+        let text = core::str::from_utf8(&body).map_err(|_| Refusal::bad("the plan is no text"))?;
+        let plan = Plan::from_json(text).map_err(|error| match error {
+            PlanError::Text(why) => Refusal::bad(format!("this is no plan: {why}")),
+            other => other.into(),
+        })?;
+        plan.check()?;
+        bounds::check(&plan)?;
+        Ok(Self { points: work(&plan).map_or(1, |(points, _)| points), plan })
+    }
+}
+
+/// Whether the page wants to be told how far it is.
+pub(super) fn wants_events(headers: &HeaderMap) -> bool {
+    headers.get(header::ACCEPT).is_some_and(|kind| kind.as_bytes().starts_with(b"text/event-stream"))
+}
+
+/// Labels with commas between.
+pub(super) fn listed(labels: &str) -> Vec<String> {
+    labels.split(',').map(|label| label.trim().to_owned()).collect()
+}
+
+/// Bytes of a kind; nothing is kept by the browser but what the page keeps.
+pub(super) fn bytes(kind: &'static str, body: Bytes) -> Response {
+    ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, "no-store")], body).into_response()
+}
