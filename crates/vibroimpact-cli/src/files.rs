@@ -1,6 +1,6 @@
 //! Output files: refused before anything is computed, written beside their place and renamed into it when complete.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};

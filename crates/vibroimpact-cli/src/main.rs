@@ -7,6 +7,7 @@ mod args;
 mod commands;
 mod complain;
 mod exit;
+mod failure;
 mod files;
 mod measure;
 mod picture;

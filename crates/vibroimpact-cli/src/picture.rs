@@ -1,6 +1,6 @@
 //! The files of figures.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::files::Target;
 use std::path::Path;
 use vibroimpact_plot::{DPI_300, Figure};

@@ -2,7 +2,7 @@
 
 use crate::args::Globals;
 use crate::complain::complain;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::signal;
 use serde::Serialize;

@@ -4,7 +4,7 @@
 //! little later it ends anyhow, just as cleanly, because files appear only when they are complete.
 
 use crate::complain::complain;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::files;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};

@@ -1,7 +1,7 @@
 //! AXES: in which order the parameters that vary are the axes.
 
 use super::vary::{flag, parameter};
-use crate::exit::Failure;
+use crate::failure::Failure;
 use clap::Args;
 use vibroimpact_study::Parameter;
 

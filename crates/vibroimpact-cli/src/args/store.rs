@@ -1,7 +1,7 @@
 //! STORE: where the results of a grid go, tile by tile.
 
 use super::whole;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use clap::Args;
 use core::str::FromStr;
 use vibroimpact_report::Units;

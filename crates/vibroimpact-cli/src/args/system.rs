@@ -1,7 +1,7 @@
 //! SYSTEM: the oscillator, nondimensional or as a machine in physical units.
 
 use super::number;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use clap::{Args, ValueEnum};
 use vibroimpact::{Frequency, Machine};
 use vibroimpact_report::{Asked, Units};

@@ -1,7 +1,7 @@
 //! VARY: the parameter that takes all values of a range, and the system without it.
 
 use super::SystemArgs;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vibroimpact_report::Asked;
 use vibroimpact_study::{Parameter, SystemPlan};

@@ -3,7 +3,7 @@
 use crate::args::{StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::text::{self, multipliers};
 use crate::session::Session;
 use clap::Args;

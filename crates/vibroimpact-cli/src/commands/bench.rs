@@ -1,6 +1,6 @@
 //! `vibro bench`: the rates of this machine.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::measure::{Rates, Workload, measure};
 use crate::session::Session;
 use crate::signal;

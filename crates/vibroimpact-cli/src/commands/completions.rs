@@ -1,6 +1,6 @@
 //! `vibro completions SHELL`.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, Command};
 use clap_complete::Shell;

@@ -2,7 +2,7 @@
 
 use crate::args::{Named, Over, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::curve::text;
 use crate::report::text as words;
 use crate::session::Session;

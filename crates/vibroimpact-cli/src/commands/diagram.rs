@@ -3,7 +3,7 @@
 use crate::args::{Ends, Named, StoreArgs, SystemArgs, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::text;
 use crate::session::Session;
 use clap::{Args, ValueEnum};

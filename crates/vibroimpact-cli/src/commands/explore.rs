@@ -1,6 +1,6 @@
 //! `vibro explore`: the plane of motions on a local page.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use crate::signal;
 use clap::Args;

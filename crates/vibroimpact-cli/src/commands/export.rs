@@ -2,7 +2,7 @@
 
 use super::stored;
 use crate::commands::outputs::Outputs;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::stored::table;
 use crate::session::Session;
 use clap::Args;

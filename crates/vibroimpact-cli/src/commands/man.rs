@@ -1,6 +1,6 @@
 //! `vibro man [DIR]`.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::files::Target;
 use crate::session::Session;
 use clap::{Args, Command};

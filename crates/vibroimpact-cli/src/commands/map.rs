@@ -3,7 +3,7 @@
 use crate::args::{AxesArgs, Ranged, StoreArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::stored;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::stored::label_table;
 use crate::session::Session;
 use clap::Args;

@@ -28,7 +28,7 @@ mod stored;
 mod verify;
 
 use crate::args::Globals;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use clap::{CommandFactory, Parser, Subcommand};
 

@@ -1,7 +1,7 @@
 //! `vibro orbit`: the periodic orbits of a label, stable or not.
 
 use crate::args::SystemArgs;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::orbit::text;
 use crate::report::text as words;
 use crate::session::Session;

@@ -1,6 +1,6 @@
 //! What a grid command writes: a table, a picture, or both, reserved before anything is computed.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::files::Target;
 use crate::picture::Picture;
 use crate::session::Session;

@@ -1,7 +1,7 @@
 //! `vibro plot`: the figure of a store.
 
 use super::stored;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::picture::Picture;
 use crate::session::Session;
 use clap::Args;

@@ -2,7 +2,7 @@
 
 use crate::args::{AxesArgs, Convention, MachineArgs, Place, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::region::text;
 use crate::session::Session;
 use clap::Args;

@@ -1,6 +1,6 @@
 //! `vibro reproduce`: the 1971 paper, figure by figure.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use fukaya_irie_1971::{Error, Options, reproduce};

@@ -2,7 +2,7 @@
 
 use super::stored;
 use crate::args::Tiles;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::stored as report;
 use crate::session::Session;
 use clap::Args;

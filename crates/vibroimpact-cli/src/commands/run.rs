@@ -3,7 +3,7 @@
 use super::stored;
 use crate::args::Tiles;
 use crate::commands::outputs::Outputs;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};

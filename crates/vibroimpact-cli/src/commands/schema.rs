@@ -1,6 +1,6 @@
 //! `vibro schema`: what may be in a plan.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use vibroimpact_study::Plan;
 

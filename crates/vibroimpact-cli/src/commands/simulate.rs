@@ -2,7 +2,7 @@
 
 use crate::args::{StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::text;
 use crate::session::Session;
 use crate::signal;

@@ -2,7 +2,7 @@
 
 use super::run::{default_store, read};
 use crate::args::within;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};

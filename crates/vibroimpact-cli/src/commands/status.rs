@@ -1,7 +1,7 @@
 //! `vibro status`: how far a store is.
 
 use super::stored;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;

@@ -1,7 +1,7 @@
 //! What the commands that fill a store share: run, say what was done, and write tables and figures from it.
 
 use crate::commands::outputs::Outputs;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::stored as report;
 use crate::session::Session;
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use super::stored;
 use crate::args::whole;
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;

@@ -1,6 +1,6 @@
 //! What is in a store: a summary, and a table with a row for each point and motion.
 
-use crate::exit::Failure;
+use crate::failure::Failure;
 use crate::report::text::table as columns_of_text;
 use serde::Serialize;
 use std::collections::BTreeMap;

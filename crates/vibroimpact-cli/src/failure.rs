@@ -1,0 +1,98 @@
+//! Why a command did not finish.
+
+use std::fmt::Display;
+use std::io;
+use vibroimpact_plot::PlotError;
+use vibroimpact_report::ReportError;
+use vibroimpact_study::{PlanError, RunError, Stopped, StoreError};
+
+/// Why a command did not finish. The texts may carry a second line, `hint: ...`.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    /// The question makes no sense, or its answer has nowhere to go.
+    #[error("{0}")]
+    BadQuestion(String),
+    /// It was a good question, but something outside failed.
+    #[error("{0}")]
+    Failed(String),
+    /// Stopped by Ctrl-C.
+    #[error("{0}")]
+    Stopped(String),
+    /// Whoever read the output has enough; that is no failure.
+    #[error("the reader of the output is gone")]
+    PipeClosed,
+}
+
+impl Failure {
+    pub(crate) fn bad(sentence: impl Display) -> Self {
+        Self::BadQuestion(sentence.to_string())
+    }
+
+    /// Writing to `to` went wrong.
+    pub(crate) fn writing(to: impl Display, error: &io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Self::PipeClosed
+        } else {
+            Self::Failed(format!("cannot write {to}: {error}"))
+        }
+    }
+}
+
+impl From<PlanError> for Failure {
+    fn from(error: PlanError) -> Self {
+        Self::bad(error)
+    }
+}
+
+impl From<vibroimpact::SystemError> for Failure {
+    fn from(error: vibroimpact::SystemError) -> Self {
+        Self::bad(error)
+    }
+}
+
+impl From<Stopped> for Failure {
+    fn from(error: Stopped) -> Self {
+        Self::Stopped(format!("{error}; nothing was written"))
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Plan(error) => error.into(),
+            RunError::Stopped(error) => error.into(),
+        }
+    }
+}
+
+impl From<StoreError> for Failure {
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::Plan(error) => error.into(),
+            StoreError::Stopped(_) => Self::Stopped(format!("{error}; `vibro resume` goes on")),
+            StoreError::Read { .. }
+            | StoreError::Write { .. }
+            | StoreError::Begin { .. }
+            | StoreError::Damaged { .. }
+            | StoreError::DamagedTile { .. }
+            | StoreError::Threads(_) => Self::Failed(error.to_string()),
+            _ => Self::bad(error),
+        }
+    }
+}
+
+impl From<PlotError> for Failure {
+    fn from(error: PlotError) -> Self {
+        Self::Failed(format!("the figure failed: {error}"))
+    }
+}
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Self {
+        match error {
+            ReportError::Plot(error) => error.into(),
+            ReportError::Store(error) => error.into(),
+            _ => Self::bad(error),
+        }
+    }
+}
