@@ -378,3 +378,15 @@ fn f01_no_verdict_is_refuted_by_its_own_motion() {
         assert!(10 * transient <= count, "{name}: {transient} of {count}");
     }
 }
+
+/// A long flight may use up the search steps of its budget: lanes that had passed part of it decided where a motion alone did not.
+#[test]
+fn f04c_search_steps_run_out_alike_alone_and_among_others() {
+    let osc = Oscillator::new(2.368_057_704_029_446_6, 2.375_691_530_179_395_3, 0.000_003_367_602_745_555_188).unwrap();
+    let start = Start::new(&osc, 0.100_487_725_565_471_92, -2.845_508_495_135_939, 2.239_863_638_916_5).unwrap();
+    let options = SettleOptions::at_most(2000);
+    let alone = settle(&osc, start, &options).verdict;
+    assert_eq!(alone.label(), "undecided");
+    let among = settle_many(&osc, 0..64, |_| start, &Atlas::default(), &options, Width::best(), &|| false);
+    assert!(among.motions.len() == 1 && among.motions[0].verdict == alone, "{:?}", among.motions);
+}
