@@ -138,9 +138,11 @@ export async function f10_positions_on_a_line_are_positions({ open, folder }) {
   page.on("response", (response) => {
     if (response.url().includes("/api/bifurcation")) response.text().then((text) => answers.push(text)).catch(() => {});
   });
+  await page.reload();
   await image.waitFor({ timeout: 120000 });
+  await until("velocities", async () => (answers.at(-1) ?? "").includes("arrival velocity"), 120);
   await page.locator("#show").selectOption("strobe");
-  await until("positions", async () => (answers.at(-1) ?? "").includes("at phase 0"), 60);
+  await until("positions", async () => answers.at(-1).includes("at phase 0"), 120);
   assert.ok(!answers.at(-1).includes("arrival velocity"));
   await page.screenshot({ path: `${folder}/line-strobe.png` });
 }

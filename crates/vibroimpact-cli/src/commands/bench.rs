@@ -1,5 +1,6 @@
 //! `vibro bench`: the rates of this machine.
 
+use crate::args::number;
 use crate::failure::Failure;
 use crate::measure::{Rates, Workload, measure};
 use crate::session::Session;
@@ -69,7 +70,7 @@ fn name(width: Width) -> &'static str {
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| format!("seconds `{text}` is not a number"))?;
+    let value = number(text)?;
     if (0.01..=3600.0).contains(&value) {
         Ok(value)
     } else {

@@ -33,8 +33,9 @@ fn resolve(tree: &Tree, at: &[String], path: &[String], depth: usize) -> Option<
         "self" => inside(tree, at, rest, depth),
         "super" => {
             let (mut at, mut rest) = (at.split_last()?.1, rest);
-            while let Some((next, after)) = rest.split_first().filter(|(next, _)| *next == "super") {
-                let _ = next;
+            while let [next, after @ ..] = rest
+                && next == "super"
+            {
                 (at, rest) = (at.split_last()?.1, after);
             }
             inside(tree, at, rest, depth)
