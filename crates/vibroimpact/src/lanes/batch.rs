@@ -7,7 +7,7 @@
 //! [`flight`](crate::flight) from the launch, which is what a scalar [`Motion`](crate::motion::Motion) does in the same cases. So the
 //! impacts of a slot are those of a motion bit for bit, whatever the width of the lanes.
 
-use super::flight::{Hit, Progress, found};
+use super::flight::{Hit, Progress};
 use super::slots::{ARRIVAL, COS, INTERVAL, Lists, PHASE, SIDE, SIN, Slots, V, X, rebound, row};
 use super::stride::{NODES, Stride, Table};
 use super::strike::Launch;
@@ -17,8 +17,6 @@ use crate::contact::chatter;
 use crate::flight::{Contact, Flight, SearchLimits, counted};
 use crate::system::{Oscillator, Side, Start};
 
-/// Twice as many steps of a careful search as it takes for a radian of force and oscillator, and more.
-const PACE: f64 = 8.0;
 /// Motions under way at once that keep the lanes full and stay in the nearer caches: what [`Batch::new`] is best given where there
 /// are so many.
 pub const ABREAST: usize = 1024;
@@ -163,10 +161,7 @@ impl Batch {
     pub fn carefully(&mut self, slot: u32, limits: SearchLimits) -> (Contact, u32) {
         let flight = Flight::new(&self.osc, self.launched(slot));
         let clear = f64::from(self.slots.state(slot as usize).s);
-        let quick = counted(&self.osc, &flight, limits, clear);
-        // where steps may run out it matters from where the search begins: then it is made as a motion alone makes it
-        let ample = quick.1 <= limits.steps / 4 && PACE * clear * (1.0 + self.osc.beta()) <= f64::from(limits.steps);
-        let (contact, steps) = if ample { quick } else { found(Some(&self.stride), &self.osc, &flight, limits) };
+        let (contact, steps) = counted(&self.osc, &flight, limits, clear);
         if let Contact::Impact { time, side, velocity } = contact {
             self.struck_at(slot, Hit { time, velocity, side: side.sign() });
         }

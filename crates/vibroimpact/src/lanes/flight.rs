@@ -30,9 +30,6 @@ pub(crate) fn found(
     }
 }
 
-/// Nearer to a stop than this, and slower, is left to the careful search at once.
-const LINGERS: f64 = 1e-9;
-
 /// A first contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hit {
@@ -61,9 +58,6 @@ impl Stride {
     }
 
     fn fly(&self, launch: &Launch<f64>) -> Result<Hit, f64> {
-        if self.lingers(launch) {
-            return Err(0.0);
-        }
         let mut state = launch.state().rough();
         loop {
             let next = self.rough.step(state);
@@ -86,12 +80,6 @@ impl Stride {
                 return Err(f64::from(state.s));
             }
         }
-    }
-
-    /// On a stop, or as good as on it, and not leaving: nothing here will help.
-    pub(super) fn lingers(&self, launch: &Launch<f64>) -> bool {
-        let at = |gap: f64, x: f64, v: f64| gap - x < LINGERS * (1.0 + gap.abs()) && v > -LINGERS;
-        at(self.gap[0], launch.x, launch.v) || at(self.gap[1], -launch.x, -launch.v)
     }
 
     /// Past the last step that lanes fly.

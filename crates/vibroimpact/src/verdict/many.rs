@@ -36,7 +36,7 @@ impl Atlas {
             let verdict = settle_knowing(osc, start, options, &mut atlas.releases).verdict;
             if let Verdict::Periodic(cycle) = &verdict
                 && !atlas.known.iter().any(|(other, _)| other.same_as(&verdict, SAME))
-                && let Some(trap) = Trap::around(osc, cycle)
+                && let Some(trap) = Trap::around(osc, cycle, options.limits.steps)
             {
                 atlas.known.push((verdict, trap));
             }

@@ -14,6 +14,7 @@
 //! motion.
 
 use super::recurrence;
+use crate::flight::SearchLimits;
 use crate::math::{Matrix2, sin_cos};
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::orbit::{Cycle, Lap, flight_limits};
@@ -54,12 +55,15 @@ const SLOWEST: f64 = 0.97;
 
 impl Trap {
     /// The largest trap about the first impact of a stable `cycle` without rests; `None` if there is none worth having.
-    pub(super) fn around(osc: &Oscillator, cycle: &Cycle) -> Option<Self> {
+    /// Flights from its rims end within half of the `steps` that a search may take, so those from inside end within all of them.
+    pub(super) fn around(osc: &Oscillator, cycle: &Cycle, steps: u32) -> Option<Self> {
         let center = cycle.points.first()?.state;
         if !cycle.rests.is_empty() || cycle.multipliers[0].modulus() > SLOWEST {
             return None;
         }
-        let lap = lap(osc, cycle, center)?;
+        let usual = flight_limits(cycle.label.periods);
+        let limits = SearchLimits { steps: usual.steps.min(steps / 2), ..usual };
+        let lap = lap(osc, cycle, center, limits)?;
         let p = norm(&lap.derivative, center.velocity)?;
         let [a, b, c] = p;
         // theta^2 = 1 - 1 / the largest eigenvalue of Q^-1 P
@@ -68,7 +72,7 @@ impl Trap {
         let largest = 0.5 * trace + (0.25 * trace * trace - det).max(0.0).sqrt();
         let bound = 0.5 * (1.0 + (1.0 - 1.0 / largest).max(0.0).sqrt());
         let (mut r, mut passed) = (SMALLEST, 0);
-        while r <= LARGEST && rim_returns(osc, cycle, p, r, bound) {
+        while r <= LARGEST && rim_returns(osc, cycle, (p, r, bound), limits) {
             passed += 1;
             r *= RATIO;
         }
@@ -88,7 +92,7 @@ impl Trap {
         let turns = turns as u32;
         let depth = Depth {
             impacts: turns as usize * cycle.points.len(),
-            steps: 2 * u64::from(turns) * steps(osc, cycle, center),
+            steps: 2 * u64::from(turns) * steps_of_turn(osc, cycle, center),
         };
         Some(Self { center, form: p.map(|x| x / (r * r)), depth })
     }
@@ -114,7 +118,7 @@ impl Trap {
 }
 
 /// Search steps of a turn of the cycle.
-fn steps(osc: &Oscillator, cycle: &Cycle, from: ImpactState) -> u64 {
+fn steps_of_turn(osc: &Oscillator, cycle: &Cycle, from: ImpactState) -> u64 {
     let mut motion = Motion::after(osc, &from, flight_limits(cycle.label.periods));
     let _ = motion.by_ref().filter(|event| matches!(event.kind, EventKind::Impact { .. })).nth(cycle.points.len() - 1);
     motion.steps()
@@ -138,9 +142,9 @@ fn norm(j: &Matrix2, speed: f64) -> Option<[f64; 3]> {
 }
 
 /// The lap from a state, if it makes the impacts of the cycle on its stops.
-fn lap(osc: &Oscillator, cycle: &Cycle, from: ImpactState) -> Option<Lap> {
+fn lap(osc: &Oscillator, cycle: &Cycle, from: ImpactState, limits: SearchLimits) -> Option<Lap> {
     let m = u32::try_from(cycle.points.len()).ok()?;
-    let lap = Lap::fly(osc, from, m, flight_limits(cycle.label.periods)).ok()?;
+    let lap = Lap::fly(osc, from, m, limits).ok()?;
     let same = lap.points.iter().zip(&cycle.points).all(|((state, _), point)| state.side == point.state.side);
     let whole = (lap.turned - TAU * f64::from(cycle.label.periods)).abs() < PI;
     (same && whole && lap.last.side == from.side).then_some(lap)
@@ -165,13 +169,13 @@ fn rim(cycle: &Cycle, [a, b, c]: [f64; 3], r: f64) -> impl Iterator<Item = Impac
     })
 }
 
-fn rim_returns(osc: &Oscillator, cycle: &Cycle, p: [f64; 3], r: f64, bound: f64) -> bool {
+fn rim_returns(osc: &Oscillator, cycle: &Cycle, (p, r, bound): ([f64; 3], f64, f64), limits: SearchLimits) -> bool {
     let (center, [a, b, c]) = (cycle.points[0].state, p);
     rim(cycle, p, r).all(|from| {
         if from.velocity <= 0.0 {
             return false;
         }
-        lap(osc, cycle, from).is_some_and(|lap| {
+        lap(osc, cycle, from, limits).is_some_and(|lap| {
             let turn = crate::system::phase::difference(lap.last.phase, center.phase);
             let speed = lap.last.velocity - center.velocity;
             let size = (a * turn + 2.0 * b * speed) * turn + c * speed * speed;
@@ -195,7 +199,7 @@ mod tests {
             let osc = point.oscillator();
             for found in attractors(&osc, 40, 1, &SettleOptions::default()).motions() {
                 let Verdict::Periodic(cycle) = &found.verdict else { continue };
-                let Some(trap) = Trap::around(&osc, cycle) else { continue };
+                let Some(trap) = Trap::around(&osc, cycle, SearchLimits::default().steps) else { continue };
                 traps += 1;
                 let [a, b, c] = trap.form;
                 let mut inside = 0;
