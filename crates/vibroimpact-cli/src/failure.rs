@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::io;
 use vibroimpact_plot::PlotError;
-use vibroimpact_report::ReportError;
+use vibroimpact_report::{AnswerError, ReportError};
 use vibroimpact_study::{PlanError, RunError, Stopped, StoreError};
 
 /// Why a command did not finish. The texts may carry a second line, `hint: ...`.
@@ -77,6 +77,16 @@ impl From<StoreError> for Failure {
             | StoreError::DamagedTile { .. }
             | StoreError::Threads(_) => Self::Failed(error.to_string()),
             _ => Self::bad(error),
+        }
+    }
+}
+
+impl From<AnswerError> for Failure {
+    fn from(error: AnswerError) -> Self {
+        match error {
+            AnswerError::Plan(error) => error.into(),
+            AnswerError::Stopped(error) => error.into(),
+            AnswerError::Report(error) => error.into(),
         }
     }
 }

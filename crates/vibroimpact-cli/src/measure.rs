@@ -1,8 +1,10 @@
 //! The workloads of `vibro bench`: what is done over and over, and how fast.
 
+use crate::signal;
 use clap::ValueEnum;
 use serde::Serialize;
 use std::hint::black_box;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::lanes::{ABREAST, Batch, Width};
@@ -63,7 +65,7 @@ const SLICE: Duration = Duration::from_millis(50);
 fn median_rate(duration: Duration, mut work: impl FnMut() -> usize) -> f64 {
     let begin = Instant::now();
     let mut rates = Vec::new();
-    while rates.is_empty() || begin.elapsed() < duration {
+    while rates.is_empty() || (begin.elapsed() < duration && !signal::flag().load(Ordering::Relaxed)) {
         let (slice, mut done) = (Instant::now(), 0);
         while slice.elapsed() < SLICE.min(duration) {
             done += work();

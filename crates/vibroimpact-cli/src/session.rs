@@ -55,6 +55,14 @@ impl Session {
         }
     }
 
+    /// Runs work with threads and stop flag, and a progress bar where there is something to count.
+    pub(crate) fn watched<T>(&self, work: Option<(u64, &str)>, run: impl FnOnce(&Control<'_>) -> T) -> T {
+        match work {
+            Some((total, unit)) => self.tiled(total, unit, |control, _| run(control)),
+            None => run(&Control { stop: signal::flag(), progress: &|_| {}, threads: self.threads }),
+        }
+    }
+
     /// Runs tiled work with threads, stop flag and progress bar.
     pub(crate) fn tiled<T>(&self, total: u64, unit: &str, work: impl FnOnce(&Control<'_>, &Progress) -> T) -> T {
         let progress = Progress::new(total, unit, self.quiet);

@@ -6,8 +6,8 @@ use crate::motion::Fields;
 use crate::oscillator::Oscillator;
 use crate::simulate::text;
 use pyo3::prelude::*;
-use vibroimpact::verdict::{SettleOptions, StartBox};
-use vibroimpact_study::{Plan, Task};
+use vibroimpact::verdict::StartBox;
+use vibroimpact_study::{Plan, Results, Task};
 
 /// The fields of `Attractors`.
 #[derive(IntoPyObject)]
@@ -31,13 +31,11 @@ pub(crate) fn attractors(
     progress: Option<Py<PyAny>>,
 ) -> Result<Found<'_>, Trouble> {
     let plan = Plan::new(osc.plan, Task::Attractors { starts, seed });
-    plan.check()?;
     let osc = osc.osc;
     let area = StartBox::natural(&osc);
     let watch = Watch { what: "looking for attractors", total: starts, progress, threads };
-    let census = door::run(py, watch, move |control| {
-        Ok(vibroimpact_study::attractors(&osc, area, (starts, seed), &SettleOptions::default(), control)?)
-    })?;
+    let census =
+        door::result(py, watch, &plan, |of| if let Results::Attractors(census) = of { Some(census) } else { None })?;
     let motions = census
         .by_share()
         .into_iter()

@@ -11,7 +11,7 @@ use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use vibroimpact::continuation::{BranchEvent, Point};
 use vibroimpact::orbit::Cycle;
-use vibroimpact_study::{BranchPlan, Cut, Followed, Plan, Target, Task, Told, branches};
+use vibroimpact_study::{BranchPlan, Cut, Followed, Plan, Results, Target, Task, Told};
 
 /// Cycles one after another, and where each begins.
 #[derive(IntoPyObject)]
@@ -153,11 +153,9 @@ pub(crate) fn branch<'py>(
     let also = also.map(|(name, to)| Ok::<_, Trouble>(Target { parameter: parameter(&name)?, to })).transpose()?;
     let task = BranchPlan { label, vary: parameter(vary)?, to, also, orbit, follow, points };
     let plan = Plan::new(osc.plan, Task::Branch(task.clone()));
-    plan.check()?;
+    let watch = Watch::alone("following a branch");
+    let found = door::result(py, watch, &plan, |of| if let Results::Branch(found) = of { Some(found) } else { None })?;
     let cut = task.cut(&osc.plan)?;
-    let system = osc.plan;
-    let found =
-        door::run(py, Watch::alone("following a branch"), move |control| Ok(branches(&system, &task, control)?))?;
     Ok(Found {
         branches: found.followed.iter().map(|branch| Fields::new(py, branch, &cut)).collect::<PyResult<_>>()?,
         orbit: (found.chosen.number, found.chosen.count),

@@ -9,7 +9,7 @@ use crate::oscillator::Oscillator;
 use crate::simulate::text;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use vibroimpact_study::{CurvePlan, EventKind, Plan, Task};
+use vibroimpact_study::{CurvePlan, EventKind, Plan, Results, Task};
 
 /// The fields of a `Curve`.
 #[derive(IntoPyObject)]
@@ -49,11 +49,9 @@ pub(crate) fn curve<'py>(
 ) -> Result<Fields<'py>, Trouble> {
     let kind = self::kind(kind)?;
     let task = CurvePlan { label, kind, vary: stretch(vary)?, and: stretch(and_)?, orbit, event };
-    let plan = Plan::new(osc.plan, Task::Curve(task.clone()));
-    plan.check()?;
-    let system = osc.plan;
+    let plan = Plan::new(osc.plan, Task::Curve(task));
     let watch = Watch::alone("following a curve");
-    let found = door::run(py, watch, move |control| Ok(vibroimpact_study::curve(&system, &task, control)?))?;
+    let found = door::result(py, watch, &plan, |of| if let Results::Curve(found) = of { Some(found) } else { None })?;
     let points = || found.points.iter();
     Ok(Fields {
         values: pairs(py, points().map(|point| point.values.into()))?,

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
-use vibroimpact_study::{Control, Stopped};
+use vibroimpact_study::{Control, Plan, Results, Stopped};
 
 /// How long work that is to stop is waited for; what knows no flag is left behind after it.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -65,6 +65,18 @@ pub(crate) fn run<T: Send + 'static>(
         thread::Builder::new().spawn(worker).map_err(|_| Trouble::Defect("starting a thread"))?;
         wait(&receiver, &shared, &watch)
     })
+}
+
+/// Checks a plan, computes its result, and takes out of it what the task of the plan gives.
+pub(crate) fn result<T: Send + 'static>(
+    py: Python<'_>,
+    watch: Watch,
+    plan: &Plan,
+    take: impl FnOnce(Results) -> Option<T> + Send + 'static,
+) -> Result<T, Trouble> {
+    plan.check()?;
+    let (plan, what) = (plan.clone(), watch.what);
+    run(py, watch, move |control| take(vibroimpact_study::run(&plan, control)?).ok_or(Trouble::Defect(what)))
 }
 
 /// Does work on borrowed arrays, which looks at its stop flag: it has ended when this returns.

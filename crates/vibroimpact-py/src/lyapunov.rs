@@ -8,8 +8,8 @@ use crate::oscillator::Oscillator;
 use crate::simulate::{StartArgument, start_plan, text};
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use vibroimpact::chaos::{Exponents, Grounds, Measured, Section, exponents, section};
-use vibroimpact_study::{LyapunovPlan, Plan, Task};
+use vibroimpact::chaos::{Grounds, Measured};
+use vibroimpact_study::{LyapunovPlan, Plan, Results, Task};
 
 /// Value and error.
 type Quantity = (f64, f64);
@@ -81,14 +81,11 @@ pub(crate) fn lyapunov(
     points: Option<u64>,
 ) -> Result<Fields<'_>, Trouble> {
     let task = LyapunovPlan { start: start_plan(start), impacts, transient, points, ..LyapunovPlan::default() };
-    let plan = Plan::new(osc.plan, Task::Lyapunov(task.clone()));
-    plan.check()?;
-    let osc = osc.osc;
-    let start = task.start.start(&osc)?;
-    let (found, points): (Exponents, Section) = door::run(py, Watch::alone("measuring"), move |_| {
-        let points = task.points.map_or_else(Section::default, |n| section(&osc, start, task.transient, n));
-        Ok((exponents(&osc, start, &task.options()), points))
+    let plan = Plan::new(osc.plan, Task::Lyapunov(task));
+    let (found, points) = door::result(py, Watch::alone("measuring"), &plan, |of| {
+        if let Results::Lyapunov(_, found, points) = of { Some((found, points.unwrap_or_default())) } else { None }
     })?;
+    let osc = osc.osc;
     let (struck, states) = (|| points.impacts.iter(), || points.strobes.iter());
     Ok(Fields {
         motion: Motion::new(py, &found.motion, &osc),

@@ -6,10 +6,8 @@ use crate::error::Trouble;
 use crate::motion::Fields;
 use crate::oscillator::Oscillator;
 use pyo3::prelude::*;
-use vibroimpact::Label;
-use vibroimpact::orbit::{FindOptions, find};
 use vibroimpact::verdict::Verdict;
-use vibroimpact_study::{Plan, Task};
+use vibroimpact_study::{Plan, Results, Task};
 
 /// After which impact, counted from 1, it meets which stop, and how long after.
 type Earlier = (Option<usize>, &'static str, f64);
@@ -22,10 +20,9 @@ pub(crate) fn orbits<'py>(
     label: &str,
 ) -> Result<Vec<(Fields<'py>, bool, Option<Earlier>)>, Trouble> {
     let plan = Plan::new(osc.plan, Task::Orbit { label: label.to_owned() });
-    plan.check()?;
-    let (osc, label): (_, Label) = (osc.osc, label.parse()?);
+    let osc = osc.osc;
     let watch = Watch::alone("looking for orbits");
-    let found = door::run(py, watch, move |_| Ok(find(&osc, label, FindOptions::default())))?;
+    let found = door::result(py, watch, &plan, |of| if let Results::Orbit(found) = of { Some(found) } else { None })?;
     Ok(found
         .into_iter()
         .map(|orbit| {

@@ -21,14 +21,10 @@ pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
 
 /// Points of the grid that a plan fills; 0 for one that fills none.
 pub(crate) fn points(plan: &Plan) -> u64 {
-    let grid = |axes: &[Axis]| axes.iter().map(|axis| axis.over.count() as u64).product();
     match &plan.task {
-        Task::Map(map) => grid(&map.axes),
-        Task::Basin(basin) => grid(&basin.axes),
-        Task::Lyapunov(lyapunov) => grid(&lyapunov.axes),
-        Task::Attractors { starts, .. } => *starts,
-        Task::Diagram(diagram) => u64::from(diagram.over.count()) * diagram.runs(),
-        _ => 0,
+        Task::Lyapunov(lyapunov) => lyapunov.axes.iter().map(|axis| axis.over.count() as u64).product(),
+        Task::Region(_) => 0,
+        _ => plan.work().map_or(0, |(points, _)| points),
     }
 }
 

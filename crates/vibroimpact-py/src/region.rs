@@ -9,7 +9,7 @@ use crate::simulate::text;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use vibroimpact::continuation::{Bound as Edge, Polygon, Region, Vertex};
-use vibroimpact_study::{Plan, RegionPlan, Task, regions};
+use vibroimpact_study::{Plan, RegionPlan, Results, Task};
 
 /// Vertices, what bounds the region from each to the next, whether it is a hole, whether multipliers are below +1.
 type PolygonFields<'py> = (Bound<'py, PyArray2<f64>>, Vec<&'static str>, bool, bool);
@@ -41,11 +41,9 @@ pub(crate) fn region<'py>(
 ) -> Result<(Part<'py>, Part<'py>, bool, String), Trouble> {
     let task = RegionPlan { label, across: stretch(across)?, up: stretch(up)?, grid };
     let plan = Plan::new(osc.plan, Task::Region(task.clone()));
-    plan.check()?;
-    let system = osc.plan;
-    let neutral = task.neutral(&system);
+    let neutral = task.neutral(&osc.plan);
     let watch = Watch { what: "looking for regions", total: 2, progress: None, threads };
-    let found = door::run(py, watch, move |control| Ok(regions(&system, &task, control)?))?;
+    let found = door::result(py, watch, &plan, |of| if let Results::Region(found) = of { Some(found) } else { None })?;
     Ok((part(py, &found.existence)?, part(py, &found.stability)?, neutral, text(&plan)?))
 }
 

@@ -11,7 +11,7 @@ use vibroimpact::Start;
 use vibroimpact::lanes::Width;
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{Atlas, Census, SettleOptions, settle_many as settle_range};
-use vibroimpact_study::{Control, Plan, Task, tiles};
+use vibroimpact_study::{Control, Plan, Results, Task, tiles};
 
 /// The fields of the motion, and the plan.
 #[pyfunction]
@@ -20,15 +20,11 @@ pub(crate) fn settle<'py>(
     osc: Oscillator,
     start: StartArgument,
 ) -> Result<(Fields<'py>, String), Trouble> {
-    let start = start_plan(start);
-    let plan = Plan::new(osc.plan, Task::Settle { start });
-    plan.check()?;
-    let osc = osc.osc;
-    let start = start.start(&osc)?;
-    let settled = door::run(py, Watch::alone("settling a motion"), move |_| {
-        Ok(vibroimpact::verdict::settle(&osc, start, &SettleOptions::default()))
-    })?;
-    Ok((Fields::new(py, &settled.verdict, &osc).after(settled.transient), text(&plan)?))
+    let plan = Plan::new(osc.plan, Task::Settle { start: start_plan(start) });
+    let watch = Watch::alone("settling a motion");
+    let settled =
+        door::result(py, watch, &plan, |of| if let Results::Settle(_, found) = of { Some(found) } else { None })?;
+    Ok((Fields::new(py, &settled.verdict, &osc.osc).after(settled.transient), text(&plan)?))
 }
 
 /// Starts of a tile.

@@ -8,7 +8,7 @@ use crate::oscillator::Oscillator;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use vibroimpact::motion::{EventKind, sample};
-use vibroimpact_study::{Plan, StartPlan, Task, most_impacts};
+use vibroimpact_study::{Plan, Results, StartPlan, Task};
 
 /// The fields of `Simulation`.
 #[derive(IntoPyObject)]
@@ -51,14 +51,11 @@ pub(crate) fn simulate<'py>(
     impacts: Option<u64>,
     periods: Option<f64>,
 ) -> Result<Fields<'py>, Trouble> {
-    let most = most_impacts(impacts, periods);
-    let plan = Plan::new(osc.plan, Task::Simulate { start: start_plan(start), impacts: Some(most), periods });
-    plan.check()?;
+    let plan = Plan::new(osc.plan, Task::Simulate { start: start_plan(start), impacts, periods }).complete()?;
+    let watch = Watch::alone("following a motion");
+    let found =
+        door::result(py, watch, &plan, |of| if let Results::Simulate(_, found) = of { Some(found) } else { None })?;
     let osc = osc.osc;
-    let start = start_plan(start).start(&osc)?;
-    let found = door::run(py, Watch::alone("following a motion"), move |control| {
-        Ok(vibroimpact_study::simulate(&osc, start, most, periods, control)?)
-    })?;
     let events = || found.events.iter();
     let velocities = |which: fn(f64, f64) -> f64| {
         let of = move |kind| match kind {

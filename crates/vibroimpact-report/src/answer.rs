@@ -1,58 +1,47 @@
-//! One door from a plan to all that is told about it.
+//! A plan, its result, and everything that is reported of it: the JSON object, the table, the figure.
 
 use crate::figure::{self, title};
+use crate::scene::{View, Viewed, phase_portrait};
 use crate::{Asked, ReportError, Table, Units, json, table};
-use core::sync::atomic::Ordering;
+use serde::ser::Error as _;
 use serde::{Serialize, Serializer};
-use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
-use vibroimpact::orbit::{FindOptions, Orbit, find_while};
-use vibroimpact::verdict::{Census, SettleOptions, Settled, StartBox, settle_while};
-use vibroimpact::{Label, Oscillator, Start};
+use vibroimpact::Oscillator;
+use vibroimpact::verdict::{PaperRule, PaperVerdict};
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{
-    Basin, BranchPlan, Branches, Control, CurvePlan, Cut, Diagram, EventCurve, Plan, PlanError, RegionMap, RegionPlan,
-    Regions, RunError, Simulated, Stopped, StoreError, Task, attractors, basin, branches, curve, diagram, map,
-    most_impacts, regions, simulate,
-};
+use vibroimpact_study::{Control, Plan, PlanError, Results, RunError, Stopped, StoreError, Task, run};
 
 /// A plan and its result, in memory. As JSON (it is [`Serialize`]) it is the object that the command prints with `--json`.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// The plan, [as the command writes it](complete).
+    /// The plan, [complete](Plan::complete).
     pub plan: Plan,
-    /// The system, and the units of everything told.
+    /// The system, and the units of everything reported.
     pub asked: Asked,
     /// The oscillator; of a plane, that at its first corner.
     pub osc: Oscillator,
     /// What was found.
-    pub found: Found,
+    pub results: Results,
+    /// What the 1971 paper's rule says of a settled motion, where it was asked.
+    pub paper_rule: Option<(PaperRule, PaperVerdict)>,
 }
 
-/// The result of each task.
-#[derive(Clone, Debug)]
-pub enum Found {
-    /// The events of a motion.
-    Simulate(Start, Simulated),
-    /// What a motion settles into.
-    Settle(Start, Settled),
-    /// The steady motions, of so many starts of that sequence.
-    Attractors((u64, u64), Census),
-    /// The orbits of a label.
-    Orbit(Vec<Orbit>),
-    /// The motion of each start.
-    Basin(Basin),
-    /// The motions at each point.
-    Map(RegionMap),
-    /// The motions at each value.
-    Diagram(Diagram),
-    /// Exponents, what the motion is, and its sections where points of them were asked for.
-    Lyapunov(Start, Exponents, Option<Section>),
-    /// A branch and those that begin on it.
-    Branch(BranchPlan, Cut, Branches),
-    /// A curve of events.
-    Curve(CurvePlan, EventCurve),
-    /// Where a motion exists and is stable.
-    Region(RegionPlan, Regions),
+/// What the figure and the table of an answer show, where there is a choice.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    /// The view of a settled motion, of a simulated one, or of an attractor.
+    pub view: Option<View>,
+    /// Time between the points of a simulated waveform; a hundredth of the forcing period if absent.
+    pub step: Option<f64>,
+    /// Whether the orbit diagram is simulated and drawn behind a branch.
+    pub diagram: bool,
+    /// Whether the inadmissible solutions of a branch are drawn.
+    pub inadmissible: bool,
+}
+
+impl Default for Shown {
+    fn default() -> Self {
+        Self { view: None, step: None, diagram: true, inadmissible: false }
+    }
 }
 
 /// Why there is no answer, or no figure or table of it.
@@ -93,114 +82,49 @@ impl From<ReportError> for AnswerError {
     }
 }
 
-/// The same question as the command of its task writes it: what varies has its first value in the system, and a number of
-/// impacts is given.
+/// Runs a plan in memory, as [`run`] does. A map is nondimensional whatever the units.
 ///
 /// # Errors
-/// [`PlanError`] for a parameter of a second stop that is not there.
-pub fn complete(plan: &Plan) -> Result<Plan, PlanError> {
-    let mut plan = plan.canonical()?;
-    match &mut plan.task {
-        Task::Simulate { impacts, periods, .. } => *impacts = Some(most_impacts(*impacts, *periods)),
-        Task::Region(region) => {
-            let (p, q) = (region.across, region.up);
-            plan.system = plan.system.with(p.parameter, p.from)?.with(q.parameter, q.from)?;
-        }
-        _ => {}
-    }
-    Ok(plan)
-}
-
-/// How much there is to do and what is counted, where progress is told: `(40000, "starts")`.
-#[must_use]
-pub fn work(plan: &Plan) -> Option<(u64, &'static str)> {
-    match &plan.task {
-        Task::Attractors { starts, .. } => Some((*starts, "starts")),
-        Task::Basin(basin) => Some((basin.starts(), "starts")),
-        Task::Map(map) => Some((map.points(), "points")),
-        Task::Diagram(diagram) => Some((u64::from(diagram.over.count()).saturating_mul(diagram.runs()), "motions")),
-        Task::Region(_) => Some((2, "regions")),
-        _ => None,
-    }
-}
-
-/// Runs a plan in memory: every point of a grid, without refinement. A map is nondimensional whatever the units.
-///
-/// `control.stop` is heeded at every point of a grid, every event of a motion, every seed of a search for orbits, every step round
-/// a region and every point of a branch or curve.
-///
-/// # Errors
-/// [`AnswerError`] for a plan that makes no sense, or when stopped. Exponents over axes are no one answer but a study.
+/// [`AnswerError`] for a plan that makes no sense, or when stopped.
 pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer, AnswerError> {
-    let plan = complete(plan)?;
-    plan.check()?;
-    let system = plan.system;
-    let osc = system.oscillator()?;
-    let go_on = || !control.stop.load(Ordering::Relaxed);
-    let none = Stopped { done: 0, total: work(&plan).map_or(1, |(total, _)| total) };
-    if !go_on() {
-        return Err(none.into());
-    }
-    let found = match &plan.task {
-        Task::Simulate { start, impacts, periods } => {
-            let start = start.start(&osc)?;
-            let impacts = most_impacts(*impacts, *periods);
-            Found::Simulate(start, simulate(&osc, start, impacts, *periods, control)?)
-        }
-        Task::Settle { start } => {
-            let start = start.start(&osc)?;
-            Found::Settle(start, settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(none)?)
-        }
-        Task::Attractors { starts, seed } => {
-            let (area, which, options) = (StartBox::natural(&osc), (*starts, *seed), SettleOptions::default());
-            Found::Attractors(which, attractors(&osc, area, which, &options, control)?)
-        }
-        Task::Orbit { label } => {
-            let label: Label = label.parse().map_err(PlanError::from)?;
-            Found::Orbit(find_while(&osc, label, FindOptions::default(), go_on).ok_or(none)?)
-        }
-        Task::Basin(task) => Found::Basin(basin(&system, task, control)?),
-        Task::Map(task) => Found::Map(map(&system, task, control)?),
-        Task::Diagram(task) => Found::Diagram(diagram(&system, task, control)?),
-        Task::Lyapunov(task) => {
-            if let Some(axis) = task.axes.first() {
-                let (task, known) = ("measurement of one motion", "none: over axes it is a study, for `vibro run`");
-                return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known }.into());
-            }
-            let start = task.start.start(&osc)?;
-            let points = match task.points {
-                Some(n) => Some(section_while(&osc, start, task.transient, n, go_on).ok_or(none)?),
-                None => None,
-            };
-            let found = exponents_while(&osc, start, &task.options(), go_on).ok_or(none)?;
-            Found::Lyapunov(start, found, points)
-        }
-        Task::Branch(task) => Found::Branch(task.clone(), task.cut(&system)?, branches(&system, task, control)?),
-        Task::Curve(task) => Found::Curve(task.clone(), curve(&system, task, control)?),
-        Task::Region(task) => Found::Region(task.clone(), regions(&system, task, control)?),
-    };
-    Ok(Answer { asked: Asked { system, units }, osc, found, plan })
+    let plan = plan.complete()?;
+    let results = run(&plan, control)?;
+    let (system, osc) = (plan.system, plan.system.oscillator()?);
+    Ok(Answer { asked: Asked { system, units }, osc, results, plan, paper_rule: None })
 }
 
 impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Self { plan, asked, osc, found } = self;
-        match found {
-            Found::Simulate(start, found) => json::simulate::document(asked, plan, (osc, start), found).serialize(to),
-            Found::Settle(start, found) => json::settle::document(asked, plan, (osc, start), found, None).serialize(to),
-            Found::Attractors(which, found) => {
-                json::attractors::document(asked, plan, osc, *which, found).serialize(to)
+        let Self { plan, asked, osc, results, paper_rule } = self;
+        match (&plan.task, results) {
+            (_, Results::Simulate(start, found)) => {
+                json::simulate::document(asked, plan, (osc, start), found).serialize(to)
             }
-            Found::Orbit(found) => json::orbit::document(asked, plan, osc, found).serialize(to),
-            Found::Basin(found) => json::basin::document(asked, plan, osc, found).serialize(to),
-            Found::Map(found) => json::map::document(plan, found).serialize(to),
-            Found::Diagram(found) => json::diagram::document(asked, plan, osc, found).serialize(to),
-            Found::Lyapunov(start, found, _) => {
+            (_, Results::Settle(start, found)) => {
+                json::settle::document(asked, plan, (osc, start), found, *paper_rule).serialize(to)
+            }
+            (Task::Attractors { starts, seed }, Results::Attractors(found)) => {
+                json::attractors::document(asked, plan, osc, (*starts, *seed), found).serialize(to)
+            }
+            (_, Results::Orbit(found)) => json::orbit::document(asked, plan, osc, found).serialize(to),
+            (_, Results::Basin(found)) => json::basin::document(asked, plan, osc, found).serialize(to),
+            (_, Results::Map(found)) => json::map::document(plan, found).serialize(to),
+            (_, Results::Diagram(found)) => json::diagram::document(asked, plan, osc, found).serialize(to),
+            (_, Results::Lyapunov(start, found, _)) => {
                 json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
             }
-            Found::Branch(_, cut, found) => json::branch::document(asked, plan, osc, found, cut).serialize(to),
-            Found::Curve(task, found) => json::curve::document(asked, plan, osc, (task, found)).serialize(to),
-            Found::Region(task, found) => json::region::document(asked, plan, (task, found)).serialize(to),
+            (Task::Branch(task), Results::Branch(found)) => {
+                let cut = task.cut(&asked.system).map_err(S::Error::custom)?;
+                json::branch::document(asked, plan, osc, found, &cut).serialize(to)
+            }
+            (Task::Curve(task), Results::Curve(found)) => {
+                json::curve::document(asked, plan, osc, (task, found)).serialize(to)
+            }
+            (Task::Region(task), Results::Region(found)) => {
+                json::region::document(asked, plan, (task, found)).serialize(to)
+            }
+            // `answer` puts each plan beside its own results
+            _ => Err(S::Error::custom("the results belong to another task than the plan's")),
         }
     }
 }
@@ -214,53 +138,76 @@ impl Answer {
     }
 
     /// The figure that the command draws with `--plot`: of a settled motion the steady one, of exponents both sections, where points
-    /// of them were asked for. Attractors and orbits have none. Behind a branch is what simulation finds, which is computed here.
+    /// of them were asked for. `None` for attractors and orbits, and for a view that the answer does not have. The orbit diagram
+    /// behind a branch is computed here.
     ///
     /// # Errors
     /// [`AnswerError`] for what cannot be drawn, or when stopped.
-    pub fn figure(&self, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
-        let Self { asked, osc, .. } = self;
-        Ok(Some(match &self.found {
-            Found::Simulate(start, found) => {
+    pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
+        let Self { asked, osc, plan, .. } = self;
+        let default = shown.view.is_none_or(|view| view == View::Waveform);
+        Ok(Some(match (&plan.task, &self.results) {
+            (_, Results::Settle(start, found)) => {
+                Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?.figure()
+            }
+            (_, Results::Simulate(start, found)) if shown.view == Some(View::Phase) => {
+                phase_portrait(asked, osc, *start, (0.0, found.shown_until(osc)))
+            }
+            (_, Results::Lyapunov(_, _, Some(points))) if default || shown.view == Some(View::Sections) => {
+                figure::section::figure(points, osc, asked)
+            }
+            _ if !default => return Ok(None),
+            (_, Results::Simulate(start, found)) => {
                 let span = (0.0, found.shown_until(osc));
                 figure::waveform::figure(osc, *start, span, &asked.units, title(&asked.system))
             }
-            Found::Settle(start, found) => figure::settle::figure(osc, *start, found, asked),
-            Found::Attractors(..) | Found::Orbit(_) | Found::Lyapunov(_, _, None) => return Ok(None),
-            Found::Basin(found) => figure::basin::figure(found, asked)?,
-            Found::Map(found) => figure::map::figure(found, &asked.system)?,
-            Found::Diagram(found) => figure::diagram::figure(found, asked)?,
-            Found::Lyapunov(_, _, Some(points)) => figure::section::figure(points, osc, asked),
-            Found::Branch(task, cut, found) => {
-                let behind = diagram(&asked.system, &task.diagram(&asked.system)?, control)?;
-                figure::branch::figure(&found.followed, cut, Some(&behind), false, asked)?
+            (_, Results::Basin(found)) => figure::basin::figure(found, asked)?,
+            (_, Results::Map(found)) => figure::map::figure(found, &asked.system)?,
+            (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
+            (Task::Branch(task), Results::Branch(found)) => {
+                let behind = if shown.diagram {
+                    let plan = Plan::new(asked.system, Task::Diagram(task.diagram(&asked.system)?));
+                    if let Results::Diagram(behind) = run(&plan, control)? { Some(behind) } else { None }
+                } else {
+                    None
+                };
+                let cut = task.cut(&asked.system)?;
+                figure::branch::figure(&found.followed, &cut, behind.as_ref(), shown.inadmissible, asked)?
             }
-            Found::Curve(task, found) => figure::curve::figure(found, task, asked),
-            Found::Region(task, found) => figure::region::figure(found, task, asked),
+            (Task::Curve(task), Results::Curve(found)) => figure::curve::figure(found, task, asked),
+            (Task::Region(task), Results::Region(found)) => figure::region::figure(found, task, asked),
+            _ => return Ok(None),
         }))
     }
 
-    /// The table that the command writes with `--csv`; of a simulation the waveform, a hundredth of the forcing period apart.
-    /// Orbits have none.
+    /// The table that the command writes with `--csv`; of a simulation the waveform. `None` for orbits, and for exponents without
+    /// points of their sections.
     ///
     /// # Errors
-    /// [`ReportError`] for what cannot be tabulated.
-    pub fn table(&self) -> Result<Option<Table<'_>>, ReportError> {
-        let (units, osc) = (&self.asked.units, &self.osc);
-        Ok(Some(match &self.found {
-            Found::Simulate(start, found) => {
-                table::waveform::table(osc, *start, (found.shown_until(osc), osc.period() / 100.0), *units)?
+    /// [`AnswerError`] for what cannot be tabulated.
+    pub fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
+        let Self { asked, osc, plan, .. } = self;
+        let units = &asked.units;
+        Ok(Some(match (&plan.task, &self.results) {
+            (_, Results::Simulate(start, found)) => {
+                let step = shown.step.unwrap_or(osc.period() / 100.0);
+                table::waveform::table(osc, *start, (found.shown_until(osc), step), *units)?
             }
-            Found::Settle(start, found) => table::waveform::steady(osc, *start, found, *units)?,
-            Found::Attractors(_, found) => table::attractors::table(found, osc),
-            Found::Orbit(_) | Found::Lyapunov(_, _, None) => return Ok(None),
-            Found::Basin(found) => table::basin::table(found, units)?,
-            Found::Map(found) => table::map::table(found),
-            Found::Diagram(found) => table::diagram::table(found, *units)?,
-            Found::Lyapunov(_, _, Some(points)) => table::section::table(points, osc, *units),
-            Found::Branch(_, cut, found) => table::branch::table(found, cut, units),
-            Found::Curve(task, found) => table::curve::table(found, task, units),
-            Found::Region(task, found) => table::region::table(found, task, units),
+            (_, Results::Settle(start, found)) => {
+                let view = Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?;
+                view.table()?.kept()
+            }
+            (_, Results::Attractors(found)) => table::attractors::table(found, osc),
+            (_, Results::Basin(found)) => table::basin::table(found, units)?,
+            (_, Results::Map(found)) => table::map::table(found),
+            (_, Results::Diagram(found)) => table::diagram::table(found, *units)?,
+            (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
+            (Task::Branch(task), Results::Branch(found)) => {
+                table::branch::table(found, &task.cut(&asked.system)?, units)
+            }
+            (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task, units),
+            (Task::Region(task), Results::Region(found)) => table::region::table(found, task, units),
+            _ => return Ok(None),
         }))
     }
 }
@@ -269,7 +216,8 @@ impl Answer {
 mod tests {
     use super::*;
     use core::sync::atomic::AtomicBool;
-    use vibroimpact_study::{Parameter, StartPlan, Stretch, SystemPlan};
+    use core::sync::atomic::Ordering;
+    use vibroimpact_study::{StartPlan, SystemPlan};
 
     const S: SystemPlan = SystemPlan {
         beta: None,
@@ -336,10 +284,10 @@ mod tests {
         };
         let x = r#"{"vary":"x","over":"0:0.7:2"}"#;
         let line = ask(&basin(x)).unwrap();
-        let undrawn = line.figure(&Control::default());
+        let undrawn = line.figure(&Shown::default(), &Control::default());
         assert!(matches!(undrawn, Err(AnswerError::Report(ReportError::Axes(1)))), "{undrawn:?}");
         let mut text = Vec::new();
-        line.table().unwrap().unwrap().write(&mut text).unwrap();
+        line.table(&Shown::default()).unwrap().unwrap().write(&mut text).unwrap();
         assert!(text.starts_with(b"x,label\n0,"));
         assert!(line.json().contains(r#""x":{"from":0.0,"to":0.7,"count":2},"v":0.0,"phase":0.0"#), "{}", line.json());
         let beyond = ask(&basin(&x.replace("0.7", "0.8")));
@@ -349,19 +297,5 @@ mod tests {
         assert!(matches!(varied, Err(AnswerError::Plan(PlanError::WrongAxis { .. }))), "{varied:?}");
         let exponents = basin(gap).replace("basin", "lyapunov");
         assert!(ask(&exponents).unwrap_err().to_string().contains("no axis gap"));
-    }
-
-    #[test]
-    fn a_plan_is_completed_as_the_command_writes_it() {
-        let start = StartPlan::default();
-        let short = Plan::new(S, Task::Simulate { start, impacts: None, periods: Some(3.0) });
-        let Task::Simulate { impacts, .. } = complete(&short).unwrap().task else { panic!("another task") };
-        assert_eq!(impacts, Some(1_000_000));
-        let over = |parameter, from, to| Stretch { parameter, from, to };
-        let (across, up) = (over(Parameter::Beta, 0.5, 0.6), over(Parameter::Gap, -1.0, 2.0));
-        let region = Plan::new(S, Task::Region(RegionPlan { label: "1/1".into(), across, up, grid: 3 }));
-        let system = complete(&region).unwrap().system;
-        assert_eq!((system.beta, system.inverse_beta, system.gap), (Some(0.5), None, -1.0));
-        assert_eq!(work(&region), Some((2, "regions")));
     }
 }

@@ -5,7 +5,7 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | one door from a plan to all that is told about it | [`answer()`], [`Answer`] |
+//! | a plan, its result, and everything that is reported of it | [`answer()`], [`Answer`], [`Shown`] |
 //! | the system asked about, and the units of results | [`Asked`], [`Units`] |
 //! | the JSON objects of the commands, one file for each | [`json`] |
 //! | the rows of their tables | [`Table`], [`table`] |
@@ -25,7 +25,7 @@ pub mod scene;
 pub mod table;
 mod units;
 
-pub use answer::{Answer, AnswerError, answer};
+pub use answer::{Answer, AnswerError, Shown, answer};
 pub use error::ReportError;
 pub use table::Table;
 pub use units::{Asked, Units};

@@ -17,7 +17,7 @@ const WORTH_A_SURVEY: u64 = 500;
 ///
 /// # Errors
 /// [`Stopped`] when stopped from outside.
-pub fn attractors(
+pub(crate) fn attractors(
     osc: &Oscillator,
     area: StartBox,
     (starts, seed): (u64, u64),

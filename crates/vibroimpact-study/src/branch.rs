@@ -132,7 +132,7 @@ pub struct Branches {
 /// # Errors
 /// [`RunError`] for a plan that makes no sense or an orbit that is not there, or when stopped, which it heeds at every seed of the
 /// search and every point.
-pub fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
+pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
     let vary = plan.cut(system)?.varying()?;

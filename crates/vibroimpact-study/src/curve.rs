@@ -101,7 +101,7 @@ pub struct EventCurve {
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, an orbit that is not there, or no event of that kind; or when stopped, which it
 /// heeds at every seed of the search and every point.
-pub fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
+pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
     let label = followable(&plan.label)?;

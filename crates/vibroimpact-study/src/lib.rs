@@ -6,22 +6,22 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | the question, checked | [`Plan`], [`SystemPlan`], [`StartPlan`], [`Task`] |
+//! | a plan, and the one function that turns it into its result | [`Plan`], [`run`], [`Results`] |
+//! | the question, checked | [`SystemPlan`], [`StartPlan`], [`Task`] |
 //! | `A:B:N`, N values from A to B; what varies over which values | [`Span`], [`Axis`] |
 //! | a grid and its tiles, the arrays over it | [`Grid`], [`Field`] |
 //! | what a tile of a plan holds | [`Study`], [`study`] |
 //! | where tiles are kept | [`Store`], [`store`] |
 //! | tiles over threads, with a stop flag and progress | [`Control`], [`tiles`] |
-//! | the events of one motion | [`simulate`](simulate()) |
-//! | which motion each start of a plane leads to | [`basin()`] |
-//! | which motions there are at each point of a parameter plane | [`map`] |
-//! | the motions of one system from many starts | [`attractors`] |
-//! | the motion after its transient at each value of a parameter | [`diagram()`], [`mod@diagram`] |
+//! | the events of one motion | [`Simulated`] |
+//! | which motion each start of a plane leads to | [`BasinPlan`], [`Basin`] |
+//! | which motions there are at each point of a parameter plane | [`MapPlan`], [`RegionMap`] |
+//! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
 //! | the Lyapunov exponents of a motion: the question | [`LyapunovPlan`] |
-//! | a branch of periodic orbits in one parameter, and those that begin on it | [`BranchPlan`], [`branches`] |
+//! | a branch of periodic orbits in one parameter, and those that begin on it | [`BranchPlan`], [`Branches`] |
 //! | which orbit it begins with; what an event on it has to tell | [`Chosen`], [`Told`] |
-//! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`curve`](curve()) |
-//! | where a motion exists and where it is stable | [`RegionPlan`], [`regions`], [`stable_regions`] |
+//! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
+//! | where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stable_regions`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 
@@ -43,6 +43,7 @@ mod map;
 mod parameter;
 mod plan;
 mod region;
+mod run;
 mod simulate;
 mod span;
 pub mod store;
@@ -53,26 +54,26 @@ mod told;
 mod words;
 mod written;
 
-pub use attractors::attractors;
 pub use axis::{Axis, Coordinate, Values};
-pub use basin::{Basin, BasinPlan, basin};
+pub use basin::{Basin, BasinPlan};
 pub use begin::Chosen;
-pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin, branches};
+pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
 pub(crate) use control::Meter;
 pub use control::{Control, Stopped, tiles};
-pub use curve::{CurvePlan, EventCurve, EventKind, curve};
+pub use curve::{CurvePlan, EventCurve, EventKind};
 pub use cut::{Cut, Target};
-pub use diagram::{Diagram, DiagramPlan, diagram};
+pub use diagram::{Diagram, DiagramPlan};
 pub use error::{PlanError, RunError};
 pub use field::{Column, Extra, Field, Kind};
 pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
-pub use map::{MapPlan, MapPoint, RegionMap, Share, map};
+pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use parameter::{Parameter, is_length};
 pub use plan::{Plan, Task};
-pub use region::{DEFAULT_GRID, RegionPlan, Regions, regions, stable_regions};
-pub use simulate::{Simulated, most_impacts, simulate};
+pub use region::{DEFAULT_GRID, RegionPlan, Regions, stable_regions};
+pub use run::{Results, run};
+pub use simulate::Simulated;
 pub use span::Span;
 pub use store::{Store, StoreError};
 pub use stretch::Stretch;

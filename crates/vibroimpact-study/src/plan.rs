@@ -4,6 +4,7 @@
 //! fields are errors, so that a misspelt parameter cannot be ignored.
 
 use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
+use crate::simulate::most_impacts;
 use crate::{
     BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, Parameter, PlanError, RegionPlan, StartPlan,
     SystemPlan,
@@ -60,6 +61,37 @@ impl Plan {
             }
             Task::Lyapunov(_) => "Lyapunov exponents of an impact oscillator".to_owned(),
             _ => "an impact oscillator".to_owned(),
+        }
+    }
+
+    /// The same question as the command of its task writes it: what varies has its first value in the system, and a number of
+    /// impacts is given.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a parameter of a second stop that is not there.
+    pub fn complete(&self) -> Result<Self, PlanError> {
+        let mut plan = self.canonical()?;
+        match &mut plan.task {
+            Task::Simulate { impacts, periods, .. } => *impacts = Some(most_impacts(*impacts, *periods)),
+            Task::Region(region) => {
+                let (p, q) = (region.across, region.up);
+                plan.system = plan.system.with(p.parameter, p.from)?.with(q.parameter, q.from)?;
+            }
+            _ => {}
+        }
+        Ok(plan)
+    }
+
+    /// How much there is to do and what is counted, where progress is reported: `(40000, "starts")`.
+    #[must_use]
+    pub fn work(&self) -> Option<(u64, &'static str)> {
+        match &self.task {
+            Task::Attractors { starts, .. } => Some((*starts, "starts")),
+            Task::Basin(basin) => Some((basin.starts(), "starts")),
+            Task::Map(map) => Some((map.points(), "points")),
+            Task::Diagram(diagram) => Some((u64::from(diagram.over.count()).saturating_mul(diagram.runs()), "motions")),
+            Task::Region(_) => Some((2, "regions")),
+            _ => None,
         }
     }
 
@@ -148,6 +180,7 @@ pub enum Task {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Stretch;
 
     fn plan() -> Plan {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
@@ -185,6 +218,22 @@ mod tests {
             let message = Plan { task, ..plan() }.check().unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
         }
+    }
+
+    #[test]
+    fn a_plan_is_completed_as_the_command_writes_it() {
+        let Task::Simulate { impacts, .. } = Plan { task: simulate(None, Some(3.0)), ..plan() }.complete().unwrap().task
+        else {
+            panic!("another task")
+        };
+        assert_eq!(impacts, Some(1_000_000));
+        let over = |parameter, from, to| Stretch { parameter, from, to };
+        let (across, up) = (over(Parameter::Beta, 0.5, 0.6), over(Parameter::Gap, -1.0, 2.0));
+        let region = Task::Region(RegionPlan { label: "1/1".into(), across, up, grid: 3 });
+        let region = Plan { task: region, ..plan() };
+        let system = region.complete().unwrap().system;
+        assert_eq!((system.beta, system.inverse_beta, system.gap), (Some(0.5), None, -1.0));
+        assert_eq!(region.work(), Some((2, "regions")));
     }
 
     fn simulate(impacts: Option<u64>, periods: Option<f64>) -> Task {

@@ -123,7 +123,7 @@ pub fn stable_regions(
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, or when stopped, which is asked for at every point of the grid and every step.
-pub fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
+pub(crate) fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
     let both = side_by_side(system, &[(plan, RegionKind::Existence), (plan, RegionKind::Stability)], control)?;
     let mut both = both.into_iter();
     let mut next = || both.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });

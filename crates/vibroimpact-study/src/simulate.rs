@@ -1,7 +1,6 @@
 //! The events of one motion, up to a number of impacts or forcing periods, and why there are no more.
 
 use crate::{Control, Stopped};
-use core::sync::atomic::Ordering;
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::verdict::NoImpact;
@@ -29,21 +28,18 @@ pub struct Simulated {
 
 /// The number of impacts that is meant where none is given.
 #[must_use]
-pub fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
+pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
     impacts.unwrap_or(if periods.is_some() { MOST_IMPACTS } else { DEFAULT_IMPACTS })
 }
 
-/// Follows a motion for so many impacts, and so many forcing periods where a number is given.
-///
-/// # Errors
-/// [`Stopped`] when stopped from outside.
-pub fn simulate(
+/// Follows a motion up to a number of impacts and of forcing periods, where these are given.
+pub(crate) fn simulate(
     osc: &Oscillator,
     start: Start,
-    impacts: u64,
-    periods: Option<f64>,
+    (impacts, periods): (Option<u64>, Option<f64>),
     control: &Control<'_>,
 ) -> Result<Simulated, Stopped> {
+    let impacts = most_impacts(impacts, periods);
     let limits = SearchLimits::default();
     let limits = SearchLimits { periods: limits.periods.max(periods.unwrap_or(0.0)), ..limits };
     let until = periods.map_or(f64::INFINITY, |n| n * osc.period());
@@ -52,7 +48,7 @@ pub fn simulate(
     let (mut struck, mut idle) = (0, 0);
     let (reason, time, horizon) = loop {
         let last = events.last().map_or(0.0, |event| event.time);
-        if control.stop.load(Ordering::Relaxed) {
+        if control.stopping() {
             return Err(Stopped { done: struck, total: impacts });
         }
         let Some(event) = motion.next() else {
@@ -114,16 +110,16 @@ mod tests {
     fn each_end_has_its_reason() {
         let osc = vibroimpact::scenario::N.oscillator();
         let run = |osc: &Oscillator, impacts, periods| {
-            simulate(osc, Start::at_rest(osc), impacts, periods, &Control::default()).unwrap()
+            simulate(osc, Start::at_rest(osc), (impacts, periods), &Control::default()).unwrap()
         };
-        let some = run(&osc, 7, None);
+        let some = run(&osc, Some(7), None);
         assert_eq!((some.reason, some.events.len()), ("impact_limit", 7));
-        let timed = run(&osc, 1_000_000, Some(3.0));
+        let timed = run(&osc, None, Some(3.0));
         assert_eq!((timed.reason, timed.time), ("time_limit", 3.0 * osc.period()));
         let pressed = Oscillator::new(0.9, -1.5, 0.5).unwrap();
-        assert_eq!(run(&pressed, 10, None).reason, "stuck");
+        assert_eq!(run(&pressed, Some(10), None).reason, "stuck");
         let far = Oscillator::new(0.5, 40.0, 0.5).unwrap();
-        let none = run(&far, 10, None);
+        let none = run(&far, Some(10), None);
         assert_eq!((none.reason, none.events.len()), ("no_more_impacts", 0));
         assert!(none.horizon.is_some() && none.shown_until(&far) == 5.0 * far.period());
     }
@@ -133,7 +129,7 @@ mod tests {
         let osc = vibroimpact::scenario::N.oscillator();
         let stop = AtomicBool::new(true);
         let control = Control { stop: &stop, ..Control::default() };
-        let stopped = simulate(&osc, Start::at_rest(&osc), 5, None, &control);
+        let stopped = simulate(&osc, Start::at_rest(&osc), (Some(5), None), &control);
         assert_eq!(stopped, Err(Stopped { done: 0, total: 5 }));
     }
 }

@@ -8,7 +8,7 @@ use vibroimpact::scenario::{self, Scenario};
 use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::{Axis, ClassStyle, Colour, Legend, Panel, Points, Raster, Shape, class_style, legend_text};
-use vibroimpact_study::{Basin, BasinPlan, Span, SystemPlan, basin};
+use vibroimpact_study::{Basin, BasinPlan, Plan, Results, Span, SystemPlan, Task};
 
 /// A basin and what was measured on it.
 struct Picture {
@@ -57,7 +57,10 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<Shares, Error> {
             restitution: 0.5,
             ..SystemPlan::default()
         };
-        let basin = basin(&system, &plan, run.control)?;
+        let plan = Plan::new(system, Task::Basin(plan));
+        let Results::Basin(basin) = vibroimpact_study::run(&plan, run.control)? else {
+            return Err(Error::Unexpected("a basin came out as something else"));
+        };
         let picture = measure(point, (x, v), basin);
         run.folder.write(&format!("{name}.csv"), table(&picture).bytes())?;
         drawings.push(run.folder.figure(name, draw(&picture)?)?);

@@ -2,18 +2,13 @@
 
 use crate::args::{StoreArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::stored;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::text;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact_report::figure::basin::figure;
-use vibroimpact_report::json::basin::{by_count, document};
-use vibroimpact_report::number::percent;
-use vibroimpact_report::table::basin::table;
-use vibroimpact_study::store::Part;
-use vibroimpact_study::{BasinPlan, Plan, Span, Task, basin};
+use vibroimpact_report::Shown;
+use vibroimpact_study::{BasinPlan, Plan, Span, Task};
 
 /// Which motion each start of a plane of positions and velocities leads to
 ///
@@ -70,39 +65,9 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let units = asked.units;
     let plane = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
     let task = BasinPlan { refine: args.refine, impacts: args.impacts, ..plane };
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task.clone())), &asked.units)?;
-    let osc = asked.system.oscillator()?;
-    let total = task.starts();
+    let axes = task.axes.clone();
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task)), &units)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    outputs.drawable(&task.axes)?;
-    if let Some(place) = &args.store.store {
-        return stored::run(&plan, place, Part::ALL, outputs, session);
-    }
-
-    let found = session.tiled(total, "starts", |control, _| basin(&asked.system, &task, control))?;
-
-    let silent = outputs.any();
-    outputs.write(session, || Ok(table(&found, &units)?), || Ok(figure(&found, &asked)?))?;
-    if args.json {
-        return session.print_json(&document(&asked, &plan, &osc, &found));
-    }
-    if silent {
-        return Ok(());
-    }
-    let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
-    let rows: Vec<Vec<String>> = by_count(&found)
-        .into_iter()
-        .map(|m| {
-            let motion = &found.motions[m];
-            vec![
-                percent(found.share(m)),
-                motion.count.to_string(),
-                motion.verdict.label().into_owned(),
-                text::meaning(&motion.verdict),
-            ]
-        })
-        .collect();
-    session.print(&(text::system(&asked, &osc) + "\n" + &text::table(&heads, &rows)))?;
-    session.note("hint: --csv FILE keeps every start, --plot FILE.png draws them");
-    Ok(())
+    outputs.drawable(&axes)?;
+    respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
 }

@@ -7,6 +7,7 @@ use crate::session::Session;
 use crate::signal;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 use vibroimpact::lanes::Width;
 use vibroimpact_report::PROGRAM;
@@ -112,7 +113,10 @@ pub(super) fn run(args: &Bench, session: &Session) -> Result<(), Failure> {
     let mut answer = Answer { lanes: name(width), threads: 1, program: PROGRAM, ..Answer::default() };
     let duration = Duration::from_secs_f64(args.seconds);
     for workload in Workload::ALL.into_iter().filter(|one| args.workload.is_none_or(|only| only == *one)) {
-        let rates = signal::interruptible("measuring", move || measure(workload, width, duration))?;
+        let rates = measure(workload, width, duration);
+        if signal::flag().load(Ordering::Relaxed) {
+            return Err(Failure::Stopped("while measuring".into()));
+        }
         match workload {
             Workload::Chaos => answer.impacts_per_second.chaos = Some(rates),
             Workload::Regular => answer.impacts_per_second.regular = Some(rates),

@@ -2,17 +2,13 @@
 
 use crate::args::{Named, SystemArgs, number, parameter, whole};
 use crate::commands::outputs::Outputs;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::branch::text;
-use crate::report::text as words;
 use crate::session::Session;
-use crate::signal;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact_report::figure::branch::figure;
-use vibroimpact_report::json::branch::document;
-use vibroimpact_report::table::branch::table;
-use vibroimpact_study::{BranchPlan, Control, DEFAULT_BRANCH_POINTS, Parameter, Plan, Target, Task, branches, diagram};
+use vibroimpact_report::Shown;
+use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Target, Task};
 
 /// An orbit followed in one parameter, stable or not, with every event on the way
 ///
@@ -105,34 +101,9 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
         follow: args.follow,
         points: args.points,
     };
-    let plan = Plan::new(asked.system, Task::Branch(task.clone()));
+    let plan = Plan::new(asked.system, Task::Branch(task));
     plan.check()?;
-    let osc = asked.system.oscillator()?;
-    let cut = task.cut(&asked.system)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = outputs.table_on_stdout();
-
-    let (system, question) = (asked.system, task.clone());
-    let found =
-        signal::interruptible("following a branch", move || branches(&system, &question, &Control::default()))??;
-    let behind = if args.plot.is_some() && !args.no_diagram {
-        let sweep = task.diagram(&asked.system)?;
-        let total = u64::from(sweep.over.count()) * sweep.runs();
-        Some(session.tiled(total, "motions", |control, _| diagram(&asked.system, &sweep, control))?)
-    } else {
-        None
-    };
-
-    outputs.write(
-        session,
-        || Ok(table(&found, &cut, &asked.units)),
-        || Ok(figure(&found.followed, &cut, behind.as_ref(), args.show_virtual, &asked)?),
-    )?;
-    if args.json {
-        return session.print_json(&document(&asked, &plan, &osc, &found, &cut));
-    }
-    if to_stdout {
-        return Ok(());
-    }
-    session.print(&(words::system(&asked, &osc) + "\n" + &text(&found, &cut, &asked.units)))
+    let shown = Shown { diagram: !args.no_diagram, inadmissible: args.show_virtual, ..Shown::default() };
+    respond::run(&plan, asked.units, (outputs, shown), None, session)
 }

@@ -2,18 +2,13 @@
 
 use crate::args::{Named, Over, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::curve::text;
-use crate::report::text as words;
 use crate::session::Session;
-use crate::signal;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use vibroimpact_report::Units;
-use vibroimpact_report::figure::curve::figure;
-use vibroimpact_report::json::curve::document;
-use vibroimpact_report::table::curve::table;
-use vibroimpact_study::{Control, CurvePlan, EventKind, Plan, Stretch, Task, curve};
+use vibroimpact_report::{Shown, Units};
+use vibroimpact_study::{CurvePlan, EventKind, Plan, Stretch, Task};
 
 /// The curve of an event of an orbit in a plane of two parameters: where it folds, flips or grazes
 ///
@@ -106,22 +101,8 @@ impl Curve {
 
 pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
-    let task = args.plan(&asked.units);
-    let plan = Plan::new(asked.system, Task::Curve(task.clone()));
+    let plan = Plan::new(asked.system, Task::Curve(args.plan(&asked.units)));
     plan.check()?;
-    let osc = asked.system.oscillator()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = outputs.table_on_stdout();
-
-    let (system, question) = (asked.system, task.clone());
-    let found = signal::interruptible("following a curve", move || curve(&system, &question, &Control::default()))??;
-
-    outputs.write(session, || Ok(table(&found, &task, &asked.units)), || Ok(figure(&found, &task, &asked)))?;
-    if args.json {
-        return session.print_json(&document(&asked, &plan, &osc, (&task, &found)));
-    }
-    if to_stdout {
-        return Ok(());
-    }
-    session.print(&(words::system(&asked, &osc) + "\n" + &text(&found, &task, &asked.units)))
+    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

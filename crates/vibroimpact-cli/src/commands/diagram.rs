@@ -2,19 +2,14 @@
 
 use crate::args::{Ends, Named, StoreArgs, SystemArgs, parameter, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::stored;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::text;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use vibroimpact_report::figure::diagram::figure;
-use vibroimpact_report::json::diagram::{Counts, counts, document};
-use vibroimpact_report::number::short;
-use vibroimpact_report::table::diagram::table;
+use vibroimpact_report::Shown;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
-use vibroimpact_study::store::Part;
-use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Stretch, Task, counted, diagram};
+use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Stretch, Task};
 
 /// The orbit diagram: impacts or states after the transient, at each value of one parameter, or along a line through two
 ///
@@ -156,45 +151,5 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     };
     let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)), &asked.units)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    if let Some(place) = &args.store.store {
-        return stored::run(&plan, place, Part::ALL, outputs, session);
-    }
-
-    let total = u64::from(task.over.count()) * task.runs();
-    let found = session.tiled(total, "motions", |control, _| diagram(&asked.system, &task, control))?;
-
-    let silent = outputs.any();
-    outputs.write(session, || Ok(table(&found, units)?), || Ok(figure(&found, &asked)?))?;
-    if args.json {
-        return session.print_json(&document(&asked, &plan, &asked.system.oscillator()?, &found));
-    }
-    if silent {
-        return Ok(());
-    }
-    session.print(&summary(args, &counts(&found)))?;
-    session.note("hint: --csv FILE keeps every point, --plot FILE.png draws them");
-    Ok(())
-}
-
-fn summary(args: &Diagram, sweeps: &[Counts]) -> String {
-    let (from, to) = args.over.ends();
-    let name = args.vary.name().replace('_', " ");
-    let heads = ["<sweep", "motions", "with impacts", "none", "stuck", "undecided", "points"].map(str::to_owned);
-    let rows: Vec<Vec<String>> = sweeps
-        .iter()
-        .map(|c| {
-            let counts = [c.motions, c.impact, c.none, c.stuck, c.undecided, c.points];
-            core::iter::once(c.sweep.to_owned()).chain(counts.map(|n| n.to_string())).collect()
-        })
-        .collect();
-    let also = args.also.map_or_else(String::new, |Named(parameter, Ends(from, to))| {
-        format!(", {} from {} to {}", parameter.name().replace('_', " "), short(from), short(to))
-    });
-    format!(
-        "{} of {name} from {} to {}{also}\n\n{}",
-        counted(u64::from(args.over.count()), "value"),
-        short(from),
-        short(to),
-        text::table(&heads, &rows)
-    )
+    respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
 }

@@ -2,17 +2,13 @@
 
 use crate::args::{StartArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::lyapunov::text;
-use crate::report::text as words;
 use crate::session::Session;
-use crate::signal;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, Section, exponents, section};
-use vibroimpact_report::figure;
-use vibroimpact_report::json::lyapunov::document;
-use vibroimpact_report::table;
+use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
+use vibroimpact_report::Shown;
 use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, Plan, Task};
 
 /// The Lyapunov exponents of the motion from a start, with error bars, and its attractor's dimension
@@ -76,33 +72,8 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
         transient: args.transient,
         points: shown.then(|| args.points.unwrap_or(DEFAULT_POINTS)),
     };
-    let plan = Plan::new(asked.system, Task::Lyapunov(task.clone()));
+    let plan = Plan::new(asked.system, Task::Lyapunov(task));
     plan.check()?;
-    let osc = asked.system.oscillator()?;
-    let start = task.start.start(&osc)?;
     let outputs = Outputs::reserve(args.section.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = outputs.table_on_stdout();
-
-    let (found, points) = signal::interruptible("measuring", move || {
-        let points = task.points.map_or_else(Section::default, |n| section(&osc, start, task.transient, n));
-        (exponents(&osc, start, &task.options()), points)
-    })?;
-
-    outputs.write(
-        session,
-        || Ok(table::section::table(&points, &osc, asked.units)),
-        || Ok(figure::section::figure(&points, &osc, &asked)),
-    )?;
-    if args.json {
-        return session.print_json(&document(&asked, &plan, (&osc, &start), &found));
-    }
-    if to_stdout {
-        return Ok(());
-    }
-    let head = words::system(&asked, &osc) + &words::start(&start, &asked.units) + "\n";
-    session.print(&(head + &text(&found, &asked.units)))?;
-    if !shown {
-        session.note("hint: --plot FILE.png draws the attractor; a longer --impacts narrows the error bars");
-    }
-    Ok(())
+    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

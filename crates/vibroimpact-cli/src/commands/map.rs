@@ -2,18 +2,13 @@
 
 use crate::args::{AxesArgs, Ranged, StoreArgs, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::stored;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::stored::label_table;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact_report::Units;
-use vibroimpact_report::figure::map::figure;
-use vibroimpact_report::json::map::{coexisting, counts, document};
-use vibroimpact_report::table::map::table;
-use vibroimpact_study::store::Part;
-use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, Task, counted, map};
+use vibroimpact_report::{Shown, Units};
+use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, Task};
 
 /// Which motions there are at each point of a plane of parameters
 ///
@@ -153,31 +148,9 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         ));
     }
     let task = MapPlan { axes, starts: args.starts, seed: args.seed, refine: args.refine, impacts: args.impacts };
-    let plan = args.store.tiled(Plan::new(system, Task::Map(task.clone())), &Units::default())?;
+    let axes = task.axes.clone();
+    let plan = args.store.tiled(Plan::new(system, Task::Map(task)), &Units::default())?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    outputs.drawable(&task.axes)?;
-    if let Some(place) = &args.store.store {
-        return stored::run(&plan, place, Part::ALL, outputs, session);
-    }
-
-    let total = task.points();
-    let found = session.tiled(total, "points", |control, _| map(&system, &task, control))?;
-
-    let silent = outputs.any();
-    outputs.write(session, || Ok(table(&found)), || Ok(figure(&found, &system)?))?;
-    if args.json {
-        return session.print_json(&document(&plan, &found));
-    }
-    if silent {
-        return Ok(());
-    }
-    session.print(&format!(
-        "{}, {} each; several motions coexist at {} of them\n\n{}",
-        counted(found.points.len() as u64, "point"),
-        counted(args.starts, "start"),
-        coexisting(&found),
-        label_table(&counts(&found))
-    ))?;
-    session.note("hint: --csv FILE keeps every point, --plot FILE.png draws them");
-    Ok(())
+    outputs.drawable(&axes)?;
+    respond::run(&plan, Units::default(), (outputs, Shown::default()), Some(&args.store), session)
 }

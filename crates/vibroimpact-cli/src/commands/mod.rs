@@ -17,6 +17,7 @@ mod outputs;
 mod plot;
 mod region;
 mod reproduce;
+mod respond;
 mod resume;
 mod run;
 mod schema;

@@ -1,16 +1,12 @@
 //! `vibro orbit`: the periodic orbits of a label, stable or not.
 
 use crate::args::SystemArgs;
+use crate::commands::outputs::Outputs;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::orbit::text;
-use crate::report::text as words;
 use crate::session::Session;
-use crate::signal;
 use clap::Args;
-use vibroimpact::Label;
-use vibroimpact::orbit::{FindOptions, find};
-use vibroimpact::verdict::LabelError;
-use vibroimpact_report::json::orbit::document;
+use vibroimpact_report::Shown;
 use vibroimpact_study::{Plan, Task};
 
 /// All periodic orbits with m impacts in n forcing periods, stable or not
@@ -45,28 +41,6 @@ pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let task = Task::Orbit { label: args.label.clone() };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
-    let osc = asked.system.oscillator()?;
-    let label: Label = args.label.parse().map_err(|error: LabelError| Failure::bad(error))?;
-
-    let orbits = signal::interruptible("looking for orbits", move || find(&osc, label, FindOptions::default()))?;
-
-    if args.json {
-        return session.print_json(&document(&asked, &plan, &osc, &orbits));
-    }
-    let mut said = words::system(&asked, &osc);
-    if orbits.is_empty() {
-        said.push_str(&format!("\nno orbit {label} was found\n"));
-        if label == Label::new(0, 1) {
-            said.push_str("without damping, motions without impacts are no single cycle: `vibro settle` finds them\n");
-        }
-    }
-    let count = orbits.len();
-    for (k, orbit) in orbits.into_iter().enumerate() {
-        said.push('\n');
-        if count > 1 {
-            said.push_str(&format!("orbit {} of {count}\n", k + 1));
-        }
-        said.push_str(&text(orbit, &osc, &asked.units));
-    }
-    session.print(&said)
+    let outputs = Outputs::reserve(None, None, args.json, session)?;
+    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

@@ -2,16 +2,13 @@
 
 use crate::args::{AxesArgs, Convention, MachineArgs, Place, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::region::text;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact_report::figure::region::figure;
-use vibroimpact_report::json::region::document;
-use vibroimpact_report::table::region::table;
-use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task, regions};
+use vibroimpact_report::{Asked, Shown, Units};
+use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task};
 
 /// Where in a plane of two parameters a motion exists, and where it is stable: closed polygons
 ///
@@ -153,21 +150,9 @@ impl Region {
 pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     let asked = args.asked()?;
     let (across, up) = args.plane(&asked)?;
-    let (system, units) = (asked.system, asked.units);
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
-    let plan = Plan::new(system, Task::Region(task.clone()));
+    let plan = Plan::new(asked.system, Task::Region(task));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = outputs.table_on_stdout();
-
-    let found = session.tiled(2, "regions", |control, _| regions(&system, &task, control))?;
-
-    outputs.write(session, || Ok(table(&found, &task, &units)), || Ok(figure(&found, &task, &asked)))?;
-    if args.json {
-        return session.print_json(&document(&asked, &plan, (&task, &found)));
-    }
-    if to_stdout {
-        return Ok(());
-    }
-    session.print(&text(&found, &task, &asked))
+    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

@@ -2,17 +2,15 @@
 
 use crate::args::{StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::text;
 use crate::session::Session;
-use crate::signal;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use vibroimpact::verdict::{PaperRule, PaperVerdict, SettleOptions, paper_rule, settle};
-use vibroimpact_report::json::settle::document;
-use vibroimpact_report::number::short;
-use vibroimpact_report::scene::{View, Viewed};
-use vibroimpact_study::{Plan, Task, counted};
+use vibroimpact::verdict::{PaperRule, paper_rule};
+use vibroimpact_report::Shown;
+use vibroimpact_report::scene::View;
+use vibroimpact_study::{Plan, Results, Task};
 
 /// What the motion from a start settles into, and why that is so
 ///
@@ -49,7 +47,7 @@ pub(crate) struct Settle {
 
     /// What --plot draws and --csv writes of the steady motion
     #[arg(long, value_enum, value_name = "VIEW", help_heading = "Output")]
-    show: Option<Shown>,
+    show: Option<Views>,
 
     /// Write the steady motion to this file, one row a point, columns t, x, v unless --show says otherwise; - for stdout
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -64,10 +62,9 @@ pub(crate) struct Settle {
     plot: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Shown {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Views {
     /// Position over time
-    #[default]
     Waveform,
     /// Velocity over position
     Phase,
@@ -77,13 +74,13 @@ enum Shown {
     Sections,
 }
 
-impl Shown {
-    const fn view(self) -> View {
-        match self {
-            Self::Waveform => View::Waveform,
-            Self::Phase => View::Phase,
-            Self::Multipliers => View::Multipliers,
-            Self::Sections => View::Sections,
+impl From<Views> for View {
+    fn from(view: Views) -> Self {
+        match view {
+            Views::Waveform => Self::Waveform,
+            Views::Phase => Self::Phase,
+            Views::Multipliers => Self::Multipliers,
+            Views::Sections => Self::Sections,
         }
     }
 }
@@ -101,50 +98,17 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let start = args.start.plan(&asked.units);
     let plan = Plan::new(asked.system, Task::Settle { start });
     plan.check()?;
-    let osc = asked.system.oscillator()?;
-    let start = start.start(&osc)?;
     let rule = args.paper_rule()?;
     if args.show.is_some() && args.csv.is_none() && args.plot.is_none() {
         return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
     }
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = outputs.table_on_stdout();
-
-    let (settled, paper) = signal::interruptible("settling", move || {
-        let settled = settle(&osc, start, &SettleOptions::default());
-        (settled, rule.map(|rule| (rule, paper_rule(&osc, start, rule))))
-    })?;
-    if outputs.any_file() {
-        let viewed = Viewed::new(args.show.unwrap_or_default().view(), (&osc, start), &settled, &asked)?;
-        outputs.write(session, || Ok(viewed.table()?), || Ok(viewed.figure()))?;
+    let mut answer = respond::compute(&plan, asked.units, session)?;
+    if let (Some(rule), Results::Settle(start, _)) = (rule, &answer.results) {
+        answer.paper_rule = Some((rule, paper_rule(&answer.osc, *start, rule)));
     }
-    if to_stdout {
-        return Ok(());
-    }
-    if args.json {
-        return session.print_json(&document(&asked, &plan, (&osc, &start), &settled, paper));
-    }
-    let mut text = text::system(&asked, &osc) + &text::start(&start, &asked.units) + "\n";
-    text.push_str(&text::motion(&settled.verdict, &osc, &asked.units));
-    text.push_str(&format!(
-        "  followed for {}, until time {}\n",
-        counted(settled.impacts, "impact"),
-        short(settled.time * asked.units.time())
-    ));
-    if let Some(chaos) = settled.transient {
-        text.push_str(&format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts));
-    }
-    if let Some((rule, verdict)) = paper {
-        text.push_str(&format!(
-            "\nthe paper's rule ({} %, at most {} impacts): {}\n",
-            rule.percent,
-            rule.limit,
-            said(verdict)
-        ));
-    }
-    session.print(&text)?;
-    session.note("hint: `vibro attractors` shows what other starts lead to");
-    Ok(())
+    let shown = Shown { view: args.show.map(View::from), ..Shown::default() };
+    respond::tell(&answer, (outputs, shown), session)
 }
 
 impl Settle {
@@ -165,16 +129,5 @@ impl Settle {
             return Err(Failure::bad(format!("limit = {} lies outside 2 <= limit <= 100000", rule.limit)));
         }
         Ok(Some(rule))
-    }
-}
-
-fn said(verdict: PaperVerdict) -> String {
-    match verdict {
-        PaperVerdict::Settled { m, n, impacts } => {
-            format!("settled into {m}/{} (n = {}) after {impacts} impacts", n.round(), short(n))
-        }
-        PaperVerdict::Unstable => "unstable, not settled within the limit".into(),
-        PaperVerdict::NoMoreImpacts => "the impacts ceased".into(),
-        PaperVerdict::Sticks => "the mass came to rest on the stop".into(),
     }
 }

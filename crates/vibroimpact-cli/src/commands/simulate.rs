@@ -2,20 +2,13 @@
 
 use crate::args::{StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
+use crate::commands::respond;
 use crate::failure::Failure;
-use crate::report::text;
 use crate::session::Session;
-use crate::signal;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact::motion::EventKind;
-use vibroimpact_report::Asked;
-use vibroimpact_report::figure::title;
-use vibroimpact_report::figure::waveform::figure;
-use vibroimpact_report::json::simulate::document;
-use vibroimpact_report::number::short;
-use vibroimpact_report::table::waveform::table;
-use vibroimpact_study::{Control, Plan, Simulated, Task, counted, most_impacts, simulate};
+use vibroimpact_report::Shown;
+use vibroimpact_study::{Plan, Task};
 
 /// Follow a motion event by event: impacts, grazes, sticking, release
 ///
@@ -62,82 +55,14 @@ pub(crate) struct Simulate {
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
-    let impacts = most_impacts(args.impacts, args.periods);
-    let task = Task::Simulate { start: args.start.plan(&asked.units), impacts: Some(impacts), periods: args.periods };
+    let start = args.start.plan(&asked.units);
+    let task = Task::Simulate { start, impacts: args.impacts, periods: args.periods };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
-    let osc = asked.system.oscillator()?;
-    let start = args.start.plan(&asked.units).start(&osc)?;
-    let step = args.step.map_or(osc.period() / 100.0, |step| step / asked.units.time());
-    if !(step > 0.0 && step.is_finite()) {
+    let step = args.step.map(|step| step / asked.units.time());
+    if let Some(step) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(Failure::bad(format!("step = {step} lies outside 0 < step < infinity")));
     }
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    let to_stdout = outputs.table_on_stdout();
-
-    let control = Control { stop: signal::flag(), ..Control::default() };
-    let followed = simulate(&osc, start, impacts, args.periods, &control).map_err(|stopped| {
-        Failure::Stopped(format!("after {} of {}; nothing was written", stopped.done, counted(stopped.total, "impact")))
-    })?;
-    let until = followed.shown_until(&osc);
-    outputs.write(
-        session,
-        || Ok(table(&osc, start, (until, step), asked.units)?),
-        || Ok(figure(&osc, start, (0.0, until), &asked.units, title(&asked.system))),
-    )?;
-    if to_stdout {
-        return Ok(());
-    }
-    if args.json {
-        session.print_json(&document(&asked, &plan, (&osc, &start), &followed))
-    } else {
-        let head = text::system(&asked, &osc) + &text::start(&start, &asked.units);
-        session.print(&(head + &report(&followed, &asked)))
-    }
-}
-
-fn report(followed: &Simulated, asked: &Asked) -> String {
-    let units = &asked.units;
-    let heads = [
-        units.named("time", "s"),
-        "phase".into(),
-        "<event".into(),
-        units.named("before", "m/s"),
-        units.named("after", "m/s"),
-    ];
-    let both = asked.system.second_stop.is_some();
-    let rows: Vec<Vec<String>> = followed
-        .events
-        .iter()
-        .map(|event| {
-            let mut row = vec![short(event.time * units.time()), short(event.phase)];
-            let at = if both && event.side == vibroimpact::Side::Lower { " (second stop)" } else { "" };
-            let name = match event.kind {
-                EventKind::Impact { .. } => "impact",
-                EventKind::Graze { .. } => "graze",
-                EventKind::Stick { chatter: true, .. } => "stick after chatter",
-                EventKind::Stick { chatter: false, .. } => "stick",
-                EventKind::Release => "release",
-            };
-            row.push(format!("{name}{at}"));
-            if let EventKind::Impact { velocity_before, velocity_after } = event.kind {
-                row.push(short(velocity_before * units.velocity()));
-                row.push(short(velocity_after * units.velocity()));
-            }
-            row
-        })
-        .collect();
-    let mut text = if rows.is_empty() { "no events\n".to_owned() } else { text::table(&heads, &rows) };
-    let time = short(followed.time * units.time());
-    text.push_str(&match (followed.reason, &followed.horizon) {
-        ("no_more_impacts", Some(horizon)) => {
-            let why = vibroimpact::verdict::Verdict::NoImpact(*horizon);
-            format!("end     after time {time}: {}\n", text::meaning(&why))
-        }
-        ("stuck", _) => format!("end     after time {time}: it stays on the stop for ever\n"),
-        ("impact_limit", _) => format!("end     at time {time}: the number of impacts asked for\n"),
-        ("time_limit", _) => format!("end     at time {time}: the number of periods asked for\n"),
-        _ => format!("end     after time {time}: the search for the next impact ran out of steps\n"),
-    });
-    text
+    respond::run(&plan, asked.units, (outputs, Shown { step, ..Shown::default() }), None, session)
 }

@@ -1,6 +1,6 @@
 //! Branches of periodic orbits in words: their events one by one, and how they end.
 
-use crate::report::text::{stop_name, table};
+use crate::report::words::{stop_name, table};
 use std::fmt::Write;
 use vibroimpact::continuation::{BranchEvent, Change, Point, Touch};
 use vibroimpact::orbit::Cycle;

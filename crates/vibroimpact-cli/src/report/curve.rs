@@ -1,7 +1,7 @@
 //! Curves of events in a plane of two parameters in words.
 
 use crate::report::branch::{chosen, named};
-use crate::report::text::table;
+use crate::report::words::table;
 use std::fmt::Write;
 use vibroimpact::Parameter;
 use vibroimpact_report::Units;

@@ -1,6 +1,6 @@
 //! Lyapunov exponents in words.
 
-use crate::report::text::{meaning, stop_name, table};
+use crate::report::words::{meaning, stop_name, table};
 use std::fmt::Write;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::verdict::NoImpact;

@@ -1,9 +1,61 @@
-//! What a command says to people. JSON, tables and figures are those of `vibroimpact-report`.
+//! Answers in words. JSON, tables and figures are those of `vibroimpact-report`.
 
-pub(crate) mod branch;
-pub(crate) mod curve;
-pub(crate) mod lyapunov;
-pub(crate) mod orbit;
-pub(crate) mod region;
+mod attractors;
+mod basin;
+mod branch;
+mod curve;
+mod diagram;
+mod lyapunov;
+mod map;
+mod orbit;
+mod region;
+mod settle;
+mod simulate;
 pub(crate) mod stored;
-pub(crate) mod text;
+mod words;
+
+use crate::failure::Failure;
+use vibroimpact_report::Answer;
+use vibroimpact_study::{Results, Task};
+
+/// What a command prints where neither JSON nor a table on stdout was asked for.
+pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
+    let Answer { plan, asked, osc, results, paper_rule } = answer;
+    let units = &asked.units;
+    let system = || words::system(asked, osc) + "\n";
+    let from = |start| words::system(asked, osc) + &words::start(start, units);
+    Ok(match (&plan.task, results) {
+        (_, Results::Simulate(start, found)) => from(start) + &simulate::text(found, asked),
+        (_, Results::Settle(start, found)) => from(start) + "\n" + &settle::text(found, *paper_rule, osc, units),
+        (Task::Attractors { starts, .. }, Results::Attractors(found)) => {
+            words::system(asked, osc) + &attractors::text(found, *starts, osc, units)
+        }
+        (Task::Orbit { label }, Results::Orbit(found)) => system() + &orbit::text(found, label, osc, units),
+        (_, Results::Basin(found)) => system() + &basin::text(found),
+        (_, Results::Map(found)) => map::text(found),
+        (_, Results::Diagram(found)) => diagram::text(found, units),
+        (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, units),
+        (Task::Branch(task), Results::Branch(found)) => {
+            system() + &branch::text(found, &task.cut(&asked.system)?, units)
+        }
+        (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, task, units),
+        (Task::Region(task), Results::Region(found)) => region::text(found, task, asked),
+        _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
+    })
+}
+
+/// What to try next.
+pub(crate) const fn hint(answer: &Answer) -> Option<&'static str> {
+    match answer.results {
+        Results::Settle(..) => Some("`vibro attractors` shows what other starts lead to"),
+        Results::Attractors(_) => {
+            Some("--json has the impacts of each motion; `vibro basin` shows where they start from")
+        }
+        Results::Basin(_) => Some("--csv FILE keeps every start, --plot FILE.png draws them"),
+        Results::Map(_) | Results::Diagram(_) => Some("--csv FILE keeps every point, --plot FILE.png draws them"),
+        Results::Lyapunov(_, _, None) => {
+            Some("--plot FILE.png draws the attractor; a longer --impacts narrows the error bars")
+        }
+        _ => None,
+    }
+}

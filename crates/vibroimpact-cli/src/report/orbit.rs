@@ -1,22 +1,46 @@
 //! An orbit that was looked for in words: a motion, or a solution of the equations that is none.
 
-use crate::report::text::{impacts, motion, multipliers, stop_name};
-use vibroimpact::Oscillator;
+use crate::report::words::{impacts, motion, multipliers, stop_name};
+use vibroimpact::{Label, Oscillator};
 use vibroimpact::orbit::Orbit;
 use vibroimpact::verdict::Verdict;
 use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
 
-/// Everything about it.
-pub(crate) fn text(orbit: Orbit, osc: &Oscillator, units: &Units) -> String {
+/// All orbits of a label, one after another.
+pub(crate) fn text(orbits: &[Orbit], label: &str, osc: &Oscillator, units: &Units) -> String {
+    let mut text = String::new();
+    if orbits.is_empty() {
+        // a label that was searched for does read
+        let label = label.parse().unwrap_or(Label::new(0, 1));
+        text.push_str(&format!("no orbit {label} was found\n"));
+        if label == Label::new(0, 1) {
+            text.push_str("without damping, motions without impacts are no single cycle: `vibro settle` finds them\n");
+        }
+    }
+    let count = orbits.len();
+    for (k, orbit) in orbits.iter().enumerate() {
+        if k > 0 {
+            text.push('\n');
+        }
+        if count > 1 {
+            text.push_str(&format!("orbit {} of {count}\n", k + 1));
+        }
+        text.push_str(&one(orbit, osc, units));
+    }
+    text
+}
+
+/// Everything about one.
+fn one(orbit: &Orbit, osc: &Oscillator, units: &Units) -> String {
     if orbit.physical {
-        return motion(&Verdict::Periodic(orbit.cycle), osc, units);
+        return motion(&Verdict::Periodic(orbit.cycle.clone()), osc, units);
     }
     let cycle = &orbit.cycle;
     let mut text = format!("{}: not physical, it passes through a stop on its way\n", cycle.label);
     text.push_str(&impacts(cycle, osc, units));
     text.push_str(&format!("  multipliers {}\n", multipliers(cycle.multipliers)));
-    if let Some(contact) = orbit.earlier {
+    if let Some(contact) = &orbit.earlier {
         let unit = if units.si { " s" } else { "" };
         let (stop, time) = (stop_name(contact.side), short(contact.time * units.time()));
         let impact = contact.flight + 1;

@@ -1,7 +1,7 @@
 //! Regions of existence and stability in words.
 
 use crate::report::branch::named;
-use crate::report::text::table;
+use crate::report::words::table;
 use std::fmt::Write;
 use vibroimpact::continuation::Polygon;
 use vibroimpact_report::json::region::unit;

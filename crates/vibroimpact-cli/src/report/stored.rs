@@ -1,7 +1,7 @@
 //! What is in a store: a summary, and a table with a row for each point and motion.
 
 use crate::failure::Failure;
-use crate::report::text::table as columns_of_text;
+use crate::report::words::table as columns_of_text;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::{self, Write};

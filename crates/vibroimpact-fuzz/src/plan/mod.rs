@@ -15,8 +15,7 @@ use proptest::prelude::*;
 use serde_json::Value;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
-use vibroimpact_report::answer::work;
-use vibroimpact_report::{AnswerError, Units, answer};
+use vibroimpact_report::{AnswerError, Shown, Units, answer};
 use vibroimpact_study::{Control, Plan, Task};
 
 /// A plan, what happened to it, and how it is written.
@@ -85,7 +84,7 @@ impl Property for Plans {
             return rules::sentence(&why.to_string());
         }
         as_written(&plan)?;
-        if work(&plan).is_some_and(|(points, _)| points > POINTS) {
+        if plan.work().is_some_and(|(points, _)| points > POINTS) {
             return Ok(());
         }
         let limit = if small(&plan) { SMALL } else { LARGE };
@@ -171,13 +170,13 @@ fn asked(plan: &Plan, threads: usize, stop: &AtomicBool) -> Result<Told, Refused
     };
     let answer = answer(plan, Units::default(), &control).map_err(refused)?;
     let mut table = Vec::new();
-    match answer.table() {
+    match answer.table(&Shown::default()) {
         Ok(Some(found)) => found.write(&mut table).map_err(|why| Refused::Sentence(why.to_string()))?,
         Ok(None) => {}
         // no table is a refusal of the table alone, as one of too many points
         Err(why) => rules::sentence(&why.to_string()).map_err(Refused::Sentence)?,
     }
-    let figure = match answer.figure(&control) {
+    let figure = match answer.figure(&Shown::default(), &control) {
         Ok(figure) => Ok(figure.map(|figure| figure.to_svg()).unwrap_or_default()),
         Err(AnswerError::Stopped(_)) => return Err(Refused::Stopped),
         Err(why) => Err(why.to_string()),

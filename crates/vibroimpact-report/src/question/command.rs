@@ -1,7 +1,6 @@
 //! A plan as the words of a `vibro` command.
 
 use super::number;
-use crate::answer::complete;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
 use vibroimpact_study::{
     Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
@@ -15,7 +14,7 @@ use vibroimpact_study::{
 /// basin over anything but position and velocity or over a list of values, exponents over axes, and a map over a list of one value.
 #[must_use]
 pub fn command(plan: &Plan) -> Option<Vec<String>> {
-    let plan = complete(plan).ok()?;
+    let plan = plan.complete().ok()?;
     let system = &plan.system;
     let mut line = match &plan.task {
         Task::Simulate { start, impacts, periods } => {

@@ -1,7 +1,6 @@
 //! A plan as a call of the Python package.
 
 use super::number;
-use crate::answer::complete;
 use crate::scene::{SECTION_POINTS, View};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
 use vibroimpact_study::{
@@ -15,7 +14,7 @@ use vibroimpact_study::{
 /// over axes are a study, which goes to a store, `lyapunov.zarr`.
 #[must_use]
 pub fn python(plan: &Plan) -> Option<String> {
-    let plan = complete(plan).ok()?;
+    let plan = plan.complete().ok()?;
     let (name, call) = match &plan.task {
         Task::Simulate { start, impacts, periods } => {
             let call = Call::new("simulate").start(start);

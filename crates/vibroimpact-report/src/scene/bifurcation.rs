@@ -8,7 +8,7 @@ use vibroimpact::Label;
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{
-    BranchPlan, Control, DiagramPlan, Followed, RunError, Span, Stopped, Target, branches, diagram, tiles,
+    BranchPlan, Control, DiagramPlan, Followed, Plan, Results, RunError, Span, Stopped, Target, Task, run, tiles,
 };
 
 /// Values at which orbits of a label are looked for.
@@ -38,14 +38,15 @@ pub fn bifurcation(
     labels: &[String],
     control: &Control<'_>,
 ) -> Result<Figure, AnswerError> {
-    let behind = diagram(&asked.system, plan, control)?;
+    let results = run(&Plan::new(asked.system, Task::Diagram(*plan)), control)?;
+    let behind = if let Results::Diagram(behind) = results { Some(behind) } else { None };
     let mut followed = Vec::new();
     for label in labels {
         follow(asked, plan, label, &mut followed, control)?;
     }
     let known = |branch: &Followed| branch.points.iter().any(|point| labels.contains(&point.cycle.label.to_string()));
     followed.retain(known);
-    Ok(figure(&followed, &plan.cut(), Some(&behind), false, asked)?)
+    Ok(figure(&followed, &plan.cut(), behind.as_ref(), false, asked)?)
 }
 
 /// Adds the branches of a label, unless one that is there passes through its orbit.
@@ -72,8 +73,9 @@ fn follow(
             let also = cut.values(end).nth(1).map(|(parameter, to)| Target { parameter, to });
             let label = label.to_owned();
             let task = BranchPlan { label, vary: cut.vary, to: end, also, orbit: None, follow: FOLLOW, points: POINTS };
-            match branches(&system, &task, control) {
-                Ok(found) => followed.extend(found.followed),
+            match run(&Plan::new(system, Task::Branch(task)), control) {
+                Ok(Results::Branch(found)) => followed.extend(found.followed),
+                Ok(_) => {}
                 Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
                 // no orbit there is no fault: the label exists along a part of the line
                 Err(RunError::Plan(_)) => {}

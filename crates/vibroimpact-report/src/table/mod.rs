@@ -22,6 +22,13 @@ pub struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
+    /// The same with its rows in memory, where what they are made from does not last.
+    #[must_use]
+    pub fn kept(self) -> Table<'static> {
+        let rows: Vec<String> = self.rows.collect();
+        Table { header: self.header, rows: Box::new(rows.into_iter()) }
+    }
+
     /// Of a header and rows.
     #[must_use]
     pub fn new(header: String, rows: impl Iterator<Item = String> + 'a) -> Self {

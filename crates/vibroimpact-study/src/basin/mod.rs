@@ -70,7 +70,7 @@ pub(crate) fn start_at(osc: &Oscillator, plan: &BasinPlan, place: impl Fn(usize)
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense or varies parameters too, or when stopped.
-pub fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>) -> Result<Basin, RunError> {
+pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>) -> Result<Basin, RunError> {
     in_tiles(system, plan, control, TILE)
 }
 

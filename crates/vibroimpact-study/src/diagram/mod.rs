@@ -59,7 +59,7 @@ const TILE: u64 = 16;
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, or when stopped.
-pub fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
+pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
     plan.check(system)?;
     let values = u64::from(plan.over.count());
     let tile = if let Direction::Scatter { .. } = plan.direction { TILE } else { values };

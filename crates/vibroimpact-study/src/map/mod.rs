@@ -42,7 +42,7 @@ pub struct RegionMap {
 ///
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, or when stopped.
-pub fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result<RegionMap, RunError> {
+pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result<RegionMap, RunError> {
     plan.check(system)?;
     let options = &plan.options();
     let total = plan.points();

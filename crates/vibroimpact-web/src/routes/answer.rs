@@ -13,14 +13,11 @@ use axum::response::Response;
 use core::sync::atomic::Ordering;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use vibroimpact::verdict::Settled;
-use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::Figure;
-use vibroimpact_report::answer::Found;
 use vibroimpact_report::question::{python, python_showing, shell_line, shell_line_showing};
-use vibroimpact_report::scene::{View, Viewed};
-use vibroimpact_report::{AnswerError, Units, answer as ask, scene};
-use vibroimpact_study::{Control, Plan};
+use vibroimpact_report::scene::View;
+use vibroimpact_report::{AnswerError, Shown, Units, answer as ask};
+use vibroimpact_study::Control;
 
 /// The object that `--json` prints; told while it goes on, where the page wants that.
 pub(super) async fn answer(
@@ -54,16 +51,7 @@ pub(super) async fn table(
     let plan = asked.plan;
     let work = move |control: &Control<'_>| {
         let answer = ask(&plan, Units::default(), control)?;
-        let shown = match (&answer.found, wanted.kind) {
-            (Found::Settle(start, found), Some(view)) => {
-                Some(viewed(view, (&answer.osc, *start), found, &answer.asked)?)
-            }
-            _ => None,
-        };
-        let table = match &shown {
-            Some(shown) => Some(shown.table().map_err(AnswerError::from)?),
-            None => answer.table().map_err(AnswerError::from)?,
-        };
+        let table = answer.table(&wanted.shown())?;
         let table = table.ok_or_else(|| nothing("table"))?;
         let mut text = Vec::new();
         table.write(&mut text).map_err(|_| Refusal::fault("a table that cannot be written"))?;
@@ -109,6 +97,10 @@ const SIZES: core::ops::RangeInclusive<f64> = 200.0..=4000.0;
 const SHARPNESS: f64 = 2.0;
 
 impl Wanted {
+    fn shown(&self) -> Shown {
+        Shown { view: self.kind, ..Shown::default() }
+    }
+
     pub(super) fn check(&self) -> Result<(), Refusal> {
         for (name, size) in [("width", self.width), ("height", self.height)] {
             if let Some(given) = size.filter(|size| !SIZES.contains(size)) {
@@ -143,33 +135,12 @@ pub(super) async fn figure(
     wanted.check()?;
     let plan = asked.plan;
     let work = move |control: &Control<'_>| {
-        let figure = drawn(&plan, wanted.kind, control)?.ok_or_else(|| nothing("figure"))?;
+        let answer = ask(&plan, Units::default(), control)?;
+        let figure = answer.figure(&wanted.shown(), control)?.ok_or_else(|| nothing("figure"))?;
         wanted.draw(figure)
     };
     let (kind, body) = explorer.workshop.run(Bench::Answers, 0, |_| {}, work).await?;
     Ok(bytes(kind, body))
-}
-
-fn drawn(plan: &Plan, view: Option<View>, control: &Control<'_>) -> Result<Option<Figure>, Refusal> {
-    let answer = ask(plan, Units::default(), control)?;
-    let (asked, osc) = (&answer.asked, &answer.osc);
-    Ok(match (&answer.found, view) {
-        (Found::Settle(start, found), Some(view)) => Some(viewed(view, (osc, *start), found, asked)?.figure()),
-        (_, None | Some(View::Waveform)) | (Found::Lyapunov(..), Some(View::Sections)) => answer.figure(control)?,
-        (Found::Simulate(start, found), Some(View::Phase)) => {
-            Some(scene::phase_portrait(asked, osc, *start, (0.0, found.shown_until(osc))))
-        }
-        _ => None,
-    })
-}
-
-fn viewed<'a>(
-    view: View,
-    from: (&'a Oscillator, Start),
-    found: &'a Settled,
-    asked: &'a vibroimpact_report::Asked,
-) -> Result<Viewed<'a>, Refusal> {
-    Viewed::new(view, from, found, asked).map_err(|error| Refusal::from(AnswerError::from(error)))
 }
 
 fn nothing(what: &str) -> Refusal {

@@ -9,7 +9,6 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use core::time::Duration;
 use serde::de::DeserializeOwned;
-use vibroimpact_report::answer::work;
 use vibroimpact_study::{Plan, PlanError};
 
 /// A plan that makes sense and is not too much.
@@ -54,7 +53,7 @@ impl<S: Send + Sync> FromRequest<S> for Asked {
         })?;
         plan.check()?;
         bounds::check(&plan)?;
-        Ok(Self { points: work(&plan).map_or(1, |(points, _)| points), plan })
+        Ok(Self { points: plan.work().map_or(1, |(points, _)| points), plan })
     }
 }
 

@@ -8,7 +8,7 @@ use vibroimpact_plot::{
     Axis, Colour, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke, Text,
 };
 use vibroimpact_study::diagram::{self, DiagramPlan};
-use vibroimpact_study::{Control, Parameter, Span, SystemPlan};
+use vibroimpact_study::{Control, Parameter, Plan, Results, Span, SystemPlan, Task, run};
 
 /// The gaps shown.
 const SHOWN: (f64, f64) = (-0.45, 5.45);
@@ -87,7 +87,9 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
         transient: diagram::DEFAULT_TRANSIENT,
         keep: diagram::DEFAULT_KEEP,
     };
-    let found = diagram::diagram(&system, &plan, &Control::default())?;
+    let Results::Diagram(found) = run(&Plan::new(system, Task::Diagram(plan)), &Control::default())? else {
+        return Err(Error::Unexpected("a diagram came out as something else"));
+    };
     let mut places = Vec::new();
     for step in &found.steps {
         places.extend(step.points.iter().filter_map(|point| match point {

@@ -1,0 +1,64 @@
+//! What the commands that ask one question share: compute its answer, then write the files and print what was asked for.
+
+use crate::args::StoreArgs;
+use crate::commands::outputs::Outputs;
+use crate::commands::stored;
+use crate::failure::Failure;
+use crate::report;
+use crate::session::Session;
+use vibroimpact_report::{Answer, AnswerError, Shown, Units, answer};
+use vibroimpact_study::store::Part;
+use vibroimpact_study::{Control, Plan, Results, Stopped};
+
+/// Computes the answer of a plan and reports it; with --store the plan is computed into the store instead.
+pub(super) fn run(
+    plan: &Plan,
+    units: Units,
+    (outputs, shown): (Outputs, Shown),
+    store: Option<&StoreArgs>,
+    session: &Session,
+) -> Result<(), Failure> {
+    if let Some(place) = store.and_then(|store| store.store.as_ref()) {
+        return stored::run(plan, place, Part::ALL, outputs, session);
+    }
+    let answer = compute(plan, units, session)?;
+    tell(&answer, (outputs, shown), session)
+}
+
+/// Computes the answer of a plan, with a progress bar where there is something to count.
+pub(super) fn compute(plan: &Plan, units: Units, session: &Session) -> Result<Answer, Failure> {
+    let work = plan.work();
+    session.watched(work, |control| answer(plan, units, control)).map_err(|error| match error {
+        AnswerError::Stopped(Stopped { done, total }) => {
+            let unit = work.map_or("impacts", |(_, unit)| unit);
+            let part = if total > 1 { format!("after {done} of {total} {unit}; ") } else { String::new() };
+            Failure::Stopped(format!("{part}nothing was written"))
+        }
+        other => other.into(),
+    })
+}
+
+/// Writes the files, then prints the JSON object or, where the table is not on stdout, the text. Of a grid with a file there is no text.
+pub(super) fn tell(answer: &Answer, (outputs, shown): (Outputs, Shown), session: &Session) -> Result<(), Failure> {
+    let grid = matches!(answer.results, Results::Basin(_) | Results::Map(_) | Results::Diagram(_));
+    let (json, files, table) = (outputs.json(), outputs.any_file(), outputs.table_on_stdout());
+    let none = |what: &str| Failure::bad(format!("this question has no {what}"));
+    // the diagram behind a branch is computed for its figure
+    let behind = |control: &Control<'_>| answer.figure(&shown, control);
+    outputs.write(
+        session,
+        || answer.table(&shown)?.ok_or_else(|| none("table")),
+        || session.watched(None, behind)?.ok_or_else(|| none("figure")),
+    )?;
+    if json {
+        return session.print_json(answer);
+    }
+    if table || (grid && files) {
+        return Ok(());
+    }
+    session.print(&report::text(answer)?)?;
+    if let Some(hint) = report::hint(answer) {
+        session.note(&format!("hint: {hint}"));
+    }
+    Ok(())
+}

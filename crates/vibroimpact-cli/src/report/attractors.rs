@@ -1,0 +1,34 @@
+//! The steady motions of many starts in words.
+
+use crate::report::words::{meaning, multipliers, table};
+use vibroimpact::Oscillator;
+use vibroimpact::verdict::{Census, StartBox};
+use vibroimpact_report::Units;
+use vibroimpact_report::number::{percent, short};
+
+/// Where the starts are, and one row a motion.
+pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units) -> String {
+    let StartBox { x, v, .. } = StartBox::natural(osc);
+    let heads = ["share", "starts", "<label", "multipliers", "<meaning"].map(str::to_owned);
+    let rows: Vec<Vec<String>> = census
+        .by_share()
+        .iter()
+        .map(|found| {
+            vec![
+                percent(census.share(found)),
+                found.count.to_string(),
+                found.verdict.label().into_owned(),
+                found.verdict.multipliers(osc).map_or_else(|| "-".into(), multipliers),
+                meaning(&found.verdict),
+            ]
+        })
+        .collect();
+    let head = format!(
+        "starts  {starts} in x {} to {}, v {} to {}, all phases\n\n",
+        short(x.0 * units.length()),
+        short(x.1 * units.length()),
+        short(v.0 * units.velocity()),
+        short(v.1 * units.velocity())
+    );
+    head + &table(&heads, &rows)
+}

@@ -1,0 +1,31 @@
+//! The motions of an orbit diagram in words.
+
+use crate::report::words::table;
+use vibroimpact_report::Units;
+use vibroimpact_report::json::diagram::{Counts, counts};
+use vibroimpact_report::number::short;
+use vibroimpact_study::{Diagram, Stretch, counted};
+
+/// What varies, and one row a sweep.
+pub(crate) fn text(found: &Diagram, units: &Units) -> String {
+    let plan = &found.plan;
+    let ((from, to), unit) = (plan.over.ends(), units.of(plan.vary));
+    let name = plan.vary.name().replace('_', " ");
+    let heads = ["<sweep", "motions", "with impacts", "none", "stuck", "undecided", "points"].map(str::to_owned);
+    let row = |c: &Counts| {
+        let counts = [c.motions, c.impact, c.none, c.stuck, c.undecided, c.points];
+        core::iter::once(c.sweep.to_owned()).chain(counts.map(|n| n.to_string())).collect()
+    };
+    let rows: Vec<Vec<String>> = counts(found).iter().map(row).collect();
+    let also = plan.also.map_or_else(String::new, |Stretch { parameter, from, to }| {
+        let unit = units.of(parameter);
+        format!(", {} from {} to {}", parameter.name().replace('_', " "), short(from * unit), short(to * unit))
+    });
+    format!(
+        "{} of {name} from {} to {}{also}\n\n{}",
+        counted(u64::from(plan.over.count()), "value"),
+        short(from * unit),
+        short(to * unit),
+        table(&heads, &rows)
+    )
+}

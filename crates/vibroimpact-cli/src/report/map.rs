@@ -1,0 +1,16 @@
+//! The motions of a map in words.
+
+use crate::report::stored::label_table;
+use vibroimpact_report::json::map::{coexisting, counts};
+use vibroimpact_study::{RegionMap, counted};
+
+/// How many points there are, and one row a label.
+pub(crate) fn text(found: &RegionMap) -> String {
+    format!(
+        "{}, {} each; several motions coexist at {} of them\n\n{}",
+        counted(found.points.len() as u64, "point"),
+        counted(found.plan.starts, "start"),
+        coexisting(found),
+        label_table(&counts(found))
+    )
+}

@@ -1,0 +1,46 @@
+//! What a motion settles into, in words.
+
+use crate::report::words::motion;
+use vibroimpact::Oscillator;
+use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
+use vibroimpact_report::Units;
+use vibroimpact_report::number::short;
+use vibroimpact_study::counted;
+
+/// The motion, how long it was followed, and what the paper's rule says of it.
+pub(crate) fn text(
+    settled: &Settled,
+    paper: Option<(PaperRule, PaperVerdict)>,
+    osc: &Oscillator,
+    units: &Units,
+) -> String {
+    let mut text = motion(&settled.verdict, osc, units);
+    text.push_str(&format!(
+        "  followed for {}, until time {}\n",
+        counted(settled.impacts, "impact"),
+        short(settled.time * units.time())
+    ));
+    if let Some(chaos) = settled.transient {
+        text.push_str(&format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts));
+    }
+    if let Some((rule, verdict)) = paper {
+        text.push_str(&format!(
+            "\nthe paper's rule ({} %, at most {} impacts): {}\n",
+            rule.percent,
+            rule.limit,
+            said(verdict)
+        ));
+    }
+    text
+}
+
+fn said(verdict: PaperVerdict) -> String {
+    match verdict {
+        PaperVerdict::Settled { m, n, impacts } => {
+            format!("settled into {m}/{} (n = {}) after {impacts} impacts", n.round(), short(n))
+        }
+        PaperVerdict::Unstable => "unstable, not settled within the limit".into(),
+        PaperVerdict::NoMoreImpacts => "the impacts ceased".into(),
+        PaperVerdict::Sticks => "the mass came to rest on the stop".into(),
+    }
+}

@@ -1,0 +1,109 @@
+//! The one function that turns a plan into its result, in memory. The command, the page and the Python package call it.
+
+use crate::attractors::attractors;
+use crate::basin::basin;
+use crate::branch::branches;
+use crate::curve::curve;
+use crate::diagram::diagram;
+use crate::map::map;
+use crate::region::regions;
+use crate::simulate::simulate;
+use crate::{
+    Basin, Branches, Control, Diagram, EventCurve, Plan, PlanError, RegionMap, Regions, RunError, Simulated, Stopped, Task,
+};
+use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
+use vibroimpact::orbit::{FindOptions, Orbit, find_while};
+use vibroimpact::verdict::{Census, SettleOptions, Settled, StartBox, settle_while};
+use vibroimpact::{Label, Start};
+
+/// The result of each [`Task`].
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Results {
+    /// The start, and the events of its motion.
+    Simulate(Start, Simulated),
+    /// The start, and what its motion settles into.
+    Settle(Start, Settled),
+    /// The steady motions that the starts lead to.
+    Attractors(Census),
+    /// The orbits of a label.
+    Orbit(Vec<Orbit>),
+    /// The motion of each start.
+    Basin(Basin),
+    /// The motions at each point.
+    Map(RegionMap),
+    /// The motions at each value.
+    Diagram(Diagram),
+    /// The start, the exponents of its motion, and its sections where points of them were asked for.
+    Lyapunov(Start, Exponents, Option<Section>),
+    /// A branch, and those that begin on it.
+    Branch(Branches),
+    /// A curve of events.
+    Curve(EventCurve),
+    /// Where a motion exists and where it is stable.
+    Region(Regions),
+}
+
+/// Computes the result of a plan: every point of a grid, without refinement.
+///
+/// `control.stop` is read at every point of a grid, every event of a motion, every seed of a search for orbits, every step round
+/// a region and every point of a branch or curve.
+///
+/// ```
+/// use vibroimpact_study::{Control, Plan, Results, run};
+/// let plan = Plan::from_text(r#"{"version":1,"system":{"inverse_beta":1.8,"gap":0.25,"restitution":0.5},"task":{"settle":{"start":{}}}}"#)?;
+/// let Results::Settle(_, settled) = run(&plan, &Control::default())? else { unreachable!() };
+/// assert_eq!(settled.verdict.label(), "4/1");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RunError`] for a plan that makes no sense, or when stopped. Exponents over axes have no single result: they are a
+/// [`Study`](crate::Study).
+pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
+    plan.check()?;
+    let system = &plan.system;
+    let osc = system.oscillator()?;
+    let go_on = || !control.stopping();
+    let stopped = Stopped { done: 0, total: plan.work().map_or(1, |(total, _)| total) };
+    if control.stopping() {
+        return Err(stopped.into());
+    }
+    Ok(match &plan.task {
+        Task::Simulate { start, impacts, periods } => {
+            let start = start.start(&osc)?;
+            Results::Simulate(start, simulate(&osc, start, (*impacts, *periods), control)?)
+        }
+        Task::Settle { start } => {
+            let start = start.start(&osc)?;
+            Results::Settle(start, settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(stopped)?)
+        }
+        Task::Attractors { starts, seed } => {
+            let (area, options) = (StartBox::natural(&osc), SettleOptions::default());
+            Results::Attractors(attractors(&osc, area, (*starts, *seed), &options, control)?)
+        }
+        Task::Orbit { label } => {
+            let label: Label = label.parse().map_err(PlanError::from)?;
+            Results::Orbit(find_while(&osc, label, FindOptions::default(), go_on).ok_or(stopped)?)
+        }
+        Task::Basin(task) => Results::Basin(basin(system, task, control)?),
+        Task::Map(task) => Results::Map(map(system, task, control)?),
+        Task::Diagram(task) => Results::Diagram(diagram(system, task, control)?),
+        Task::Lyapunov(task) => {
+            if let Some(axis) = task.axes.first() {
+                let (task, known) = ("measurement of one motion", "none: over axes it is a study, for `vibro run`");
+                return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known }.into());
+            }
+            let start = task.start.start(&osc)?;
+            let section = match task.points {
+                Some(points) => Some(section_while(&osc, start, task.transient, points, go_on).ok_or(stopped)?),
+                None => None,
+            };
+            let exponents = exponents_while(&osc, start, &task.options(), go_on).ok_or(stopped)?;
+            Results::Lyapunov(start, exponents, section)
+        }
+        Task::Branch(task) => Results::Branch(branches(system, task, control)?),
+        Task::Curve(task) => Results::Curve(curve(system, task, control)?),
+        Task::Region(task) => Results::Region(regions(system, task, control)?),
+    })
+}
