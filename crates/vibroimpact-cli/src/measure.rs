@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::lanes::{ABREAST, Batch, Width};
 use vibroimpact::motion::{EventKind, Motion};
-use vibroimpact::verdict::{Atlas, SettleOptions, settle_many};
+use vibroimpact::verdict::{KnownAttractors, SettleOptions, settle_many};
 use vibroimpact::{Oscillator, Start, scenario};
 
 /// What is measured.
@@ -138,8 +138,8 @@ fn basin(width: Width, duration: Duration) -> f64 {
         Start { x: -4.0 + 4.75 * (column + 0.5) / 100.0, v: -4.0 + 8.0 * (row + 0.5) / 100.0, phase: 0.0 }
     };
     median_rate(duration, || {
-        let atlas = Atlas::survey(&osc, (0..24).map(|k| start(417 * k)), &options);
-        settle_many(&osc, 0..10_000, start, &atlas, &options, width, &|| false).cells.len()
+        let survey = KnownAttractors::survey(&osc, (0..24).map(|k| start(417 * k)), &options);
+        settle_many(&osc, 0..10_000, start, &survey, &options, width, &|| false).cells.len()
     })
 }
 

@@ -2,8 +2,8 @@
 
 use crate::case::kind;
 use crate::limits::{self, Limits};
-use crate::worker::{self, Task};
-use crate::{Family, Options};
+use crate::worker::{self, Job};
+use crate::{Family, FuzzOptions};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, BufReader};
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// What came of a family.
 #[derive(Clone, Debug, Default)]
-pub struct Found {
+pub struct FaultReport {
     /// Cases that were asked.
     pub cases: u64,
     /// Faults, each kind once: what does not hold, the number of its case, the case.
@@ -33,7 +33,7 @@ const ENOUGH: usize = 30;
 ///
 /// # Errors
 /// Where no worker can be started.
-pub fn run(options: &Options, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io::Result<bool> {
+pub fn run(options: &FuzzOptions, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io::Result<bool> {
     let seed = options.seed.unwrap_or_else(drawn);
     let vibro = options.vibro.clone().unwrap_or_else(|| worker::beside(program));
     let families = options.families();
@@ -44,7 +44,7 @@ pub fn run(options: &Options, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io
     let total: u32 = families.iter().map(|family| family.weight()).sum();
     #[allow(clippy::cast_precision_loss)] // a handful
     let share = |family: Family| options.seconds * jobs as f64 * f64::from(family.weight()) / f64::from(total);
-    let task = |family: Family| Task {
+    let task = |family: Family| Job {
         family,
         seed,
         from: options.case.unwrap_or(0),
@@ -85,16 +85,16 @@ fn drawn() -> u64 {
 }
 
 /// Runs a family to the end of its time, in one worker after another.
-fn family(task: &Task, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io::Result<Found> {
+fn family(task: &Job, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io::Result<FaultReport> {
     let end = Instant::now() + Duration::from_secs_f64(task.seconds);
-    let mut found = Found::default();
+    let mut found = FaultReport::default();
     let mut from = task.from;
     loop {
         let left = end.saturating_duration_since(Instant::now()).as_secs_f64();
         if left <= 0.0 || from >= task.until || found.faults.len() >= ENOUGH {
             return Ok(found);
         }
-        let part = Task { from, seconds: left, ..task.clone() };
+        let part = Job { from, seconds: left, ..task.clone() };
         let mut fault = |k: u64, why: &str, case: &str| {
             found.faults.entry(kind(why)).or_insert_with(|| {
                 let (family, seed) = (task.family, task.seed);
@@ -118,7 +118,7 @@ struct Ended {
     died_at: Option<u64>,
 }
 
-fn watch(task: &Task, program: &Path, fault: &mut dyn FnMut(u64, &str, &str)) -> io::Result<Ended> {
+fn watch(task: &Job, program: &Path, fault: &mut dyn FnMut(u64, &str, &str)) -> io::Result<Ended> {
     let limits = Limits { cpu: 1_000_000, memory: MEMORY, ..Limits::default() };
     let mut command = limits::limited(program, &limits);
     let mut child = command.arg("worker").args(task.words()).stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;

@@ -28,4 +28,4 @@ pub mod verdicts;
 pub mod worker;
 
 pub use family::Family;
-pub use options::Options;
+pub use options::FuzzOptions;

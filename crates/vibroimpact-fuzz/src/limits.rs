@@ -29,7 +29,7 @@ impl Default for Limits {
 
 /// What a process did.
 #[derive(Debug)]
-pub struct Ran {
+pub struct ProcessEnd {
     /// Its exit code; `None` where it was killed.
     pub code: Option<i32>,
     /// What it wrote.
@@ -42,7 +42,7 @@ pub struct Ran {
     pub took: Duration,
 }
 
-impl Ran {
+impl ProcessEnd {
     /// How it ended where it ended badly: killed, or with a code that is none of `codes`.
     ///
     /// # Errors
@@ -77,7 +77,12 @@ pub fn limited(program: &Path, limits: &Limits) -> Command {
 ///
 /// # Errors
 /// Where it cannot be started, or its output not be kept.
-pub fn run(program: &Path, args: &[String], (folder, scratch): (&Path, &Path), limits: &Limits) -> io::Result<Ran> {
+pub fn run(
+    program: &Path,
+    args: &[String],
+    (folder, scratch): (&Path, &Path),
+    limits: &Limits,
+) -> io::Result<ProcessEnd> {
     let (out, err) = (scratch.join("stdout"), scratch.join("stderr"));
     let begun = Instant::now();
     let mut child = limited(program, limits)
@@ -88,7 +93,7 @@ pub fn run(program: &Path, args: &[String], (folder, scratch): (&Path, &Path), l
         .stderr(File::create(&err)?)
         .spawn()?;
     let status = wait(&mut child, begun, limits)?;
-    Ok(Ran {
+    Ok(ProcessEnd {
         code: status.and_then(|status| status.code()),
         stdout: std::fs::read(&out)?,
         stderr: String::from_utf8_lossy(&std::fs::read(&err)?).into_owned(),
@@ -137,7 +142,7 @@ pub fn processor_time(id: u32) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn shell(script: &str, limits: Limits) -> Ran {
+    fn shell(script: &str, limits: Limits) -> ProcessEnd {
         let scratch = tempfile::tempdir().expect("a folder for the test");
         let args = ["-c".to_owned(), script.to_owned()];
         run(Path::new("/bin/sh"), &args, (scratch.path(), scratch.path()), &limits).expect("the shell runs")

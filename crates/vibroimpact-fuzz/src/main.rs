@@ -3,22 +3,22 @@
 
 use std::io;
 use std::process::ExitCode;
-use vibroimpact_fuzz::worker::{self, Task};
-use vibroimpact_fuzz::{Options, driver, options};
+use vibroimpact_fuzz::worker::{self, Job};
+use vibroimpact_fuzz::{FuzzOptions, driver, options};
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     if let [first, rest @ ..] = words.as_slice()
         && first == "worker"
     {
-        return Task::parse(rest)
+        return Job::parse(rest)
             .map_or(ExitCode::from(2), |task| done(worker::work(&task, &mut io::stdout()).map(|()| true)));
     }
     if words.iter().any(|word| matches!(word.as_str(), "--help" | "-h")) {
         print!("{}", options::USAGE);
         return ExitCode::SUCCESS;
     }
-    match Options::parse(&words) {
+    match FuzzOptions::parse(&words) {
         Ok(options) => {
             let say = |line: &str| println!("{line}");
             done(std::env::current_exe().and_then(|program| driver::run(&options, &program, &say)))

@@ -18,7 +18,7 @@ usage: cargo xtask fuzz [--seconds N] [--seed S] [--only FAMILY] [--cases N] [--
 
 /// The options, checked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Options {
+pub struct FuzzOptions {
     /// Seconds of wall time.
     pub seconds: f64,
     /// Which cases; `None` to draw one from the clock.
@@ -35,13 +35,13 @@ pub struct Options {
     pub vibro: Option<PathBuf>,
 }
 
-impl Default for Options {
+impl Default for FuzzOptions {
     fn default() -> Self {
         Self { seconds: 60.0, seed: None, only: None, cases: None, case: None, jobs: 0, vibro: None }
     }
 }
 
-impl Options {
+impl FuzzOptions {
     /// Reads the words after `fuzz`.
     ///
     /// # Errors
@@ -89,13 +89,13 @@ impl Options {
 mod tests {
     use super::*;
 
-    fn parse(line: &str) -> Result<Options, String> {
-        Options::parse(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+    fn parse(line: &str) -> Result<FuzzOptions, String> {
+        FuzzOptions::parse(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
     }
 
     #[test]
     fn words_are_read_and_nonsense_is_named() {
-        assert_eq!(parse(""), Ok(Options::default()));
+        assert_eq!(parse(""), Ok(FuzzOptions::default()));
         let one = parse("--seed 7 --only plans --case 12").unwrap();
         assert_eq!((one.seed, one.only, one.case), (Some(7), Some(Family::Plans), Some(12)));
         for (line, sentence) in [

@@ -20,7 +20,7 @@ const PORT: u16 = 8411;
 
 /// A request.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct PageRequest {
     method: &'static str,
     path: String,
     headers: Vec<(&'static str, String)>,
@@ -44,7 +44,7 @@ impl Page {
     }
 
     /// The status, the kind and the bytes of an answer; an explorer of its own, which remembers nothing.
-    fn ask(&self, case: &Asked) -> Result<Option<(u16, String, Vec<u8>)>, String> {
+    fn ask(&self, case: &PageRequest) -> Result<Option<(u16, String, Vec<u8>)>, String> {
         let mut request = Request::builder().method(case.method).uri(&case.path);
         for (name, value) in &case.headers {
             request = request.header(*name, value);
@@ -76,7 +76,7 @@ const PATIENCE: Duration = Duration::from_secs(180);
 /// How long the answer to a question of a large budget is waited for.
 const GLANCE: Duration = Duration::from_secs(5);
 
-impl Asked {
+impl PageRequest {
     /// Whether the answer is worth waiting for: layers and bifurcation diagrams ask for many orbits, whatever the plan.
     fn small(&self) -> bool {
         let many = ["/api/layer", "/api/bifurcation"].iter().any(|route| self.path.starts_with(route));
@@ -170,22 +170,22 @@ fn headers() -> BoxedStrategy<Vec<(&'static str, String)>> {
 }
 
 impl Property for Page {
-    type Case = Asked;
+    type Case = PageRequest;
 
-    fn strategy(&self) -> BoxedStrategy<Asked> {
+    fn strategy(&self) -> BoxedStrategy<PageRequest> {
         let method = prop_oneof![14 => Just("POST"), 2 => Just("GET"), 1 => prop::sample::select(vec!["HEAD", "PUT", "DELETE", "OPTIONS", "BREW"])];
         (method, path(), headers(), Written::strategy())
-            .prop_map(|(method, path, headers, plan)| Asked { method, path, headers, plan })
+            .prop_map(|(method, path, headers, plan)| PageRequest { method, path, headers, plan })
             .boxed()
     }
 
-    fn describe(&self, case: &Asked) -> String {
+    fn describe(&self, case: &PageRequest) -> String {
         let headers: Vec<String> = case.headers.iter().map(|(name, value)| format!("{name}: {value}")).collect();
         let body: String = case.plan.json().chars().take(4000).collect();
         format!("{} {}\n{}\n\n{body}", case.method, case.path, headers.join("\n"))
     }
 
-    fn check(&mut self, case: &Asked) -> Result<(), String> {
+    fn check(&mut self, case: &PageRequest) -> Result<(), String> {
         let Some((status, kind, body)) = self.ask(case)? else { return Ok(()) };
         let events = kind.starts_with("text/event-stream");
         match status {

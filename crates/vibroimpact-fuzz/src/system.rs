@@ -4,10 +4,10 @@ use crate::values::{damping, gap, odd, plain, ratio, restitution, typed};
 use proptest::prelude::*;
 
 /// Parameters and their values as they are typed.
-pub type Values = Vec<(&'static str, String)>;
+pub type SystemValues = Vec<(&'static str, String)>;
 
 /// An oscillator. One in a dozen lacks something or has a value that is none.
-pub fn system() -> BoxedStrategy<Values> {
+pub fn system() -> BoxedStrategy<SystemValues> {
     let second = prop::option::weighted(0.15, (second_gap(), prop::option::weighted(0.4, restitution())));
     let fault = prop::option::weighted(0.08, (0..4_usize, prop::option::of(odd())));
     (any::<bool>(), ratio(), restitution(), prop::option::weighted(0.3, damping()), second, fault)
@@ -36,12 +36,12 @@ pub fn system() -> BoxedStrategy<Values> {
         .boxed()
 }
 
-fn second_gap() -> crate::values::Text {
+fn second_gap() -> crate::values::ProptestText {
     prop_oneof![6 => (0.0..4.0_f64).prop_map(typed), 1 => plain()].boxed()
 }
 
 /// Where a motion begins: `x`, `v`, `phase`, each perhaps.
-pub fn start() -> BoxedStrategy<Values> {
+pub fn start() -> BoxedStrategy<SystemValues> {
     let x = prop_oneof![6 => (-6.0..1.0_f64).prop_map(typed), 1 => plain()];
     let phase = prop_oneof![
         5 => (0.0..core::f64::consts::TAU).prop_map(typed),
@@ -73,14 +73,14 @@ pub fn parameter() -> BoxedStrategy<(&'static str, f64, f64)> {
 
 /// The system without what varies, so that nothing is given twice.
 #[must_use]
-pub fn without(values: Values, varied: &[&str]) -> Values {
+pub fn without(values: SystemValues, varied: &[&str]) -> SystemValues {
     let frequency = |name: &str| matches!(name, "beta" | "inverse_beta");
     let same = |a: &str, b: &str| a == b || frequency(a) && frequency(b);
-    let mut left: Values =
+    let mut left: SystemValues =
         values.into_iter().filter(|(name, _)| !varied.iter().any(|other| same(name, other))).collect();
     // the restitution of a second stop means nothing without one
     let second =
-        |values: &Values| values.iter().any(|(name, _)| *name == "second_gap") || varied.contains(&"second_gap");
+        |values: &SystemValues| values.iter().any(|(name, _)| *name == "second_gap") || varied.contains(&"second_gap");
     if varied.contains(&"second_restitution") && !second(&left) {
         left.push(("second_gap", "1".to_owned()));
     }

@@ -3,9 +3,9 @@
 use proptest::prelude::*;
 
 /// A text that is drawn.
-pub type Text = BoxedStrategy<String>;
+pub type ProptestText = BoxedStrategy<String>;
 
-fn one_of(texts: &'static [&'static str]) -> Text {
+fn one_of(texts: &'static [&'static str]) -> ProptestText {
     prop::sample::select(texts).prop_map(str::to_owned).boxed()
 }
 
@@ -16,7 +16,7 @@ pub fn typed(x: f64) -> String {
 }
 
 /// What is no number here, or an extreme one.
-pub fn odd() -> Text {
+pub fn odd() -> ProptestText {
     one_of(&[
         "nan",
         "NaN",
@@ -63,7 +63,7 @@ pub fn odd() -> Text {
 }
 
 /// A number of ordinary size.
-pub fn plain() -> Text {
+pub fn plain() -> ProptestText {
     prop_oneof![
         5 => (-4.0..4.0_f64).prop_map(typed),
         3 => (0.0..2.0_f64).prop_map(typed),
@@ -77,12 +77,12 @@ pub fn plain() -> Text {
 }
 
 /// Any number, sometimes none.
-pub fn number() -> Text {
+pub fn number() -> ProptestText {
     prop_oneof![12 => plain(), 1 => odd()].boxed()
 }
 
 /// A frequency ratio or its inverse: near 1, near fractions, very small, very large.
-pub fn ratio() -> Text {
+pub fn ratio() -> ProptestText {
     let near = |x: f64, decades: f64, minus: bool| {
         let away = 10_f64.powf(decades);
         if minus { x * (1.0 - away) } else { x * (1.0 + away) }
@@ -100,7 +100,7 @@ pub fn ratio() -> Text {
 }
 
 /// A gap for a frequency ratio, near the amplitude of the motion without stops among others.
-pub fn gap(beta: f64) -> Text {
+pub fn gap(beta: f64) -> ProptestText {
     let amplitude = 1.0 / (1.0 - beta * beta).abs();
     let amplitude = if amplitude.is_finite() { amplitude } else { 1.0 };
     prop_oneof![
@@ -119,7 +119,7 @@ pub fn gap(beta: f64) -> Text {
 }
 
 /// A restitution, near its ends among others.
-pub fn restitution() -> Text {
+pub fn restitution() -> ProptestText {
     prop_oneof![
         8 => (0.0..=1.0_f64).prop_map(typed),
         2 => (-16.0..-1.0_f64, any::<bool>()).prop_map(|(d, top)| {
@@ -132,7 +132,7 @@ pub fn restitution() -> Text {
 }
 
 /// A damping ratio from none to critical and beyond.
-pub fn damping() -> Text {
+pub fn damping() -> ProptestText {
     prop_oneof![
         4 => (0.0..2.0_f64).prop_map(typed),
         4 => (-16.0..0.0_f64).prop_map(|d| typed(10_f64.powf(d))),
@@ -142,7 +142,7 @@ pub fn damping() -> Text {
 }
 
 /// How many: few, or none that makes sense.
-pub fn count() -> Text {
+pub fn count() -> ProptestText {
     prop_oneof![
         12 => (1..6_u32).prop_map(|n| n.to_string()),
         1 => one_of(&["0", "-1", "1e3", "1000000000000000000", "99999999999999999999", "2.5", "", "one", "-0", "+3", "٣"]),
@@ -151,7 +151,7 @@ pub fn count() -> Text {
 }
 
 /// `A:B:N`, most often between the ends given.
-pub fn range(low: f64, high: f64) -> Text {
+pub fn range(low: f64, high: f64) -> ProptestText {
     prop_oneof![
         9 => (0.0..1.0_f64, 0.0..1.0_f64, 2..5_u32).prop_map(move |(a, b, n)| {
             let at = |t: f64| low + (high - low) * t;
@@ -166,7 +166,7 @@ pub fn range(low: f64, high: f64) -> Text {
 }
 
 /// `A:B`, most often between the ends given.
-pub fn interval(low: f64, high: f64) -> Text {
+pub fn interval(low: f64, high: f64) -> ProptestText {
     prop_oneof![
         12 => (0.0..0.9_f64, 0.02..1.0_f64).prop_map(move |(a, w)| {
             let at = |t: f64| low + (high - low) * t;
@@ -179,7 +179,7 @@ pub fn interval(low: f64, high: f64) -> Text {
 }
 
 /// `m/n`, and what is none.
-pub fn label() -> Text {
+pub fn label() -> ProptestText {
     prop_oneof![
         10 => (1..5_u32, 1..4_u32).prop_map(|(m, n)| format!("{m}/{n}")),
         2 => one_of(&["0", "inf/1", "inf/2", "1/1", "2/2", "12/7"]),
@@ -189,7 +189,7 @@ pub fn label() -> Text {
 }
 
 /// A name of a file in the current folder, or one that cannot be.
-pub fn file(ends: &'static [&'static str]) -> Text {
+pub fn file(ends: &'static [&'static str]) -> ProptestText {
     prop_oneof![
         8 => prop::sample::select(ends).prop_map(|end| format!("out{end}")),
         1 => prop::sample::select(ends).prop_map(|end| format!("ünï cødé{end}")),

@@ -5,13 +5,13 @@ use crate::system;
 use crate::values::typed;
 use proptest::prelude::*;
 use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Atlas, SettleOptions, StartBox, Verdict, scattered_starts, settle, settle_many};
+use vibroimpact::verdict::{KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle, settle_many};
 use vibroimpact::{Oscillator, Start};
 
 /// How close two verdicts with a cycle must be to be one.
 const SAME: f64 = 1e-6;
 
-/// Settles each start alone, then all of them in batches that end at `cuts`, with an atlas surveyed from the starts numbered in
+/// Settles each start alone, then all of them in batches that end at `cuts`, with an survey surveyed from the starts numbered in
 /// `survey`, and compares.
 ///
 /// # Errors
@@ -23,7 +23,7 @@ pub fn alone_as_among(
     (survey, cuts, width): (&[usize], &[usize], Width),
 ) -> Result<(), String> {
     let alone: Vec<Verdict> = starts.iter().map(|start| settle(osc, *start, options).verdict).collect();
-    let atlas = Atlas::survey(osc, survey.iter().filter_map(|k| starts.get(*k)).copied(), options);
+    let survey = KnownAttractors::survey(osc, survey.iter().filter_map(|k| starts.get(*k)).copied(), options);
     let mut ends: Vec<usize> = cuts.iter().map(|cut| cut % (starts.len() + 1)).chain([0, starts.len()]).collect();
     ends.sort_unstable();
     ends.dedup();
@@ -31,7 +31,7 @@ pub fn alone_as_among(
     let start = |k: u64| starts[usize::try_from(k).unwrap_or(0)];
     for part in ends.windows(2) {
         let range = part[0] as u64..part[1] as u64;
-        let found = settle_many(osc, range, start, &atlas, options, width, &|| false);
+        let found = settle_many(osc, range, start, &survey, options, width, &|| false);
         if found.cells.len() != part[1] - part[0] {
             return Err(format!("{} of {} starts have a verdict", found.cells.len(), part[1] - part[0]));
         }
@@ -70,8 +70,8 @@ fn told(verdict: &Verdict) -> String {
 
 /// A system, a few dozen starts of it, and how they are divided.
 #[derive(Clone, Debug)]
-pub struct Batch {
-    system: system::Values,
+pub struct StartBatch {
+    system: system::SystemValues,
     seed: u64,
     count: u64,
     impacts: Option<u32>,
@@ -85,7 +85,7 @@ pub struct Batch {
 pub struct Verdicts;
 
 /// A point of the plane of the 1971 paper, where motions differ most from start to start.
-fn plane() -> BoxedStrategy<system::Values> {
+fn plane() -> BoxedStrategy<system::SystemValues> {
     let ratio =
         prop_oneof![3 => (0.4..2.0_f64).prop_map(typed), 1 => (8..40_u32).prop_map(|n| typed(f64::from(n) * 0.05))];
     let restitution = prop_oneof![3 => Just("0.5".to_owned()), 1 => (0.0..1.0_f64).prop_map(typed)];
@@ -97,14 +97,14 @@ fn plane() -> BoxedStrategy<system::Values> {
 const WIDTHS: [Width; 4] = [Width::Scalar, Width::Portable, Width::Avx2, Width::Avx512];
 
 impl Property for Verdicts {
-    type Case = Batch;
+    type Case = StartBatch;
 
-    fn strategy(&self) -> BoxedStrategy<Batch> {
+    fn strategy(&self) -> BoxedStrategy<StartBatch> {
         let impacts = prop::option::weighted(0.8, prop::sample::select(vec![1, 20, 50, 100, 200, 200, 400, 1500]));
         let places = || prop::collection::vec(0..100_usize, 0..6);
         let system = prop_oneof![1 => system::system(), 1 => plane()];
         (system, any::<u64>(), 1..200_u64, impacts, places(), places(), 0..WIDTHS.len())
-            .prop_map(|(system, seed, count, impacts, survey, cuts, width)| Batch {
+            .prop_map(|(system, seed, count, impacts, survey, cuts, width)| StartBatch {
                 system,
                 seed,
                 count,
@@ -116,7 +116,7 @@ impl Property for Verdicts {
             .boxed()
     }
 
-    fn describe(&self, case: &Batch) -> String {
+    fn describe(&self, case: &StartBatch) -> String {
         let system: Vec<String> =
             case.system.iter().map(|(name, value)| format!("--{}={value}", name.replace('_', "-"))).collect();
         format!(
@@ -131,7 +131,7 @@ impl Property for Verdicts {
         )
     }
 
-    fn check(&mut self, case: &Batch) -> Result<(), String> {
+    fn check(&mut self, case: &StartBatch) -> Result<(), String> {
         let plan = crate::plan::system(&case.system);
         let Ok(Ok(osc)) = serde_json::from_value::<vibroimpact_study::SystemPlan>(plan).map(|plan| plan.oscillator())
         else {

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 /// What a worker is to do.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Task {
+pub struct Job {
     /// Which cases.
     pub family: Family,
     /// Of which seed.
@@ -25,7 +25,7 @@ pub struct Task {
     pub vibro: PathBuf,
 }
 
-impl Task {
+impl Job {
     /// As words for [`Self::parse`].
     #[must_use]
     pub fn words(&self) -> Vec<String> {
@@ -53,7 +53,7 @@ impl Task {
 ///
 /// # Errors
 /// Where there is no place for temporary files, or nobody reads.
-pub fn work(task: &Task, out: &mut impl Write) -> io::Result<()> {
+pub fn work(task: &Job, out: &mut impl Write) -> io::Result<()> {
     case::keep_panics();
     let vibro = task.vibro.as_path();
     match task.family {
@@ -65,7 +65,7 @@ pub fn work(task: &Task, out: &mut impl Write) -> io::Result<()> {
     }
 }
 
-fn all<P: Property>(property: &mut P, task: &Task, out: &mut impl Write) -> io::Result<()> {
+fn all<P: Property>(property: &mut P, task: &Job, out: &mut impl Write) -> io::Result<()> {
     let end = Instant::now() + Duration::from_secs_f64(task.seconds);
     let mut known = BTreeSet::new();
     for k in task.from..task.until {
@@ -103,9 +103,9 @@ mod tests {
     #[test]
     fn a_task_survives_its_words() {
         let task =
-            Task { family: Family::Page, seed: 7, from: 3, until: u64::MAX, seconds: 1.5, vibro: "a b/vibro".into() };
-        assert_eq!(Task::parse(&task.words()), Some(task));
-        assert_eq!(Task::parse(&[]), None);
+            Job { family: Family::Page, seed: 7, from: 3, until: u64::MAX, seconds: 1.5, vibro: "a b/vibro".into() };
+        assert_eq!(Job::parse(&task.words()), Some(task));
+        assert_eq!(Job::parse(&[]), None);
         assert_eq!(beside(Path::new("target/debug/fuzz")).parent(), Some(Path::new("target/debug")));
     }
 }

@@ -9,8 +9,8 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use vibroimpact_plot::{
-    Axis, Colour, DPI_300, Dash, Figure, HLine, Hatch, Key, Legend, Line, Panel, Pattern, Points, Raster, Rects,
-    Region, SERIES, Shape, Side, Stroke, Text, Tick, VLine, Wall, class_style, legend_text,
+    Colour, DPI_300, Dash, Figure, FigureAxis, FilledRegion, HLine, Hatch, Key, Legend, Line, Panel, Pattern, Points,
+    Raster, Rects, SERIES, Shape, Stroke, Text, TextSide, Tick, VLine, Wall, class_style, legend_text,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -60,11 +60,11 @@ fn waveform() -> Figure {
         Tick::new(TAU * f64::from(k), text)
     });
     let panel = Panel::new(
-        Axis::new("dimensionless time *τ*").range(0.0, 6.0 * PI).ticks(ticks),
-        Axis::new("*ξ*").range(-1.6, 0.9),
+        FigureAxis::new("dimensionless time *τ*").range(0.0, 6.0 * PI).ticks(ticks),
+        FigureAxis::new("*ξ*").range(-1.6, 0.9),
     )
     .with(HLine::new(0.0, Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dotted)))
-    .with(Wall::new(0.6, Side::Above))
+    .with(Wall::new(0.6, TextSide::Above))
     .with(line)
     .with(impacts);
     Figure::new(panel).size(680.0, 360.0).legend(legend)
@@ -99,11 +99,13 @@ fn basin() -> Result<Figure, Box<dyn Error>> {
         legend = legend.patch(style, legend_text(label));
     }
     legend = legend.points(&fixed, "fixed point");
-    let panel =
-        Panel::new(Axis::new("displacement *ξ*_0").range(-1.0, 1.0), Axis::new("velocity *ξ*_0′").range(-2.0, 2.0))
-            .with(raster)
-            .with(fixed)
-            .with(Text::new(0.12, -0.35, "1/1").shift(24.0, 14.0));
+    let panel = Panel::new(
+        FigureAxis::new("displacement *ξ*_0").range(-1.0, 1.0),
+        FigureAxis::new("velocity *ξ*_0′").range(-2.0, 2.0),
+    )
+    .with(raster)
+    .with(fixed)
+    .with(Text::new(0.12, -0.35, "1/1").shift(24.0, 14.0));
     Ok(Figure::new(panel).size(680.0, 560.0).legend(legend))
 }
 
@@ -168,10 +170,10 @@ fn map() -> Figure {
     let (bx, by) = curve(1.9);
     ox.extend(bx.iter().rev());
     oy.extend(by.iter().rev());
-    let region = Region::polygon(ox.into_iter().zip(oy).collect::<Vec<_>>()).outline(outline);
+    let region = FilledRegion::polygon(ox.into_iter().zip(oy).collect::<Vec<_>>()).outline(outline);
     let mut panel = Panel::new(
-        Axis::new("frequency ratio 1/*β*").range(0.375, 2.025),
-        Axis::new("clearance *δ*").range(-0.0625, 5.0625),
+        FigureAxis::new("frequency ratio 1/*β*").range(0.375, 2.025),
+        FigureAxis::new("clearance *δ*").range(-0.0625, 5.0625),
     )
     .with(cells)
     .with(region)
@@ -202,13 +204,13 @@ fn map() -> Figure {
 fn panels() -> Figure {
     let (xs, ys) = motion(4.0 * PI);
     let vs: Vec<f64> = ys.windows(2).zip(xs.windows(2)).map(|(y, x)| (y[1] - y[0]) / (x[1] - x[0])).collect();
-    let time = Panel::new(Axis::new("*τ*").range(0.0, 4.0 * PI), Axis::new("*ξ*").range(-1.6, 0.9))
+    let time = Panel::new(FigureAxis::new("*τ*").range(0.0, 4.0 * PI), FigureAxis::new("*ξ*").range(-1.6, 0.9))
         .caption("**(a)** waveform")
-        .with(Wall::new(0.6, Side::Above))
+        .with(Wall::new(0.6, TextSide::Above))
         .with(Line::new(xs, ys.clone(), SERIES[0]));
-    let phase = Panel::new(Axis::new("*ξ*").range(-1.6, 0.9), Axis::new("*ξ*′"))
+    let phase = Panel::new(FigureAxis::new("*ξ*").range(-1.6, 0.9), FigureAxis::new("*ξ*′"))
         .caption("**(b)** phase plane")
-        .with(Wall::new(0.6, Side::Right))
+        .with(Wall::new(0.6, TextSide::Right))
         .with(Line::new(ys, vs, SERIES[1]).width(2.0));
     let legend = Legend::right()
         .title("motion 2/1")
@@ -227,8 +229,10 @@ fn impacts() -> Figure {
         (steady, Shape::Square, false, "1/1"),
         (wild, Shape::TriangleUp, true, "chaotic"),
     ];
-    let mut panel =
-        Panel::new(Axis::new("impact number *k*"), Axis::new("interval *τ*_{*k*+1} − *τ*_{*k*}").log10().grid());
+    let mut panel = Panel::new(
+        FigureAxis::new("impact number *k*"),
+        FigureAxis::new("interval *τ*_{*k*+1} − *τ*_{*k*}").log10().grid(),
+    );
     let mut legend = Legend::right();
     for (i, (ys, shape, filled, name)) in series.into_iter().enumerate() {
         let mut points = Points::new(numbers.clone(), ys, SERIES[i]).shape(shape);

@@ -5,7 +5,7 @@ use crate::ticks::{Tick, ticks};
 
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct FigureAxis {
     /// What it shows, in the markup of [labels](crate::plain): `"1/*β*"`.
     pub label: String,
     /// First and last value, left to right or bottom to top; `first > last` turns the axis round.
@@ -21,7 +21,7 @@ pub struct Axis {
     pub grid: bool,
 }
 
-impl Axis {
+impl FigureAxis {
     /// A linear axis that fits its data.
     pub fn new(label: impl Into<String>) -> Self {
         Self { label: label.into(), range: None, scale: Scale::Linear, ticks: None, numbers: true, grid: false }
@@ -152,7 +152,7 @@ mod tests {
         let bad = [f64::NAN, f64::INFINITY, -1e308, -1.0, 0.0, 5e-324, 1.0, 1e308];
         for lo in bad {
             for hi in bad {
-                for axis in [Axis::new("").range(lo, hi), Axis::new("").range(lo, hi).log10()] {
+                for axis in [FigureAxis::new("").range(lo, hi), FigureAxis::new("").range(lo, hi).log10()] {
                     let (a, b) = axis.resolve(Some((hi, lo)));
                     assert!(a.is_finite() && b.is_finite() && a != b, "{lo} {hi}: {a} {b}");
                     let mapping = Mapping { scale: axis.scale, range: (a, b), page: (0.0, 100.0) };
@@ -165,9 +165,9 @@ mod tests {
 
     #[test]
     fn given_ranges_are_kept_and_fitted_ones_get_air() {
-        assert_eq!(Axis::new("").range(2.0, 0.0).resolve(None), (2.0, 0.0));
-        assert_eq!(Axis::new("").resolve(Some((0.0, 100.0))), (-4.0, 104.0));
-        assert_eq!(Axis::new("").resolve(None), (0.0, 1.0));
+        assert_eq!(FigureAxis::new("").range(2.0, 0.0).resolve(None), (2.0, 0.0));
+        assert_eq!(FigureAxis::new("").resolve(Some((0.0, 100.0))), (-4.0, 104.0));
+        assert_eq!(FigureAxis::new("").resolve(None), (0.0, 1.0));
     }
 
     #[test]

@@ -76,21 +76,21 @@ impl Panel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Axis;
+    use crate::FigureAxis;
     use crate::canvas::test_frame;
 
     #[test]
     fn numbers_can_be_left_out_but_not_their_marks() {
-        let draw = |x: Axis| {
-            let panel = Panel::new(x, Axis::new("")).caption("(a)");
+        let draw = |x: FigureAxis| {
+            let panel = Panel::new(x, FigureAxis::new("")).caption("(a)");
             let mut canvas = Canvas::new("");
             let frame = test_frame((0.0, 1.0), (0.0, 1.0));
             panel.draw_ticks(&mut canvas, &frame, &panel.prepare(100.0, 100.0));
             let count = |what: &str| canvas.body.matches(what).count();
             (count("v7"), count("<text"))
         };
-        let (marks, texts) = draw(Axis::new("x"));
-        let (bare_marks, bare_texts) = draw(Axis::new("x").without_numbers());
+        let (marks, texts) = draw(FigureAxis::new("x"));
+        let (bare_marks, bare_texts) = draw(FigureAxis::new("x").without_numbers());
         assert!(marks >= 2 && texts > bare_texts);
         assert_eq!(marks, bare_marks);
     }

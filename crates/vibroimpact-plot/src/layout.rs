@@ -117,14 +117,14 @@ fn frames(figure: &Figure, (left, top): (f64, f64), (width, height): (f64, f64))
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Axis, Key, Panel, class_style};
+    use crate::{FigureAxis, Key, Panel, class_style};
 
     fn legend(text: &str) -> Legend {
         Legend::below().entry(Key::Patch(class_style("1/1")), text)
     }
 
     fn panel() -> Panel {
-        Panel::new(Axis::new("x"), Axis::new("y"))
+        Panel::new(FigureAxis::new("x"), FigureAxis::new("y"))
     }
 
     #[test]

@@ -1,20 +1,20 @@
 //! Figures of vibro-impact dynamics: slices in, SVG text or PNG bytes out.
 //!
-//! A [`Figure`] is plain data: [`Panel`]s with two [`Axis`] each, marks between them drawn in the
+//! A [`Figure`] is plain data: [`Panel`]s with two [`FigureAxis`] each, marks between them drawn in the
 //! order given, and a [`Legend`] beside or below that never covers data. [`Figure::to_svg`] and
 //! [`Figure::to_png`] read no file, start no thread, use no font of the machine, and give the same
 //! bytes for the same figure.
 //!
 //! ```
-//! use vibroimpact_plot::{Axis, Figure, Legend, Line, Panel, SERIES, Side, Wall};
+//! use vibroimpact_plot::{FigureAxis, Figure, Legend, Line, Panel, SERIES, TextSide, Wall};
 //!
 //! let xs: Vec<f64> = (0..100).map(|i| f64::from(i) / 10.0).collect();
 //! let ys: Vec<f64> = xs.iter().map(|x| x.sin()).collect();
 //! let line = Line::new(xs, ys, SERIES[0]);
 //! let legend = Legend::below().line(line.stroke, "response");
-//! let panel = Panel::new(Axis::new("*τ*"), Axis::new("*ξ*"))
+//! let panel = Panel::new(FigureAxis::new("*τ*"), FigureAxis::new("*ξ*"))
 //!     .with(line)
-//!     .with(Wall::new(1.0, Side::Above));
+//!     .with(Wall::new(1.0, TextSide::Above));
 //! let svg = Figure::new(panel).legend(legend).to_svg();
 //! assert!(svg.starts_with("<svg"));
 //! ```
@@ -52,7 +52,7 @@ mod theme;
 mod ticks;
 mod vision;
 
-pub use axis::Axis;
+pub use axis::FigureAxis;
 pub use colour::Colour;
 pub use error::PlotError;
 pub use figure::Figure;
@@ -60,12 +60,12 @@ pub use hatch::{Hatch, Pattern};
 pub use label::Anchor;
 pub use legend::{Entry, Key, Legend, Place};
 pub use mark::Mark;
-pub use mark::guide::{HLine, Side, VLine, Wall};
+pub use mark::guide::{HLine, TextSide, VLine, Wall};
 pub use mark::line::Line;
 pub use mark::points::{PointStyle, Points, Shape};
 pub use mark::raster::Raster;
 pub use mark::rects::{Rect, Rects};
-pub use mark::region::Region;
+pub use mark::region::FilledRegion;
 pub use mark::text::Text;
 pub use markup::plain;
 pub use palette::{ClassStyle, GROUPS, SERIES, class_style, legend_group, legend_text};

@@ -1,6 +1,6 @@
 //! A panel: two axes, a caption, and marks between them.
 
-use crate::axis::{Axis, Mapping};
+use crate::axis::{FigureAxis, Mapping};
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
 use crate::mark::Mark;
@@ -14,9 +14,9 @@ use crate::ticks::Tick;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// The horizontal axis.
-    pub x: Axis,
+    pub x: FigureAxis,
     /// The vertical axis.
-    pub y: Axis,
+    pub y: FigureAxis,
     /// A line above the frame at its left end: `"(a)"`, `"**(a)** *δ* = 0"`.
     pub caption: Option<String>,
     /// What is shown, the first lowest.
@@ -26,7 +26,7 @@ pub struct Panel {
 impl Panel {
     /// An empty panel.
     #[must_use]
-    pub fn new(x: Axis, y: Axis) -> Self {
+    pub fn new(x: FigureAxis, y: FigureAxis) -> Self {
         Self { x, y, caption: None, marks: Vec::new() }
     }
 
@@ -77,7 +77,7 @@ impl Panel {
     pub(crate) fn margins(&self, prepared: &Prepared) -> Margins {
         let width = |t: &Tick| markup::width(&t.label, theme::TICK_TEXT);
         let numbers = prepared.y_ticks.iter().map(width).fold(0.0, f64::max);
-        let label = |axis: &Axis| {
+        let label = |axis: &FigureAxis| {
             if axis.label.is_empty() { 0.0 } else { 1.4 * theme::LABEL_TEXT }
         };
         let beside = theme::TICK + theme::TICK_GAP;
@@ -146,7 +146,7 @@ mod tests {
     fn numbers_never_touch() {
         for width in [40.0, 100.0, 300.0, 600.0] {
             for (lo, hi) in [(0.0, 1.0), (-1234.5, 99_999.0), (1.000_001, 1.000_002), (0.0, 4e-7)] {
-                let panel = Panel::new(Axis::new("x").range(lo, hi), Axis::new("y"));
+                let panel = Panel::new(FigureAxis::new("x").range(lo, hi), FigureAxis::new("y"));
                 let prepared = panel.prepare(width, 300.0);
                 let mapping = Mapping { scale: panel.x.scale, range: prepared.x_range, page: (0.0, width) };
                 let shown = prepared.x_ticks.iter().filter(|t| !t.label.is_empty()).count();
@@ -158,7 +158,7 @@ mod tests {
     #[test]
     fn wide_numbers_get_wide_margins() {
         let margin = |hi| {
-            let panel = Panel::new(Axis::new("x"), Axis::new("y").range(0.0, hi));
+            let panel = Panel::new(FigureAxis::new("x"), FigureAxis::new("y").range(0.0, hi));
             panel.margins(&panel.prepare(400.0, 300.0)).left
         };
         assert!(margin(90_000.0) > margin(9.0) + 40.0);

@@ -62,24 +62,24 @@ impl Figure {
 mod tests {
     use super::*;
     use crate::legend::Legend;
-    use crate::mark::guide::{HLine, Side, Wall};
+    use crate::mark::guide::{HLine, TextSide, Wall};
     use crate::panel::Panel;
-    use crate::{Axis, Colour, Key, Line, Points, Raster, Rects, Region, Stroke, Text, class_style};
+    use crate::{Colour, FigureAxis, FilledRegion, Key, Line, Points, Raster, Rects, Stroke, Text, class_style};
 
     fn every_mark(xs: &[f64], ys: &[f64]) -> Panel {
         let (a, b) = (xs.first().copied().unwrap_or(0.0), ys.last().copied().unwrap_or(1.0));
         let mut cells = Rects::new([class_style("undecided")]);
         cells.cell((a, b), (b, a), &[0]);
         let ring: Vec<_> = xs.iter().copied().zip(ys.iter().copied()).collect();
-        let mut panel = Panel::new(Axis::new("1/*β* <&>"), Axis::new("*ξ*_0"))
+        let mut panel = Panel::new(FigureAxis::new("1/*β* <&>"), FigureAxis::new("*ξ*_0"))
             .caption("(a)")
             .with(cells)
-            .with(Region::polygon(ring).fill(Colour::BLACK.alpha(0.3)))
+            .with(FilledRegion::polygon(ring).fill(Colour::BLACK.alpha(0.3)))
             .with(Line::new(xs, ys, Colour::BLACK))
             .with(Points::new(xs, ys, Colour::BLACK))
             .with(Text::new(a, b, "here"))
             .with(HLine::new(b, Stroke::new(Colour::BLACK)))
-            .with(Wall::new(a, Side::Right));
+            .with(Wall::new(a, TextSide::Right));
         let raster = Raster::new((a, b), (a, b), (2, 2), [0, 1, 2, 3], [Colour::BLACK; 2]);
         if let Ok(raster) = raster {
             panel.add(raster);

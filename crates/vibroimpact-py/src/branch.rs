@@ -9,9 +9,9 @@ use crate::oscillator::Oscillator;
 use crate::simulate::text;
 use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::prelude::*;
-use vibroimpact::continuation::{BranchEvent, Point};
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::orbit::Cycle;
-use vibroimpact_study::{BranchPlan, Cut, Followed, Plan, Results, Target, Task, Told};
+use vibroimpact_study::{BranchPlan, Cut, EventRecord, Followed, Plan, Results, Target, Task};
 
 /// Cycles one after another, and where each begins.
 #[derive(IntoPyObject)]
@@ -75,9 +75,9 @@ struct Event {
 }
 
 impl Event {
-    fn new(place: usize, point: &Point, event: &BranchEvent, cut: &Cut) -> Self {
-        let Told { kind, ends, label_before, label_after, change, impact, side, phase, turns, also } =
-            Told::of(point, event);
+    fn new(place: usize, point: &SolutionPoint, event: &BranchEvent, cut: &Cut) -> Self {
+        let EventRecord { kind, ends, label_before, label_after, change, impact, side, phase, turns, also } =
+            EventRecord::of(point, event);
         Self {
             kind,
             parameter: point.value,
@@ -103,7 +103,7 @@ impl<'py> Fields<'py> {
             parameter: column(py, points().map(|point| point.value)),
             second: cut.also.map(|_| column(py, points().filter_map(|point| second(cut, point)))),
             label: points().map(|point| point.cycle.label.to_string()).collect(),
-            stable: column(py, points().map(Point::stable)),
+            stable: column(py, points().map(SolutionPoint::stable)),
             physical: column(py, points().map(|point| point.physical)),
             cycles: Cycles::new(py, &points().map(|point| &point.cycle))?,
             events: points()
@@ -119,7 +119,7 @@ impl<'py> Fields<'py> {
 }
 
 /// The value of the second parameter of a line.
-fn second(cut: &Cut, point: &Point) -> Option<f64> {
+fn second(cut: &Cut, point: &SolutionPoint) -> Option<f64> {
     cut.values(point.value).nth(1).map(|(_, value)| value)
 }
 

@@ -9,7 +9,7 @@ use crate::oscillator::Oscillator;
 use crate::simulate::text;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use vibroimpact_study::{CurvePlan, EventKind, Plan, Results, Task};
+use vibroimpact_study::{CurvePlan, FollowedEvent, Plan, Results, Task};
 
 /// The fields of a `Curve`.
 #[derive(IntoPyObject)]
@@ -27,8 +27,8 @@ pub(crate) struct Fields<'py> {
     plan: String,
 }
 
-fn kind(name: &str) -> Result<EventKind, Trouble> {
-    let all = [EventKind::Fold, EventKind::Flip, EventKind::Grazing];
+fn kind(name: &str) -> Result<FollowedEvent, Trouble> {
+    let all = [FollowedEvent::Fold, FollowedEvent::Flip, FollowedEvent::Grazing];
     all.into_iter()
         .find(|kind| kind.name() == name)
         .ok_or_else(|| Trouble::question(format!("`{name}` is no kind of curve; there are fold, flip, grazing")))

@@ -7,7 +7,7 @@ use crate::plan::{points, read};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
-use vibroimpact_study::study::{Cells, Sheet, Table, in_memory, label_of};
+use vibroimpact_study::study::{Cells, Sheet, StudyTable, in_memory, label_of};
 use vibroimpact_study::{Column, Field, Study};
 
 /// An array with what it means: flat, in row-major order.
@@ -76,7 +76,7 @@ fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
     Ok((coordinates.collect(), all))
 }
 
-fn of_table(py: Python<'_>, table: Table) -> PyResult<Variable<'_>> {
+fn of_table(py: Python<'_>, table: StudyTable) -> PyResult<Variable<'_>> {
     Ok(Variable {
         name: table.name.to_owned(),
         dimensions: table.dimensions.iter().map(|(name, count)| ((*name).to_owned(), *count)).collect(),

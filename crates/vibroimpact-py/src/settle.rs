@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use vibroimpact::Start;
 use vibroimpact::lanes::Width;
 use vibroimpact::system::phase;
-use vibroimpact::verdict::{Atlas, Census, SettleOptions, settle_many as settle_range};
+use vibroimpact::verdict::{Census, KnownAttractors, SettleOptions, settle_many as settle_range};
 use vibroimpact_study::{Control, Plan, Results, Task, tiles};
 
 /// The fields of the motion, and the plan.
@@ -73,9 +73,9 @@ fn settle_all(
     starts.check(osc, total)?;
     let options = SettleOptions::default();
     let surveyed = SURVEY.min(total);
-    let atlas = Atlas::survey(osc, (0..surveyed).map(|k| starts.at(total / surveyed * k)), &options);
+    let survey = KnownAttractors::survey(osc, (0..surveyed).map(|k| starts.at(total / surveyed * k)), &options);
     let parts = tiles(total, TILE, control, |range, tick| {
-        settle_range(osc, range, |k| starts.at(k), &atlas, &options, Width::best(), tick)
+        settle_range(osc, range, |k| starts.at(k), &survey, &options, Width::best(), tick)
     })?;
     let mut merged = Census::default();
     let mut cells = Vec::with_capacity(usize::try_from(total).unwrap_or(0));

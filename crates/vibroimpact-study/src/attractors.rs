@@ -3,7 +3,7 @@
 use crate::{Control, Stopped, tiles};
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Atlas, Census, SettleOptions, StartBox, scattered_starts, settle_many};
+use vibroimpact::verdict::{Census, KnownAttractors, SettleOptions, StartBox, scattered_starts, settle_many};
 
 /// Starts of a tile.
 const TILE: u64 = 1024;
@@ -27,9 +27,9 @@ pub(crate) fn attractors(
     let start = |index: u64| scattered_starts(osc, area, seed, index);
     // small questions are not worth a survey
     let surveyed = if starts > WORTH_A_SURVEY { SURVEY } else { 0 };
-    let atlas = Atlas::survey(osc, (0..surveyed).map(start), options);
+    let survey = KnownAttractors::survey(osc, (0..surveyed).map(start), options);
     let parts = tiles(starts, TILE, control, |range, tick| {
-        settle_many(osc, range, start, &atlas, options, Width::best(), tick).motions
+        settle_many(osc, range, start, &survey, options, Width::best(), tick).motions
     })?;
     let mut merged = Census::default();
     for found in parts.iter().flatten() {

@@ -1,14 +1,14 @@
 //! Branches of periodic orbits in one parameter or along a line through two, and those that begin where one loses its stability.
 
-use crate::begin::{Chosen, choose};
-use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction as Sweep, Show};
+use crate::chosen::{Chosen, choose};
+use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stopped, Stretch, SystemPlan, Target};
 use core::ops::RangeInclusive;
 use core::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
-use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, Point};
+use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::verdict::Count;
-use vibroimpact::{Label, Oscillator, Varying};
+use vibroimpact::{Label, Oscillator, ParameterPath};
 
 /// Points of a branch at most, where no number is given.
 pub const DEFAULT_BRANCH_POINTS: u32 = 5_000;
@@ -91,7 +91,7 @@ impl BranchPlan {
             over: Span::new(ends.0, ends.1, DIAGRAM_VALUES)?,
             also,
             show: Show::Velocity,
-            direction: Sweep::Both,
+            direction: SweepDirection::Both,
             transient: DEFAULT_TRANSIENT,
             keep: DEFAULT_KEEP,
         })
@@ -104,7 +104,7 @@ pub struct Origin {
     /// The branch that it leaves, as a place in the list of all.
     pub branch: usize,
     /// The point of that.
-    pub point: Point,
+    pub point: SolutionPoint,
 }
 
 /// A branch that was followed.
@@ -113,7 +113,7 @@ pub struct Followed {
     /// Where it begins; `None` for the first branch.
     pub origin: Option<Origin>,
     /// Its points.
-    pub points: Vec<Point>,
+    pub points: Vec<SolutionPoint>,
 }
 
 /// A branch and those that begin on it, on those, and so on.
@@ -157,7 +157,7 @@ pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control
 /// What all branches of a plan have in common.
 struct Ground<'a> {
     osc: Oscillator,
-    vary: Varying,
+    vary: ParameterPath,
     range: RangeInclusive<f64>,
     options: BranchOptions,
     stop: &'a AtomicBool,
@@ -165,12 +165,12 @@ struct Ground<'a> {
 
 impl Ground<'_> {
     /// The points of a branch, as far as nobody stops it.
-    fn points(&self, branch: Branch) -> Vec<Point> {
+    fn points(&self, branch: Branch) -> Vec<SolutionPoint> {
         branch.take_while(|_| !self.stop.load(Ordering::Relaxed)).collect()
     }
 
     /// The branches that begin at an event.
-    fn from(&self, point: &Point) -> Result<Vec<Branch>, BranchError> {
+    fn from(&self, point: &SolutionPoint) -> Result<Vec<Branch>, BranchError> {
         let range = self.range.clone();
         if point.event == Some(BranchEvent::Flip) {
             return Ok(vec![Branch::from_flip(&self.osc, point, self.vary, range, self.options)?]);
@@ -189,10 +189,10 @@ impl Branches {
         let mut seen: Vec<(f64, Label)> = Vec::new();
         let mut at = 0;
         while at < self.followed.len() && self.followed.len() <= most {
-            let begins = |point: &&Point| {
+            let begins = |point: &&SolutionPoint| {
                 matches!(point.event, Some(BranchEvent::Flip | BranchEvent::BranchPoint)) && point.physical
             };
-            let origins: Vec<Point> = self.followed[at].points.iter().filter(begins).cloned().collect();
+            let origins: Vec<SolutionPoint> = self.followed[at].points.iter().filter(begins).cloned().collect();
             for point in origins {
                 let known = |(value, label): &(f64, Label)| {
                     *label == point.cycle.label && (value - point.value).abs() <= SAME * (1.0 + value.abs())
@@ -219,7 +219,7 @@ impl Branches {
 }
 
 /// The flip at which a branch of twice the period ends: what begins there is that branch.
-fn other_end(point: &Point) -> Option<(f64, Label)> {
+fn other_end(point: &SolutionPoint) -> Option<(f64, Label)> {
     let Count::Finite(impacts) = point.cycle.label.impacts else { return None };
     let half = Label::new(impacts / 2, point.cycle.label.periods / 2);
     (point.event == Some(BranchEvent::Halving)).then_some((point.value, half))

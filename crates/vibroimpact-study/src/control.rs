@@ -14,12 +14,13 @@ pub struct Control<'a> {
 }
 
 impl Control<'_> {
-    /// The threads asked for.
+    /// The threads asked for, up to eight per processor: more would only take memory, as each holds a tile.
     ///
     /// # Errors
     /// When the operating system refuses to start them.
     pub(crate) fn pool(&self) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
-        rayon::ThreadPoolBuilder::new().num_threads(self.threads).build()
+        let most = std::thread::available_parallelism().map_or(MOST_THREADS, |count| MOST_THREADS * count.get());
+        rayon::ThreadPoolBuilder::new().num_threads(self.threads.min(most)).build()
     }
 
     /// Whether someone asked to stop.
@@ -27,6 +28,9 @@ impl Control<'_> {
         self.stop.load(Ordering::Relaxed)
     }
 }
+
+/// Threads per processor at most.
+const MOST_THREADS: usize = 8;
 
 /// Points done, told now and then to whoever watches.
 pub(crate) struct Meter<'a> {

@@ -1,19 +1,19 @@
 //! Curves of folds, flips and grazing impacts in a plane of two parameters, from an event on a branch in the first.
 
-use crate::begin::{Chosen, choose, followable};
+use crate::chosen::{Chosen, choose, followable};
 use crate::stretch::check_plane;
 use crate::{Control, PlanError, RunError, Stopped, Stretch, SystemPlan};
 use core::sync::atomic::Ordering;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, Point,
+    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, SolutionPoint,
 };
 use vibroimpact::{Label, Oscillator};
 
 /// What holds along a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum EventKind {
+pub enum FollowedEvent {
     /// A multiplier is +1 and the parameters turn.
     Fold,
     /// A multiplier is -1.
@@ -22,7 +22,7 @@ pub enum EventKind {
     Grazing,
 }
 
-impl EventKind {
+impl FollowedEvent {
     /// Its name in plans and tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -49,7 +49,7 @@ pub struct CurvePlan {
     /// m/n of the orbit at the system given.
     pub label: String,
     /// What holds along the curve.
-    pub kind: EventKind,
+    pub kind: FollowedEvent,
     /// The parameter in which the orbit is followed to the event, and its range.
     pub vary: Stretch,
     /// The other one.
@@ -87,7 +87,7 @@ pub struct EventCurve {
     /// The orbit that led to it.
     pub chosen: Chosen,
     /// The events of that kind on its branch, from small values to large.
-    pub events: Vec<Point>,
+    pub events: Vec<SolutionPoint>,
     /// Which of them the curve goes through.
     pub through: usize,
     /// The points from one end to the other.
@@ -150,9 +150,9 @@ fn events(
     plan: &CurvePlan,
     label: Label,
     going: impl Fn() -> bool,
-) -> Result<Vec<Point>, PlanError> {
+) -> Result<Vec<SolutionPoint>, PlanError> {
     let own = plan.vary.parameter.get(osc).ok_or(PlanError::NoSecondStop(plan.vary.parameter.name()))?;
-    let mut events: Vec<Point> = Vec::new();
+    let mut events: Vec<SolutionPoint> = Vec::new();
     for (direction, end) in [(Direction::Up, plan.vary.to), (Direction::Down, plan.vary.from)] {
         if (direction == Direction::Up && own >= end) || (direction == Direction::Down && own <= end) {
             continue;
@@ -162,7 +162,7 @@ fn events(
         let range = plan.vary.from.min(own)..=plan.vary.to.max(own);
         let branch = Branch::new(osc, cycle, parameter, range, direction, BranchOptions::default())?;
         for point in branch.take_while(|point| point.cycle.label == label && going()) {
-            let known = |other: &Point| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
+            let known = |other: &SolutionPoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
             if point.event.is_some_and(|event| plan.kind.is(event)) && !events.iter().any(known) {
                 events.push(point);
             }
@@ -181,7 +181,7 @@ mod tests {
         let system = SystemPlan { inverse_beta: Some(1.11), gap: 1.5, restitution: 0.5, ..SystemPlan::default() };
         let vary = Stretch { parameter: Parameter::Gap, from: 0.0, to: 3.0 };
         let and = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.2 };
-        (system, CurvePlan { label: "1/1".into(), kind: EventKind::Flip, vary, and, orbit: None, event: None })
+        (system, CurvePlan { label: "1/1".into(), kind: FollowedEvent::Flip, vary, and, orbit: None, event: None })
     }
 
     #[test]
@@ -209,7 +209,7 @@ mod tests {
         for (plan, sentence) in [
             (CurvePlan { vary: away, ..good.clone() }, "gap = 1.5 lies outside the range from 2 to 3"),
             (CurvePlan { event: Some(7), ..good.clone() }, "there is no flip number 7 on the branch of 1/1"),
-            (CurvePlan { kind: EventKind::Fold, ..good.clone() }, "no fold was found on the branch of 1/1"),
+            (CurvePlan { kind: FollowedEvent::Fold, ..good.clone() }, "no fold was found on the branch of 1/1"),
         ] {
             let message = curve(&system, &plan, &Control::default()).unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");

@@ -2,7 +2,7 @@
 
 use crate::{Parameter, PlanError, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
-use vibroimpact::{Oscillator, Varying};
+use vibroimpact::{Oscillator, ParameterPath};
 
 /// The line of an orbit diagram or branch. The value of the first parameter tells the place on it.
 ///
@@ -78,9 +78,9 @@ impl Cut {
     ///
     /// # Errors
     /// [`PlanError`] for two parameters that are one, and two ends that are one.
-    pub fn varying(&self) -> Result<Varying, PlanError> {
+    pub fn varying(&self) -> Result<ParameterPath, PlanError> {
         let (first, last) = self.ends;
-        let alone = Varying::from(self.vary);
+        let alone = ParameterPath::from(self.vary);
         let Some(also) = self.also else { return Ok(alone) };
         if first == last {
             return Err(PlanError::Nowhere { name: self.vary.name(), value: first });

@@ -2,7 +2,7 @@
 
 /// The type of the numbers of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum NumberType {
     /// Small whole numbers.
     I8,
     /// Whole numbers.
@@ -30,7 +30,7 @@ pub struct Field {
     /// Its unit; `"1"` for pure numbers.
     pub units: &'static str,
     /// The type of its numbers.
-    pub kind: Kind,
+    pub kind: NumberType,
     /// What stands where nothing was computed; for real numbers always not-a-number. No result is ever equal to it.
     pub fill: i32,
     /// Dimensions beyond those of the grid.
@@ -53,9 +53,9 @@ impl Field {
     pub fn empty(&self, points: usize) -> Column {
         let len = points * self.width();
         match self.kind {
-            Kind::I8 => Column::I8(vec![i8::try_from(self.fill).unwrap_or(i8::MIN); len]),
-            Kind::I32 => Column::I32(vec![self.fill; len]),
-            Kind::F64 => Column::F64(vec![f64::NAN; len]),
+            NumberType::I8 => Column::I8(vec![i8::try_from(self.fill).unwrap_or(i8::MIN); len]),
+            NumberType::I32 => Column::I32(vec![self.fill; len]),
+            NumberType::F64 => Column::F64(vec![f64::NAN; len]),
         }
     }
 }
@@ -136,14 +136,14 @@ mod tests {
             name: "label",
             long_name: "",
             units: "1",
-            kind: Kind::I32,
+            kind: NumberType::I32,
             fill: -9,
             extra: vec![Extra { name: "motion", count: 3 }],
             flags: Vec::new(),
             comment: "",
         };
         assert_eq!(field.empty(2).whole(), [-9; 6]);
-        let real = Field { kind: Kind::F64, ..field };
+        let real = Field { kind: NumberType::F64, ..field };
         assert_eq!(real.empty(2), real.empty(2));
         let mut some = real.empty(1);
         some.copy(1, &Column::F64(vec![1.0, 2.0]), 1, 1);

@@ -19,7 +19,7 @@
 //! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
 //! | the Lyapunov exponents of a motion: the question | [`LyapunovPlan`] |
 //! | a branch of periodic orbits in one parameter, and those that begin on it | [`BranchPlan`], [`Branches`] |
-//! | which orbit it begins with; what an event on it has to tell | [`Chosen`], [`Told`] |
+//! | which orbit it begins with; what an event on it has to tell | [`Chosen`], [`EventRecord`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
 //! | where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stable_regions`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
@@ -28,13 +28,14 @@
 mod attractors;
 pub mod axis;
 pub mod basin;
-mod begin;
 mod branch;
+mod chosen;
 mod control;
 mod curve;
 mod cut;
 pub mod diagram;
 mod error;
+mod event_record;
 mod field;
 mod grid;
 mod limits;
@@ -42,6 +43,7 @@ mod lyapunov;
 mod map;
 mod parameter;
 mod plan;
+mod plan_text;
 mod region;
 mod run;
 mod simulate;
@@ -50,21 +52,20 @@ pub mod store;
 mod stretch;
 pub mod study;
 mod system;
-mod told;
 mod words;
-mod written;
 
 pub use axis::{Axis, Coordinate, Values};
 pub use basin::{Basin, BasinPlan};
-pub use begin::Chosen;
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
+pub use chosen::Chosen;
 pub(crate) use control::Meter;
 pub use control::{Control, Stopped, tiles};
-pub use curve::{CurvePlan, EventCurve, EventKind};
+pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::{Cut, Target};
 pub use diagram::{Diagram, DiagramPlan};
 pub use error::{PlanError, RunError};
-pub use field::{Column, Extra, Field, Kind};
+pub use event_record::EventRecord;
+pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
@@ -79,5 +80,4 @@ pub use store::{Store, StoreError};
 pub use stretch::Stretch;
 pub use study::Study;
 pub use system::{SecondStop, StartPlan, SystemPlan};
-pub use told::Told;
 pub use words::counted;

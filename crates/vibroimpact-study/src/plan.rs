@@ -14,7 +14,7 @@ use vibroimpact::Label;
 
 /// What is asked, of which system.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, try_from = "crate::written::Written")]
+#[serde(deny_unknown_fields, try_from = "crate::plan_text::PlanText")]
 pub struct Plan {
     /// [`PLAN_VERSION`].
     pub version: u32,
@@ -222,7 +222,8 @@ mod tests {
 
     #[test]
     fn a_plan_is_completed_as_the_command_writes_it() {
-        let Task::Simulate { impacts, .. } = Plan { task: simulate(None, Some(3.0)), ..plan() }.complete().unwrap().task
+        let Task::Simulate { impacts, .. } =
+            Plan { task: simulate(None, Some(3.0)), ..plan() }.complete().unwrap().task
         else {
             panic!("another task")
         };

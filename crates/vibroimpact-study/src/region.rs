@@ -1,6 +1,6 @@
 //! The regions of a plane of two parameters in which a motion exists, and in which it is stable.
 
-use crate::begin::followable;
+use crate::chosen::followable;
 use crate::stretch::check_plane;
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, tiles};
 use core::sync::atomic::Ordering;

@@ -9,7 +9,8 @@ use crate::map::map;
 use crate::region::regions;
 use crate::simulate::simulate;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, Plan, PlanError, RegionMap, Regions, RunError, Simulated, Stopped, Task,
+    Basin, Branches, Control, Diagram, EventCurve, Plan, PlanError, RegionMap, Regions, RunError, Simulated, Stopped,
+    Task,
 };
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
 use vibroimpact::orbit::{FindOptions, Orbit, find_while};

@@ -31,7 +31,7 @@ mod routes;
 mod workshop;
 
 pub use explorer::Explorer;
-pub use listen::{Bound, PORT};
+pub use listen::{BoundServer, PORT};
 
 use axum::extract::DefaultBodyLimit;
 use axum::{Router, middleware};

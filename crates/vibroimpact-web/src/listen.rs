@@ -28,12 +28,12 @@ const CONNECTIONS: usize = 600;
 
 /// An explorer with its address, not yet answering.
 #[derive(Debug)]
-pub struct Bound {
+pub struct BoundServer {
     listener: std::net::TcpListener,
     address: SocketAddr,
 }
 
-impl Bound {
+impl BoundServer {
     /// Takes a port of the loopback interface: the one asked for or, if that is busy, one of the next, or any. 0 is any.
     ///
     /// # Errors
@@ -83,7 +83,7 @@ async fn set(stop: &AtomicBool) {
     }
 }
 
-async fn accept(bound: Bound, threads: usize) -> io::Result<()> {
+async fn accept(bound: BoundServer, threads: usize) -> io::Result<()> {
     let listener = TcpListener::from_std(bound.listener)?;
     let service = app(Explorer::new(bound.address.port(), threads));
     let places = Arc::new(Semaphore::new(CONNECTIONS));
@@ -125,9 +125,9 @@ mod tests {
 
     #[test]
     fn a_busy_port_is_followed_by_another() {
-        let one = Bound::new(0).unwrap();
+        let one = BoundServer::new(0).unwrap();
         assert!(one.url().starts_with("http://127.0.0.1:"));
-        let two = Bound::new(one.address.port()).unwrap();
+        let two = BoundServer::new(one.address.port()).unwrap();
         assert_ne!(one.address, two.address);
         assert!(two.address.ip().is_loopback());
     }

@@ -6,7 +6,7 @@
 use serde::Serialize;
 use std::collections::BTreeMap;
 use vibroimpact_plot::class_style;
-use vibroimpact_study::study::{Cells, NOT_COMPUTED, Sheet, Table, label_of};
+use vibroimpact_study::study::{Cells, NOT_COMPUTED, Sheet, StudyTable, label_of};
 use vibroimpact_study::{Column, Field};
 
 /// Fields that the page draws; the others of a study are for tables.
@@ -121,7 +121,7 @@ fn labels(codes: &[i32]) -> BTreeMap<i32, Named> {
     seen.into_iter().filter_map(named).collect()
 }
 
-fn cycles(tables: &[Table]) -> Vec<Cycle> {
+fn cycles(tables: &[StudyTable]) -> Vec<Cycle> {
     let table = |name: &str| tables.iter().find(|table| table.name == name);
     let Some(Cells::Text(labels)) = table("cycle_label").map(|table| &table.values) else { return Vec::new() };
     let numbers = |name: &str| match table(name).map(|table| &table.values) {

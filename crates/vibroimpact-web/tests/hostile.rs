@@ -6,7 +6,7 @@ use std::net::TcpStream;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
-use vibroimpact_web::Bound;
+use vibroimpact_web::BoundServer;
 
 /// A server of its own, on a port of its own.
 struct Server {
@@ -17,7 +17,7 @@ struct Server {
 
 impl Server {
     fn begin() -> Self {
-        let bound = Bound::new(0).unwrap();
+        let bound = BoundServer::new(0).unwrap();
         let host = bound.url().trim_start_matches("http://").trim_end_matches('/').to_owned();
         let stop: &'static AtomicBool = Box::leak(Box::default());
         let thread = Some(std::thread::spawn(move || bound.serve(2, stop).unwrap()));

@@ -4,7 +4,7 @@
 #![allow(clippy::print_stdout, reason = "an example for the terminal")]
 
 use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Atlas, SettleOptions, settle_many};
+use vibroimpact::verdict::{KnownAttractors, SettleOptions, settle_many};
 use vibroimpact::{Oscillator, Start};
 
 const COLUMNS: u64 = 72;
@@ -18,7 +18,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Start { x: -4.0 + 4.75 * column, v: 4.0 - 8.0 * row, phase: 0.0 }
     };
     let options = SettleOptions::default();
-    let found = settle_many(&osc, 0..COLUMNS * ROWS, start, &Atlas::default(), &options, Width::best(), &|| false);
+    let found =
+        settle_many(&osc, 0..COLUMNS * ROWS, start, &KnownAttractors::default(), &options, Width::best(), &|| false);
     let letters: Vec<char> = ('a'..='z').collect();
     for row in found.cells.chunks(usize::try_from(COLUMNS)?) {
         println!("{}", row.iter().map(|&motion| letters[motion as usize % 26]).collect::<String>());

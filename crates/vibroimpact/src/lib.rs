@@ -72,7 +72,7 @@ pub mod system;
 pub mod verdict;
 
 pub use orbit::Label;
-pub use system::{Frequency, Machine, Oscillator, Parameter, Scales, Side, Start, Stop, SystemError, Varying};
+pub use system::{Frequency, Machine, Oscillator, Parameter, ParameterPath, Scales, Side, Start, Stop, SystemError};
 
 /// The listings of the README are compiled and run.
 #[cfg(doctest)]

@@ -7,7 +7,8 @@ use vibroimpact::motion::{End, Event, EventKind, ImpactState, Motion};
 use vibroimpact::orbit::Cycle;
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{
-    Atlas, NoImpact, SettleOptions, Settled, StartBox, Verdict, attractors, scattered_starts, settle, settle_many,
+    KnownAttractors, NoImpact, SettleOptions, Settled, StartBox, Verdict, attractors, scattered_starts, settle,
+    settle_many,
 };
 use vibroimpact::{Oscillator, Side, Start};
 
@@ -162,9 +163,9 @@ fn f03_after_a_graze_limit_impacts_only_fade() {
 fn in_company(osc: &Oscillator, options: &SettleOptions, count: u64, start: impl Fn(u64) -> Start + Copy) {
     let alone: Vec<Verdict> = (0..count).map(|k| settle(osc, start(k), options).verdict).collect();
     for surveyed in [0, 8, 24] {
-        let atlas = Atlas::survey(osc, (0..surveyed).map(|k| start(count / surveyed * k)), options);
+        let survey = KnownAttractors::survey(osc, (0..surveyed).map(|k| start(count / surveyed * k)), options);
         for width in Width::ALL.into_iter().filter(|width| width.available()) {
-            let many = settle_many(osc, 0..count, start, &atlas, options, width, &|| false);
+            let many = settle_many(osc, 0..count, start, &survey, options, width, &|| false);
             for (k, cell) in many.cells.iter().enumerate() {
                 let got = &many.motions[*cell as usize].verdict;
                 assert!(
@@ -420,8 +421,8 @@ fn f04c_search_steps_run_out_alike_alone_and_among_others() {
         let alone = settle(&osc, start, &options).verdict;
         let area = StartBox::natural(&osc);
         let surveyed = (2..40).map(|k| scattered_starts(&osc, area, 1, k));
-        for atlas in [Atlas::default(), Atlas::survey(&osc, surveyed, &options)] {
-            let among = settle_many(&osc, 0..64, |_| start, &atlas, &options, Width::best(), &|| false);
+        for survey in [KnownAttractors::default(), KnownAttractors::survey(&osc, surveyed, &options)] {
+            let among = settle_many(&osc, 0..64, |_| start, &survey, &options, Width::best(), &|| false);
             let [found] = &among.motions[..] else { panic!("{osc:?}: {:?}", among.motions) };
             assert!(
                 found.verdict.label() == alone.label() && found.verdict.same_as(&alone, 1e-6),

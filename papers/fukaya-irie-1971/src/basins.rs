@@ -7,7 +7,9 @@ use std::collections::BTreeMap;
 use vibroimpact::scenario::{self, Scenario};
 use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Oscillator, Start};
-use vibroimpact_plot::{Axis, ClassStyle, Colour, Legend, Panel, Points, Raster, Shape, class_style, legend_text};
+use vibroimpact_plot::{
+    ClassStyle, Colour, FigureAxis, Legend, Panel, Points, Raster, Shape, class_style, legend_text,
+};
 use vibroimpact_study::{Basin, BasinPlan, Plan, Results, Span, SystemPlan, Task};
 
 /// A basin and what was measured on it.
@@ -180,8 +182,8 @@ fn draw(p: &Picture) -> Result<vibroimpact_plot::Figure, Error> {
     }
     legend = legend.points(&origin, "origin");
     let panel = Panel::new(
-        Axis::new("initial displacement *ξ*_0").range(x.ends().0, x.ends().1),
-        Axis::new("initial velocity *u*_0").range(v.ends().0, v.ends().1),
+        FigureAxis::new("initial displacement *ξ*_0").range(x.ends().0, x.ends().1),
+        FigureAxis::new("initial velocity *u*_0").range(v.ends().0, v.ends().1),
     )
     .with(raster)
     .with(origin);

@@ -5,7 +5,7 @@ use crate::figure04::cells;
 use crate::folder::Csv;
 use crate::grid::{Grid, settle_grid};
 use crate::{Error, Run, looks, search};
-use vibroimpact_plot::{Axis, Panel};
+use vibroimpact_plot::{FigureAxis, Panel};
 use vibroimpact_study::Span;
 
 pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
@@ -19,8 +19,9 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     search::rows(&grid, &mut csv);
     run.folder.write("figure-04-below-zero.csv", csv.bytes())?;
     let labels = grid.labels();
-    let panel = Panel::new(Axis::new("1/*β*").range(0.375, 2.025), Axis::new("gap *δ*").range(-1.0625, 0.0625))
-        .with(cells(&grid));
+    let panel =
+        Panel::new(FigureAxis::new("1/*β*").range(0.375, 2.025), FigureAxis::new("gap *δ*").range(-1.0625, 0.0625))
+            .with(cells(&grid));
     let legend = looks::legend(labels.iter().map(|(label, _)| label.as_str()));
     let figure = looks::column(panel, 380.0).legend(legend);
     let svg = run.folder.figure("figure-04-below-zero", figure)?;

@@ -9,7 +9,7 @@ use vibroimpact::flight::Flight;
 use vibroimpact::motion::{Motion, Path, sample};
 use vibroimpact::{Oscillator, Start, scenario};
 use vibroimpact_plot::{
-    Axis, Colour, Dash, HLine, Legend, Line, Panel, Points, SERIES, Side, Stroke, Text, Tick, Wall,
+    Colour, Dash, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text, TextSide, Tick, Wall,
 };
 
 /// Impacts shown and numbered.
@@ -47,11 +47,11 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
         Tick::new(2.0 * PI * f64::from(k), text)
     });
     let mut panel = Panel::new(
-        Axis::new("time *τ*").range(0.0, until).ticks(ticks),
-        Axis::new("displacement *ξ*").range(1.15 * lowest, point.gap - 0.42 * lowest),
+        FigureAxis::new("time *τ*").range(0.0, until).ticks(ticks),
+        FigureAxis::new("displacement *ξ*").range(1.15 * lowest, point.gap - 0.42 * lowest),
     )
     .with(HLine::new(0.0, Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dotted)))
-    .with(Wall::new(point.gap, Side::Above))
+    .with(Wall::new(point.gap, TextSide::Above))
     .with(line)
     .with(hits);
     for (k, impact) in list.iter().enumerate() {

@@ -7,7 +7,7 @@ use vibroimpact::motion::sample;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
 use vibroimpact::{Oscillator, Start, scenario};
-use vibroimpact_plot::{Axis, Colour, Legend, Line, Panel, Points, SERIES, Side, Text, VLine, Wall};
+use vibroimpact_plot::{Colour, FigureAxis, Legend, Line, Panel, Points, SERIES, Text, TextSide, VLine, Wall};
 use vibroimpact_plot::{Dash, Stroke};
 
 /// One impact of the motion and the flight after it.
@@ -49,11 +49,11 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     let hits = Points::new(times.clone(), vec![point.gap; times.len()], SERIES[1]).rim(Colour::WHITE);
     let deepest = hops.iter().map(|hop| hop.depth).fold(0.0, f64::max);
     let mut panel = Panel::new(
-        Axis::new("time *τ*").range(-0.4, 2.0 * period + 0.4),
-        Axis::new("displacement *ξ*").range(point.gap - 1.12 * deepest, point.gap + 0.25 * deepest),
+        FigureAxis::new("time *τ*").range(-0.4, 2.0 * period + 0.4),
+        FigureAxis::new("displacement *ξ*").range(point.gap - 1.12 * deepest, point.gap + 0.25 * deepest),
     )
     .with(VLine::new(period, Stroke::new(Colour::GREY).width(1.2).dash(Dash::Dashed)))
-    .with(Wall::new(point.gap, Side::Above))
+    .with(Wall::new(point.gap, TextSide::Above))
     .with(line.clone())
     .with(hits.clone());
     for turn in [0.0, period] {

@@ -11,7 +11,7 @@ use vibroimpact::orbit::{Cycle, FindOptions, Orbit, find};
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Label, Oscillator, scenario};
-use vibroimpact_plot::{Axis, Colour, Dash, Figure, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text};
 
 /// Impacts followed.
 const FOLLOWED: usize = 400;
@@ -129,8 +129,8 @@ fn draw(osc: &Oscillator, [exact, seen]: [&Escape; 2], coarser: &[Escape; 3], mu
         Points::new(ks.clone(), seen.impacts.iter().map(|i| i.interval).collect::<Vec<_>>(), SERIES[0]).size(6.0);
     let until = FOLLOWED as f64;
     let mut upper = Panel::new(
-        Axis::new("").range(0.0, until).without_numbers(),
-        Axis::new("interval *z*").range(0.0, 2.3 * period),
+        FigureAxis::new("").range(0.0, until).without_numbers(),
+        FigureAxis::new("interval *z*").range(0.0, 2.3 * period),
     )
     .with(HLine::new(period, guide))
     .with(HLine::new(2.0 * period, guide))
@@ -150,8 +150,8 @@ fn draw(osc: &Oscillator, [exact, seen]: [&Escape; 2], coarser: &[Escape; 3], mu
     let own = Line::new(ks.clone(), floor(seen), SERIES[0]).width(2.4);
     let locked = Line::new(ks.clone(), floor(exact), SERIES[3]).width(1.6);
     let mut lower = Panel::new(
-        Axis::new("impact number").range(0.0, until),
-        Axis::new("distance from 1/1").range(1e-17, 10.0).log10(),
+        FigureAxis::new("impact number").range(0.0, until),
+        FigureAxis::new("distance from 1/1").range(1e-17, 10.0).log10(),
     )
     .with(locked.clone())
     .with(own.clone());

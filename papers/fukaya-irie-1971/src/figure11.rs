@@ -11,7 +11,7 @@ use vibroimpact::orbit::{Cycle, FindOptions, Orbit, find};
 use vibroimpact::system::phase;
 use vibroimpact::verdict::{PaperVerdict, SettleOptions, StartBox, attractors, paper_rule, scattered_starts};
 use vibroimpact::{Label, Oscillator, Side, Start, scenario};
-use vibroimpact_plot::{Axis, Colour, Dash, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text};
+use vibroimpact_plot::{Colour, Dash, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text};
 
 /// Impacts shown.
 const SHOWN: usize = 200;
@@ -97,8 +97,8 @@ fn draw(osc: &Oscillator, list: &[Impact]) -> vibroimpact_plot::Figure {
     let dots = Points::new(ks, zs, SERIES[0]).size(6.5);
     let until = SHOWN as f64;
     let mut panel = Panel::new(
-        Axis::new("impact number").range(0.0, until + 14.0),
-        Axis::new("interval *z*").range(0.0, 1.12 * highest),
+        FigureAxis::new("impact number").range(0.0, until + 14.0),
+        FigureAxis::new("interval *z*").range(0.0, 1.12 * highest),
     )
     .with(HLine::new(period, guide))
     .with(HLine::new(2.0 * period, guide))

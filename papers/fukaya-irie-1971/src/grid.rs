@@ -4,7 +4,8 @@
 use crate::{EPS, Error, Run};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{
-    Census, Found, PaperRule, PaperVerdict, SettleOptions, StartBox, Verdict, paper_rule, scattered_starts, settle,
+    Census, CountedMotion, PaperRule, PaperVerdict, SettleOptions, StartBox, Verdict, paper_rule, scattered_starts,
+    settle,
 };
 use vibroimpact_study::{Span, tiles};
 
@@ -19,7 +20,7 @@ pub(crate) struct Point {
     /// Amplitude |f| of the motion without a stop.
     pub(crate) free: f64,
     /// The distinct motions, the most frequent first.
-    pub(crate) motions: Vec<Found>,
+    pub(crate) motions: Vec<CountedMotion>,
     /// Each start: our label and what the paper's rule says.
     pub(crate) starts: Vec<(String, PaperVerdict)>,
 }
@@ -27,13 +28,13 @@ pub(crate) struct Point {
 impl Point {
     /// Whether motions with and without impacts are both among the verdicts: (with, without).
     pub(crate) fn kinds(&self) -> (bool, bool) {
-        let none = |found: &Found| matches!(found.verdict, Verdict::NoImpact(_));
+        let none = |found: &CountedMotion| matches!(found.verdict, Verdict::NoImpact(_));
         (self.motions.iter().any(|found| !none(found)), self.motions.iter().any(none))
     }
 
     /// The share of starts that lead to this motion.
     #[allow(clippy::cast_precision_loss)] // a few dozen
-    pub(crate) fn share(&self, found: &Found) -> f64 {
+    pub(crate) fn share(&self, found: &CountedMotion) -> f64 {
         found.count as f64 / self.starts.len() as f64
     }
 }

@@ -58,7 +58,7 @@ const EPS: f64 = 0.5;
 
 /// How to run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
+pub struct ReproductionOptions {
     /// A small version of everything, in seconds: coarser grids, fewer starts. Its report says so.
     pub quick: bool,
     /// Write into a folder that holds other files; files of the same names are overwritten.
@@ -100,7 +100,7 @@ impl Run<'_> {
 /// done before that stay.
 pub fn reproduce(
     out: &Path,
-    options: &Options,
+    options: &ReproductionOptions,
     control: &Control<'_>,
     stage: &dyn Fn(&str, u64),
 ) -> Result<Report, Error> {

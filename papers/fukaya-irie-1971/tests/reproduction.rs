@@ -1,12 +1,12 @@
 //! A quick reproduction: every file, every row, the same bytes for any number of threads, and a stop that stops.
 
-use fukaya_irie_1971::{Options, Report, reproduce};
+use fukaya_irie_1971::{Report, ReproductionOptions, reproduce};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use vibroimpact_study::Control;
 
-const QUICK: Options = Options { quick: true, force: false };
+const QUICK: ReproductionOptions = ReproductionOptions { quick: true, force: false };
 
 fn run(out: &Path, threads: usize) -> Report {
     let control = Control { threads, ..Control::default() };

@@ -80,7 +80,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 #[derive(Default, Serialize)]
-struct Answer {
+struct BenchFields {
     impacts_per_second: Impacts,
     starts_per_second: Starts,
     lanes: &'static str,
@@ -110,7 +110,7 @@ pub(super) fn run(args: &Bench, session: &Session) -> Result<(), Failure> {
     if !width.available() {
         return Err(Failure::bad(format!("this machine has no {}\nhint: leave --width away", name(width))));
     }
-    let mut answer = Answer { lanes: name(width), threads: 1, program: PROGRAM, ..Answer::default() };
+    let mut answer = BenchFields { lanes: name(width), threads: 1, program: PROGRAM, ..BenchFields::default() };
     let duration = Duration::from_secs_f64(args.seconds);
     for workload in Workload::ALL.into_iter().filter(|one| args.workload.is_none_or(|only| only == *one)) {
         let rates = measure(workload, width, duration);
@@ -128,7 +128,7 @@ pub(super) fn run(args: &Bench, session: &Session) -> Result<(), Failure> {
     if args.json { session.print_json(&answer) } else { session.print(&text(&answer)) }
 }
 
-fn text(answer: &Answer) -> String {
+fn text(answer: &BenchFields) -> String {
     let million = |rate: f64| format!("{:.2} million", rate / 1e6);
     let mut text = format!("one thread, lanes: {}\n", answer.lanes);
     for (name, rates) in [("chaos", &answer.impacts_per_second.chaos), ("regular", &answer.impacts_per_second.regular)]

@@ -8,7 +8,7 @@ use crate::session::Session;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact_report::{Shown, Units};
-use vibroimpact_study::{CurvePlan, EventKind, Plan, Stretch, Task};
+use vibroimpact_study::{CurvePlan, FollowedEvent, Plan, Stretch, Task};
 
 /// The curve of an event of an orbit in a plane of two parameters: where it folds, flips or grazes
 ///
@@ -87,9 +87,9 @@ impl Curve {
         CurvePlan {
             label: self.label.clone(),
             kind: match self.kind {
-                Kind::Fold => EventKind::Fold,
-                Kind::Flip => EventKind::Flip,
-                Kind::Grazing => EventKind::Grazing,
+                Kind::Fold => FollowedEvent::Fold,
+                Kind::Flip => FollowedEvent::Flip,
+                Kind::Grazing => FollowedEvent::Grazing,
             },
             vary: stretch(&self.vary),
             and: stretch(&self.and),

@@ -8,7 +8,7 @@ use crate::session::Session;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
-use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
+use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Stretch, Task};
 
 /// The orbit diagram: impacts or states after the transient, at each value of one parameter, or along a line through two
@@ -115,15 +115,15 @@ enum What {
 }
 
 impl Diagram {
-    fn direction(&self) -> Result<Direction, Failure> {
+    fn direction(&self) -> Result<SweepDirection, Failure> {
         if self.direction != Way::Scatter && (self.starts.is_some() || self.seed.is_some()) {
             return Err(Failure::bad("--starts and --seed belong to --direction scatter"));
         }
         Ok(match self.direction {
-            Way::Up => Direction::Up,
-            Way::Down => Direction::Down,
-            Way::Both => Direction::Both,
-            Way::Scatter => Direction::Scatter { starts: self.starts.unwrap_or(8), seed: self.seed.unwrap_or(1) },
+            Way::Up => SweepDirection::Up,
+            Way::Down => SweepDirection::Down,
+            Way::Both => SweepDirection::Both,
+            Way::Scatter => SweepDirection::Scatter { starts: self.starts.unwrap_or(8), seed: self.seed.unwrap_or(1) },
         })
     }
 }

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::session::Session;
 use crate::signal;
 use clap::Args;
-use vibroimpact_web::{Bound, PORT};
+use vibroimpact_web::{BoundServer, PORT};
 
 /// See the plane of motions on a page in the browser, point at it, and understand
 ///
@@ -28,7 +28,7 @@ pub(crate) struct Explore {
 
 pub(super) fn run(args: &Explore, session: &Session) -> Result<(), Failure> {
     let cannot = |error: std::io::Error| Failure::Failed(format!("cannot serve the page: {error}"));
-    let bound = Bound::new(args.port).map_err(cannot)?;
+    let bound = BoundServer::new(args.port).map_err(cannot)?;
     let url = bound.url();
     session.print(&format!("{url}\n"))?;
     session.note("Ctrl-C ends the explorer");

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
-use fukaya_irie_1971::{Error, Options, reproduce};
+use fukaya_irie_1971::{Error, ReproductionOptions, reproduce};
 use std::path::{Path, PathBuf};
 
 /// Compute the figures of the 1971 paper anew and compare
@@ -26,7 +26,7 @@ pub(super) fn run(args: &Reproduce, session: &Session) -> Result<(), Failure> {
     if args.out == Path::new("-") {
         return Err(Failure::bad("`-` is no place for the figures of a paper: --out names a folder"));
     }
-    let options = Options { quick: args.quick, force: session.force };
+    let options = ReproductionOptions { quick: args.quick, force: session.force };
     let report = session
         .tiled(0, "points", |control, progress| {
             let stage = |name: &str, total: u64| progress.stage(name, total);

@@ -31,7 +31,7 @@ pub(super) fn run(args: &Resume, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
     let filled = stored::fill(&store, args.tiles.map_or(Part::ALL, |tiles| tiles.0), session)?;
     if args.json {
-        return session.print_json(&report::Answer::new(&store, Some(filled))?);
+        return session.print_json(&report::StoredFields::new(&store, Some(filled))?);
     }
     Ok(())
 }

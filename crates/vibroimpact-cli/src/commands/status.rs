@@ -21,7 +21,7 @@ pub(crate) struct Status {
 }
 
 #[derive(Serialize)]
-struct Answer<'a> {
+struct StatusFields<'a> {
     store: String,
     tiles: u64,
     tiles_done: u64,
@@ -47,7 +47,7 @@ pub(super) fn run(args: &Status, session: &Session) -> Result<(), Failure> {
     let found = store.progress()?;
     let since = found.last.and_then(|last| SystemTime::now().duration_since(last).ok());
     if args.json {
-        return session.print_json(&Answer {
+        return session.print_json(&StatusFields {
             store: store.place(),
             tiles: found.tiles,
             tiles_done: found.done,

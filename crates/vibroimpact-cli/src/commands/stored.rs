@@ -73,7 +73,7 @@ pub(super) fn run(plan: &Plan, place: &str, part: Part, outputs: Outputs, sessio
     let (json, silent) = (outputs.json(), outputs.any());
     outputs.stream(session, |out| report::table(&store, false, out), || Ok(figure(&store)?))?;
     if json {
-        return session.print_json(&report::Answer::new(&store, Some(filled))?);
+        return session.print_json(&report::StoredFields::new(&store, Some(filled))?);
     }
     if silent || filled.left > 0 {
         return Ok(());

@@ -32,7 +32,7 @@ pub(crate) struct Verify {
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct VerifyFields {
     store: String,
     checked: u64,
     recomputed: u64,
@@ -56,7 +56,7 @@ pub(super) fn run(args: &Verify, session: &Session) -> Result<(), Failure> {
     let (count, place) = (damage.len(), store.place());
     if args.json {
         let damage = damage.into_iter().map(|wrong| Wrong { tile: wrong.tile, what: wrong.what }).collect();
-        session.print_json(&Answer { store: place.clone(), checked, recomputed, open, damage })?;
+        session.print_json(&VerifyFields { store: place.clone(), checked, recomputed, open, damage })?;
     } else {
         let mut text = format!("check sums read: {}; computed again: {recomputed}\n", counted(checked, "tile"));
         if open > 0 {

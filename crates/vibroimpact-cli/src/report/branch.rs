@@ -2,7 +2,7 @@
 
 use crate::report::words::{stop_name, table};
 use std::fmt::Write;
-use vibroimpact::continuation::{BranchEvent, Change, Point, Touch};
+use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint, Touch};
 use vibroimpact::orbit::Cycle;
 use vibroimpact::{Label, Parameter};
 use vibroimpact_report::Units;
@@ -108,7 +108,7 @@ fn of(branch: &Followed, cut: &Cut, units: &Units) -> String {
 
 /// What a branch is beside an event. Two events that no point lies between are closer than rounding lets their multipliers be told;
 /// where the branch ends with the event, what is beyond was not followed.
-fn beside(neighbour: Option<&Point>, label: Label) -> String {
+fn beside(neighbour: Option<&SolutionPoint>, label: Label) -> String {
     match neighbour {
         Some(point) if plain(point) && point.cycle.label == label => state(point),
         Some(point) if point.event.is_some_and(|event| event.ends()) => format!("{label} not followed"),
@@ -118,12 +118,12 @@ fn beside(neighbour: Option<&Point>, label: Label) -> String {
 }
 
 /// Whether nothing happens to the cycle at a point.
-const fn plain(point: &Point) -> bool {
+const fn plain(point: &SolutionPoint) -> bool {
     matches!(point.event, None | Some(BranchEvent::EndOfRange))
 }
 
 /// `1/1 stable`.
-fn state(point: &Point) -> String {
+fn state(point: &SolutionPoint) -> String {
     let stability = match (point.physical, point.stable()) {
         (false, _) => "no motion",
         (true, true) => "stable",
@@ -146,7 +146,7 @@ fn touch(cycle: &Cycle, change: Change, touch: &Touch) -> String {
     }
 }
 
-fn remark(point: &Point, event: &BranchEvent) -> String {
+fn remark(point: &SolutionPoint, event: &BranchEvent) -> String {
     match event {
         BranchEvent::Grazing { change, impact, side, phase, turns, also, .. } => {
             let way = match (point.cycle.rests.is_empty(), turns) {

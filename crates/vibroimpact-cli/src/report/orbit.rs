@@ -1,9 +1,9 @@
 //! An orbit that was looked for in words: a motion, or a solution of the equations that is none.
 
 use crate::report::words::{impacts, motion, multipliers, stop_name};
-use vibroimpact::{Label, Oscillator};
 use vibroimpact::orbit::Orbit;
 use vibroimpact::verdict::Verdict;
+use vibroimpact::{Label, Oscillator};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
 

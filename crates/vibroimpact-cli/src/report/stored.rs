@@ -14,7 +14,7 @@ use vibroimpact_study::{Block, Column, Field, Plan, Store, StoreError, Task};
 
 /// One JSON object about a store.
 #[derive(Serialize)]
-pub(crate) struct Answer<'a, Filled: Serialize> {
+pub(crate) struct StoredFields<'a, Filled: Serialize> {
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     filled: Option<Filled>,
     points: u64,
@@ -25,7 +25,7 @@ pub(crate) struct Answer<'a, Filled: Serialize> {
     program: &'static str,
 }
 
-impl<'a, Filled: Serialize> Answer<'a, Filled> {
+impl<'a, Filled: Serialize> StoredFields<'a, Filled> {
     pub(crate) fn new(store: &'a Store, filled: Option<Filled>) -> Result<Self, Failure> {
         Ok(Self {
             filled,

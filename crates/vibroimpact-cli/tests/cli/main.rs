@@ -10,8 +10,8 @@ mod lyapunov;
 mod planes;
 mod questions;
 mod refusals;
+mod same_as_library;
 mod studies;
-mod told;
 mod units;
 
 use assert_cmd::Command;

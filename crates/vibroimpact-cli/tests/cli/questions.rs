@@ -48,7 +48,7 @@ fn of_every_task() {
     ] {
         for system in [&one, &two] {
             let plan = plan(system, &task);
-            let complete = vibroimpact_report::answer::complete(&plan).expect("it was checked");
+            let complete = plan.complete().expect("it was checked");
             assert_eq!(asked(&plan).hash(), complete.hash(), "{:?}", command(&plan));
         }
     }
@@ -89,7 +89,7 @@ fn of_every_task() {
         ),
     ] {
         let plan = plan(system, &task);
-        let complete = vibroimpact_report::answer::complete(&plan).expect("it was checked");
+        let complete = plan.complete().expect("it was checked");
         assert_eq!(asked(&plan).hash(), complete.hash(), "{:?}", command(&plan));
     }
 }

@@ -6,7 +6,7 @@ mod planes;
 mod verbs;
 
 use crate::case::Property;
-use crate::limits::{Limits, Ran, run};
+use crate::limits::{Limits, ProcessEnd, run};
 use crate::rules;
 use proptest::prelude::*;
 use std::fs;
@@ -20,7 +20,7 @@ use vibroimpact_study::{Control, Plan};
 
 /// A command line, and whether its budget is one that nobody waits for.
 #[derive(Clone, Debug)]
-pub struct Line {
+pub struct CommandCase {
     words: Vec<String>,
     heavy: bool,
 }
@@ -49,7 +49,7 @@ impl Commands {
     }
 
     /// Runs a line in a folder of its own; what it left there besides the files of every case.
-    fn ask(&self, words: &[String], limits: &Limits) -> io::Result<(Ran, Vec<String>)> {
+    fn ask(&self, words: &[String], limits: &Limits) -> io::Result<(ProcessEnd, Vec<String>)> {
         // always under the same name, which some answers have in them
         let folder = self.scratch.path().join("case");
         if folder.exists() {
@@ -73,10 +73,10 @@ impl Commands {
 }
 
 impl Property for Commands {
-    type Case = Line;
+    type Case = CommandCase;
 
-    fn strategy(&self) -> BoxedStrategy<Line> {
-        let line = |heavy| move |words| Line { words, heavy };
+    fn strategy(&self) -> BoxedStrategy<CommandCase> {
+        let line = |heavy| move |words| CommandCase { words, heavy };
         prop_oneof![
             12 => verbs::lines().prop_map(line(false)),
             10 => planes::lines().prop_map(line(false)),
@@ -86,12 +86,12 @@ impl Property for Commands {
         .boxed()
     }
 
-    fn describe(&self, case: &Line) -> String {
+    fn describe(&self, case: &CommandCase) -> String {
         let quoted: Vec<String> = case.words.iter().map(|word| quoted(word)).collect();
         format!("vibro {}{}", quoted.join(" "), if case.heavy { "   # and Ctrl-C" } else { "" })
     }
 
-    fn check(&mut self, case: &Line) -> Result<(), String> {
+    fn check(&mut self, case: &CommandCase) -> Result<(), String> {
         let failed = |why: io::Error| format!("the command cannot be run: {why}");
         let interrupt = case.heavy.then_some(INTERRUPT);
         let limits = Limits { interrupt, ..Limits::default() };
@@ -143,7 +143,7 @@ fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), Stri
 }
 
 /// The same line with another number of threads gives the same bytes.
-fn again(commands: &Commands, case: &Line, first: &Ran) -> Result<(), String> {
+fn again(commands: &Commands, case: &CommandCase, first: &ProcessEnd) -> Result<(), String> {
     if case.words.iter().any(|word| word.starts_with("--threads")) {
         return Ok(());
     }

@@ -1,14 +1,14 @@
 //! Parts of a command line: flags with their values, systems, starts, outputs, and words that nobody asked for.
 
-use crate::system::{self, Values};
-use crate::values::{Text, file, number, odd, restitution, typed};
+use crate::system::{self, SystemValues};
+use crate::values::{ProptestText, file, number, odd, restitution, typed};
 use proptest::prelude::*;
 
 /// Words of a command line.
 pub(super) type Words = BoxedStrategy<Vec<String>>;
 
 /// `--name=value`, this often, 1 for always.
-pub(super) fn flag(name: &'static str, often: f64, value: Text) -> Words {
+pub(super) fn flag(name: &'static str, often: f64, value: ProptestText) -> Words {
     let given = value.prop_map(move |value| vec![format!("--{name}={value}")]);
     sometimes(often, given.boxed())
 }
@@ -26,13 +26,13 @@ fn sometimes(often: f64, words: Words) -> Words {
 }
 
 /// One of these words.
-pub(super) fn word(words: &'static [&'static str]) -> Text {
+pub(super) fn word(words: &'static [&'static str]) -> ProptestText {
     prop::sample::select(words).prop_map(str::to_owned).boxed()
 }
 
-/// Values as flags.
+/// SystemValues as flags.
 #[must_use]
-pub(super) fn flags(values: &Values) -> Vec<String> {
+pub(super) fn flags(values: &SystemValues) -> Vec<String> {
     values.iter().map(|(name, value)| format!("--{}={value}", name.replace('_', "-"))).collect()
 }
 

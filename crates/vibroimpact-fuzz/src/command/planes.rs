@@ -2,7 +2,7 @@
 
 use super::parts::{Words, all, flag, flags, line, outputs, start, switch, word};
 use crate::system::{parameter, system, without};
-use crate::values::{Text, count, interval, label, range};
+use crate::values::{ProptestText, count, interval, label, range};
 use proptest::prelude::*;
 
 /// Any of them.
@@ -10,11 +10,11 @@ pub(super) fn lines() -> Words {
     prop_oneof![3 => basin(), 3 => map(), 3 => diagram(), 2 => region(), 2 => curve()].boxed()
 }
 
-fn few() -> Text {
+fn few() -> ProptestText {
     prop_oneof![5 => word(&["1", "2", "3"]), 1 => count()].boxed()
 }
 
-fn budget() -> Text {
+fn budget() -> ProptestText {
     prop_oneof![4 => word(&["1", "60", "200", "1500"]), 1 => count()].boxed()
 }
 
@@ -47,8 +47,8 @@ fn basin() -> Words {
 /// A system of which so many parameters vary over ranges.
 fn varied(
     most: usize,
-    over: fn(f64, f64) -> Text,
-) -> BoxedStrategy<(Vec<(&'static str, String)>, crate::system::Values)> {
+    over: fn(f64, f64) -> ProptestText,
+) -> BoxedStrategy<(Vec<(&'static str, String)>, crate::system::SystemValues)> {
     (
         prop::collection::vec(parameter().prop_flat_map(move |(name, low, high)| (Just(name), over(low, high))), most),
         system(),

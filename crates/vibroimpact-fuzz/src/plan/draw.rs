@@ -1,7 +1,7 @@
 //! Plans as JSON, small enough to be answered at once: every task, with values aimed at hard places.
 
-use crate::system::{Values, parameter, start, system, without};
-use crate::values::{Text, interval, label, number, range};
+use crate::system::{SystemValues, parameter, start, system, without};
+use crate::values::{ProptestText, interval, label, number, range};
 use proptest::prelude::*;
 use serde_json::{Map, Value, json};
 
@@ -13,7 +13,7 @@ fn value(text: &str) -> Value {
 
 /// The system of a plan.
 #[must_use]
-pub fn of(values: &Values) -> Value {
+pub fn of(values: &SystemValues) -> Value {
     let (mut system, mut second) = (Map::new(), Map::new());
     for (name, text) in values {
         match name.strip_prefix("second_") {
@@ -30,11 +30,11 @@ pub fn of(values: &Values) -> Value {
     Value::Object(system)
 }
 
-fn object(values: &Values) -> Value {
+fn object(values: &SystemValues) -> Value {
     values.iter().map(|(name, text)| ((*name).to_owned(), value(text))).collect::<Map<_, _>>().into()
 }
 
-type Tasks = BoxedStrategy<(Value, Values)>;
+type Tasks = BoxedStrategy<(Value, SystemValues)>;
 
 /// A task over the system as it is drawn.
 fn alone(task: BoxedStrategy<Value>) -> Tasks {
@@ -70,7 +70,7 @@ fn axis(name: &str, over: &str, listed: bool) -> Value {
 }
 
 fn basin() -> Tasks {
-    let over: (Text, Text) = (range(-4.0, -0.5), range(-4.0, 4.0));
+    let over: (ProptestText, ProptestText) = (range(-4.0, -0.5), range(-4.0, 4.0));
     (over, start(), prop::option::of(1..400_u32), any::<bool>(), system())
         .prop_map(|((x, v), start, impacts, listed, system)| {
             let axes = [axis("x", &x, false), axis("v", &v, listed)];
@@ -143,7 +143,7 @@ fn continuation() -> Tasks {
 }
 
 /// The system with the first value of what varies over a region.
-fn region(system: Values, p: &'static str, first: &Value, q: &'static str, second: &Value) -> Values {
+fn region(system: SystemValues, p: &'static str, first: &Value, q: &'static str, second: &Value) -> SystemValues {
     let mut system = without(system, &[p, q]);
     system.extend([(p, first["from"].to_string()), (q, second["from"].to_string())]);
     system

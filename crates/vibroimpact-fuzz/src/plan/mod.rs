@@ -156,13 +156,13 @@ enum Refused {
 }
 
 /// Everything that is told of it: JSON, table, figure.
-struct Told {
+struct EventRecord {
     json: String,
     table: Vec<u8>,
     figure: Result<String, String>,
 }
 
-fn asked(plan: &Plan, threads: usize, stop: &AtomicBool) -> Result<Told, Refused> {
+fn asked(plan: &Plan, threads: usize, stop: &AtomicBool) -> Result<EventRecord, Refused> {
     let control = Control { stop, threads, ..Control::default() };
     let refused = |why: AnswerError| match why {
         AnswerError::Stopped(_) => Refused::Stopped,
@@ -181,11 +181,11 @@ fn asked(plan: &Plan, threads: usize, stop: &AtomicBool) -> Result<Told, Refused
         Err(AnswerError::Stopped(_)) => return Err(Refused::Stopped),
         Err(why) => Err(why.to_string()),
     };
-    Ok(Told { json: answer.json(), table, figure })
+    Ok(EventRecord { json: answer.json(), table, figure })
 }
 
 /// The answer has what programs rely on, and is the same with other threads and from the plan it prints.
-fn answered(plan: &Plan, first: &Told) -> Result<(), String> {
+fn answered(plan: &Plan, first: &EventRecord) -> Result<(), String> {
     let object = rules::object(first.json.as_bytes())?;
     let task = serde_json::to_value(&plan.task).unwrap_or_default();
     let name = task.as_object().and_then(|task| task.keys().next().cloned()).unwrap_or_default();

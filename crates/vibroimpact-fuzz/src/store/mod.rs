@@ -4,7 +4,7 @@
 mod damage;
 
 use crate::case::Property;
-use crate::limits::{Limits, Ran, run};
+use crate::limits::{Limits, ProcessEnd, run};
 use crate::rules;
 use damage::{Damage, Files, damage, files, write};
 use proptest::prelude::*;
@@ -49,7 +49,7 @@ impl Stores {
         Ok(Self { vibro: vibro.canonicalize()?, scratch: TempDir::new()?, whole: vec![None; PLANS.len()] })
     }
 
-    fn vibro(&self, folder: &Path, line: &str) -> Result<Ran, String> {
+    fn vibro(&self, folder: &Path, line: &str) -> Result<ProcessEnd, String> {
         let words: Vec<String> = line.split(' ').map(str::to_owned).collect();
         let ran = run(&self.vibro, &words, (folder, self.scratch.path()), &Limits::default())
             .map_err(|why| why.to_string())?;

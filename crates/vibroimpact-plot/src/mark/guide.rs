@@ -27,7 +27,7 @@ pub struct VLine {
 
 /// On which side of the stop the wall stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum TextSide {
     /// Larger y.
     Above,
     /// Smaller y.
@@ -44,7 +44,7 @@ pub struct Wall {
     /// Where the stop is.
     pub at: f64,
     /// What lies behind it.
-    pub side: Side,
+    pub side: TextSide,
     /// Colour of line and hatch.
     pub colour: Colour,
 }
@@ -96,23 +96,23 @@ fn rule(canvas: &mut Canvas, frame: &Frame, at: f64, level: bool, stroke: Stroke
 impl Wall {
     /// A grey wall.
     #[must_use]
-    pub const fn new(at: f64, side: Side) -> Self {
+    pub const fn new(at: f64, side: TextSide) -> Self {
         Self { at, side, colour: Colour::GREY }
     }
 
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
-        let upright = matches!(self.side, Side::Left | Side::Right);
+        let upright = matches!(self.side, TextSide::Left | TextSide::Right);
         let mapping = if upright { &frame.x } else { &frame.y };
         if mapping.at(self.at).is_nan() {
             return;
         }
         let (first, last) = mapping.range;
         let beyond = match self.side {
-            Side::Above | Side::Right => first.max(last),
-            Side::Below | Side::Left => first.min(last),
+            TextSide::Above | TextSide::Right => first.max(last),
+            TextSide::Below | TextSide::Left => first.min(last),
         };
         // a stop outside the panel leaves all of it behind the wall, or none
-        let band = if matches!(self.side, Side::Above | Side::Right) == (self.at < beyond) {
+        let band = if matches!(self.side, TextSide::Above | TextSide::Right) == (self.at < beyond) {
             let (x, y) = if upright { ((self.at, beyond), frame.y.range) } else { (frame.x.range, (self.at, beyond)) };
             frame.cut(x, y)
         } else {
@@ -129,8 +129,8 @@ impl Wall {
 
     pub(crate) fn extent(&self, x: &mut Extent, y: &mut Extent) {
         match self.side {
-            Side::Left | Side::Right => x.see(self.at),
-            Side::Above | Side::Below => y.see(self.at),
+            TextSide::Left | TextSide::Right => x.see(self.at),
+            TextSide::Above | TextSide::Below => y.see(self.at),
         }
     }
 }
@@ -144,18 +144,18 @@ mod tests {
     fn the_wall_fills_its_side() {
         let frame = test_frame((0.0, 1.0), (0.0, 1.0));
         for (wall, d) in [
-            (Wall::new(0.75, Side::Above), "M0 0H100V25H0z"),
-            (Wall::new(0.25, Side::Below), "M0 75H100V100H0z"),
-            (Wall::new(0.75, Side::Right), "M75 0H100V100H75z"),
-            (Wall::new(-5.0, Side::Right), "M0 0H100V100H0z"),
+            (Wall::new(0.75, TextSide::Above), "M0 0H100V25H0z"),
+            (Wall::new(0.25, TextSide::Below), "M0 75H100V100H0z"),
+            (Wall::new(0.75, TextSide::Right), "M75 0H100V100H75z"),
+            (Wall::new(-5.0, TextSide::Right), "M0 0H100V100H0z"),
         ] {
             let mut canvas = Canvas::new("");
             wall.draw(&mut canvas, &frame);
             assert!(canvas.body.contains(d), "{wall:?}: {}", canvas.body);
         }
         let mut canvas = Canvas::new("");
-        Wall::new(5.0, Side::Above).draw(&mut canvas, &frame);
-        Wall::new(f64::NAN, Side::Left).draw(&mut canvas, &frame);
+        Wall::new(5.0, TextSide::Above).draw(&mut canvas, &frame);
+        Wall::new(f64::NAN, TextSide::Left).draw(&mut canvas, &frame);
         HLine::new(7.0, Stroke::new(Colour::BLACK)).draw(&mut canvas, &frame);
         assert_eq!(canvas.body, "");
     }

@@ -17,7 +17,7 @@ use line::Line;
 use points::Points;
 use raster::Raster;
 use rects::Rects;
-use region::Region;
+use region::FilledRegion;
 use text::Text;
 
 /// Anything a panel can show.
@@ -32,7 +32,7 @@ pub enum Mark {
     /// Rectangles with a class each.
     Rects(Rects),
     /// An area with holes.
-    Region(Region),
+    FilledRegion(FilledRegion),
     /// A label at a place.
     Text(Text),
     /// A line across the panel at one y.
@@ -68,4 +68,4 @@ macro_rules! marks {
     };
 }
 
-marks!(Line, Points, Raster, Rects, Region, Text, HLine, VLine, Wall);
+marks!(Line, Points, Raster, Rects, FilledRegion, Text, HLine, VLine, Wall);

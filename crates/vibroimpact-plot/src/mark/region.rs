@@ -9,7 +9,7 @@ use crate::stroke::Stroke;
 
 /// Closed rings; where they overlap an even number of times is outside.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Region {
+pub struct FilledRegion {
     /// The rings, each a list of corners; the last joins the first.
     pub rings: Vec<Vec<(f64, f64)>>,
     /// Colour of the inside; give it an opacity to keep what lies below.
@@ -20,7 +20,7 @@ pub struct Region {
     pub outline: Option<Stroke>,
 }
 
-impl Region {
+impl FilledRegion {
     /// A region of these rings, invisible until it is given a fill, a hatch or an outline.
     #[must_use]
     pub fn new(rings: Vec<Vec<(f64, f64)>>) -> Self {
@@ -99,10 +99,10 @@ mod tests {
         let frame = test_frame((0.0, 1.0), (0.0, 1.0));
         let mut canvas = Canvas::new("");
         let bad = vec![(0.0, 0.0), (1.0, f64::NAN), (1.0, 1.0)];
-        Region::polygon(bad).fill(Colour::BLACK).draw(&mut canvas, &frame);
+        FilledRegion::polygon(bad).fill(Colour::BLACK).draw(&mut canvas, &frame);
         assert_eq!(canvas.body, "");
         let good = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)];
-        Region::polygon(good).fill(Colour::BLACK.alpha(0.5)).draw(&mut canvas, &frame);
+        FilledRegion::polygon(good).fill(Colour::BLACK.alpha(0.5)).draw(&mut canvas, &frame);
         assert!(canvas.body.contains("M0 100L100 100L100 0z") && canvas.body.contains("fill-opacity"));
     }
 }

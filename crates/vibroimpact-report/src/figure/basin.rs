@@ -11,7 +11,7 @@ const NAMED: usize = 12;
 
 /// A motion and the share of starts that lead to it.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct BasinMotion {
     /// Its label.
     pub label: String,
     /// Its share.
@@ -23,8 +23,8 @@ pub struct Motion {
 /// # Errors
 /// [`ReportError`] for axes that are not two in some order, or too long.
 pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
-    let motion = |m: usize| Motion { label: found.motions[m].verdict.label().into_owned(), share: found.share(m) };
-    let motions: Vec<Motion> = (0..found.motions.len()).map(motion).collect();
+    let motion = |m: usize| BasinMotion { label: found.motions[m].verdict.label().into_owned(), share: found.share(m) };
+    let motions: Vec<BasinMotion> = (0..found.motions.len()).map(motion).collect();
     let plane = Plane::of(&found.plan.axes, &asked.units)?;
     draw(&plane, &motions, found.cells.clone(), title(&asked.system))
 }
@@ -33,7 +33,7 @@ pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
 ///
 /// # Errors
 /// [`ReportError::Plot`] for cells that are not as many as the points of the plane.
-pub fn draw(plane: &Plane, motions: &[Motion], cells: Vec<u16>, title: String) -> Result<Figure, ReportError> {
+pub fn draw(plane: &Plane, motions: &[BasinMotion], cells: Vec<u16>, title: String) -> Result<Figure, ReportError> {
     let mut by_share: Vec<usize> = (0..motions.len()).collect();
     by_share.sort_by(|a, b| motions[*b].share.total_cmp(&motions[*a].share));
     let mut colours = vec![Colour::hex(0x9a_9a9a); motions.len()];

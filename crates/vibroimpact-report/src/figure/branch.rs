@@ -6,8 +6,8 @@ use crate::figure::tracks::{Curves, Followed as What, Look, curves};
 use crate::figure::{along, label, title_without, variant};
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
-use vibroimpact::continuation::{BranchEvent, Point};
-use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
 use vibroimpact_study::diagram::{Diagram, Show};
 use vibroimpact_study::{Cut, Followed, Span, counted};
 
@@ -46,7 +46,7 @@ pub fn figure(
     let unit = asked.units.of(cut.vary);
     let (from, to) = cut.ends;
     let mut panel = Panel::new(
-        Axis::new(along(cut, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
+        FigureAxis::new(along(cut, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
         ordinate(show, asked),
     );
     let mut legend = Legend::below();
@@ -153,7 +153,7 @@ fn marks(
 }
 
 /// The form of an event's mark, and where it stands: at all impacts or states, or at velocity zero where an impact comes or goes.
-fn mark(point: &Point, event: &BranchEvent, what: What<'_>) -> Option<(Shape, Vec<f64>)> {
+fn mark(point: &SolutionPoint, event: &BranchEvent, what: What<'_>) -> Option<(Shape, Vec<f64>)> {
     let all = || what.ordinates(point);
     let none = || if matches!(what, What::Velocity) { vec![0.0] } else { all() };
     Some(match event {

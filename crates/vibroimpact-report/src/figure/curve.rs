@@ -4,8 +4,8 @@ use crate::Asked;
 use crate::figure::{label, named, title_without};
 use std::collections::BTreeMap;
 use vibroimpact::continuation::CurveEvent;
-use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
-use vibroimpact_study::{CurvePlan, EventCurve, EventKind, Stretch};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
+use vibroimpact_study::{CurvePlan, EventCurve, FollowedEvent, Stretch};
 
 /// Size of a mark.
 const MARK: f64 = 13.0;
@@ -18,13 +18,13 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
     let (p, q) = (plan.vary.parameter, plan.and.parameter);
     let (x, y) = (asked.units.of(p), asked.units.of(q));
     let axis = |stretch: &Stretch, unit: f64| {
-        Axis::new(named(stretch.parameter, &asked.units)).range(stretch.from * unit, stretch.to * unit)
+        FigureAxis::new(named(stretch.parameter, &asked.units)).range(stretch.from * unit, stretch.to * unit)
     };
     let mut panel = Panel::new(axis(&plan.vary, x), axis(&plan.and, y));
     let colour = match plan.kind {
-        EventKind::Fold => SERIES[1],
-        EventKind::Flip => SERIES[0],
-        EventKind::Grazing => SERIES[2],
+        FollowedEvent::Fold => SERIES[1],
+        FollowedEvent::Flip => SERIES[0],
+        FollowedEvent::Grazing => SERIES[2],
     };
     let mut legend = Legend::below();
     for (physical, dash) in [(true, Dash::Solid), (false, Dash::Dotted)] {

@@ -3,12 +3,12 @@
 //! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other and both colours
 //! are seen. What does not repeat itself has small dots in both.
 
-use crate::figure::{along, plane::Side, symbol, title_without};
+use crate::figure::{along, plane::PlaneAxis, symbol, title_without};
 use crate::units::shown_span;
 use crate::{Asked, ReportError};
 use std::collections::HashSet;
-use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Legend, Panel, Points, Raster, Rects, SERIES};
-use vibroimpact_study::diagram::{Diagram, Direction, Point, Show, Step, Sweep};
+use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Points, Raster, Rects, SERIES};
+use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, Show, Sweep, SweepDirection};
 use vibroimpact_study::{Span, counted};
 
 /// Dots beyond which a picture of cells takes their place: a file of a few megabytes.
@@ -43,7 +43,7 @@ pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
         thin(&mut cloud.small, range);
     }
     let cut = found.plan.cut();
-    let side = Side::new(along(&cut, &asked.units), &(*over).into())?;
+    let side = PlaneAxis::new(along(&cut, &asked.units), &(*over).into())?;
     let panel = Panel::new(side.axis(), ordinate(found.plan.show, asked).range(range.0, range.1));
     let dots: usize = clouds.iter().map(|cloud| cloud.large.len() + cloud.small.len()).sum();
     let (panel, legend) =
@@ -68,17 +68,17 @@ pub(super) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colo
 const WIDE: f64 = 7.0;
 const NARROW: f64 = 2.6;
 
-fn ordinate_of(point: &Point, asked: &Asked) -> f64 {
+fn ordinate_of(point: &DiagramPoint, asked: &Asked) -> f64 {
     match point {
-        Point::Impact { velocity, .. } => velocity * asked.units.velocity(),
-        Point::Chatter { .. } => 0.0,
-        Point::State { x, .. } => x * asked.units.length(),
+        DiagramPoint::Impact { velocity, .. } => velocity * asked.units.velocity(),
+        DiagramPoint::Chatter { .. } => 0.0,
+        DiagramPoint::State { x, .. } => x * asked.units.length(),
     }
 }
 
 /// The axis of what a diagram shows.
-pub(super) fn ordinate(show: Show, asked: &Asked) -> Axis {
-    Axis::new(match show {
+pub(super) fn ordinate(show: Show, asked: &Asked) -> FigureAxis {
+    FigureAxis::new(match show {
         Show::Velocity => asked.units.named("arrival velocity *u*_−", "m/s"),
         Show::Strobe => asked.units.named("*ξ* at phase 0", "m"),
     })
@@ -90,10 +90,10 @@ fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
     let rising = || cloud(format!("{symbol} rising"), SERIES[0]);
     let falling = || cloud(format!("{symbol} falling"), SERIES[1]);
     let mut clouds = match found.plan.direction {
-        Direction::Up => vec![rising()],
-        Direction::Down => vec![falling()],
-        Direction::Both => vec![rising(), falling()],
-        Direction::Scatter { starts, .. } => {
+        SweepDirection::Up => vec![rising()],
+        SweepDirection::Down => vec![falling()],
+        SweepDirection::Both => vec![rising(), falling()],
+        SweepDirection::Scatter { starts, .. } => {
             vec![cloud(format!("{} at each value", counted(starts, "start")), SERIES[0])]
         }
     };
@@ -108,8 +108,8 @@ fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
 }
 
 /// Whether a motion came back before as many points were kept as were asked for.
-fn repeats(found: &Diagram, step: &Step) -> bool {
-    let kept = step.points.iter().filter(|point| !matches!(point, Point::Chatter { .. })).count();
+fn repeats(found: &Diagram, step: &DiagramStep) -> bool {
+    let kept = step.points.iter().filter(|point| !matches!(point, DiagramPoint::Chatter { .. })).count();
     (kept as u64) < found.plan.keep || kept == 1
 }
 
@@ -159,7 +159,7 @@ fn rising(over: &Span, k: usize) -> usize {
 fn as_cells(
     panel: Panel,
     clouds: &[Cloud],
-    (over, side): (&Span, &Side),
+    (over, side): (&Span, &PlaneAxis),
     range: (f64, f64),
 ) -> Result<(Panel, Legend), ReportError> {
     let values = over.count() as usize;

@@ -3,7 +3,7 @@
 use crate::figure::symbol;
 use crate::units::shown;
 use crate::{ReportError, Units};
-use vibroimpact_plot::Axis;
+use vibroimpact_plot::FigureAxis;
 use vibroimpact_study::{Axis as Along, Coordinate, Parameter, Values, is_length};
 
 /// Points a figure of a plane can show along one axis.
@@ -11,7 +11,7 @@ const MOST: usize = 16_384;
 
 /// One side of a plane: a name and values.
 #[derive(Clone, Debug)]
-pub struct Side {
+pub struct PlaneAxis {
     name: String,
     values: Values,
 }
@@ -20,9 +20,9 @@ pub struct Side {
 #[derive(Clone, Debug)]
 pub struct Plane {
     /// The abscissa.
-    pub x: Side,
+    pub x: PlaneAxis,
     /// The ordinate.
-    pub y: Side,
+    pub y: PlaneAxis,
 }
 
 /// One unit of what varies.
@@ -49,7 +49,7 @@ impl Plane {
     /// [`ReportError`] for axes that are not two in some order, or too long.
     pub fn of(axes: &[Along], units: &Units) -> Result<Self, ReportError> {
         let [x, y] = axes else { return Err(ReportError::Axes(axes.len())) };
-        let plane = Self { x: Side::of(x, units)?, y: Side::of(y, units)? };
+        let plane = Self { x: PlaneAxis::of(x, units)?, y: PlaneAxis::of(y, units)? };
         let given = plane.x.count().max(plane.y.count());
         if given > MOST {
             return Err(ReportError::Values { given, most: MOST });
@@ -58,7 +58,7 @@ impl Plane {
     }
 }
 
-impl Side {
+impl PlaneAxis {
     /// Values that rise or fall throughout.
     ///
     /// # Errors
@@ -132,9 +132,9 @@ impl Side {
 
     /// An axis that shows the outermost cells whole.
     #[must_use]
-    pub fn axis(&self) -> Axis {
+    pub fn axis(&self) -> FigureAxis {
         let (low, high) = self.range();
-        let axis = Axis::new(self.name.clone()).range(low, high);
+        let axis = FigureAxis::new(self.name.clone()).range(low, high);
         if self.logarithmic() { axis.log10() } else { axis }
     }
 }
@@ -150,12 +150,12 @@ mod tests {
             Values::Span("100:0.01:5:log".parse().unwrap()),
             Values::Listed(vec![0.0, 1.0, 10.0]),
         ] {
-            let side = Side::new("x", &values).unwrap();
+            let side = PlaneAxis::new("x", &values).unwrap();
             let mut cells: Vec<_> = (0..side.count()).map(|k| side.cell(k)).collect();
             cells.sort_by(|a, b| a.0.total_cmp(&b.0));
             assert!(cells.windows(2).all(|pair| (pair[0].1 - pair[1].0).abs() < 1e-12 * pair[0].1.abs().max(1.0)));
             assert!((0..side.count()).all(|k| side.cell(k).0 < values.at(k) && values.at(k) < side.cell(k).1));
         }
-        assert!(Side::new("x", &Values::Listed(vec![0.0, 2.0, 1.0])).is_err());
+        assert!(PlaneAxis::new("x", &Values::Listed(vec![0.0, 2.0, 1.0])).is_err());
     }
 }

@@ -4,7 +4,7 @@ use crate::Asked;
 use crate::figure::{label, named, title_without};
 use vibroimpact::continuation::{Bound, Polygon, Region};
 use vibroimpact_plot::{
-    Axis, ClassStyle, Colour, Dash, Figure, Legend, Line, Panel, Region as Area, SERIES, Stroke, class_style,
+    ClassStyle, Colour, Dash, Figure, FigureAxis, FilledRegion, Legend, Line, Panel, SERIES, Stroke, class_style,
 };
 use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
@@ -22,7 +22,7 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
     let (units, title) = (&asked.units, title_without(&asked.system, &[plan.across.parameter, plan.up.parameter]));
     let axis = |stretch: &Stretch| {
         let unit = units.of(stretch.parameter);
-        Axis::new(named(stretch.parameter, units)).range(stretch.from * unit, stretch.to * unit)
+        FigureAxis::new(named(stretch.parameter, units)).range(stretch.from * unit, stretch.to * unit)
     };
     let scaled = |region: &Region| {
         let (x, y) = (units.of(plan.across.parameter), units.of(plan.up.parameter));
@@ -70,7 +70,7 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
 }
 
 /// Each outer ring with the holes in it: sheets of a surface may overlap, so not all rings together.
-fn areas(region: &Region) -> impl Iterator<Item = Area> + '_ {
+fn areas(region: &Region) -> impl Iterator<Item = FilledRegion> + '_ {
     region.polygons.iter().filter(|polygon| !polygon.hole).map(|outer| {
         let alone = Region { polygons: vec![outer.clone()], unresolved: Vec::new() };
         let inside = |hole: &&Polygon| {
@@ -79,7 +79,7 @@ fn areas(region: &Region) -> impl Iterator<Item = Area> + '_ {
                 && hole.vertices.first().is_some_and(|vertex| alone.contains(vertex.values))
         };
         let holes = region.polygons.iter().filter(inside);
-        Area::new(core::iter::once(outer).chain(holes).map(ring).collect())
+        FilledRegion::new(core::iter::once(outer).chain(holes).map(ring).collect())
     })
 }
 

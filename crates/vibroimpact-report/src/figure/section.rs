@@ -6,7 +6,7 @@ use crate::number::short;
 use core::f64::consts::PI;
 use vibroimpact::chaos::Section;
 use vibroimpact::{Oscillator, Side, Stop};
-use vibroimpact_plot::{Axis, COLUMN, Colour, Figure, Legend, Panel, Points, SERIES, Tick};
+use vibroimpact_plot::{COLUMN, Colour, Figure, FigureAxis, Legend, Panel, Points, SERIES, Tick};
 use vibroimpact_study::SystemPlan;
 
 /// Points up to which each is a dot of its own.
@@ -59,8 +59,8 @@ const ROUNDING: f64 = 1e-6;
 
 /// An axis over these values. What is one value to rounding stands in the middle of a range of its own size, so that it is drawn as
 /// one point: an axis fitted to its last digits would show them as structure.
-fn fitted(name: String, values: &[f64], unit: f64) -> Axis {
-    let axis = Axis::new(name);
+fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
+    let axis = FigureAxis::new(name);
     let (low, high) = extremes(values.iter().copied());
     let size = low.abs().max(high.abs()).max(unit);
     if high - low > ROUNDING * size || low > high {
@@ -71,9 +71,9 @@ fn fitted(name: String, values: &[f64], unit: f64) -> Axis {
 }
 
 /// The whole turn in parts of pi, or the part of it where all impacts are, if that is less than half of it but more than a point.
-fn phases(found: &Section) -> Axis {
+fn phases(found: &Section) -> FigureAxis {
     let (low, high) = extremes(found.impacts.iter().map(|impact| impact.phase));
-    let axis = Axis::new("phase *θ*");
+    let axis = FigureAxis::new("phase *θ*");
     if (0.01..PI).contains(&(high - low)) {
         return axis;
     }

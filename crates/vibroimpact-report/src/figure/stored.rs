@@ -1,10 +1,10 @@
 //! The figure of a store: that of the command which asks the same.
 
-use crate::figure::plane::{Plane, Side, varied};
+use crate::figure::plane::{Plane, PlaneAxis, varied};
 use crate::figure::{basin, diagram, map, title_without};
 use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
-use vibroimpact_plot::{Axis, Colour, Figure, Line, Panel, SERIES};
+use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
 use vibroimpact_study::study::{diagram_of, label_of};
 use vibroimpact_study::{Axis as Along, LyapunovPlan, Store, SystemPlan, Task};
 
@@ -69,7 +69,7 @@ fn of_basin(store: &Store, axes: &[Along], title: String) -> Result<Figure, Repo
     let total = labels.len() as f64;
     let mut list: Vec<_> = motions.into_iter().collect();
     list.sort_by_key(|(_, (number, _))| *number);
-    let motion = |((code, _), (_, count)): ((i32, i32), (u16, u64))| basin::Motion {
+    let motion = |((code, _), (_, count)): ((i32, i32), (u16, u64))| basin::BasinMotion {
         label: label_of(code).unwrap_or_default(),
         share: count as f64 / total,
     };
@@ -82,7 +82,7 @@ fn of_exponents(store: &Store, plan: &LyapunovPlan, system: &SystemPlan) -> Resu
         return Err(ReportError::Exponents);
     };
     let column = store.column(field)?;
-    let side = Side::of(axis, &Units::default())?;
+    let side = PlaneAxis::of(axis, &Units::default())?;
     let values = axis.over.all();
     let of = |which: usize, colour: Colour| {
         let points = values.iter().zip(column.real().chunks(2)).map(|(x, both)| (*x, both[which]));
@@ -90,7 +90,7 @@ fn of_exponents(store: &Store, plan: &LyapunovPlan, system: &SystemPlan) -> Resu
         Line::new(xs, ys, colour)
     };
     let zero = Line::new(vec![values[0], values[values.len() - 1]], vec![0.0, 0.0], Colour::hex(0x80_8080));
-    let panel = Panel::new(side.axis(), Axis::new("Lyapunov exponents per unit time"))
+    let panel = Panel::new(side.axis(), FigureAxis::new("Lyapunov exponents per unit time"))
         .with(zero)
         .with(of(0, SERIES[0]))
         .with(of(1, SERIES[1]));

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{BranchEvent, Point};
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::motion::Strobes;
 use vibroimpact::orbit::{Cycle, RestSpan};
 use vibroimpact::system::phase;
@@ -31,7 +31,7 @@ pub(crate) enum Followed<'a> {
 
 impl Followed<'_> {
     /// Of each impact or state at a point two numbers that tell it from the others.
-    fn list(self, point: &Point) -> Vec<(f64, f64)> {
+    fn list(self, point: &SolutionPoint) -> Vec<(f64, f64)> {
         let cycle = &point.cycle;
         let oscillator = match self {
             Self::Velocity => return cycle.points.iter().map(|p| (p.state.phase, p.state.velocity)).collect(),
@@ -60,20 +60,20 @@ impl Followed<'_> {
     }
 
     /// What the ordinates are at a point.
-    pub(crate) fn ordinates(self, point: &Point) -> Vec<f64> {
+    pub(crate) fn ordinates(self, point: &SolutionPoint) -> Vec<f64> {
         self.list(point).into_iter().map(|(_, ordinate)| ordinate).collect()
     }
 }
 
 /// The ordinates of all impacts or states over the parameter, in nondimensional units.
-pub(crate) fn curves(points: &[Point], what: Followed<'_>) -> Curves {
+pub(crate) fn curves(points: &[SolutionPoint], what: Followed<'_>) -> Curves {
     let mut curves = Curves::new();
     let mut rest = points;
     while let Some(first) = rest.first() {
         let label = first.cycle.label;
         let other = rest.iter().position(|point| point.cycle.label != label).unwrap_or(rest.len());
         // a cycle that rests may have other impacts under the same label
-        let changes = |point: &Point| {
+        let changes = |point: &SolutionPoint| {
             matches!(point.event, Some(BranchEvent::Grazing { .. } | BranchEvent::SoftLanding { .. }))
                 && !point.cycle.rests.is_empty()
         };
@@ -88,7 +88,7 @@ pub(crate) fn curves(points: &[Point], what: Followed<'_>) -> Curves {
 }
 
 /// The ordinate of each impact or state at all points of a run, `NaN` where it is not listed.
-fn tracks(run: &[Point], what: Followed<'_>) -> Vec<Vec<f64>> {
+fn tracks(run: &[SolutionPoint], what: Followed<'_>) -> Vec<Vec<f64>> {
     let mut tracks: BTreeMap<(usize, usize), Vec<f64>> = BTreeMap::new();
     let mut before: Option<Vec<(f64, f64)>> = None;
     for (n, point) in run.iter().enumerate() {
@@ -138,7 +138,7 @@ fn places(cycle: &Cycle) -> Vec<(usize, usize)> {
 const NOTHING: f64 = 1e-9;
 
 /// Cuts a track where its look changes; neighbours share the point between them.
-fn add(curves: &mut Curves, label: &str, run: &[Point], track: &[f64]) {
+fn add(curves: &mut Curves, label: &str, run: &[SolutionPoint], track: &[f64]) {
     let mut last = None;
     for (k, pair) in run.windows(2).enumerate() {
         let look = between(&pair[0], &pair[1]);
@@ -154,7 +154,7 @@ fn add(curves: &mut Curves, label: &str, run: &[Point], track: &[f64]) {
 }
 
 /// How the piece between two points looks. An event lies on the edge of two looks and counts for neither.
-fn between(a: &Point, b: &Point) -> Look {
+fn between(a: &SolutionPoint, b: &SolutionPoint) -> Look {
     let point = if b.event.is_some() && a.event.is_none() { a } else { b };
     match (point.physical, point.cycle.stable()) {
         (false, _) => Look::Virtual,
@@ -178,7 +178,7 @@ mod tests {
         let cycle = vibroimpact::orbit::from_release(&osc, Side::Upper, 4000).unwrap();
         let (range, options) = (0.0..=2.0, BranchOptions::default());
         let branch = Branch::new(&osc, &cycle, Parameter::SecondGap, range, Direction::Up, options).unwrap();
-        let points: Vec<Point> = branch.collect();
+        let points: Vec<SolutionPoint> = branch.collect();
         let [one, two] = [points.first(), points.last()].map(|point| places(&point.unwrap().cycle));
         assert!(one.len() != two.len() && one.iter().filter(|place| place.1 == 0).count() == 2, "{one:?}");
         let curves = curves(&points, Followed::Velocity);
@@ -196,7 +196,7 @@ mod tests {
             let orbit = orbits.into_iter().rev().find(|o| o.physical).unwrap();
             let (range, options) = (gap..=to, BranchOptions::default());
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range, Direction::Up, options).unwrap();
-            let points: Vec<Point> = branch.collect();
+            let points: Vec<SolutionPoint> = branch.collect();
             let curves = curves(&points, Followed::Velocity);
             for (xs, ys) in curves.values() {
                 for pair in xs.iter().zip(ys).collect::<Vec<_>>().windows(2) {

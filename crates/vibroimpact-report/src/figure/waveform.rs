@@ -3,7 +3,9 @@
 use crate::Units;
 use vibroimpact::motion::{Motion, sample};
 use vibroimpact::{Oscillator, Side, Start};
-use vibroimpact_plot::{Axis, ClassStyle, Colour, Figure, Hatch, Legend, Line, Panel, Pattern, Points, SERIES, Wall};
+use vibroimpact_plot::{
+    ClassStyle, Colour, Figure, FigureAxis, Hatch, Legend, Line, Panel, Pattern, Points, SERIES, Wall,
+};
 
 /// Samples a picture needs at most: the page is a thousand pixels wide.
 const MOST: f64 = 400_000.0;
@@ -23,13 +25,13 @@ pub fn figure(osc: &Oscillator, start: Start, (from, until): (f64, f64), units: 
     let line = Line::new(xs, ys, SERIES[0]);
     let mut legend = Legend::below().line(line.stroke, "position");
     let mut panel = Panel::new(
-        Axis::new(units.named("time *τ*", "s")).range(from * time, (from + until) * time),
-        Axis::new(units.named("*ξ*", "m")).range(low, high),
+        FigureAxis::new(units.named("time *τ*", "s")).range(from * time, (from + until) * time),
+        FigureAxis::new(units.named("*ξ*", "m")).range(low, high),
     );
     for (side, stop) in osc.stops() {
         let (at, beyond) = match side {
-            Side::Upper => (stop.gap, vibroimpact_plot::Side::Above),
-            Side::Lower => (-stop.gap, vibroimpact_plot::Side::Below),
+            Side::Upper => (stop.gap, vibroimpact_plot::TextSide::Above),
+            Side::Lower => (-stop.gap, vibroimpact_plot::TextSide::Below),
         };
         panel.add(Wall::new(at * length, beyond));
     }

@@ -1,7 +1,7 @@
 //! The steady motions that scattered starts lead to, and their shares.
 
 use super::Document;
-use super::motion::{Motion, SharedMotion};
+use super::motion::{MotionFields, SharedMotion};
 use crate::Asked;
 use serde::Serialize;
 use vibroimpact::Oscillator;
@@ -10,7 +10,7 @@ use vibroimpact_study::Plan;
 
 /// What `vibro attractors` says.
 #[derive(Serialize)]
-struct Answer {
+struct AttractorsFields {
     motions: Vec<SharedMotion>,
     starts: u64,
     seed: u64,
@@ -38,10 +38,10 @@ pub fn document<'a>(
     let (units, area) = (&asked.units, StartBox::natural(osc));
     let scaled = |(a, b): (f64, f64), unit: f64| (a * unit, b * unit);
     let shared = census.by_share().into_iter().map(|found| SharedMotion {
-        motion: Motion::new(&found.verdict, osc, units),
+        motion: MotionFields::new(&found.verdict, osc, units),
         share: census.share(found),
         count: found.count,
     });
     let area = Area { x: scaled(area.x, units.length()), v: scaled(area.v, units.velocity()), phase: area.phase };
-    Document::new(asked, osc, plan, Answer { motions: shared.collect(), starts, seed, area })
+    Document::new(asked, osc, plan, AttractorsFields { motions: shared.collect(), starts, seed, area })
 }

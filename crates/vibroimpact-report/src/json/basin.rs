@@ -1,6 +1,6 @@
 //! The motions of a basin and their shares of its starts.
 
-use super::motion::{Motion, SharedMotion};
+use super::motion::{MotionFields, SharedMotion};
 use super::{Document, Place};
 use crate::Asked;
 use serde::Serialize;
@@ -9,7 +9,7 @@ use vibroimpact_study::{Basin, Coordinate, Plan};
 
 /// What `vibro basin` says: the axes of the starts, and the values of what is on no axis.
 #[derive(Serialize)]
-struct Answer {
+struct BasinFields {
     x: Place,
     v: Place,
     phase: Place,
@@ -26,11 +26,11 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Bas
         axis.map_or(Place::At(fixed * unit), |axis| Place::over(&axis.over, unit))
     };
     let shared = by_count(found).into_iter().map(|m| SharedMotion {
-        motion: Motion::new(&found.motions[m].verdict, osc, units),
+        motion: MotionFields::new(&found.motions[m].verdict, osc, units),
         share: found.share(m),
         count: found.motions[m].count,
     });
-    let answer = Answer {
+    let answer = BasinFields {
         x: place(Coordinate::X, units.length(), task.start.x.unwrap_or_else(|| Start::at_rest(osc).x)),
         v: place(Coordinate::V, units.velocity(), task.start.v),
         phase: place(Coordinate::Phase, 1.0, task.start.phase),

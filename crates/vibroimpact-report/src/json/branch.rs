@@ -5,12 +5,12 @@ use super::{Document, Pair};
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{BranchEvent, Point};
-use vibroimpact_study::{Branches, Chosen, Cut, Followed, Plan, Told};
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, Plan};
 
 /// What `vibro branch` says.
 #[derive(Serialize)]
-struct Answer {
+struct BranchFields {
     label: String,
     vary: &'static str,
     from: f64,
@@ -105,7 +105,7 @@ pub fn document<'a>(
     found: &Branches,
     cut: &Cut,
 ) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, Answer::new(found, cut, &asked.units))
+    Document::new(asked, osc, plan, BranchFields::new(found, cut, &asked.units))
 }
 
 impl ChosenObject {
@@ -114,7 +114,7 @@ impl ChosenObject {
     }
 }
 
-impl Answer {
+impl BranchFields {
     fn new(found: &Branches, cut: &Cut, units: &Units) -> Self {
         let unit = units.of(cut.vary);
         let points =
@@ -146,7 +146,7 @@ impl Answer {
 }
 
 impl PointObject {
-    fn new(point: &Point, cut: &Cut, units: &Units) -> Self {
+    fn new(point: &SolutionPoint, cut: &Cut, units: &Units) -> Self {
         Self {
             parameter: point.value * units.of(cut.vary),
             values: both(point, cut, units),
@@ -161,7 +161,7 @@ impl PointObject {
 }
 
 /// The values of both parameters at a point, where there are two.
-fn both(point: &Point, cut: &Cut, units: &Units) -> Option<[f64; 2]> {
+fn both(point: &SolutionPoint, cut: &Cut, units: &Units) -> Option<[f64; 2]> {
     let mut values = cut.values(point.value).map(|(parameter, value)| value * units.of(parameter));
     Some([values.next()?, values.next()?])
 }
@@ -172,9 +172,9 @@ fn events(branch: &Followed, cut: &Cut, units: &Units) -> Vec<EventObject> {
 }
 
 impl EventObject {
-    fn new(place: usize, point: &Point, event: &BranchEvent, (cut, units): (&Cut, &Units)) -> Self {
-        let Told { kind, ends, label_before, label_after, change, impact, side: at, phase, turns, also } =
-            Told::of(point, event);
+    fn new(place: usize, point: &SolutionPoint, event: &BranchEvent, (cut, units): (&Cut, &Units)) -> Self {
+        let EventRecord { kind, ends, label_before, label_after, change, impact, side: at, phase, turns, also } =
+            EventRecord::of(point, event);
         Self {
             kind,
             parameter: point.value * units.of(cut.vary),

@@ -11,7 +11,7 @@ use vibroimpact_study::{CurvePlan, EventCurve, Plan};
 
 /// What `vibro curve` says. Pairs of values are in the order of `parameters`.
 #[derive(Serialize)]
-struct Answer {
+struct CurveFields {
     label: String,
     kind: &'static str,
     parameters: [&'static str; 2],
@@ -54,7 +54,7 @@ pub fn document<'a>(
     osc: &Oscillator,
     (task, found): (&CurvePlan, &EventCurve),
 ) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, Answer::new(found, task, &asked.units))
+    Document::new(asked, osc, plan, CurveFields::new(found, task, &asked.units))
 }
 
 /// Values of both parameters at a point, in the units of the results.
@@ -63,7 +63,7 @@ pub fn values(point: &CurvePoint, plan: &CurvePlan, units: &Units) -> [f64; 2] {
     [point.values.0 * units.of(plan.vary.parameter), point.values.1 * units.of(plan.and.parameter)]
 }
 
-impl Answer {
+impl CurveFields {
     fn new(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Self {
         let points = found.points.iter();
         Self {

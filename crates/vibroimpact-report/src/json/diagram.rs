@@ -6,11 +6,11 @@ use crate::table::diagram::columns;
 use serde::Serialize;
 use vibroimpact::Oscillator;
 use vibroimpact_study::Plan;
-use vibroimpact_study::diagram::{Diagram, Direction, Kind, Sweep};
+use vibroimpact_study::diagram::{Diagram, MotionKind, Sweep, SweepDirection};
 
 /// What `vibro diagram` says.
 #[derive(Serialize)]
-struct Answer {
+struct DiagramFields {
     vary: &'static str,
     over: Range,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -25,7 +25,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Dia
     let task = &found.plan;
     let over = Range::new(&task.over, asked.units.of(task.vary));
     let also = Pair::of(&task.cut(), &asked.units);
-    let answer = Answer { vary: task.vary.name(), over, also, columns: columns(found), sweeps: counts(found) };
+    let answer = DiagramFields { vary: task.vary.name(), over, also, columns: columns(found), sweeps: counts(found) };
     Document::new(asked, osc, plan, answer)
 }
 
@@ -52,10 +52,10 @@ pub struct Counts {
 #[must_use]
 pub fn counts(found: &Diagram) -> Vec<Counts> {
     let names: &[&str] = match found.plan.direction {
-        Direction::Up => &["up"],
-        Direction::Down => &["down"],
-        Direction::Both => &["up", "down"],
-        Direction::Scatter { .. } => &["scatter"],
+        SweepDirection::Up => &["up"],
+        SweepDirection::Down => &["down"],
+        SweepDirection::Both => &["up", "down"],
+        SweepDirection::Scatter { .. } => &["scatter"],
     };
     let mut counts: Vec<Counts> = names.iter().map(|sweep| Counts { sweep, ..Counts::default() }).collect();
     for step in &found.steps {
@@ -64,10 +64,10 @@ pub fn counts(found: &Diagram) -> Vec<Counts> {
         count.motions += 1;
         count.points += step.points.len();
         *match step.kind {
-            Kind::Impacts => &mut count.impact,
-            Kind::NoImpact => &mut count.none,
-            Kind::Stuck => &mut count.stuck,
-            Kind::Undecided => &mut count.undecided,
+            MotionKind::Impacts => &mut count.impact,
+            MotionKind::NoImpact => &mut count.none,
+            MotionKind::Stuck => &mut count.stuck,
+            MotionKind::Undecided => &mut count.undecided,
         } += 1;
     }
     counts

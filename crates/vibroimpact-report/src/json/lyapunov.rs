@@ -1,7 +1,7 @@
 //! Lyapunov exponents with their errors, dimensions, and how they were found.
 
 use super::Document;
-use super::motion::{HorizonObject, Motion, side};
+use super::motion::{HorizonObject, MotionFields, side};
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
@@ -10,8 +10,8 @@ use vibroimpact_study::Plan;
 
 /// What `vibro lyapunov` says.
 #[derive(Serialize)]
-struct Answer {
-    motion: Motion,
+struct LyapunovFields {
+    motion: MotionFields,
     /// Per unit of time.
     exponents: [Quantity; 2],
     exponents_per_period: [Quantity; 2],
@@ -31,7 +31,7 @@ pub fn document<'a>(
     (osc, start): (&Oscillator, &Start),
     found: &Exponents,
 ) -> impl Serialize + use<'a> {
-    Document::new(asked, osc, plan, Answer::new(found, osc, &asked.units)).start(start, &asked.units)
+    Document::new(asked, osc, plan, LyapunovFields::new(found, osc, &asked.units)).start(start, &asked.units)
 }
 
 /// A number with its error; where it is none, why.
@@ -77,12 +77,12 @@ impl Quantity {
     }
 }
 
-impl Answer {
+impl LyapunovFields {
     fn new(found: &Exponents, osc: &Oscillator, units: &Units) -> Self {
         let per_time = |of: Measured| Quantity::new(scaled(of, 1.0 / units.time()));
         let identity = found.identity / units.time();
         Self {
-            motion: Motion::new(&found.motion, osc, units).without_lyapunov(),
+            motion: MotionFields::new(&found.motion, osc, units).without_lyapunov(),
             exponents: found.exponents.map(per_time),
             exponents_per_period: found.per_period().map(Quantity::new),
             sum: per_time(found.sum),

@@ -10,7 +10,7 @@ use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, RegionMap, SystemPlan
 
 /// What `vibro map` says. A map is nondimensional whatever the units.
 #[derive(Serialize)]
-struct Answer<'a> {
+struct MapFields<'a> {
     system: serde_json::Map<String, Value>,
     #[serde(flatten)]
     axes: serde_json::Map<String, Value>,
@@ -39,7 +39,7 @@ pub struct LabelCount {
 pub fn document<'a>(plan: &'a Plan, found: &RegionMap) -> impl Serialize + use<'a> {
     let task = &found.plan;
     let (system, axes) = objects(&plan.system, &task.axes);
-    Answer {
+    MapFields {
         system,
         axes,
         starts: task.starts,

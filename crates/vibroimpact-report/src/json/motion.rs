@@ -20,7 +20,7 @@ pub const fn side(side: Side) -> &'static str {
 
 /// A motion as JSON tells it.
 #[derive(Serialize)]
-pub struct Motion {
+pub struct MotionFields {
     kind: &'static str,
     label: String,
     impacts: Option<u32>,
@@ -133,7 +133,7 @@ impl HorizonObject {
     }
 }
 
-impl Motion {
+impl MotionFields {
     /// Of a verdict, in these units.
     #[must_use]
     pub fn new(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
@@ -262,7 +262,7 @@ pub(crate) fn pairs(multipliers: [Multiplier; 2]) -> [[f64; 2]; 2] {
 #[derive(Serialize)]
 pub(super) struct SharedMotion {
     #[serde(flatten)]
-    pub(super) motion: Motion,
+    pub(super) motion: MotionFields,
     pub(super) share: f64,
     pub(super) count: u64,
 }

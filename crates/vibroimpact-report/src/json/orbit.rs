@@ -1,7 +1,7 @@
 //! Orbits that were looked for: motions, or solutions of the equations that are none.
 
 use super::Document;
-use super::motion::{Motion, side};
+use super::motion::{MotionFields, side};
 use crate::{Asked, Units};
 use serde::Serialize;
 use vibroimpact::Oscillator;
@@ -11,7 +11,7 @@ use vibroimpact_study::Plan;
 
 /// What `vibro orbit` says.
 #[derive(Serialize)]
-struct Answer {
+struct OrbitFields {
     orbits: Vec<OrbitObject>,
 }
 
@@ -19,14 +19,14 @@ struct Answer {
 #[must_use]
 pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, orbits: &[Orbit]) -> impl Serialize + use<'a> {
     let orbits = orbits.iter().map(|orbit| OrbitObject::new(orbit, osc, &asked.units)).collect();
-    Document::new(asked, osc, plan, Answer { orbits })
+    Document::new(asked, osc, plan, OrbitFields { orbits })
 }
 
 /// One of them.
 #[derive(Serialize)]
 struct OrbitObject {
     #[serde(flatten)]
-    motion: Motion,
+    motion: MotionFields,
     physical: bool,
     earlier_contact: Option<ContactObject>,
 }
@@ -50,7 +50,7 @@ impl OrbitObject {
         Self {
             physical: orbit.physical,
             earlier_contact: orbit.earlier.map(earlier),
-            motion: Motion::new(&Verdict::Periodic(orbit.cycle.clone()), osc, units),
+            motion: MotionFields::new(&Verdict::Periodic(orbit.cycle.clone()), osc, units),
         }
     }
 }

@@ -8,7 +8,7 @@ use vibroimpact_study::{Parameter, Plan, RegionPlan, Regions};
 
 /// What is known of the regions. Pairs of values are in the order of `parameters`.
 #[derive(Serialize)]
-struct Answer {
+struct RegionFields {
     label: String,
     parameters: [&'static str; 2],
     /// Nothing is lost at impacts or between them: the motion is neutrally stable wherever it exists, and stable nowhere.
@@ -38,7 +38,7 @@ struct PolygonObject {
 struct Object<'a> {
     system: SystemObject,
     #[serde(flatten)]
-    answer: Answer,
+    answer: RegionFields,
     units: &'static str,
     plan: &'a Plan,
     program: &'static str,
@@ -77,14 +77,14 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, (task, found): (&RegionPlan, 
             second_restitution: fixed(Parameter::SecondRestitution, second.map(|stop| stop.restitution)),
             scales: Scales::new(units),
         },
-        answer: Answer::new(found, task, asked),
+        answer: RegionFields::new(found, task, asked),
         units: units.name(),
         plan,
         program: PROGRAM,
     }
 }
 
-impl Answer {
+impl RegionFields {
     fn new(found: &Regions, plan: &RegionPlan, Asked { system, units }: &Asked) -> Self {
         let unit = unit(plan, units);
         Self {

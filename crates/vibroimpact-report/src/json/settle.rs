@@ -1,7 +1,7 @@
 //! What a motion settles into, and what the 1971 paper's rule says of it.
 
 use super::Document;
-use super::motion::Motion;
+use super::motion::MotionFields;
 use crate::Asked;
 use serde::Serialize;
 use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
@@ -10,8 +10,8 @@ use vibroimpact_study::Plan;
 
 /// What `vibro settle` says.
 #[derive(Serialize)]
-struct Answer {
-    motion: Motion,
+struct SettleFields {
+    motion: MotionFields,
     impacts_followed: u64,
     time_followed: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -41,8 +41,8 @@ pub fn document<'a>(
     paper: Option<(PaperRule, PaperVerdict)>,
 ) -> impl Serialize + use<'a> {
     let units = &asked.units;
-    let answer = Answer {
-        motion: Motion::new(&settled.verdict, osc, units).after(settled.transient, units),
+    let answer = SettleFields {
+        motion: MotionFields::new(&settled.verdict, osc, units).after(settled.transient, units),
         impacts_followed: settled.impacts,
         time_followed: settled.time * units.time(),
         paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),

@@ -1,7 +1,7 @@
 //! A plan as the words of a `vibro` command.
 
 use super::number;
-use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
+use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
     MapPlan, Parameter, Plan, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
@@ -154,10 +154,10 @@ fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
     let line = line.flag("vary", flag(task.vary)).flag("over", task.over);
     let line = line.given("also", task.also.as_ref().map(over));
     let line = match task.direction {
-        Direction::Both => line,
-        Direction::Up => line.flag("direction", "up"),
-        Direction::Down => line.flag("direction", "down"),
-        Direction::Scatter { starts, seed } => {
+        SweepDirection::Both => line,
+        SweepDirection::Up => line.flag("direction", "up"),
+        SweepDirection::Down => line.flag("direction", "down"),
+        SweepDirection::Scatter { starts, seed } => {
             line.flag("direction", "scatter").flag("starts", starts).flag("seed", seed)
         }
     };

@@ -2,7 +2,7 @@
 
 use super::number;
 use crate::scene::{SECTION_POINTS, View};
-use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Direction, Show};
+use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, Plan, StartPlan,
     Stretch, SystemPlan, Target, Task, Values,
@@ -194,10 +194,10 @@ fn diagram(task: &DiagramPlan) -> Call {
     let call = Call::new("orbit_diagram").then(text(task.vary.name())).then(text(&task.over.to_string()));
     let call = call.given("also", task.also.as_ref().map(|also| mapping(core::iter::once(range(also)))));
     let call = match task.direction {
-        Direction::Both => call,
-        Direction::Up => call.named("direction", text("up")),
-        Direction::Down => call.named("direction", text("down")),
-        Direction::Scatter { starts, seed } => {
+        SweepDirection::Both => call,
+        SweepDirection::Up => call.named("direction", text("up")),
+        SweepDirection::Down => call.named("direction", text("down")),
+        SweepDirection::Scatter { starts, seed } => {
             call.named("direction", text("scatter")).named("starts", starts).named("seed", seed)
         }
     };

@@ -140,7 +140,7 @@ mod tests {
     use super::*;
     use crate::Units;
     use vibroimpact_plot::{Dash, Mark};
-    use vibroimpact_study::diagram::{Point, Show};
+    use vibroimpact_study::diagram::{DiagramPoint, Show};
     use vibroimpact_study::{Parameter, Stretch, SystemPlan};
 
     #[test]
@@ -179,13 +179,14 @@ mod tests {
             });
             lines.flat_map(|line| line.ys.clone()).filter(|y| !y.is_nan()).collect()
         };
-        let behind = diagram(&asked.system, &strobes, &control).unwrap();
+        let behind = Plan::new(asked.system, Task::Diagram(strobes));
+        let Results::Diagram(behind) = run(&behind, &control).unwrap() else { panic!("another result") };
         let positions: Vec<f64> = behind
             .steps
             .iter()
             .flat_map(|step| &step.points)
             .filter_map(|point| match point {
-                Point::State { x, .. } => Some(*x),
+                DiagramPoint::State { x, .. } => Some(*x),
                 _ => None,
             })
             .collect();

@@ -3,7 +3,7 @@
 use crate::number::short;
 use core::f64::consts::TAU;
 use vibroimpact::math::Multiplier;
-use vibroimpact_plot::{Axis, Colour, Figure, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Tick, VLine};
+use vibroimpact_plot::{Colour, Figure, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Tick, VLine};
 
 /// Points of the circle.
 const CORNERS: u32 = 360;
@@ -19,7 +19,7 @@ pub fn multipliers(both: &[Multiplier; 2]) -> Figure {
     let ticks = || [(-end, short(-end)), (0.0, "0".to_owned()), (end, short(end))];
     let axis = |name: &str| {
         let ticks = ticks().map(|(value, text)| Tick::new(value, text.replace('-', "−")));
-        Axis::new(name).range(-range, range).ticks(ticks)
+        FigureAxis::new(name).range(-range, range).ticks(ticks)
     };
     let thin = Stroke::new(Colour::hex(0xc8_c8c8)).width(1.2);
     let angle = |k: u32| TAU * f64::from(k) / f64::from(CORNERS);

@@ -6,7 +6,7 @@ use crate::figure::title;
 use crate::figure::waveform::{extremes, stop_key};
 use vibroimpact::motion::{Sample, sample};
 use vibroimpact::{Oscillator, Side, Start};
-use vibroimpact_plot::{Axis, Colour, Dash, Figure, Legend, Line, Panel, Points, SERIES, Wall};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Wall};
 
 /// Samples at most.
 const MOST: usize = 200_000;
@@ -41,12 +41,14 @@ pub fn phase_portrait(asked: &Asked, osc: &Oscillator, start: Start, (from, unti
         ys.push(point.v * speed);
     }
     let (low, high) = extremes(osc, &xs, length);
-    let mut panel =
-        Panel::new(Axis::new(units.named("*ξ*", "m")).range(low, high), Axis::new(units.named("velocity *ξ*′", "m/s")));
+    let mut panel = Panel::new(
+        FigureAxis::new(units.named("*ξ*", "m")).range(low, high),
+        FigureAxis::new(units.named("velocity *ξ*′", "m/s")),
+    );
     for (side, stop) in osc.stops() {
         let (at, beyond) = match side {
-            Side::Upper => (stop.gap, vibroimpact_plot::Side::Right),
-            Side::Lower => (-stop.gap, vibroimpact_plot::Side::Left),
+            Side::Upper => (stop.gap, vibroimpact_plot::TextSide::Right),
+            Side::Lower => (-stop.gap, vibroimpact_plot::TextSide::Left),
         };
         panel.add(Wall::new(at * length, beyond));
     }

@@ -8,7 +8,7 @@ use vibroimpact::verdict::Census;
 /// Label, share and number of the starts, and real and imaginary part of both multipliers where the motion has them.
 #[must_use]
 pub fn table(found: &Census, osc: &Oscillator) -> Table<'static> {
-    let row = |motion: &&vibroimpact::verdict::Found| {
+    let row = |motion: &&vibroimpact::verdict::CountedMotion| {
         let both = motion.verdict.multipliers(osc);
         let parts = both.map_or_else(
             || ",,,".to_owned(),

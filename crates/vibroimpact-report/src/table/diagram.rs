@@ -5,7 +5,7 @@ use crate::Units;
 use crate::json::motion::side;
 use crate::number::Number;
 use crate::units::shown_span;
-use vibroimpact_study::diagram::{Diagram, Kind, Point, Show, Step, Sweep};
+use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep};
 use vibroimpact_study::{Parameter, PlanError, Span};
 
 /// The table of `vibro diagram`.
@@ -45,13 +45,13 @@ fn rows(found: &Diagram, over: Span, units: Units) -> impl Iterator<Item = Strin
     })
 }
 
-fn row(step: &Step, point: &Point, units: Units) -> String {
+fn row(step: &DiagramStep, point: &DiagramPoint, units: Units) -> String {
     match point {
-        Point::Impact { phase, velocity, side: at } => {
+        DiagramPoint::Impact { phase, velocity, side: at } => {
             format!("impact,{},{},{}", side(*at), Number(*phase), Number(velocity * units.velocity()))
         }
-        Point::Chatter { phase, side: at } => format!("chatter,{},{},0", side(*at), Number(*phase)),
-        Point::State { x, v } => {
+        DiagramPoint::Chatter { phase, side: at } => format!("chatter,{},{},0", side(*at), Number(*phase)),
+        DiagramPoint::State { x, v } => {
             format!("{},{},{}", kind(step.kind), Number(x * units.length()), Number(v * units.velocity()))
         }
     }
@@ -65,11 +65,11 @@ fn sweep(sweep: Sweep) -> String {
     }
 }
 
-const fn kind(kind: Kind) -> &'static str {
+const fn kind(kind: MotionKind) -> &'static str {
     match kind {
-        Kind::Impacts => "impact",
-        Kind::NoImpact => "none",
-        Kind::Stuck => "stuck",
-        Kind::Undecided => "undecided",
+        MotionKind::Impacts => "impact",
+        MotionKind::NoImpact => "none",
+        MotionKind::Stuck => "stuck",
+        MotionKind::Undecided => "undecided",
     }
 }

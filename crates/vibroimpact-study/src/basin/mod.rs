@@ -7,7 +7,7 @@ pub use plan::BasinPlan;
 use crate::limits::MOST_CELLS;
 use crate::{Control, PlanError, RunError, SystemPlan, axis, tiles};
 use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Atlas, Census, Found, settle_many};
+use vibroimpact::verdict::{Census, CountedMotion, KnownAttractors, settle_many};
 use vibroimpact::{Oscillator, Start};
 
 /// The motions of a basin and, for every start, which of them it leads to.
@@ -16,7 +16,7 @@ pub struct Basin {
     /// The starts.
     pub plan: BasinPlan,
     /// The motions, in order of first appearance.
-    pub motions: Vec<Found>,
+    pub motions: Vec<CountedMotion>,
     /// The motion of each start as an index into `motions`, the first axis running fastest.
     pub cells: Vec<u16>,
 }
@@ -86,9 +86,10 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
         return Err(axis::too_many("starts", &plan.axes).into());
     }
     let start = |k: u64| start(osc, plan, k);
-    let atlas = Atlas::survey(osc, (0..SURVEY.min(total)).map(|k| start(total / SURVEY.min(total) * k)), options);
+    let survey =
+        KnownAttractors::survey(osc, (0..SURVEY.min(total)).map(|k| start(total / SURVEY.min(total) * k)), options);
     let parts = tiles(total, tile, control, |range, tick| {
-        let settlement = settle_many(osc, range, start, &atlas, options, Width::best(), tick);
+        let settlement = settle_many(osc, range, start, &survey, options, Width::best(), tick);
         let cells: Vec<u16> = settlement.cells.iter().map(|&cell| u16::try_from(cell).unwrap_or(u16::MAX)).collect();
         (settlement.motions, cells)
     })?;

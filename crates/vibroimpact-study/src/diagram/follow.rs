@@ -5,7 +5,7 @@ use vibroimpact::{Oscillator, Side, Start};
 
 /// What the motion at one value turned out to be, after the transient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum MotionKind {
     /// It strikes.
     Impacts,
     /// It strikes no more: for ever, for as long as was searched (a thousand periods at least), or, in a stroboscopic
@@ -19,7 +19,7 @@ pub enum Kind {
 
 /// A point of the diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Point {
+pub enum DiagramPoint {
     /// An impact.
     Impact {
         /// Phase of the force.
@@ -47,9 +47,9 @@ pub enum Point {
 
 /// A motion followed.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Found {
-    pub(super) kind: Kind,
-    pub(super) points: Vec<Point>,
+pub(super) struct AfterTransient {
+    pub(super) kind: MotionKind,
+    pub(super) points: Vec<DiagramPoint>,
     /// Where it was when nobody looked any more.
     pub(super) last: Start,
 }

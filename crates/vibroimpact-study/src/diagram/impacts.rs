@@ -1,6 +1,6 @@
 //! The impacts of a motion once its transient is over.
 
-use super::follow::{Found, Kind, Point, SAME, budget};
+use super::follow::{AfterTransient, DiagramPoint, MotionKind, SAME, budget};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, EventKind, ImpactState, MAX_TOUCHES, Motion};
 use vibroimpact::system::phase;
@@ -9,10 +9,10 @@ use vibroimpact::{Oscillator, Start};
 
 /// Follows the motion of `osc` from `start` for `transient` impacts and keeps the `keep` after them, fewer if they repeat
 /// themselves; a motion that ends has none to show.
-pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, keep: u64) -> Found {
+pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, keep: u64) -> AfterTransient {
     let budget = budget(transient, keep);
     let mut motion = Motion::new(osc, start);
-    let mut points: Vec<Point> = Vec::new();
+    let mut points: Vec<DiagramPoint> = Vec::new();
     let (mut events, mut struck, mut touches) = (0, 0, 0);
     let mut fading = Fading::default();
     while motion.steps() + events < budget {
@@ -26,69 +26,70 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
                 (struck, touches) = (struck + 1, 0);
                 let state = ImpactState { phase: event.phase, velocity, side: event.side };
                 if fading.strikes(osc, state, interval) {
-                    return halfway(osc, motion, start, Kind::NoImpact);
+                    return halfway(osc, motion, start, MotionKind::NoImpact);
                 }
                 if struck <= transient {
                     continue;
                 }
-                let point = Point::Impact { phase: state.phase, velocity, side: state.side };
+                let point = DiagramPoint::Impact { phase: state.phase, velocity, side: state.side };
                 let again = points.first().is_some_and(|first| same(first, &point));
                 if !again {
                     points.push(point);
                 }
                 if again || struck - transient >= keep {
-                    return Found { kind: Kind::Impacts, points, last: state.rebound(osc) };
+                    return AfterTransient { kind: MotionKind::Impacts, points, last: state.rebound(osc) };
                 }
             }
             EventKind::Stick { chatter: true, .. } if !points.is_empty() => {
                 fading.rests();
-                points.push(Point::Chatter { phase: event.phase, side: event.side });
+                points.push(DiagramPoint::Chatter { phase: event.phase, side: event.side });
             }
             EventKind::Graze { .. } => {
                 touches += 1;
                 let state = ImpactState { phase: event.phase, velocity: 0.0, side: event.side };
                 if fading.strikes(osc, state, interval) || touches > MAX_TOUCHES {
-                    return halfway(osc, motion, start, Kind::NoImpact);
+                    return halfway(osc, motion, start, MotionKind::NoImpact);
                 }
             }
             EventKind::Stick { .. } | EventKind::Release => fading.rests(),
         }
     }
-    halfway(osc, motion, start, Kind::Undecided)
+    halfway(osc, motion, start, MotionKind::Undecided)
 }
 
-fn same(a: &Point, b: &Point) -> bool {
+fn same(a: &DiagramPoint, b: &DiagramPoint) -> bool {
     match (a, b) {
-        (Point::Impact { phase: p, velocity: u, side: here }, Point::Impact { phase: q, velocity: w, side: there }) => {
-            here == there && phase::difference(*q, *p).abs() <= SAME && (w - u).abs() <= SAME * u.abs()
-        }
+        (
+            DiagramPoint::Impact { phase: p, velocity: u, side: here },
+            DiagramPoint::Impact { phase: q, velocity: w, side: there },
+        ) => here == there && phase::difference(*q, *p).abs() <= SAME && (w - u).abs() <= SAME * u.abs(),
         _ => false,
     }
 }
 
 /// Nothing comes any more: why, and the state some time into the flight or rest without end.
-fn ended(osc: &Oscillator, motion: &Motion<'_>, start: Start, transient: u64) -> Found {
+fn ended(osc: &Oscillator, motion: &Motion<'_>, start: Start, transient: u64) -> AfterTransient {
     #[allow(clippy::cast_precision_loss)] // at most 1e6
     let later = transient.max(1) as f64 * osc.period();
     let (kind, later) = match motion.end() {
-        Some(End::Never(_)) => (Kind::NoImpact, later),
-        Some(End::Stuck(_)) => (Kind::Stuck, later),
+        Some(End::Never(_)) => (MotionKind::NoImpact, later),
+        Some(End::Stuck(_)) => (MotionKind::Stuck, later),
         // a search that reached its horizon, or one that ran out of steps before
         Some(End::NoneFor(time)) if time >= 0.999 * SearchLimits::default().horizon(osc) => {
-            (Kind::NoImpact, later.min(time))
+            (MotionKind::NoImpact, later.min(time))
         }
-        Some(End::NoneFor(time)) => (Kind::Undecided, later.min(time)),
-        None => (Kind::Undecided, 0.0),
+        Some(End::NoneFor(time)) => (MotionKind::Undecided, later.min(time)),
+        None => (MotionKind::Undecided, 0.0),
     };
     let last = motion.leg().map_or(start, |leg| leg.start(osc, later));
-    Found { kind, points: Vec::new(), last }
+    AfterTransient { kind, points: Vec::new(), last }
 }
 
 /// Followed no further; the state is that halfway to the next event.
-fn halfway(osc: &Oscillator, mut motion: Motion<'_>, start: Start, kind: Kind) -> Found {
+fn halfway(osc: &Oscillator, mut motion: Motion<'_>, start: Start, kind: MotionKind) -> AfterTransient {
     let part = if motion.next().is_some() { 0.5 } else { 0.0 };
     let last = motion.leg().map_or(start, |leg| leg.start(osc, if part > 0.0 { part * leg.duration } else { 0.0 }));
-    Found { kind, points: Vec::new(), last }
+    AfterTransient { kind, points: Vec::new(), last }
 }
 
 #[cfg(test)]
@@ -96,12 +97,12 @@ mod tests {
     use super::*;
     use vibroimpact::{Side, scenario};
 
-    fn velocities(found: &Found) -> Vec<f64> {
+    fn velocities(found: &AfterTransient) -> Vec<f64> {
         let mut list: Vec<f64> = found
             .points
             .iter()
             .filter_map(|point| match point {
-                Point::Impact { velocity, .. } => Some(*velocity),
+                DiagramPoint::Impact { velocity, .. } => Some(*velocity),
                 _ => None,
             })
             .collect();
@@ -122,7 +123,7 @@ mod tests {
             assert_eq!(got.len(), expected.len(), "{got:?}");
             assert!(got.iter().zip(&expected).all(|(g, e)| (g - e).abs() < 1e-12), "{got:?}");
         }
-        let Point::Impact { phase, .. } = one.points[0] else { panic!() };
+        let DiagramPoint::Impact { phase, .. } = one.points[0] else { panic!() };
         assert!((phase - 1.190_509_613_787_888_5).abs() < 1e-12);
         // and from where it was left it goes on as the same motion
         assert_eq!(velocities(&after_transients(&osc, one.last, 0, 64)).len(), 1);
@@ -139,15 +140,15 @@ mod tests {
         // the amplitudes stay short of the stop
         let free = Oscillator::new(1.0 / 0.7, 4.0, 0.5).unwrap();
         let found = after_transients(&free, Start::at_rest(&free), 500, 64);
-        assert_eq!((found.kind, found.points.len()), (Kind::NoImpact, 0));
+        assert_eq!((found.kind, found.points.len()), (MotionKind::NoImpact, 0));
         // pressed for ever, from a start that flies first
         let pressed = Oscillator::new(0.9, -1.5, 0.5).unwrap();
         let found = after_transients(&pressed, Start { x: -3.0, v: 0.0, phase: 0.0 }, 0, 64);
-        assert_eq!((found.kind, found.points.len(), found.last.x, found.last.v), (Kind::Stuck, 0, -1.5, 0.0));
+        assert_eq!((found.kind, found.points.len(), found.last.x, found.last.v), (MotionKind::Stuck, 0, -1.5, 0.0));
         // touches without impacts
         let grazing = Oscillator::new(2.0, 3.0, 0.5).unwrap();
         let found = after_transients(&grazing, Start { x: 3.0, v: 0.0, phase: 2.0 }, 0, 64);
-        assert_eq!(found.kind, Kind::NoImpact);
+        assert_eq!(found.kind, MotionKind::NoImpact);
         assert!(found.last.x < 3.0);
     }
 
@@ -160,7 +161,7 @@ mod tests {
             let start = Start { x: 1.5 - 0.05 * f64::from(k), v: 0.3 + 0.02 * f64::from(k), phase: 0.0 };
             for transient in [10, 15, 20, 500] {
                 let found = after_transients(&osc, start, transient, 5);
-                none += u32::from(found.kind == Kind::NoImpact);
+                none += u32::from(found.kind == MotionKind::NoImpact);
                 let fastest = velocities(&found).pop();
                 assert!(fastest.is_none_or(|u| u > 1e-4), "{start:?}: {found:?}");
             }
@@ -173,8 +174,8 @@ mod tests {
     fn a_chatter_has_its_end() {
         let osc = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();
         let found = after_transients(&osc, Start::at_rest(&osc), 500, 64);
-        assert_eq!(found.kind, Kind::Impacts);
-        let ends = found.points.iter().filter(|p| matches!(p, Point::Chatter { side: Side::Upper, .. })).count();
+        assert_eq!(found.kind, MotionKind::Impacts);
+        let ends = found.points.iter().filter(|p| matches!(p, DiagramPoint::Chatter { side: Side::Upper, .. })).count();
         assert_eq!(ends, 1, "one period of it: {:?}", found.points);
     }
 }

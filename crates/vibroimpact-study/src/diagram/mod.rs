@@ -11,11 +11,11 @@ mod impacts;
 mod plan;
 mod strobes;
 
-pub use follow::{Kind, Point};
-pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Direction, Show};
+pub use follow::{DiagramPoint, MotionKind};
+pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirection};
 
 use crate::{Control, PlanError, RunError, SystemPlan, tiles};
-use follow::Found;
+use follow::AfterTransient;
 use vibroimpact::verdict::{StartBox, scattered_starts};
 use vibroimpact::{Oscillator, Start};
 
@@ -32,15 +32,15 @@ pub enum Sweep {
 
 /// A motion at one value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Step {
+pub struct DiagramStep {
     /// Which value of the range, counted from 0.
     pub index: u32,
     /// Which motion.
     pub sweep: Sweep,
     /// What it is.
-    pub kind: Kind,
+    pub kind: MotionKind,
     /// What there is to show of it, in order of time.
-    pub points: Vec<Point>,
+    pub points: Vec<DiagramPoint>,
 }
 
 /// The motions of a sweep in the order of the sweep, one sweep after another; of scattered starts, value by value.
@@ -49,7 +49,7 @@ pub struct Diagram {
     /// What was asked.
     pub plan: DiagramPlan,
     /// The motions.
-    pub steps: Vec<Step>,
+    pub steps: Vec<DiagramStep>,
 }
 
 /// Scattered starts of a tile.
@@ -62,7 +62,7 @@ const TILE: u64 = 16;
 pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
     plan.check(system)?;
     let values = u64::from(plan.over.count());
-    let tile = if let Direction::Scatter { .. } = plan.direction { TILE } else { values };
+    let tile = if let SweepDirection::Scatter { .. } = plan.direction { TILE } else { values };
     let parts = tiles(values * plan.runs(), tile, control, |range, tick| {
         let mut steps = Vec::new();
         let mut before = None;
@@ -87,20 +87,20 @@ pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control
 fn place(plan: &DiagramPlan, k: u64) -> (u32, Sweep) {
     let count = u64::from(plan.over.count());
     match plan.direction {
-        Direction::Scatter { starts, .. } => ((k / starts) as u32, Sweep::Start(k % starts)),
+        SweepDirection::Scatter { starts, .. } => ((k / starts) as u32, Sweep::Start(k % starts)),
         _ => carried(plan, k / count, (k % count) as u32),
     }
 }
 
-/// Step number `j` of sweep number `row`: at which value, and in which direction.
+/// DiagramStep number `j` of sweep number `row`: at which value, and in which direction.
 pub(crate) fn carried(plan: &DiagramPlan, row: u64, j: u32) -> (u32, Sweep) {
     let count = plan.over.count();
     let (first, last) = plan.over.ends();
     // number j of the values in rising order
     let rising = |j: u32| if first <= last { j } else { count - 1 - j };
     match plan.direction {
-        Direction::Down => (rising(count - 1 - j), Sweep::Down),
-        Direction::Both if row == 1 => (rising(count - 1 - j), Sweep::Down),
+        SweepDirection::Down => (rising(count - 1 - j), Sweep::Down),
+        SweepDirection::Both if row == 1 => (rising(count - 1 - j), Sweep::Down),
         _ => (rising(j), Sweep::Up),
     }
 }
@@ -111,20 +111,20 @@ pub(crate) fn step(
     plan: &DiagramPlan,
     (index, sweep): (u32, Sweep),
     before: Option<(Oscillator, Start)>,
-) -> Result<(Step, (Oscillator, Start)), PlanError> {
+) -> Result<(DiagramStep, (Oscillator, Start)), PlanError> {
     let osc = plan.oscillator(system, index)?;
     let start = match (plan.direction, sweep, before) {
-        (Direction::Scatter { seed, .. }, Sweep::Start(k), _) => {
+        (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
             scattered_starts(&osc, StartBox::natural(&osc), seed, k)
         }
         (_, _, Some((old, left))) => follow::carried(left, &old, &osc),
         (_, _, None) => Start::at_rest(&osc),
     };
-    let Found { kind, points, last } = match plan.show {
+    let AfterTransient { kind, points, last } = match plan.show {
         Show::Velocity => impacts::after_transients(&osc, start, plan.transient, plan.keep),
         Show::Strobe => strobes::after_transients(&osc, start, plan.transient, plan.keep),
     };
-    Ok((Step { index, sweep, kind, points }, (osc, last)))
+    Ok((DiagramStep { index, sweep, kind, points }, (osc, last)))
 }
 
 #[cfg(test)]
@@ -141,7 +141,7 @@ mod tests {
             over: over.parse().unwrap(),
             also: None,
             show: Show::Velocity,
-            direction: Direction::Both,
+            direction: SweepDirection::Both,
             transient: 200,
             keep: 40,
         }
@@ -153,9 +153,9 @@ mod tests {
 
     #[test]
     fn the_same_for_any_number_of_threads() {
-        let scatter = Direction::Scatter { starts: 5, seed: 3 };
+        let scatter = SweepDirection::Scatter { starts: 5, seed: 3 };
         for (direction, show) in
-            [(Direction::Both, Show::Velocity), (Direction::Both, Show::Strobe), (scatter, Show::Velocity)]
+            [(SweepDirection::Both, Show::Velocity), (SweepDirection::Both, Show::Strobe), (scatter, Show::Velocity)]
         {
             let plan = DiagramPlan { direction, show, ..plan("-0.5:3:29") };
             let run = |threads| diagram(&S, &plan, &Control { threads, ..Control::default() }).unwrap();
@@ -192,7 +192,7 @@ mod tests {
             let mut speeds: Vec<f64> = step
                 .points
                 .iter()
-                .filter_map(|p| if let Point::Impact { velocity, .. } = p { Some(*velocity) } else { None })
+                .filter_map(|p| if let DiagramPoint::Impact { velocity, .. } = p { Some(*velocity) } else { None })
                 .collect();
             speeds.sort_by(f64::total_cmp);
             speeds
@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn scattered_starts_find_both() {
-        let plan = DiagramPlan { direction: Direction::Scatter { starts: 12, seed: 1 }, ..plan("0.75:0.75:1") };
+        let plan = DiagramPlan { direction: SweepDirection::Scatter { starts: 12, seed: 1 }, ..plan("0.75:0.75:1") };
         let found = run(&S, &plan);
         let mut sizes: Vec<usize> = found.steps.iter().map(|step| step.points.len()).collect();
         sizes.sort_unstable();
@@ -219,8 +219,11 @@ mod tests {
     #[test]
     fn a_line_through_two_parameters() {
         let also = Stretch { parameter: Parameter::InverseBeta, from: 1.1, to: 1.5 };
-        let line =
-            DiagramPlan { also: Some(also), direction: Direction::Scatter { starts: 3, seed: 1 }, ..plan("0:2:5") };
+        let line = DiagramPlan {
+            also: Some(also),
+            direction: SweepDirection::Scatter { starts: 3, seed: 1 },
+            ..plan("0:2:5")
+        };
         let found = run(&S, &line);
         assert_eq!(found.steps.len(), 15);
         for k in 0..5_u32 {
@@ -232,8 +235,8 @@ mod tests {
             assert_eq!(here, alone.steps.iter().map(|step| &step.points).collect::<Vec<_>>(), "at {value}");
         }
         // carried over a frequency that changes as well
-        let carried = run(&S, &DiagramPlan { direction: Direction::Both, ..line });
-        assert!(carried.steps.iter().all(|step| step.kind != Kind::Undecided));
+        let carried = run(&S, &DiagramPlan { direction: SweepDirection::Both, ..line });
+        assert!(carried.steps.iter().all(|step| step.kind != MotionKind::Undecided));
     }
 
     /// Damped, below resonance: from a large gap the motion without impacts is carried down to the gap it just clears, and
@@ -246,9 +249,9 @@ mod tests {
         let free = plan.cut().oscillator(&system, 1.0).unwrap().free_amplitude();
         for step in found.steps.iter().filter(|step| step.sweep == Sweep::Down) {
             let gap = plan.over.at(step.index);
-            assert_eq!(step.kind == Kind::NoImpact, gap > free, "gap {gap}: {:?}", step.kind);
+            assert_eq!(step.kind == MotionKind::NoImpact, gap > free, "gap {gap}: {:?}", step.kind);
         }
-        let lost = |sweep| found.steps.iter().filter(|s| s.sweep == sweep && s.kind == Kind::NoImpact).count();
+        let lost = |sweep| found.steps.iter().filter(|s| s.sweep == sweep && s.kind == MotionKind::NoImpact).count();
         assert!(lost(Sweep::Up) < lost(Sweep::Down), "{} {}", lost(Sweep::Up), lost(Sweep::Down));
     }
 }

@@ -29,7 +29,7 @@ pub struct DiagramPlan {
     pub show: Show,
     /// From which starts.
     #[serde(default)]
-    pub direction: Direction,
+    pub direction: SweepDirection,
     /// Impacts (for [`Show::Velocity`]) or forcing periods (for [`Show::Strobe`]) before anything is shown.
     #[serde(default = "transient")]
     pub transient: u64,
@@ -60,7 +60,7 @@ pub enum Show {
 /// From which starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Direction {
+pub enum SweepDirection {
     /// Values rise, and the last state at one is the start at the next.
     Up,
     /// The same with falling values.
@@ -98,7 +98,7 @@ impl DiagramPlan {
         if !(1..=MOST_KEPT).contains(&self.keep) {
             return Err(PlanError::Keep { given: self.keep, most: MOST_KEPT });
         }
-        if let Direction::Scatter { starts: given, .. } = self.direction {
+        if let SweepDirection::Scatter { starts: given, .. } = self.direction {
             starts(given, MOST_STARTS)?;
         }
         let (columns, rows) = (u64::from(self.over.count()), self.runs() * self.keep);
@@ -138,9 +138,9 @@ impl DiagramPlan {
     #[must_use]
     pub const fn runs(&self) -> u64 {
         match self.direction {
-            Direction::Up | Direction::Down => 1,
-            Direction::Both => 2,
-            Direction::Scatter { starts, .. } => starts,
+            SweepDirection::Up | SweepDirection::Down => 1,
+            SweepDirection::Both => 2,
+            SweepDirection::Scatter { starts, .. } => starts,
         }
     }
 }
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn a_plan_survives_json_and_short_ones_are_filled_in() {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, ..SystemPlan::default() };
-        let direction = Direction::Scatter { starts: 9, seed: 4 };
+        let direction = SweepDirection::Scatter { starts: 9, seed: 4 };
         let over = "0:3:601".parse().unwrap();
         let task = DiagramPlan {
             vary: Parameter::Gap,
@@ -168,7 +168,7 @@ mod tests {
         let text = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
         let short: DiagramPlan = serde_json::from_str(r#"{"vary": "inverse_beta", "over": "1:2:3"}"#).unwrap();
-        assert_eq!((short.direction, short.show), (Direction::Both, Show::Velocity));
+        assert_eq!((short.direction, short.show), (SweepDirection::Both, Show::Velocity));
         assert_eq!((short.transient, short.keep), (DEFAULT_TRANSIENT, DEFAULT_KEEP));
         for wrong in
             [text.replace("keep", "kept"), text.replace("seed", "sed"), text.replace("gap\",\"over", "gup\",\"over")]
@@ -185,7 +185,7 @@ mod tests {
             over: "0:3:601".parse().unwrap(),
             also: None,
             show: Show::Velocity,
-            direction: Direction::Both,
+            direction: SweepDirection::Both,
             transient: 500,
             keep: 64,
         };
@@ -204,7 +204,10 @@ mod tests {
                 "gap and gap cannot vary together",
             ),
             (DiagramPlan { keep: 0, ..good }, "keep = 0 lies outside 1 <= keep <= 100000"),
-            (DiagramPlan { direction: Direction::Scatter { starts: 0, seed: 0 }, ..good }, "starts = 0 lies outside"),
+            (
+                DiagramPlan { direction: SweepDirection::Scatter { starts: 0, seed: 0 }, ..good },
+                "starts = 0 lies outside",
+            ),
             (DiagramPlan { over: over("0:3:1000000"), ..good }, "128 x 1000000 = 128000000 points; at most 20000000"),
         ] {
             let message = plan.check(&system).unwrap_err().to_string();

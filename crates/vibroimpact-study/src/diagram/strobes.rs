@@ -1,6 +1,6 @@
 //! The states of a motion once in every forcing period, at phase 0, once its transient is over.
 
-use super::follow::{Found, Kind, Point, SAME, budget};
+use super::follow::{AfterTransient, DiagramPoint, MotionKind, SAME, budget};
 use core::f64::consts::TAU;
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, EventKind, Motion, Path};
@@ -11,7 +11,7 @@ use vibroimpact::{Oscillator, Start};
 ///
 /// One motion throughout, not one period after another: a long flight is searched once.
 #[allow(clippy::cast_precision_loss)] // counts of at most 1.1e6
-pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, keep: u64) -> Found {
+pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, keep: u64) -> AfterTransient {
     let (budget, period) = (budget(transient, keep), osc.period());
     // far enough that no flight has to be searched twice
     let limits = SearchLimits::default();
@@ -37,7 +37,7 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
             number += 1;
             let again = number > transient && shown.see(state, matches!(leg.path, Path::Rest(_)));
             if again || number >= transient + keep {
-                return Found { kind: shown.kind(), points: shown.points, last: state };
+                return AfterTransient { kind: shown.kind(), points: shown.points, last: state };
             }
         }
         match event {
@@ -46,13 +46,13 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
         }
     }
     let last = motion.leg().map_or(start, |leg| leg.start(osc, 0.0));
-    Found { kind: Kind::Undecided, points: Vec::new(), last }
+    AfterTransient { kind: MotionKind::Undecided, points: Vec::new(), last }
 }
 
 /// The states kept, and what happened meanwhile.
 #[derive(Default)]
 struct Shown {
-    points: Vec<Point>,
+    points: Vec<DiagramPoint>,
     struck: bool,
     flew: bool,
 }
@@ -62,21 +62,21 @@ impl Shown {
     fn see(&mut self, state: Start, rests: bool) -> bool {
         self.flew |= !rests;
         let same = |a: f64, b: f64| (a - b).abs() <= SAME * (1.0 + a.abs());
-        if let Some(Point::State { x, v }) = self.points.first()
+        if let Some(DiagramPoint::State { x, v }) = self.points.first()
             && same(*x, state.x)
             && same(*v, state.v)
         {
             return true;
         }
-        self.points.push(Point::State { x: state.x, v: state.v });
+        self.points.push(DiagramPoint::State { x: state.x, v: state.v });
         false
     }
 
-    const fn kind(&self) -> Kind {
+    const fn kind(&self) -> MotionKind {
         match (self.struck, self.flew) {
-            (true, _) => Kind::Impacts,
-            (false, true) => Kind::NoImpact,
-            (false, false) => Kind::Stuck,
+            (true, _) => MotionKind::Impacts,
+            (false, true) => MotionKind::NoImpact,
+            (false, false) => MotionKind::Stuck,
         }
     }
 }
@@ -86,12 +86,12 @@ mod tests {
     use super::*;
     use vibroimpact::{motion::stroboscopic_map, scenario};
 
-    fn states(found: &Found) -> Vec<(f64, f64)> {
+    fn states(found: &AfterTransient) -> Vec<(f64, f64)> {
         found
             .points
             .iter()
             .filter_map(|point| match point {
-                Point::State { x, v } => Some((*x, *v)),
+                DiagramPoint::State { x, v } => Some((*x, *v)),
                 _ => None,
             })
             .collect()
@@ -122,7 +122,7 @@ mod tests {
         for (point, n) in [(scenario::S, 1), (scenario::T, 2), (scenario::N, 1)] {
             let osc = point.oscillator();
             let found = after_transients(&osc, Start { phase: 3.0, ..Start::at_rest(&osc) }, 500, 64);
-            assert_eq!((found.kind, found.points.len()), (Kind::Impacts, n), "{}", point.name);
+            assert_eq!((found.kind, found.points.len()), (MotionKind::Impacts, n), "{}", point.name);
             let state = found.last;
             let next = stroboscopic_map(&osc, state, 100).unwrap().state;
             assert!(n > 1 || ((next.x - state.x).abs() < 1e-9 && (next.v - state.v).abs() < 1e-9));
@@ -133,11 +133,11 @@ mod tests {
     fn without_impacts_there_are_states_all_the_same() {
         let osc = Oscillator::new(0.5, 2.0, 0.5).unwrap().with_damping(0.2).unwrap();
         let found = after_transients(&osc, Start::at_rest(&osc), 100, 64);
-        assert_eq!((found.kind, found.points.len()), (Kind::NoImpact, 1));
+        assert_eq!((found.kind, found.points.len()), (MotionKind::NoImpact, 1));
         let free = Start::free_motion(&osc).unwrap();
         assert!((found.last.x - free.x).abs() < 1e-13 && (found.last.v - free.v).abs() < 1e-13);
         let pressed = Oscillator::new(0.9, -1.5, 0.5).unwrap();
         let found = after_transients(&pressed, Start { x: -3.0, v: 0.0, phase: 1.0 }, 100, 64);
-        assert_eq!((found.kind, states(&found)), (Kind::Stuck, vec![(-1.5, 0.0)]));
+        assert_eq!((found.kind, states(&found)), (MotionKind::Stuck, vec![(-1.5, 0.0)]));
     }
 }

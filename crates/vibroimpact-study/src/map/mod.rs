@@ -9,7 +9,9 @@ use crate::limits::MOST_CELLS;
 use crate::{Control, RunError, SystemPlan, axis, tiles};
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Atlas, Found, SettleOptions, StartBox, Verdict, scattered_starts, settle_many};
+use vibroimpact::verdict::{
+    CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
+};
 
 /// A motion at a point, and the share of starts that led to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,8 +76,8 @@ pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) ->
 pub(crate) fn motions(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions) -> Vec<Share> {
     let area = StartBox::natural(osc);
     let start = |index: u64| scattered_starts(osc, area, plan.seed, index);
-    let mut found: Vec<Found> =
-        settle_many(osc, 0..plan.starts, start, &Atlas::default(), options, Width::best(), &|| false).motions;
+    let mut found: Vec<CountedMotion> =
+        settle_many(osc, 0..plan.starts, start, &KnownAttractors::default(), options, Width::best(), &|| false).motions;
     found.sort_by_key(|found| core::cmp::Reverse(found.count));
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     let share = |count: u64| count as f64 / plan.starts as f64;

@@ -3,7 +3,7 @@
 //! Little-endian numbers, Zstandard, and a CRC-32C last, so that a chunk cut short or with a bit turned is told apart from a
 //! whole one. Not-a-number has one bit pattern.
 
-use crate::field::{Column, Kind};
+use crate::field::{Column, NumberType};
 use crate::study::Cells;
 use serde_json::{Map, Value};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ const LEVEL: i32 = 3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Holds {
     /// Numbers.
-    Numbers(Kind),
+    Numbers(NumberType),
     /// Words.
     Text,
 }
@@ -51,9 +51,11 @@ impl Chunked {
     pub(super) fn new(description: Description<'_>) -> Result<Self, Defect> {
         let Description { name, kind, fill, dimensions, attributes } = description;
         let (data, fill) = match kind {
-            Holds::Numbers(Kind::I8) => (data_type::int8(), FillValue::from(i8::try_from(fill).unwrap_or(i8::MIN))),
-            Holds::Numbers(Kind::I32) => (data_type::int32(), FillValue::from(fill)),
-            Holds::Numbers(Kind::F64) => (data_type::float64(), FillValue::from(f64::NAN)),
+            Holds::Numbers(NumberType::I8) => {
+                (data_type::int8(), FillValue::from(i8::try_from(fill).unwrap_or(i8::MIN)))
+            }
+            Holds::Numbers(NumberType::I32) => (data_type::int32(), FillValue::from(fill)),
+            Holds::Numbers(NumberType::F64) => (data_type::float64(), FillValue::from(f64::NAN)),
             Holds::Text => (data_type::string(), FillValue::from("")),
         };
         let shape: Vec<u64> = dimensions.iter().map(|(_, count, _)| *count as u64).collect();
@@ -129,13 +131,13 @@ impl Chunked {
         let decoded = decoded.into_owned();
         let lengths: Vec<u64> = shape.iter().map(|n| n.get()).collect();
         let cells = match self.kind {
-            Holds::Numbers(Kind::I8) => {
+            Holds::Numbers(NumberType::I8) => {
                 Vec::from_array_bytes(decoded, &lengths, data).map(|v| Cells::Numbers(Column::I8(v)))
             }
-            Holds::Numbers(Kind::I32) => {
+            Holds::Numbers(NumberType::I32) => {
                 Vec::from_array_bytes(decoded, &lengths, data).map(|v| Cells::Numbers(Column::I32(v)))
             }
-            Holds::Numbers(Kind::F64) => {
+            Holds::Numbers(NumberType::F64) => {
                 Vec::from_array_bytes(decoded, &lengths, data).map(|v| Cells::Numbers(Column::F64(v)))
             }
             Holds::Text => Vec::from_array_bytes(decoded, &lengths, data).map(Cells::Text),

@@ -4,7 +4,7 @@ use super::layout::{array_of, array_of_table};
 use super::root::Conclusion;
 use super::{Store, StoreError};
 use crate::field::Column;
-use crate::study::{Table, Tiles, label_of};
+use crate::study::{StudyTable, Tiles, label_of};
 use std::collections::BTreeSet;
 
 impl Tiles for &Store {
@@ -44,7 +44,7 @@ impl Store {
             let array = array_of(field, &self.layout.grid, &self.labels(number)?);
             labelled.push((number, array.map_err(|why| self.defect(field.name, why))?));
         }
-        let array = |table: Table| match array_of_table(&table) {
+        let array = |table: StudyTable| match array_of_table(&table) {
             Ok(array) => Ok((array, table.values)),
             Err(why) => Err(self.defect(table.name, why)),
         };

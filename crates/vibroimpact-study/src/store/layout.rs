@@ -1,9 +1,9 @@
 //! The arrays of a study in a store: one for each field, its coordinates, and the status of its tiles.
 
 use super::chunk::{Chunked, Defect, Description, Holds};
-use crate::field::{Column, Field, Kind};
+use crate::field::{Column, Field, NumberType};
 use crate::grid::Grid;
-use crate::study::{Cells, Study, Table};
+use crate::study::{Cells, Study, StudyTable};
 use serde_json::{Map, Value, json};
 
 /// The field that is written last: its chunk says that the tile is done.
@@ -57,12 +57,12 @@ pub(super) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Re
 }
 
 /// The array of a table.
-pub(super) fn array_of_table(table: &Table) -> Result<Chunked, Defect> {
+pub(super) fn array_of_table(table: &StudyTable) -> Result<Chunked, Defect> {
     let kind = match &table.values {
         Cells::Text(_) => Holds::Text,
-        Cells::Numbers(Column::I8(_)) => Holds::Numbers(Kind::I8),
-        Cells::Numbers(Column::I32(_)) => Holds::Numbers(Kind::I32),
-        Cells::Numbers(Column::F64(_)) => Holds::Numbers(Kind::F64),
+        Cells::Numbers(Column::I8(_)) => Holds::Numbers(NumberType::I8),
+        Cells::Numbers(Column::I32(_)) => Holds::Numbers(NumberType::I32),
+        Cells::Numbers(Column::F64(_)) => Holds::Numbers(NumberType::F64),
     };
     Chunked::new(Description {
         name: table.name,
@@ -81,7 +81,7 @@ impl Layout {
         let flags = [(0, "not_computed".to_owned()), (i32::from(DONE), "done".to_owned())];
         let status = Chunked::new(Description {
             name: STATUS,
-            kind: Holds::Numbers(Kind::I8),
+            kind: Holds::Numbers(NumberType::I8),
             fill: 0,
             dimensions: tiles.map(|(d, count)| (format!("tile_{}", d.name), count, 1)).collect(),
             attributes: attributes("whether the tile is computed", "1", "", &flags),
@@ -90,7 +90,7 @@ impl Layout {
             let count = along.values.len();
             let array = Chunked::new(Description {
                 name: &along.name,
-                kind: Holds::Numbers(Kind::F64),
+                kind: Holds::Numbers(NumberType::F64),
                 fill: 0,
                 dimensions: vec![(along.dimension.clone(), count, count)],
                 attributes: attributes(along.long_name, along.units, "", &[]),

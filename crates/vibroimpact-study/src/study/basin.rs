@@ -7,12 +7,14 @@ use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
 use crate::axis;
 use crate::basin::start_at;
-use crate::field::{Column, Field, Kind};
+use crate::field::{Column, Field, NumberType};
 use crate::grid::{Block, Dimension, Grid};
 use crate::limits::MOST_STARTS;
 use crate::{BasinPlan, PlanError, SystemPlan};
 use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Atlas, Census, Found, SettleOptions, StartBox, Verdict, scattered_starts, settle_many};
+use vibroimpact::verdict::{
+    Census, CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
+};
 use vibroimpact::{Oscillator, Start};
 
 /// Points of a tile along each of two axes where no number is given; a tenth of a second of work.
@@ -43,7 +45,7 @@ pub(super) struct BasinFill {
 /// An oscillator and what is known of it beforehand.
 struct Surveyed {
     osc: Oscillator,
-    atlas: Atlas,
+    survey: KnownAttractors,
     cycles: Vec<Verdict>,
 }
 
@@ -80,15 +82,15 @@ impl BasinFill {
             let total = self.grid.points();
             let start = |k: u64| self.start(&osc, &whole.index(usize::try_from(k).unwrap_or(0)));
             let spread = |n: u64| (0..n.min(total)).map(move |k| total / n.min(total) * k);
-            let atlas = Atlas::survey(&osc, spread(TRAPS).map(start), &options);
+            let survey = KnownAttractors::survey(&osc, spread(TRAPS).map(start), &options);
             let numbers: Vec<u64> = spread(SURVEY).collect();
             let known = |k: u64| start(numbers[usize::try_from(k).unwrap_or(0)]);
-            let found = settle_many(&osc, 0..numbers.len() as u64, known, &atlas, &options, Width::best(), &|| false);
+            let found = settle_many(&osc, 0..numbers.len() as u64, known, &survey, &options, Width::best(), &|| false);
             let mut census = Census::default();
             for found in &found.motions {
                 census.add_found(found);
             }
-            Surveyed { atlas, cycles: cycles::survey(&census), osc }
+            Surveyed { survey, cycles: cycles::survey(&census), osc }
         });
         Self { one, ..self }
     }
@@ -136,11 +138,11 @@ impl BasinFill {
             self.start(&one.osc, &block.index(number))
         };
         let range = 0..wanted.len() as u64;
-        let settlement = settle_many(&one.osc, range, start, &one.atlas, &options, Width::best(), &|| tick());
+        let settlement = settle_many(&one.osc, range, start, &one.survey, &options, Width::best(), &|| tick());
         if settlement.cells.len() < wanted.len() {
             return None;
         }
-        let leads = |found: &Found| (code(&found.verdict), cycles::number(&one.cycles, unknown, found));
+        let leads = |found: &CountedMotion| (code(&found.verdict), cycles::number(&one.cycles, unknown, found));
         let motions: Vec<Leads> = settlement.motions.iter().map(leads).collect();
         Some(settlement.cells.iter().map(|cell| motions[*cell as usize]).collect())
     }
@@ -177,7 +179,7 @@ impl Fill for BasinFill {
             name: "label",
             long_name: "motion m/n that the start leads to",
             units: "1",
-            kind: Kind::I32,
+            kind: NumberType::I32,
             fill: super::NOT_COMPUTED,
             extra: Vec::new(),
             flags: code::FLAGS.to_vec(),
@@ -199,7 +201,7 @@ impl Fill for BasinFill {
                 name,
                 long_name,
                 units,
-                kind: Kind::F64,
+                kind: NumberType::F64,
                 flags: Vec::new(),
                 comment: "",
                 ..label.clone()

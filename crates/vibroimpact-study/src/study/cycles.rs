@@ -4,10 +4,10 @@
 //! A tile that meets another one numbers it for itself, below [`NONE`]; when all tiles are there these few are computed
 //! again, and numbered in their order.
 
-use super::tables::{Cells, Table, Tiles};
+use super::tables::{Cells, StudyTable, Tiles};
 use crate::field::Column;
 use crate::grid::Grid;
-use vibroimpact::verdict::{Census, Found, Verdict};
+use vibroimpact::verdict::{Census, CountedMotion, Verdict};
 
 /// The motion is no cycle.
 pub(super) const NONE: i32 = -1;
@@ -15,7 +15,7 @@ pub(super) const NONE: i32 = -1;
 const UNKNOWN: i32 = -2;
 
 /// The number of a motion in a tile; `unknown` collects those that the survey has not met.
-pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &Found) -> i32 {
+pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &CountedMotion) -> i32 {
     if !matches!(found.verdict, Verdict::Periodic(_)) {
         return NONE;
     }
@@ -46,7 +46,7 @@ pub struct Numbering<'a> {
 }
 
 impl Numbering<'_> {
-    pub(super) fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<Table>, T::Error> {
+    pub(super) fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
         let mut cycles: Vec<Verdict> = self.known.to_vec();
         let mut starts = vec![0_i64; cycles.len()];
         for k in 0..grid.tiles() {
@@ -83,12 +83,12 @@ impl Numbering<'_> {
 
     /// The cycles: their names, how many starts lead to each, their stability, and their impacts.
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
-    fn tables(&self, cycles: &[Verdict], starts: &[i64], total: u64) -> Vec<Table> {
+    fn tables(&self, cycles: &[Verdict], starts: &[i64], total: u64) -> Vec<StudyTable> {
         let cycle = |verdict: &Verdict| if let Verdict::Periodic(cycle) = verdict { Some(cycle.clone()) } else { None };
         let list: Vec<_> = cycles.iter().filter_map(cycle).collect();
         let longest = list.iter().map(|cycle| cycle.points.len()).max().unwrap_or(0);
         let count = list.len();
-        let table = |name, long_name, units, values| Table {
+        let table = |name, long_name, units, values| StudyTable {
             name,
             long_name,
             units,
@@ -123,7 +123,7 @@ impl Numbering<'_> {
                     impacts.chain(core::iter::repeat(f64::NAN)).take(longest).collect::<Vec<_>>()
                 });
                 let dimensions = vec![("cycles", count), ("impact", longest)];
-                Table { name, long_name, units, dimensions, values: real(padded.collect()) }
+                StudyTable { name, long_name, units, dimensions, values: real(padded.collect()) }
             };
             tables.push(each("cycle_phase", "phase of the force at the impact", "radian", &|p| p.state.phase));
             tables.push(each("cycle_velocity", "speed of arrival", "omega_n F/k", &|p| p.state.velocity));

@@ -2,8 +2,8 @@
 
 use super::fill::{Along, Fill};
 use crate::axis::Coordinate;
-use crate::diagram::{Diagram, Direction, Kind as Motion, Point, Show, Step, Sweep, carried, step};
-use crate::field::{Column, Extra, Field, Kind};
+use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep, SweepDirection, carried, step};
+use crate::field::{Column, Extra, Field, NumberType};
 use crate::grid::{Block, Dimension, Grid};
 use crate::{DiagramPlan, SystemPlan};
 use vibroimpact::Side;
@@ -26,7 +26,7 @@ impl DiagramFill {
         let name = plan.vary.name();
         let side = |default: usize| tile.map_or(default, |tile| tile as usize);
         let dimensions = match plan.direction {
-            Direction::Scatter { .. } => {
+            SweepDirection::Scatter { .. } => {
                 vec![dimension("start", runs, side(TILE.0)), dimension(name, values, side(TILE.1))]
             }
             // each value begins where the one before left off
@@ -64,10 +64,10 @@ impl Fill for DiagramFill {
             units: "1",
         };
         let rows = match self.plan.direction {
-            Direction::Scatter { .. } => None,
-            Direction::Up => Some(sweep(&[1.0])),
-            Direction::Down => Some(sweep(&[-1.0])),
-            Direction::Both => Some(sweep(&[1.0, -1.0])),
+            SweepDirection::Scatter { .. } => None,
+            SweepDirection::Up => Some(sweep(&[1.0])),
+            SweepDirection::Down => Some(sweep(&[-1.0])),
+            SweepDirection::Both => Some(sweep(&[1.0, -1.0])),
         };
         rows.into_iter().chain(values).collect()
     }
@@ -92,14 +92,15 @@ impl Fill for DiagramFill {
             (2, "end_of_a_chatter"),
             (-2, "end_of_a_chatter_on_the_second_stop"),
         ];
-        let real = |name, long_name, units| field(name, long_name, units, Kind::F64, 0, point.clone(), Vec::new());
+        let real =
+            |name, long_name, units| field(name, long_name, units, NumberType::F64, 0, point.clone(), Vec::new());
         let mut fields =
-            vec![field("kind", "what the motion is after the transient", "1", Kind::I8, -1, Vec::new(), motions)];
+            vec![field("kind", "what the motion is after the transient", "1", NumberType::I8, -1, Vec::new(), motions)];
         match self.plan.show {
             Show::Velocity => {
                 fields.push(real("velocity", "speed of arrival of an impact", "omega_n F/k"));
                 fields.push(real("impact_phase", "phase of the force at the impact", "radian"));
-                fields.push(field("side", "what the point is", "1", Kind::I8, 0, point.clone(), sides));
+                fields.push(field("side", "what the point is", "1", NumberType::I8, 0, point.clone(), sides));
             }
             Show::Strobe => {
                 fields.push(real("x", "position at phase 0 of the force", "F/k"));
@@ -117,7 +118,7 @@ impl Fill for DiagramFill {
             for j in 0..values.len() {
                 let row = row as u64;
                 let (index, sweep) = match self.plan.direction {
-                    Direction::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
+                    SweepDirection::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
                     _ => carried(&self.plan, row, u32::try_from(j).ok()?),
                 };
                 // the ends were checked, and a value between legal ones is legal
@@ -150,28 +151,28 @@ pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
     let motion = |row: usize, index: u32, sweep: Sweep| {
         let at = row * count + index as usize;
         let kind = match kinds.get(at)? {
-            0 => Motion::NoImpact,
-            1 => Motion::Impacts,
-            2 => Motion::Stuck,
-            3 => Motion::Undecided,
+            0 => MotionKind::NoImpact,
+            1 => MotionKind::Impacts,
+            2 => MotionKind::Stuck,
+            3 => MotionKind::Undecided,
             _ => return None,
         };
         let side = |sign: i8| if sign > 0 { Side::Upper } else { Side::Lower };
         let point = |at: usize| {
             let (a, b) = (*first.get(at)?, *second.get(at)?);
             Some(match (plan.show, sides.get(at).copied().unwrap_or(0)) {
-                (Show::Strobe, _) if !a.is_nan() => Point::State { x: a, v: b },
-                (Show::Velocity, sign @ (1 | -1)) => Point::Impact { phase: b, velocity: a, side: side(sign) },
-                (Show::Velocity, sign @ (2 | -2)) => Point::Chatter { phase: b, side: side(sign) },
+                (Show::Strobe, _) if !a.is_nan() => DiagramPoint::State { x: a, v: b },
+                (Show::Velocity, sign @ (1 | -1)) => DiagramPoint::Impact { phase: b, velocity: a, side: side(sign) },
+                (Show::Velocity, sign @ (2 | -2)) => DiagramPoint::Chatter { phase: b, side: side(sign) },
                 _ => return None,
             })
         };
         let points = (at * keep..(at + 1) * keep).map_while(point).collect();
-        Some(Step { index, sweep, kind, points })
+        Some(DiagramStep { index, sweep, kind, points })
     };
     let values = 0..plan.over.count();
     let steps = match plan.direction {
-        Direction::Scatter { starts, .. } => values
+        SweepDirection::Scatter { starts, .. } => values
             .flat_map(|index| (0..starts).map(move |start| (index, start)))
             .filter_map(|(index, start)| motion(usize::try_from(start).ok()?, index, Sweep::Start(start)))
             .collect(),
@@ -217,7 +218,7 @@ impl Tile {
         }
     }
 
-    fn put(&mut self, at: usize, step: &Step, keep: usize) {
+    fn put(&mut self, at: usize, step: &DiagramStep, keep: usize) {
         let Self {
             kind: Part::Whole(kind),
             first: Part::Real(first),
@@ -228,18 +229,18 @@ impl Tile {
             return;
         };
         kind[at] = match step.kind {
-            Motion::NoImpact => 0,
-            Motion::Impacts => 1,
-            Motion::Stuck => 2,
-            Motion::Undecided => 3,
+            MotionKind::NoImpact => 0,
+            MotionKind::Impacts => 1,
+            MotionKind::Stuck => 2,
+            MotionKind::Undecided => 3,
         };
         let sign = |s: Side| if s == Side::Upper { 1 } else { -1 };
         for (i, point) in step.points.iter().take(keep).enumerate() {
             let at = at * keep + i;
             (first[at], second[at], side[at]) = match *point {
-                Point::Impact { phase, velocity, side } => (velocity, phase, sign(side)),
-                Point::Chatter { phase, side } => (0.0, phase, 2 * sign(side)),
-                Point::State { x, v } => (x, v, 0),
+                DiagramPoint::Impact { phase, velocity, side } => (velocity, phase, sign(side)),
+                DiagramPoint::Chatter { phase, side } => (0.0, phase, 2 * sign(side)),
+                DiagramPoint::State { x, v } => (x, v, 0),
             };
         }
     }

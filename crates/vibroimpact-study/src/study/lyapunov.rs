@@ -3,7 +3,7 @@
 use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::map::side;
 use crate::axis;
-use crate::field::{Column, Extra, Field, Kind};
+use crate::field::{Column, Extra, Field, NumberType};
 use crate::{Block, Grid, LyapunovPlan, PlanError, SystemPlan};
 use vibroimpact::Oscillator;
 use vibroimpact::chaos::{Grounds, Measured, exponents};
@@ -59,7 +59,7 @@ impl Fill for LyapunovFill {
             name,
             long_name,
             units,
-            kind: Kind::F64,
+            kind: NumberType::F64,
             fill: 0,
             extra: extra.to_vec(),
             flags: Vec::new(),
@@ -74,7 +74,7 @@ impl Fill for LyapunovFill {
             real("dimension", "Kaplan-Yorke dimension of the stroboscopic section", "1", &[]),
         ];
         fields.push(Field {
-            kind: Kind::I8,
+            kind: NumberType::I8,
             fill: -1,
             flags: GROUNDS.to_vec(),
             ..real("grounds", "where the exponents come from", "1", &[])

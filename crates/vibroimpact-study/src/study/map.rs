@@ -3,7 +3,7 @@
 use super::code;
 use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::refine::{self, Cell};
-use crate::field::{Column, Extra, Field, Kind};
+use crate::field::{Column, Extra, Field, NumberType};
 use crate::map::motions;
 use crate::{Block, Grid, MapPlan, SystemPlan};
 use vibroimpact::Oscillator;
@@ -97,7 +97,7 @@ impl Fill for MapFill {
             name: "share",
             long_name: "share of the starts that lead to the motion",
             units: "1",
-            kind: Kind::F64,
+            kind: NumberType::F64,
             fill: 0,
             extra: motion.clone(),
             flags: Vec::new(),
@@ -107,7 +107,7 @@ impl Fill for MapFill {
             Field {
                 name: "label",
                 long_name: "motion m/n, the most frequent first",
-                kind: Kind::I32,
+                kind: NumberType::I32,
                 fill: super::NOT_COMPUTED,
                 flags: code::FLAGS.to_vec(),
                 comment: code::COMMENT,
@@ -173,7 +173,7 @@ pub(super) fn computed() -> Field {
         name: "computed",
         long_name: "whether the point was computed itself",
         units: "1",
-        kind: Kind::I8,
+        kind: NumberType::I8,
         fill: 0,
         extra: Vec::new(),
         flags: vec![(0, "not_computed"), (1, "computed"), (2, "taken_from_agreeing_neighbours")],

@@ -1,6 +1,6 @@
 //! A study computed in memory, whole: for grids that fit it.
 
-use super::{Study, Table, Tiles};
+use super::{Study, StudyTable, Tiles};
 use crate::field::{Column, Field};
 use crate::grid::Grid;
 use crate::limits::MOST_CELLS;
@@ -15,7 +15,7 @@ pub struct Sheet {
     /// The array of each field over the whole grid, in row-major order.
     pub columns: Vec<Column>,
     /// What only the whole could say.
-    pub tables: Vec<Table>,
+    pub tables: Vec<StudyTable>,
 }
 
 /// Computes all tiles and puts them together.

@@ -21,7 +21,7 @@ pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, STUCK, UNDECIDED, co
 pub use diagram::diagram_of;
 pub use fill::{Along, Fill};
 pub use memory::{Sheet, in_memory};
-pub use tables::{Cells, Table, Tiles};
+pub use tables::{Cells, StudyTable, Tiles};
 
 use crate::{Column, Field, Grid, Plan, PlanError, Task};
 
@@ -86,7 +86,7 @@ impl Study {
     ///
     /// # Errors
     /// When tiles cannot be read or written.
-    pub fn conclude<T: Tiles>(&self, tiles: &mut T) -> Result<Vec<Table>, T::Error> {
+    pub fn conclude<T: Tiles>(&self, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
         match self.fill.numbered() {
             Some(numbering) => numbering.conclude(self.grid(), tiles),
             None => Ok(Vec::new()),

@@ -4,7 +4,7 @@ use crate::Column;
 
 /// A small array about the whole, over dimensions of its own.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct StudyTable {
     /// Its name.
     pub name: &'static str,
     /// What it is, for people.
@@ -17,7 +17,7 @@ pub struct Table {
     pub values: Cells,
 }
 
-/// The values of a [`Table`].
+/// The values of a [`StudyTable`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cells {
     /// Numbers.

@@ -1,6 +1,6 @@
 //! What the command tells of a plan: as JSON, as a table, as a figure, and the command itself.
 
-use super::asked::{Asked, Query, bytes, wants_events};
+use super::asked::{PlanRequest, Query, bytes, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;
@@ -23,7 +23,7 @@ use vibroimpact_study::Control;
 pub(super) async fn answer(
     State(explorer): State<Explorer>,
     headers: HeaderMap,
-    asked: Asked,
+    asked: PlanRequest,
 ) -> Result<Response, Refusal> {
     let name = format!("answer {}", asked.plan.hash());
     let done = Done::default();
@@ -46,7 +46,7 @@ pub(super) async fn answer(
 pub(super) async fn table(
     State(explorer): State<Explorer>,
     Query(wanted): Query<Wanted>,
-    asked: Asked,
+    asked: PlanRequest,
 ) -> Result<Response, Refusal> {
     let plan = asked.plan;
     let work = move |control: &Control<'_>| {
@@ -63,7 +63,7 @@ pub(super) async fn table(
 
 /// What to type for the same in a shell and in Python, and for the figure of one view of a settled motion where one is named; `null`
 /// where there are no words for it.
-pub(super) async fn command(Query(wanted): Query<Wanted>, asked: Asked) -> Json<Value> {
+pub(super) async fn command(Query(wanted): Query<Wanted>, asked: PlanRequest) -> Json<Value> {
     let plan = &asked.plan;
     let (vibro, python) = match wanted.kind {
         Some(view) => (shell_line_showing(plan, view), python_showing(plan, view)),
@@ -130,7 +130,7 @@ impl Wanted {
 pub(super) async fn figure(
     State(explorer): State<Explorer>,
     Query(wanted): Query<Wanted>,
-    asked: Asked,
+    asked: PlanRequest,
 ) -> Result<Response, Refusal> {
     wanted.check()?;
     let plan = asked.plan;

@@ -12,7 +12,7 @@ use serde::de::DeserializeOwned;
 use vibroimpact_study::{Plan, PlanError};
 
 /// A plan that makes sense and is not too much.
-pub(crate) struct Asked {
+pub(crate) struct PlanRequest {
     pub(crate) plan: Plan,
     /// Its points, for progress.
     pub(crate) points: u64,
@@ -38,7 +38,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
 /// How long a client may take to send a plan.
 const SENDING: Duration = Duration::from_secs(10);
 
-impl<S: Send + Sync> FromRequest<S> for Asked {
+impl<S: Send + Sync> FromRequest<S> for PlanRequest {
     type Rejection = Refusal;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Refusal> {

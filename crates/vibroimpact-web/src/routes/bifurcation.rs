@@ -1,7 +1,7 @@
 //! The bifurcation diagram along a line: the orbit diagram, and the branches of its motions over it.
 
 use super::answer::Wanted;
-use super::asked::{Asked, Query, bytes, listed, wants_events};
+use super::asked::{PlanRequest, Query, bytes, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;
@@ -32,7 +32,7 @@ pub(super) async fn diagram(
     Query(which): Query<Which>,
     Query(wanted): Query<Wanted>,
     headers: HeaderMap,
-    asked: Asked,
+    asked: PlanRequest,
 ) -> Result<Response, Refusal> {
     wanted.check()?;
     let Task::Diagram(diagram) = asked.plan.task.clone() else {

@@ -1,6 +1,6 @@
 //! Lines over a plane: the edges of the regions in which motions are stable, and where the motion without stops touches one.
 
-use super::asked::{Asked, Query, listed, wants_events};
+use super::asked::{PlanRequest, Query, listed, wants_events};
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::packed::Named;
@@ -70,7 +70,7 @@ pub(super) async fn layer(
     State(explorer): State<Explorer>,
     Query(wanted): Query<Wanted>,
     headers: HeaderMap,
-    asked: Asked,
+    asked: PlanRequest,
 ) -> Result<Response, Refusal> {
     let Task::Map(map) = &asked.plan.task else { return Err(Refusal::bad("a layer lies over a map")) };
     let plane = Plane::new(asked.plan.system, map)?;

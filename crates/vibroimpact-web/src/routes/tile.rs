@@ -1,6 +1,6 @@
 //! A piece of a plane: of a map, or of a basin.
 
-use super::asked::{Asked, bytes};
+use super::asked::{PlanRequest, bytes};
 use crate::refusal::Refusal;
 use crate::workshop::Bench;
 use crate::{Explorer, packed};
@@ -18,8 +18,8 @@ const BRIEF: u32 = 1000;
 /// Points of a tile that one thread makes, where several do.
 const SIDE: u32 = 32;
 
-pub(super) async fn tile(State(explorer): State<Explorer>, asked: Asked) -> Result<Response, Refusal> {
-    let Asked { mut plan, points } = asked;
+pub(super) async fn tile(State(explorer): State<Explorer>, asked: PlanRequest) -> Result<Response, Refusal> {
+    let PlanRequest { mut plan, points } = asked;
     let (refine, impacts) = match &plan.task {
         Task::Map(map) => (map.refine, map.impacts),
         Task::Basin(basin) => (basin.refine, basin.impacts),

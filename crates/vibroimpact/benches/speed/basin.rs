@@ -4,7 +4,7 @@
 use crate::widths;
 use criterion::{Criterion, Throughput};
 use std::hint::black_box;
-use vibroimpact::verdict::{Atlas, SettleOptions, StartBox, settle, settle_many};
+use vibroimpact::verdict::{KnownAttractors, SettleOptions, StartBox, settle, settle_many};
 use vibroimpact::{Oscillator, Start, scenario};
 
 /// Positions, and velocities.
@@ -31,8 +31,8 @@ pub(crate) fn bench(criterion: &mut Criterion) {
     for (width, name) in widths() {
         group.bench_function(name, |b| {
             b.iter(|| {
-                let atlas = Atlas::survey(&osc, (0..SURVEY).map(|k| start(total / SURVEY * k)), &options);
-                settle_many(&osc, 0..black_box(total), start, &atlas, &options, width, &|| false)
+                let survey = KnownAttractors::survey(&osc, (0..SURVEY).map(|k| start(total / SURVEY * k)), &options);
+                settle_many(&osc, 0..black_box(total), start, &survey, &options, width, &|| false)
             });
         });
     }

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Duration;
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Atlas, SettleOptions, StartBox, scattered_starts, settle_many};
+use vibroimpact::verdict::{KnownAttractors, SettleOptions, StartBox, scattered_starts, settle_many};
 
 /// Values of each parameter.
 const SIDE: u32 = 10;
@@ -23,7 +23,7 @@ fn plane() -> Vec<Oscillator> {
 fn motions(osc: &Oscillator, options: &SettleOptions) -> usize {
     let area = StartBox::natural(osc);
     let start = |index: u64| scattered_starts(osc, area, 1, index);
-    settle_many(osc, 0..STARTS, start, &Atlas::default(), options, Width::best(), &|| false).motions.len()
+    settle_many(osc, 0..STARTS, start, &KnownAttractors::default(), options, Width::best(), &|| false).motions.len()
 }
 
 pub(crate) fn bench(criterion: &mut Criterion) {

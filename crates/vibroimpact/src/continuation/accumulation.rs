@@ -5,14 +5,14 @@
 //! release: beyond, the motion from there comes to rest, and on this side it does not.
 
 use super::course::Course;
-use super::point::{BranchEvent, Change, Point};
+use super::point::{BranchEvent, Change, SolutionPoint};
 use crate::orbit::{DEFAULT_EVENTS, Excursion, cycle_distance};
 use crate::system::Side;
 use crate::verdict::Label;
 
 impl Course {
     /// The limit of the impacts that appeared on this branch one after another; `None` if they do not tend to a complete chatter.
-    pub(super) fn accumulation(&self) -> Option<Point> {
+    pub(super) fn accumulation(&self) -> Option<SolutionPoint> {
         let added = |(value, event): &(f64, BranchEvent)| match event {
             BranchEvent::Grazing { change: Change::Appears, side, .. } => Some((*value, *side)),
             _ => None,
@@ -62,7 +62,7 @@ impl Course {
         }
         let before = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
         let event = BranchEvent::Chatter { side: rest.side, phase: rest.release, before };
-        Some(Point { value: inside, cycle, physical: true, event: Some(event) })
+        Some(SolutionPoint { value: inside, cycle, physical: true, event: Some(event) })
     }
 }
 

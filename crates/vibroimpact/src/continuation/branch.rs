@@ -2,10 +2,10 @@
 
 use super::course::Course;
 use super::options::{BranchError, BranchOptions, Direction};
-use super::point::Point;
+use super::point::SolutionPoint;
 use super::resting::Resting;
 use crate::orbit::Cycle;
-use crate::system::{Oscillator, Varying};
+use crate::system::{Oscillator, ParameterPath};
 use core::ops::RangeInclusive;
 
 /// A branch: an iterator over its points, events among them, that ends with an event that [ends](super::BranchEvent::ends) it.
@@ -45,7 +45,7 @@ impl Branch {
     pub fn new(
         osc: &Oscillator,
         cycle: &Cycle,
-        varying: impl Into<Varying>,
+        varying: impl Into<ParameterPath>,
         range: RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
@@ -66,9 +66,9 @@ impl From<Course> for Branch {
 }
 
 impl Iterator for Branch {
-    type Item = Point;
+    type Item = SolutionPoint;
 
-    fn next(&mut self) -> Option<Point> {
+    fn next(&mut self) -> Option<SolutionPoint> {
         match &mut self.0 {
             Way::Course(course) => course.next(),
             Way::Resting(resting) => resting.next(),

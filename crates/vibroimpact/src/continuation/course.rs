@@ -7,11 +7,11 @@
 
 use super::arc::{Equations, correct, tangent};
 use super::options::{BranchError, BranchOptions, Direction};
-use super::point::{BranchEvent, Point};
+use super::point::{BranchEvent, SolutionPoint};
+use super::test_functions::{Place, Watch};
 use super::varied::Varied;
-use super::watch::{Place, Watch};
 use crate::orbit::{Cycle, Orbit, Ring, ring_cycle, solve};
-use crate::system::{Oscillator, SystemError, Varying};
+use crate::system::{Oscillator, ParameterPath, SystemError};
 use core::f64::consts::TAU;
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
@@ -40,7 +40,7 @@ pub(super) struct Course {
     /// Grazing events passed: the second time the branch has closed.
     pub(super) grazed: Vec<(f64, BranchEvent)>,
     pub(super) count: u32,
-    pub(super) pending: VecDeque<Point>,
+    pub(super) pending: VecDeque<SolutionPoint>,
     pub(super) over: bool,
 }
 
@@ -49,7 +49,7 @@ impl Course {
     pub(super) fn new(
         osc: &Oscillator,
         cycle: &Cycle,
-        varying: Varying,
+        varying: ParameterPath,
         range: RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
@@ -72,7 +72,7 @@ impl Course {
 
     pub(super) fn equations(
         osc: &Oscillator,
-        varying: Varying,
+        varying: ParameterPath,
         range: &RangeInclusive<f64>,
         value: f64,
         ring: &Ring,
@@ -121,9 +121,9 @@ impl Course {
         Some(Here { w, tangent, values, orbit })
     }
 
-    pub(super) fn point(&self, here: &Here, event: Option<BranchEvent>) -> Point {
+    pub(super) fn point(&self, here: &Here, event: Option<BranchEvent>) -> SolutionPoint {
         let value = here.w.last().copied().unwrap_or(f64::NAN);
-        Point { value, cycle: here.orbit.cycle.clone(), physical: here.orbit.physical, event }
+        SolutionPoint { value, cycle: here.orbit.cycle.clone(), physical: here.orbit.physical, event }
     }
 
     /// The solution a distance `h` along the tangent from here, looked for near `guess`.
@@ -211,9 +211,9 @@ impl Course {
 }
 
 impl Iterator for Course {
-    type Item = Point;
+    type Item = SolutionPoint;
 
-    fn next(&mut self) -> Option<Point> {
+    fn next(&mut self) -> Option<SolutionPoint> {
         while self.pending.is_empty() && !self.over {
             self.advance();
         }
@@ -222,7 +222,7 @@ impl Iterator for Course {
 }
 
 /// The place of an oscillator among what varies.
-pub(super) fn place(osc: &Oscillator, varying: Varying) -> Result<f64, BranchError> {
+pub(super) fn place(osc: &Oscillator, varying: ParameterPath) -> Result<f64, BranchError> {
     varying.get(osc).map_err(|error| match error {
         SystemError::NoSecondStop(name) => BranchError::NoSuchParameter(name),
         _ => BranchError::NoCycle,

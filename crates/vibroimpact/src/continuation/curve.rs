@@ -6,7 +6,7 @@ use super::curve_point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
 use super::frame::Frame;
 use super::options::BranchError;
 use super::plane::{Condition, Plane};
-use super::point::{BranchEvent, Change, Point};
+use super::point::{BranchEvent, Change, SolutionPoint};
 use super::walk::{Spot, Stride, Walk};
 use crate::math::{Multiplier, hypot};
 use crate::orbit::{Floquet, Orbit, Ring, ring_cycle};
@@ -37,7 +37,7 @@ impl Curve {
     /// [`BranchError::NoCycle`] if no curve is found through it.
     pub fn through(
         osc: &Oscillator,
-        point: &Point,
+        point: &SolutionPoint,
         parameter: Parameter,
         frame: &Frame,
         options: CurveOptions,

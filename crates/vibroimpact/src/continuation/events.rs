@@ -11,8 +11,8 @@ use super::point::BranchEvent;
 use super::root;
 use super::step::Reached;
 use super::switch::halved;
+use super::test_functions::{Place, Watch};
 use super::varied::Varied;
-use super::watch::{Place, Watch};
 
 impl Course {
     /// What happens on the step to `there`: how far along, and which watched function (`None`: the end of the range).

@@ -6,8 +6,8 @@
 
 use super::arc::tangent;
 use super::graze::{Beyond, striking};
+use super::test_functions::Watch;
 use super::varied::Varied;
-use super::watch::Watch;
 use crate::orbit::{Ring, crest, room};
 use crate::system::{Oscillator, Side};
 use core::f64::consts::PI;

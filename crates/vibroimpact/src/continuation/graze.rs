@@ -6,8 +6,8 @@
 //! in the same direction there or turns back is not a matter of choice.
 
 use super::arc::{Equations, tangent};
+use super::test_functions::Watch;
 use super::varied::Varied;
-use super::watch::Watch;
 use crate::orbit::{Ring, closest};
 use crate::system::{Oscillator, Side};
 use core::cmp::Reverse;

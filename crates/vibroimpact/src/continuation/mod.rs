@@ -6,7 +6,7 @@
 //! | the equations of a cycle with one parameter free | `varied` |
 //! | a zero in a bracket; a cubic through four points | `root`, `interpolate` |
 //! | what is watched for a change of sign along a branch | `watch` |
-//! | a point of a branch, and what happens there | [`Point`], [`BranchEvent`] |
+//! | a point of a branch, and what happens there | [`SolutionPoint`], [`BranchEvent`] |
 //! | the branch | [`Branch`], [`BranchOptions`] |
 //! | by the equations of its impacts; one step of it | `course`, `step` |
 //! | by its release, where it rests on a stop; whether two motions are alike; what happens between | `resting`, `likeness`, `resting_event` |
@@ -51,17 +51,17 @@ mod seed;
 mod singular;
 mod step;
 mod switch;
+mod test_functions;
 mod touch;
 mod varied;
 mod walk;
-mod watch;
 
 pub use branch::Branch;
 pub use curve::Curve;
 pub use curve_point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
 pub use frame::Frame;
 pub use options::{BranchError, BranchOptions, Direction};
-pub use point::{BranchEvent, Change, Point, Touch};
+pub use point::{BranchEvent, Change, SolutionPoint, Touch};
 pub use polygon::{Bound, Polygon, Region, Vertex};
 pub use region::{region, region_while};
 pub use region_options::{RegionKind, RegionOptions};

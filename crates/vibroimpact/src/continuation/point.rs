@@ -6,7 +6,7 @@ use crate::verdict::Label;
 
 /// A point of a branch.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct SolutionPoint {
     /// Value of the parameter.
     pub value: f64,
     /// The cycle there, also where it is no possible motion. At a grazing event that of the branch so far.
@@ -18,7 +18,7 @@ pub struct Point {
     pub event: Option<BranchEvent>,
 }
 
-impl Point {
+impl SolutionPoint {
     /// Whether the cycle attracts its neighbourhood.
     #[must_use]
     pub fn stable(&self) -> bool {

@@ -8,9 +8,9 @@
 use super::course::{place, scale};
 use super::likeness::{Likeness, likeness};
 use super::options::{BranchError, BranchOptions, Direction};
-use super::point::{BranchEvent, Change, Point};
+use super::point::{BranchEvent, Change, SolutionPoint};
 use crate::orbit::{Cycle, DEFAULT_EVENTS, Excursion};
-use crate::system::{Oscillator, Side, Varying};
+use crate::system::{Oscillator, ParameterPath, Side};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 
@@ -25,7 +25,7 @@ pub(super) struct Found {
 #[derive(Clone, Debug)]
 pub(super) struct Resting {
     osc: Oscillator,
-    varying: Varying,
+    varying: ParameterPath,
     /// Stop whose release a cycle begins with.
     side: Side,
     pub(super) direction: Direction,
@@ -40,7 +40,7 @@ pub(super) struct Resting {
     /// Values at which impact after impact appeared, the last ones.
     added: Vec<f64>,
     count: u32,
-    pending: VecDeque<Point>,
+    pending: VecDeque<SolutionPoint>,
     over: bool,
 }
 
@@ -49,7 +49,7 @@ impl Resting {
     pub(super) fn new(
         osc: &Oscillator,
         cycle: &Cycle,
-        varying: Varying,
+        varying: ParameterPath,
         range: RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
@@ -105,7 +105,7 @@ impl Resting {
     }
 
     fn add(&mut self, value: f64, cycle: Cycle, event: Option<BranchEvent>) {
-        self.pending.push_back(Point { value, cycle, physical: true, event });
+        self.pending.push_back(SolutionPoint { value, cycle, physical: true, event });
         self.count += 1;
         self.over = event.is_some_and(|event| event.ends());
     }
@@ -183,9 +183,9 @@ impl Resting {
 }
 
 impl Iterator for Resting {
-    type Item = Point;
+    type Item = SolutionPoint;
 
-    fn next(&mut self) -> Option<Point> {
+    fn next(&mut self) -> Option<SolutionPoint> {
         while self.pending.is_empty() && !self.over {
             self.advance();
         }

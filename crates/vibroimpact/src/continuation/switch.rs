@@ -4,10 +4,10 @@ use super::arc::{Equations, correct};
 use super::branch::Branch;
 use super::course::Course;
 use super::options::{BranchError, BranchOptions};
-use super::point::{BranchEvent, Point};
+use super::point::{BranchEvent, SolutionPoint};
 use super::varied::Varied;
 use crate::orbit::{Block, Floquet, Ring, blocks, solve};
-use crate::system::{Oscillator, Varying};
+use crate::system::{Oscillator, ParameterPath};
 use core::ops::RangeInclusive;
 
 impl Branch {
@@ -21,8 +21,8 @@ impl Branch {
     /// [`BranchError::NotThere`] if the point is no flip, else as [`Branch::new`].
     pub fn from_flip(
         osc: &Oscillator,
-        flip: &Point,
-        varying: impl Into<Varying>,
+        flip: &SolutionPoint,
+        varying: impl Into<ParameterPath>,
         range: RangeInclusive<f64>,
         options: BranchOptions,
     ) -> Result<Self, BranchError> {
@@ -43,8 +43,8 @@ impl Branch {
     /// [`BranchError::NotThere`] if the point is no branch point, else as [`Branch::new`].
     pub fn from_branch_point(
         osc: &Oscillator,
-        point: &Point,
-        varying: impl Into<Varying>,
+        point: &SolutionPoint,
+        varying: impl Into<ParameterPath>,
         range: RangeInclusive<f64>,
         options: BranchOptions,
     ) -> Result<[Self; 2], BranchError> {
@@ -61,7 +61,11 @@ impl Branch {
 }
 
 /// The oscillator and the solution of the equations at a point of a branch.
-fn solved(osc: &Oscillator, point: &Point, varying: Varying) -> Result<(Oscillator, Ring, Vec<Block>), BranchError> {
+fn solved(
+    osc: &Oscillator,
+    point: &SolutionPoint,
+    varying: ParameterPath,
+) -> Result<(Oscillator, Ring, Vec<Block>), BranchError> {
     let osc = varying.set(osc, point.value).map_err(|_| BranchError::NoCycle)?;
     let ring = Ring::of(&osc, &point.cycle).ok_or(BranchError::Rests)?;
     // at a branch point the equations are singular and the point is as good as it gets
@@ -125,7 +129,7 @@ const MAX_SECANTS: u32 = 12;
 fn leave(
     osc: &Oscillator,
     ring: &Ring,
-    (varying, value): (Varying, f64),
+    (varying, value): (ParameterPath, f64),
     range: RangeInclusive<f64>,
     mut direction: Vec<f64>,
     options: BranchOptions,

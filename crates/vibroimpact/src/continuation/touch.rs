@@ -4,7 +4,7 @@ use super::course::{Course, Here, sign};
 use super::free::{arriving, leaving};
 use super::graze::{Beyond, beyond};
 use super::point::{BranchEvent, Change, Touch};
-use super::watch::Watch;
+use super::test_functions::Watch;
 use crate::orbit::{closest, crest};
 use crate::system::{Side, phase};
 use crate::verdict::Label;

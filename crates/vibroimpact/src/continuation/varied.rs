@@ -2,14 +2,14 @@
 
 use super::arc::Equations;
 use crate::orbit::{Block, Ring, blocks, by_parameter, fill};
-use crate::system::{Oscillator, Side, Varying};
+use crate::system::{Oscillator, ParameterPath, Side};
 
 /// The equations of the cycles with a given signature - which stop each impact is on, and how many forcing periods - in
 /// the phases and speeds of the impacts and one parameter, the last unknown.
 #[derive(Clone, Debug)]
 pub(super) struct Varied {
     osc: Oscillator,
-    varying: Varying,
+    varying: ParameterPath,
     sides: Vec<Side>,
     periods: u32,
     weights: Vec<f64>,
@@ -18,7 +18,7 @@ pub(super) struct Varied {
 
 impl Varied {
     /// For rings like `ring`; a change of the parameter by `scale` counts as much as one of all phases by a radian.
-    pub(super) fn new(osc: &Oscillator, varying: Varying, ring: &Ring, scale: f64) -> Self {
+    pub(super) fn new(osc: &Oscillator, varying: ParameterPath, ring: &Ring, scale: f64) -> Self {
         let m = ring.len();
         let mut weights = vec![1.0 / m as f64; 2 * m];
         weights.push(1.0 / (scale * scale));
@@ -92,7 +92,7 @@ impl Equations for Varied {
 
 /// The derivatives of what flights miss by, in a square matrix, row by row: by the phases and speeds of the impacts, then along
 /// these lines through the parameters. A row for each line is left at the end, for what else is asked.
-pub(super) fn slopes(osc: &Oscillator, ring: &Ring, flights: &[Block], lines: &[Varying]) -> Option<Vec<f64>> {
+pub(super) fn slopes(osc: &Oscillator, ring: &Ring, flights: &[Block], lines: &[ParameterPath]) -> Option<Vec<f64>> {
     let impacts = 2 * ring.len();
     let width = impacts + lines.len();
     let mut rows = vec![0.0; width * width];

@@ -15,7 +15,7 @@ use crate::system::{Oscillator, Side, Start, phase};
 
 /// A point of a flight, a time `s` after its beginning.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct FlightPoint {
     /// Displacement $`x(s) - x_0`$ since the beginning.
     pub displacement: f64,
     /// Position.
@@ -106,7 +106,7 @@ impl Flight {
     /// The point a time `s >= 0` after the beginning.
     #[inline]
     #[must_use]
-    pub fn at(&self, s: f64) -> Point {
+    pub fn at(&self, s: f64) -> FlightPoint {
         let turn = s * self.fastest;
         if turn < SHORT_REACH {
             self.by_series(s, SHORT_TERMS)
@@ -117,7 +117,7 @@ impl Flight {
         }
     }
 
-    fn by_response(&self, s: f64) -> Point {
+    fn by_response(&self, s: f64) -> FlightPoint {
         let (beta, zeta) = (self.response.beta(), self.response.damping());
         let p = self.response.at(s);
         let free = self.v * p.s - self.x * p.one_minus_c;
@@ -137,11 +137,11 @@ impl Flight {
         let terms = start + v0 * s_abs + p.forced_size;
         let angles = p.free_angle * (x0 * s_abs + v0 * p.c.abs()) + p.forced_angle * force_rate.abs();
         let rounding = HALF_ULP * (5.0 * terms + angles + x.abs().min(displacement.abs()));
-        Point { displacement, x, far, v, a, j, rounding }
+        FlightPoint { displacement, x, far, v, a, j, rounding }
     }
 
     #[inline(never)]
-    fn by_series(&self, s: f64, terms: usize) -> Point {
+    fn by_series(&self, s: f64, terms: usize) -> FlightPoint {
         let zeta2 = 2.0 * self.response.damping();
         let beta = self.response.beta();
         // c[k] = x^(k) / k!; the force's own series runs through sin, cos, -sin, -cos with a factor beta / k each
@@ -171,7 +171,7 @@ impl Flight {
             real -= 1.0;
         }
         let displacement = x * s;
-        Point { displacement, x: self.x + displacement, far: false, v, a, j, rounding: HALF_ULP * 4.0 * size * s }
+        FlightPoint { displacement, x: self.x + displacement, far: false, v, a, j, rounding: HALF_ULP * 4.0 * size * s }
     }
 
     /// Rate and bounds need the response too.

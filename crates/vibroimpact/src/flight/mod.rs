@@ -18,7 +18,7 @@ mod reach;
 mod search;
 
 pub use crate::system::{Propagator, Response};
-pub use arc::{Flight, Point};
+pub use arc::{Flight, FlightPoint};
 pub use contact::Contact;
 pub(crate) use first_contact::counted;
 pub use first_contact::first_contact;

@@ -2,7 +2,7 @@
 
 use super::bounds::{View, leave_time, radius, safe_time, single_contact_within};
 use super::horizon::Outlook;
-use super::{Contact, Flight, Horizon, Point};
+use super::{Contact, Flight, FlightPoint, Horizon};
 use crate::system::{Oscillator, Side, Stop};
 
 /// Bounds are used up to this fraction, so that their own rounding cannot matter.
@@ -18,7 +18,7 @@ pub(super) struct Search<'a> {
     gap: [f64; 2],
     /// Time of the present point.
     pub(super) s: f64,
-    point: Point,
+    point: FlightPoint,
     reach: f64,
 }
 
@@ -36,7 +36,7 @@ impl<'a> Search<'a> {
             }
         }
         let reach = FIRST_REACH / (1.0 + flight.response().damping());
-        let start = Point {
+        let start = FlightPoint {
             displacement: 0.0,
             x: flight.x,
             far: false,
@@ -81,7 +81,7 @@ impl<'a> Search<'a> {
     }
 
     #[inline]
-    fn view(&self, side: Side, point: &Point) -> View {
+    fn view(&self, side: Side, point: &FlightPoint) -> View {
         let (sign, k) = (side.sign(), index(side));
         let g = if point.far { self.gap[k] - sign * point.x } else { self.room[k] - sign * point.displacement };
         View { side, g, p: sign * point.v, q: sign * point.a, j: sign * point.j }

@@ -24,9 +24,8 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod batch;
-mod doubts;
+mod compaction;
 mod flight;
-mod front;
 mod hull;
 mod pack;
 mod pair;
@@ -36,6 +35,7 @@ mod slots;
 mod stride;
 mod strike;
 mod swing;
+mod uncertain;
 mod width;
 
 pub use batch::{ABREAST, Batch};

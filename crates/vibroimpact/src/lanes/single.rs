@@ -4,7 +4,7 @@
 //! As in `avx2`.
 #![allow(unsafe_code)]
 
-use super::front::FRONT;
+use super::compaction::PLACES_OF_BITS;
 use crate::math::{Mask, Numbers, Single};
 use core::arch::x86_64::{
     __m256, _CMP_LT_OQ, _mm_cvtsi64_si128, _mm256_add_ps, _mm256_and_ps, _mm256_andnot_ps, _mm256_blendv_ps,
@@ -105,7 +105,7 @@ impl Single for EightSingle {
     }
     #[inline(always)]
     fn store_some(self, bits: u32, to: &mut [f32]) {
-        let places = FRONT[(bits & 0xff) as usize];
+        let places = PLACES_OF_BITS[(bits & 0xff) as usize];
         let front = unsafe {
             _mm256_permutevar8x32_ps(self.0, _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(i64::from_le_bytes(places))))
         };

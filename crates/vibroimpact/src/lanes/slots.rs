@@ -1,10 +1,10 @@
 //! Where the flights of a batch are kept: a slot each, in arrays that lanes run along.
 
-use super::doubts::{Doubts, SEGMENT};
-use super::front::list;
+use super::compaction::list;
 use super::hull::MARGIN;
 use super::stride::{State, Stride, Table, WIDEST};
 use super::strike::{Approach, Guess, Launch, Strike};
+use super::uncertain::{SEGMENT, UncertainSteps};
 use crate::contact::chatter;
 use crate::math::{Lane, Mask, Numbers, Single, sin_cos, sin_cos_lanes};
 use crate::system::{Start, phase};
@@ -23,7 +23,7 @@ pub(super) const SIDE: usize = 7;
 #[derive(Clone, Debug)]
 pub(super) struct Lists {
     /// Not proven clear in this step.
-    pub(super) doubts: Box<Doubts>,
+    pub(super) doubts: Box<UncertainSteps>,
     /// Flown for longer than lanes fly.
     pub(super) late: Vec<u32>,
     /// Struck and launched again.
@@ -39,7 +39,7 @@ pub(super) struct Lists {
 impl Lists {
     pub(super) fn new() -> Self {
         let (late, struck, gentle, open, left) = Default::default();
-        Self { doubts: Doubts::new(), late, struck, gentle, open, left }
+        Self { doubts: UncertainSteps::new(), late, struck, gentle, open, left }
     }
 
     pub(super) fn clear(&mut self) {

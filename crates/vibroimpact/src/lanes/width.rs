@@ -1,10 +1,10 @@
 //! How many flights are flown side by side, and the one place where the processor is asked.
 
-use super::doubts::SEGMENT;
 use super::pack::Pack;
 use super::pair::Pair;
 use super::slots::{Lists, Slots};
 use super::stride::{Stride, Table};
+use super::uncertain::SEGMENT;
 
 #[cfg(target_arch = "x86_64")]
 use super::avx2::Four;

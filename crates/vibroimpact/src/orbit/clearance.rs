@@ -6,7 +6,7 @@
 
 use super::cyclic::leaving;
 use super::ring::Ring;
-use crate::flight::{Flight, Point};
+use crate::flight::{Flight, FlightPoint};
 use crate::system::{Oscillator, Side};
 
 /// The closest a flight comes to a stop between two impacts.
@@ -69,7 +69,7 @@ fn fastest(osc: &Oscillator) -> f64 {
 }
 
 /// The maxima of `sign * x` strictly within a flight of length `time`.
-fn maxima(osc: &Oscillator, flight: &Flight, time: f64, sign: f64) -> Vec<(f64, Point)> {
+fn maxima(osc: &Oscillator, flight: &Flight, time: f64, sign: f64) -> Vec<(f64, FlightPoint)> {
     let steps = (time * fastest(osc) / STEP).ceil().clamp(4.0, MAX_STEPS);
     let step = time / steps;
     let mut found = Vec::new();
@@ -94,7 +94,7 @@ fn scan(
     sign: f64,
     (s0, v0, a0): (f64, f64, f64),
     (s1, v1, a1): (f64, f64, f64),
-    found: &mut Vec<(f64, Point)>,
+    found: &mut Vec<(f64, FlightPoint)>,
 ) {
     if v0 > 0.0 && v1 <= 0.0 {
         found.push(turning(flight, sign, s0, s1));
@@ -114,7 +114,7 @@ fn scan(
 }
 
 /// Where `sign * v` passes through zero downwards between `low` and `high`.
-fn turning(flight: &Flight, sign: f64, mut low: f64, mut high: f64) -> (f64, Point) {
+fn turning(flight: &Flight, sign: f64, mut low: f64, mut high: f64) -> (f64, FlightPoint) {
     let mut s = 0.5 * (low + high);
     for _ in 0..MAX_REFINEMENTS {
         let point = flight.at(s);

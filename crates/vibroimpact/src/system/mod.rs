@@ -6,7 +6,7 @@
 //! | its response in closed form, free and forced | [`Response`], `free` |
 //! | frequency ratios that are fractions | [`Oscillator::fraction`] |
 //! | its parameters by name, read and changed | [`Parameter`] |
-//! | a line through them | [`Varying`] |
+//! | a line through them | [`ParameterPath`] |
 //! | a starting point allowed by the stops | [`Start`] |
 //! | kilograms, newtons and millimetres to nondimensional numbers and back | [`Machine`] |
 //! | angles of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
@@ -16,16 +16,16 @@ mod error;
 mod free;
 mod oscillator;
 mod parameter;
+mod parameter_path;
 pub mod phase;
 mod response;
 mod start;
 mod units;
-mod varying;
 
 pub use error::SystemError;
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
+pub use parameter_path::ParameterPath;
 pub use response::{Propagator, Response};
 pub use start::Start;
 pub use units::{Frequency, Machine, Scales};
-pub use varying::Varying;

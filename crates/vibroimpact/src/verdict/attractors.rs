@@ -8,7 +8,7 @@ use core::f64::consts::TAU;
 
 /// A steady motion and how many starts led to it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct CountedMotion {
     /// The motion, as the first start that led to it gave it.
     pub verdict: Verdict,
     /// Starts that led to it.
@@ -18,7 +18,7 @@ pub struct Found {
 /// Distinct motions counted one start after another. Two cycles with one label stay two if they differ.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Census {
-    found: Vec<Found>,
+    found: Vec<CountedMotion>,
     total: u64,
 }
 
@@ -27,7 +27,7 @@ pub(super) const SAME: f64 = 1e-6;
 
 impl Census {
     /// Counts a motion of another census with all its starts, and returns its number here.
-    pub fn add_found(&mut self, found: &Found) -> usize {
+    pub fn add_found(&mut self, found: &CountedMotion) -> usize {
         let number = self.add(&found.verdict);
         self.found[number].count += found.count - 1;
         self.total += found.count - 1;
@@ -41,20 +41,20 @@ impl Census {
             self.found[k].count += 1;
             return k;
         }
-        self.found.push(Found { verdict: verdict.clone(), count: 1 });
+        self.found.push(CountedMotion { verdict: verdict.clone(), count: 1 });
         self.found.len() - 1
     }
 
     /// The motions in order of first appearance.
     #[must_use]
-    pub fn motions(&self) -> &[Found] {
+    pub fn motions(&self) -> &[CountedMotion] {
         &self.found
     }
 
     /// The motions, the most frequent first.
     #[must_use]
-    pub fn by_share(&self) -> Vec<&Found> {
-        let mut list: Vec<&Found> = self.found.iter().collect();
+    pub fn by_share(&self) -> Vec<&CountedMotion> {
+        let mut list: Vec<&CountedMotion> = self.found.iter().collect();
         list.sort_by_key(|found| core::cmp::Reverse(found.count));
         list
     }
@@ -68,7 +68,7 @@ impl Census {
     /// The share of starts that led to a motion.
     #[must_use]
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
-    pub fn share(&self, found: &Found) -> f64 {
+    pub fn share(&self, found: &CountedMotion) -> f64 {
         found.count as f64 / (self.total.max(1)) as f64
     }
 }

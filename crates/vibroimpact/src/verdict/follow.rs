@@ -7,7 +7,7 @@ use super::graze_limit::Fading;
 use super::options::SettleOptions;
 use super::outcome::{Chaos, NoImpact, Undecided, Verdict};
 use super::recurrence::{self, Candidate};
-use super::trap::Depth;
+use super::trapping_region::Depth;
 use crate::flight::SearchLimits;
 use crate::lyapunov::{Measure, Spectrum};
 use crate::motion::{End, ImpactState, MAX_TOUCHES};

@@ -7,13 +7,13 @@
 //! The result does not depend on how the starts are divided: motions are told apart as [`Census`](super::Census) does, and the verdict that stands
 //! for each is what [`settle`] says of the first start that leads to it.
 
-use super::Found;
+use super::CountedMotion;
 use super::attractors::SAME;
 use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
 use super::outcome::Verdict;
 use super::settle::{Drive, settle, settle_knowing};
-use super::trap::Trap;
+use super::trapping_region::TrappingRegion;
 use crate::flight::Contact;
 use crate::lanes::{ABREAST, Batch, Width};
 use crate::motion::{End, Motion};
@@ -22,26 +22,26 @@ use core::ops::Range;
 
 /// Cycles known beforehand, with their traps: worked out once, used by all parts of a large question.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Atlas {
-    known: Vec<(Verdict, Trap)>,
+pub struct KnownAttractors {
+    known: Vec<(Verdict, TrappingRegion)>,
     releases: Releases,
 }
 
-impl Atlas {
+impl KnownAttractors {
     /// Settles these few starts one by one and keeps the cycles that have a trap.
     #[must_use]
     pub fn survey(osc: &Oscillator, starts: impl Iterator<Item = Start>, options: &SettleOptions) -> Self {
-        let mut atlas = Self::default();
+        let mut survey = Self::default();
         for start in starts {
-            let verdict = settle_knowing(osc, start, options, &mut atlas.releases).verdict;
+            let verdict = settle_knowing(osc, start, options, &mut survey.releases).verdict;
             if let Verdict::Periodic(cycle) = &verdict
-                && !atlas.known.iter().any(|(other, _)| other.same_as(&verdict, SAME))
-                && let Some(trap) = Trap::around(osc, cycle, options.limits.steps)
+                && !survey.known.iter().any(|(other, _)| other.same_as(&verdict, SAME))
+                && let Some(trap) = TrappingRegion::around(osc, cycle, options.limits.steps)
             {
-                atlas.known.push((verdict, trap));
+                survey.known.push((verdict, trap));
             }
         }
-        atlas
+        survey
     }
 }
 
@@ -49,7 +49,7 @@ impl Atlas {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settlement {
     /// The distinct motions in the order of the first start that leads to each.
-    pub motions: Vec<Found>,
+    pub motions: Vec<CountedMotion>,
     /// The number of its motion for each start; shorter if stopped.
     pub cells: Vec<u32>,
 }
@@ -57,12 +57,12 @@ pub struct Settlement {
 /// Settles the starts with these numbers. `tick` is called after each and says whether to stop.
 ///
 /// ```
-/// use vibroimpact::{Start, lanes::Width, scenario, verdict::{Atlas, SettleOptions, settle_many}};
+/// use vibroimpact::{Start, lanes::Width, scenario, verdict::{KnownAttractors, SettleOptions, settle_many}};
 /// let osc = scenario::S.oscillator();
 /// let start = |k: u64| Start { x: 0.0, v: -4.0 + 0.01 * k as f64, phase: 0.0 };
 /// let options = SettleOptions::default();
-/// let atlas = Atlas::survey(&osc, (0..8).map(|k| start(100 * k)), &options);
-/// let settlement = settle_many(&osc, 0..800, start, &atlas, &options, Width::best(), &|| false);
+/// let survey = KnownAttractors::survey(&osc, (0..8).map(|k| start(100 * k)), &options);
+/// let settlement = settle_many(&osc, 0..800, start, &survey, &options, Width::best(), &|| false);
 /// assert_eq!(settlement.motions.len(), 2);         // 1/1 and 2/1
 /// assert_eq!(settlement.cells.len(), 800);
 /// ```
@@ -71,16 +71,16 @@ pub fn settle_many(
     osc: &Oscillator,
     range: Range<u64>,
     start: impl Fn(u64) -> Start,
-    atlas: &Atlas,
+    survey: &KnownAttractors,
     options: &SettleOptions,
     width: Width,
     tick: &dyn Fn() -> bool,
 ) -> Settlement {
     let full = |k: u64| settle(osc, start(k), options).verdict;
     let question = Question { osc, options, width, tick };
-    question.decide(range.clone(), &start, atlas).settlement(range.start, full).unwrap_or_else(|| {
+    question.decide(range.clone(), &start, survey).settlement(range.start, full).unwrap_or_else(|| {
         // the first start of each motion was settled in full, and that contradicts a trap: do without
-        let part = question.decide(range.clone(), &start, &Atlas::default());
+        let part = question.decide(range.clone(), &start, &KnownAttractors::default());
         part.settlement(range.start, full).unwrap_or_default()
     })
 }
@@ -148,7 +148,7 @@ impl Part {
                 return None;
             }
             renamed[old] = u32::try_from(new).unwrap_or(OPEN);
-            motions.push(Found { verdict, count: 0 });
+            motions.push(CountedMotion { verdict, count: 0 });
         }
         for cell in &mut self.cells {
             *cell = renamed[*cell as usize];
@@ -174,13 +174,13 @@ struct Question<'a> {
 }
 
 impl Question<'_> {
-    fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, atlas: &Atlas) -> Part {
+    fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, survey: &KnownAttractors) -> Part {
         let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
         let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
-        let alone = count < FEW && atlas.known.is_empty();
+        let alone = count < FEW && survey.known.is_empty();
         let batch = if alone { None } else { Batch::new(self.osc, ABREAST.min(count), self.width) };
         let batch = batch.filter(|batch| batch.longest() < self.options.limits.horizon(self.osc));
-        let mut releases = atlas.releases.clone();
+        let mut releases = survey.releases.clone();
         let Some(batch) = batch else {
             for (place, index) in range.enumerate() {
                 let settled = settle_knowing(self.osc, start(index), self.options, &mut releases);
@@ -191,7 +191,7 @@ impl Question<'_> {
             }
             return part;
         };
-        let known = &atlas.known;
+        let known = &survey.known;
         Pool { question: self, known, releases, first: range.start, batch, tracks: Vec::new(), part }.run(count, start)
     }
 }
@@ -199,7 +199,7 @@ impl Question<'_> {
 /// A batch at work on a range of starts.
 struct Pool<'a> {
     question: &'a Question<'a>,
-    known: &'a [(Verdict, Trap)],
+    known: &'a [(Verdict, TrappingRegion)],
     releases: Releases,
     first: u64,
     batch: Batch,
@@ -368,14 +368,14 @@ mod tests {
                 .map(|k| u32::try_from(census.add(&settle(&osc, start(k), &options).verdict)).unwrap())
                 .collect();
             let expected = Settlement { motions: census.motions().to_vec(), cells };
-            let none = Atlas::default();
-            let atlas = Atlas::survey(&osc, (100..110).map(start), &options);
+            let none = KnownAttractors::default();
+            let survey = KnownAttractors::survey(&osc, (100..110).map(start), &options);
             for width in Width::ALL.into_iter().filter(|width| width.available()) {
-                for atlas in [&none, &atlas] {
-                    let got = settle_many(&osc, 0..60, start, atlas, &options, width, &|| false);
+                for survey in [&none, &survey] {
+                    let got = settle_many(&osc, 0..60, start, survey, &options, width, &|| false);
                     assert_eq!(got, expected, "{osc:?} {width:?}");
                     // few are followed one by one
-                    let few = settle_many(&osc, 0..20, start, atlas, &options, width, &|| false);
+                    let few = settle_many(&osc, 0..20, start, survey, &options, width, &|| false);
                     assert_eq!(few.cells, expected.cells[..20], "{osc:?} {width:?}");
                 }
             }

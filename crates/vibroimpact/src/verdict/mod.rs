@@ -20,12 +20,12 @@ mod outcome;
 mod paper_rule;
 mod recurrence;
 mod settle;
-mod trap;
+mod trapping_region;
 
 pub use crate::orbit::{Count, Label, LabelError};
-pub use attractors::{Census, Found, StartBox, attractors, scattered_starts};
+pub use attractors::{Census, CountedMotion, StartBox, attractors, scattered_starts};
 pub(crate) use follow::{Follow, Releases, ended};
-pub use many::{Atlas, Settlement, settle_many};
+pub use many::{KnownAttractors, Settlement, settle_many};
 pub use options::SettleOptions;
 pub use outcome::{Chaos, NoImpact, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};

@@ -3,7 +3,7 @@
 
 use crate::{Random, guess};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, Point};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::motion::derivative;
 use vibroimpact::orbit::refine;
 use vibroimpact::{Oscillator, Parameter};
@@ -189,7 +189,7 @@ fn fold_and_doubling_curves() {
         let options = BranchOptions { keep_signature: true, ..Default::default() };
         let begin = guess(phase, u, form.n, osc.period());
         let branch = Branch::new(&osc, &begin, Parameter::Gap, -reach..=reach, Direction::Up, options).unwrap();
-        let points: Vec<Point> = branch.collect();
+        let points: Vec<SolutionPoint> = branch.collect();
         assert_eq!(points.last().unwrap().event, Some(BranchEvent::Closed), "{osc:?} {:?}", points.last());
         let at = |event: BranchEvent| -> Vec<(f64, f64)> {
             let there = points.iter().filter(|p| p.event == Some(event));

@@ -3,7 +3,8 @@
 
 use crate::closed_forms::Form;
 use vibroimpact::continuation::{
-    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Direction, Frame, Point,
+    Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Direction, Frame,
+    SolutionPoint,
 };
 use vibroimpact::orbit::{FindOptions, find, refine};
 use vibroimpact::{Label, Oscillator, Parameter};
@@ -17,7 +18,7 @@ fn frame(p: std::ops::RangeInclusive<f64>, q: std::ops::RangeInclusive<f64>) -> 
 }
 
 /// The first event of that name on the branch of 1/n in the gap, solutions that are no motions included.
-fn event(osc: &Oscillator, n: u32, direction: Direction, name: &str) -> Point {
+fn event(osc: &Oscillator, n: u32, direction: Direction, name: &str) -> SolutionPoint {
     let orbits = find(osc, Label::new(1, n), FindOptions::default());
     let options = BranchOptions { keep_signature: true, ..Default::default() };
     let begin = &orbits.last().unwrap().cycle;
@@ -26,7 +27,7 @@ fn event(osc: &Oscillator, n: u32, direction: Direction, name: &str) -> Point {
 }
 
 /// Both ways along the curve through a point, in one list.
-fn curve(osc: &Oscillator, point: &Point, frame: &Frame) -> Vec<CurvePoint> {
+fn curve(osc: &Oscillator, point: &SolutionPoint, frame: &Frame) -> Vec<CurvePoint> {
     let ways = Curve::through(osc, point, Parameter::Gap, frame, CurveOptions::default()).unwrap();
     ways.into_iter().flatten().collect()
 }
@@ -74,7 +75,7 @@ fn resonant_grazing_of_one_impact() {
         assert!(orbit.cycle.points[0].state.velocity.abs() < 1e-9);
         let phase = orbit.cycle.points[0].state.phase;
         let event = Some(BranchEvent::LossOfContact { side: vibroimpact::Side::Upper, phase });
-        let point = Point { value: f, cycle: orbit.cycle, physical: true, event };
+        let point = SolutionPoint { value: f, cycle: orbit.cycle, physical: true, event };
         let points = curve(&osc, &point, &frame(1.05..=high, 0.0..=12.0));
         for p in &points {
             let f = at(p.values.0, 0.0, 0.5, zeta).free_amplitude();
@@ -126,7 +127,7 @@ fn two_folds_meet_in_a_cusp() {
     let begin = &orbits.iter().find(|o| o.physical).unwrap().cycle;
     let options = BranchOptions::default();
     let branch = Branch::new(&osc, begin, Parameter::Gap, 4.0..=6.0, Direction::Down, options).unwrap();
-    let folds: Vec<Point> = branch.filter(|p| p.event == Some(BranchEvent::Fold)).collect();
+    let folds: Vec<SolutionPoint> = branch.filter(|p| p.event == Some(BranchEvent::Fold)).collect();
     assert_eq!(folds.len(), 2);
     let frame = frame(1.0..=1.2, 3.0..=7.0);
     let cusps: Vec<(f64, f64)> = folds
@@ -163,7 +164,7 @@ fn f10_a_grazing_curve_along_which_one_parameter_does_not_change() {
             let options = BranchOptions::default();
             Branch::new(&osc, &orbit.cycle, Parameter::Gap, -0.8..=3.0, direction, options).unwrap()
         };
-        let lost = |point: &Point| matches!(point.event, Some(BranchEvent::LossOfContact { .. }));
+        let lost = |point: &SolutionPoint| matches!(point.event, Some(BranchEvent::LossOfContact { .. }));
         let touch = [Direction::Up, Direction::Down].into_iter().flat_map(branch).find(lost).unwrap();
         let both = Curve::through(&osc, &touch, Parameter::Gap, &frame, CurveOptions::default()).unwrap();
         let mut ends = both.map(|curve| {

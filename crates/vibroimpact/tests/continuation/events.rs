@@ -1,7 +1,7 @@
 //! The events of 2/1, 1/3 and 1/4 on the line 1/beta = 1.11, eps = 1/2, without damping: on either side of each, what
 //! should be there is flown from its first impact and comes back, and what should not does not.
 
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, Point};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::motion::{Mapped, derivative, impact_map};
 use vibroimpact::orbit::{Cycle, FindOptions, find, refine};
 use vibroimpact::{Label, Oscillator, Parameter};
@@ -30,21 +30,21 @@ fn flown(near: &Cycle, gap: f64) -> Option<f64> {
 }
 
 /// Ordinary points on either side of point `k` of a branch: nearest ones of a few steps' distance.
-fn beside(points: &[Point], k: usize) -> Option<(&Point, &Point)> {
+fn beside(points: &[SolutionPoint], k: usize) -> Option<(&SolutionPoint, &SolutionPoint)> {
     let before = points[..k].iter().rev().find(|p| p.event.is_none() && (p.value - points[k].value).abs() > 1e-9)?;
     let after = points[k..].iter().find(|p| p.event.is_none() && (p.value - points[k].value).abs() > 1e-9)?;
     Some((before, after))
 }
 
 /// Checks every event of a branch; counts of grazing events, folds and flips.
-fn check(points: &[Point]) -> [u32; 3] {
+fn check(points: &[SolutionPoint]) -> [u32; 3] {
     let mut counts = [0; 3];
     let h = 1e-6;
     for (k, point) in points.iter().enumerate() {
         let Some(event) = point.event else { continue };
         let Some((before, after)) = beside(points, k) else { continue };
         let gap = point.value;
-        let side = |p: &Point| (p.value - gap).signum();
+        let side = |p: &SolutionPoint| (p.value - gap).signum();
         let what = format!("{event:?} of {} at {gap}", point.cycle.label);
         match event {
             BranchEvent::Grazing { turns, .. } => {
@@ -87,7 +87,7 @@ fn total(label: Label, gap: f64, range: std::ops::RangeInclusive<f64>) -> [u32; 
         for direction in [Direction::Up, Direction::Down] {
             let options = BranchOptions { impacts: 4, ..Default::default() };
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range.clone(), direction, options).unwrap();
-            let counts = check(&branch.collect::<Vec<Point>>());
+            let counts = check(&branch.collect::<Vec<SolutionPoint>>());
             (0..3).for_each(|i| sum[i] += counts[i]);
         }
     }
@@ -113,8 +113,8 @@ fn one_impact_in_three_and_in_four_periods() {
 fn f11_between_two_events_of_one_step_there_is_a_point() {
     let osc = Oscillator::new(2.55, 0.0, 0.8).unwrap();
     let one = find(&osc, Label::new(1, 1), FindOptions::default()).pop().unwrap();
-    let over = |branch: Branch| branch.collect::<Vec<Point>>();
-    let flip = |points: &[Point]| points.iter().find(|p| p.event == Some(BranchEvent::Flip)).cloned().unwrap();
+    let over = |branch: Branch| branch.collect::<Vec<SolutionPoint>>();
+    let flip = |points: &[SolutionPoint]| points.iter().find(|p| p.event == Some(BranchEvent::Flip)).cloned().unwrap();
     let options = BranchOptions::default();
     let first = Branch::new(&osc, &one.cycle, Parameter::Beta, 2.55..=3.0, Direction::Up, options).unwrap();
     let mut points = over(first);

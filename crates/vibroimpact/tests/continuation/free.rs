@@ -1,17 +1,17 @@
 //! The steady motion without impacts on branches, from and to its touch of a stop.
 
-use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, Point};
+use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint};
 use vibroimpact::orbit::{FindOptions, find, without_impacts};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
 use vibroimpact::{Label, Oscillator, Parameter, Start};
 
 /// The branch of the motion without impacts.
-fn branch(osc: &Oscillator, parameter: Parameter, range: (f64, f64), direction: Direction) -> Vec<Point> {
+fn branch(osc: &Oscillator, parameter: Parameter, range: (f64, f64), direction: Direction) -> Vec<SolutionPoint> {
     let cycle = without_impacts(osc).unwrap();
     Branch::new(osc, &cycle, parameter, range.0..=range.1, direction, BranchOptions::default()).unwrap().collect()
 }
 
-fn names(points: &[Point]) -> Vec<(&'static str, String)> {
+fn names(points: &[SolutionPoint]) -> Vec<(&'static str, String)> {
     points.iter().filter_map(|p| Some((p.event?.name(), p.cycle.label.to_string()))).collect()
 }
 

@@ -3,7 +3,7 @@
 //! method has to converge as near to the grazing as one likes.
 
 use crate::guess;
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, Point};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::orbit::{FindOptions, find, refine};
 use vibroimpact::{Label, Oscillator, Parameter};
 
@@ -27,7 +27,7 @@ fn from_gap_one_to_the_grazing() {
     let begin = &orbits.iter().find(|o| o.physical).unwrap().cycle;
     let range = 1.0..=12.0;
     let branch = Branch::new(&at(1.0), begin, Parameter::Gap, range, Direction::Up, BranchOptions::default()).unwrap();
-    let points: Vec<Point> = branch.collect();
+    let points: Vec<SolutionPoint> = branch.collect();
     let (a, b) = ellipse();
     for point in points.iter().filter(|p| !p.cycle.points.is_empty()) {
         assert!(point.physical);

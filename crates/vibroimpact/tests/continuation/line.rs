@@ -1,7 +1,7 @@
 //! The line 1/beta = 1.11, eps = 1/2 without damping: 1/1, its doubling, what branches off and comes back as 1/2, the
 //! doubling of that, down to loss of contact at delta = |f|. Each event is confirmed by simulation on either side of it.
 
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Change, Direction, Point};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Change, Direction, SolutionPoint};
 use vibroimpact::motion::{EventKind, ImpactState, Motion};
 use vibroimpact::orbit::{Cycle, FindOptions, Orbit, find, refine};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
@@ -16,23 +16,23 @@ fn range() -> std::ops::RangeInclusive<f64> {
 }
 
 /// The branch of the only physical orbit called `label` at this gap.
-fn branch(label: Label, gap: f64, direction: Direction) -> Vec<Point> {
+fn branch(label: Label, gap: f64, direction: Direction) -> Vec<SolutionPoint> {
     let osc = at(gap);
     let orbits = find(&osc, label, FindOptions::default());
     let orbit = orbits.iter().find(|o| o.physical).unwrap();
     Branch::new(&osc, &orbit.cycle, Parameter::Gap, range(), direction, BranchOptions::default()).unwrap().collect()
 }
 
-fn doubled(points: &[Point]) -> Vec<Point> {
+fn doubled(points: &[SolutionPoint]) -> Vec<SolutionPoint> {
     let flip = points.iter().find(|p| p.event == Some(BranchEvent::Flip)).unwrap();
     Branch::from_flip(&at(0.0), flip, Parameter::Gap, range(), BranchOptions::default()).unwrap().collect()
 }
 
-fn events(points: &[Point]) -> Vec<(&'static str, String, f64)> {
+fn events(points: &[SolutionPoint]) -> Vec<(&'static str, String, f64)> {
     points.iter().filter_map(|p| Some((p.event?.name(), p.cycle.label.to_string(), p.value))).collect()
 }
 
-fn assert_events(points: &[Point], expected: &[(&str, &str, f64)]) {
+fn assert_events(points: &[SolutionPoint], expected: &[(&str, &str, f64)]) {
     let found = events(points);
     assert_eq!(found.len(), expected.len(), "{found:?}");
     for ((name, label, value), (n, l, v)) in found.iter().zip(expected) {
@@ -42,7 +42,7 @@ fn assert_events(points: &[Point], expected: &[(&str, &str, f64)]) {
 }
 
 /// The point of a branch nearest to a gap, among those of that label and stability.
-fn nearest<'a>(points: &'a [Point], label: &str, stable: bool, gap: f64) -> &'a Cycle {
+fn nearest<'a>(points: &'a [SolutionPoint], label: &str, stable: bool, gap: f64) -> &'a Cycle {
     let of = points.iter().filter(|p| p.event.is_none() && p.cycle.label.to_string() == label && p.stable() == stable);
     &of.min_by(|a, b| (a.value - gap).abs().total_cmp(&(b.value - gap).abs())).unwrap().cycle
 }

@@ -3,15 +3,21 @@
 
 use std::f64::consts::{PI, TAU};
 use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Change, Curve, CurveOptions};
-use vibroimpact::continuation::{Direction, Frame, Point};
+use vibroimpact::continuation::{Direction, Frame, SolutionPoint};
 use vibroimpact::orbit::{Cycle, DEFAULT_EVENTS, FindOptions, find, from_release};
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, settle};
 use vibroimpact::{Label, Oscillator, Parameter, Side, Start};
 
 /// The branch of the cycle that begins with the release from the stop on `side`.
-fn branch(osc: &Oscillator, side: Side, vary: Parameter, range: (f64, f64), direction: Direction) -> Vec<Point> {
+fn branch(
+    osc: &Oscillator,
+    side: Side,
+    vary: Parameter,
+    range: (f64, f64),
+    direction: Direction,
+) -> Vec<SolutionPoint> {
     let cycle = from_release(osc, side, DEFAULT_EVENTS).unwrap();
-    let points: Vec<Point> =
+    let points: Vec<SolutionPoint> =
         Branch::new(osc, &cycle, vary, range.0..=range.1, direction, BranchOptions::default()).unwrap().collect();
     for point in &points {
         let at = vary.set(osc, point.value).unwrap();
@@ -21,7 +27,9 @@ fn branch(osc: &Oscillator, side: Side, vary: Parameter, range: (f64, f64), dire
             assert!(same(&from_release(&at, side, DEFAULT_EVENTS).unwrap(), &point.cycle));
         }
     }
-    let rises = |a: &Point, b: &Point| (b.value - a.value) * if direction == Direction::Up { 1.0 } else { -1.0 };
+    let rises = |a: &SolutionPoint, b: &SolutionPoint| {
+        (b.value - a.value) * if direction == Direction::Up { 1.0 } else { -1.0 }
+    };
     assert!(points.windows(2).all(|p| rises(&p[0], &p[1]) >= 0.0));
     points
 }
@@ -30,7 +38,7 @@ fn same(a: &Cycle, b: &Cycle) -> bool {
     a.label == b.label && a.points == b.points && a.rests == b.rests
 }
 
-fn events(points: &[Point]) -> Vec<(f64, BranchEvent)> {
+fn events(points: &[SolutionPoint]) -> Vec<(f64, BranchEvent)> {
     points.iter().filter_map(|p| Some((p.value, p.event?))).collect()
 }
 
@@ -95,7 +103,7 @@ fn ever_more_impacts_tend_to_a_chatter() {
     for impacts in [12, 32] {
         let options = BranchOptions { impacts, ..BranchOptions::default() };
         let branch = Branch::new(&at(1.0), begin, Parameter::Gap, -1.0..=2.0, Direction::Down, options).unwrap();
-        let points: Vec<Point> = branch.collect();
+        let points: Vec<SolutionPoint> = branch.collect();
         let last = points.last().unwrap();
         let Some(BranchEvent::Chatter { side: Side::Upper, phase, before }) = last.event else {
             panic!("{:?} at {}", last.event, last.value)

@@ -3,7 +3,7 @@
 
 use crate::Random;
 use std::f64::consts::{PI, TAU};
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, Point};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::motion::ImpactState;
 use vibroimpact::orbit::{Cycle, CyclePoint, FindOptions, find, refine};
 use vibroimpact::{Label, Oscillator, Parameter, Side};
@@ -92,11 +92,12 @@ fn symmetry_is_lost_at_a_branch_point() {
     };
     assert!(off(point.value - 1e-11) * off(point.value + 1e-11) < 0.0, "{}", point.value);
     let [one, other] = Branch::from_branch_point(&at(2.0), &point, Parameter::Beta, range, options).unwrap();
-    let (one, other): (Vec<Point>, Vec<Point>) = (one.take(30).collect(), other.take(30).collect());
+    let (one, other): (Vec<SolutionPoint>, Vec<SolutionPoint>) = (one.take(30).collect(), other.take(30).collect());
     for (a, b) in one.iter().zip(&other).skip(1) {
         assert!((a.value - b.value).abs() < 1e-9, "{} {}", a.value, b.value);
-        let speed =
-            |p: &Point, side: Side| p.cycle.points.iter().find(|q| q.state.side == side).unwrap().state.velocity;
+        let speed = |p: &SolutionPoint, side: Side| {
+            p.cycle.points.iter().find(|q| q.state.side == side).unwrap().state.velocity
+        };
         // unlike on the two stops, and the mirror image has them the other way round
         assert!((speed(a, Side::Upper) - speed(a, Side::Lower)).abs() > 1e-4);
         assert!((speed(a, Side::Upper) - speed(b, Side::Lower)).abs() < 1e-9);
@@ -116,8 +117,9 @@ fn both_touches_of_a_symmetric_orbit() {
     // both gaps vary only with the force's frequency: towards resonance the motion grows
     let options = BranchOptions::default();
     let branch = Branch::new(&at(3.0), &free.cycle, Parameter::Beta, 0.7..=1.2, Direction::Up, options).unwrap();
-    let points: Vec<Point> = branch.collect();
-    let touches: Vec<&Point> = points.iter().filter(|p| matches!(p.event, Some(BranchEvent::Grazing { .. }))).collect();
+    let points: Vec<SolutionPoint> = branch.collect();
+    let touches: Vec<&SolutionPoint> =
+        points.iter().filter(|p| matches!(p.event, Some(BranchEvent::Grazing { .. }))).collect();
     assert!(!touches.is_empty());
     for point in touches {
         let Some(BranchEvent::Grazing { side, phase, also: Some(also), .. }) = point.event else {

@@ -6,7 +6,7 @@
 mod tree;
 mod uses;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Folders of the core; each uses only those before it.
@@ -85,6 +85,22 @@ fn no_files_use_each_other_in_a_circle() {
         assert!(files <= known, "{path}: {circles:#?}");
         assert!(files >= known, "{path}: only {files} files stand in circles now, so the number here can be lowered");
     }
+}
+
+#[test]
+fn no_two_public_types_have_one_name() {
+    let mut places: BTreeMap<String, BTreeSet<PathBuf>> = BTreeMap::new();
+    let papers = ("papers/fukaya-irie-1971/src/lib.rs", 0);
+    for (path, _) in CRATES.into_iter().chain([papers]) {
+        for module in tree::read(&file(path)).into_values() {
+            for name in module.types {
+                places.entry(name).or_default().insert(module.file.clone());
+            }
+        }
+    }
+    assert!(places.len() > 200, "{}", places.len());
+    let twice: Vec<_> = places.iter().filter(|(_, files)| files.len() > 1).collect();
+    assert!(twice.is_empty(), "{twice:#?}");
 }
 
 /// The checks above can fail: a crate with an import upwards, once through a `pub use`.

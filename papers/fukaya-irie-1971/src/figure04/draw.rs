@@ -5,7 +5,7 @@ use crate::grid::Grid;
 use crate::looks;
 use crate::regions::outlines;
 use vibroimpact::scenario;
-use vibroimpact_plot::{Axis, Colour, Dash, Figure, Key, Line, Panel, Points, Rects, Stroke, Text};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Key, Line, Panel, Points, Rects, Stroke, Text};
 
 /// The regions drawn, and where their names stand.
 const DRAWN: [((u32, u32), (f64, f64)); 4] =
@@ -13,7 +13,8 @@ const DRAWN: [((u32, u32), (f64, f64)); 4] =
 
 pub(super) fn figure(grid: &Grid, plane: &Plane) -> Figure {
     let mut panel =
-        Panel::new(Axis::new("1/*β*").range(X.0, X.1), Axis::new("gap *δ*").range(GAP.0, GAP.1)).with(cells(grid));
+        Panel::new(FigureAxis::new("1/*β*").range(X.0, X.1), FigureAxis::new("gap *δ*").range(GAP.0, GAP.1))
+            .with(cells(grid));
     let exists = Stroke::new(Colour::BLACK).width(2.0).dash(Dash::Dotted);
     for ((m, n), _) in DRAWN {
         let Some(region) = plane.region(m, n) else {

@@ -2,7 +2,7 @@
 
 use crate::claims::{Agreement, Section};
 use crate::{Error, line};
-use vibroimpact::continuation::{BranchEvent, Direction, Point};
+use vibroimpact::continuation::{BranchEvent, Direction, SolutionPoint};
 use vibroimpact::scenario;
 
 /// Between which gaps on the line through T the two motions are stable.
@@ -13,7 +13,7 @@ pub(super) fn add(section: &mut Section) -> Result<(), Error> {
     let doubles = one.iter().find(|p| p.event == Some(BranchEvent::Flip)).map(|p| p.value);
     let half = |direction| -> Result<Option<f64>, Error> {
         let branch = line::branch((1, 2), gap, direction)?;
-        let ends = |p: &&Point| matches!(p.event, Some(BranchEvent::Flip | BranchEvent::Grazing { .. }));
+        let ends = |p: &&SolutionPoint| matches!(p.event, Some(BranchEvent::Flip | BranchEvent::Grazing { .. }));
         Ok(branch.iter().find(ends).map(|p| p.value))
     };
     let (begins, ends) = (half(Direction::Down)?, half(Direction::Up)?);

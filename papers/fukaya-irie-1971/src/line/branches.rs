@@ -2,7 +2,7 @@
 
 use crate::{EPS, Error};
 use std::ops::RangeInclusive;
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, Point};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::orbit::{Cycle, FindOptions, find};
 use vibroimpact::system::phase;
 use vibroimpact::{Label, Oscillator, Parameter, scenario};
@@ -24,7 +24,7 @@ fn options() -> BranchOptions {
 }
 
 /// The branch of the possible orbit m/n at a gap, one way.
-pub(crate) fn branch((m, n): (u32, u32), gap: f64, direction: Direction) -> Result<Vec<Point>, Error> {
+pub(crate) fn branch((m, n): (u32, u32), gap: f64, direction: Direction) -> Result<Vec<SolutionPoint>, Error> {
     let osc = at(gap)?;
     let orbits = find(&osc, Label::new(m, n), FindOptions::default());
     let orbit = orbits.iter().find(|o| o.physical).ok_or(Error::Unexpected("an orbit of the line is not there"))?;
@@ -34,14 +34,14 @@ pub(crate) fn branch((m, n): (u32, u32), gap: f64, direction: Direction) -> Resu
 }
 
 /// The branches of 1/1 to 1/4 both ways, and those of twice the period from the flips on them.
-pub(crate) fn all() -> Result<Vec<Vec<Point>>, Error> {
+pub(crate) fn all() -> Result<Vec<Vec<SolutionPoint>>, Error> {
     let mut branches = Vec::new();
     for (m, n, gap) in BEGIN {
         for direction in [Direction::Down, Direction::Up] {
             branches.push(branch((m, n), gap, direction)?);
         }
     }
-    let mut flips: Vec<Point> = Vec::new();
+    let mut flips: Vec<SolutionPoint> = Vec::new();
     for point in branches.iter().flatten().filter(|p| p.event == Some(BranchEvent::Flip)) {
         if !flips.iter().any(|known| same(known.value, point.value)) {
             flips.push(point.clone());
@@ -114,7 +114,7 @@ impl Guess {
 }
 
 /// All events in the order of their gaps.
-pub(crate) fn events(branches: &[Vec<Point>]) -> Vec<Event> {
+pub(crate) fn events(branches: &[Vec<SolutionPoint>]) -> Vec<Event> {
     let mut events: Vec<Event> = Vec::new();
     for (branch, k) in branches.iter().flat_map(|branch| (0..branch.len()).map(move |k| (branch, k))) {
         let point = &branch[k];
@@ -129,7 +129,7 @@ pub(crate) fn events(branches: &[Vec<Point>]) -> Vec<Event> {
             }
             Some(BranchEvent::Fold) => {
                 let sides = [k.checked_sub(1).and_then(|k| branch.get(k)), next].into_iter().flatten();
-                let of = |p: &Point| Guess {
+                let of = |p: &SolutionPoint| Guess {
                     at: point.cycle.clone(),
                     beside: p.cycle.clone(),
                     span: (p.value - point.value).abs(),
@@ -146,7 +146,7 @@ pub(crate) fn events(branches: &[Vec<Point>]) -> Vec<Event> {
         let Some(event) = events.iter_mut().find(begins) else { continue };
         let mut twice = event.orbits[0].at.clone();
         twice.points.extend(event.orbits[0].at.points.clone());
-        let span = |p: &Point| (p.value - branch[0].value).abs();
+        let span = |p: &SolutionPoint| (p.value - branch[0].value).abs();
         let young = branch.iter().skip(1).take_while(|p| p.event.is_none());
         let Some(beside) = young.take_while(|p| span(p) < YOUNG).last().or_else(|| branch.get(1)) else { continue };
         if event.orbits.len() == 1 && twice.points.len() == beside.cycle.points.len() {

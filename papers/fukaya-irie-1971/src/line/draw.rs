@@ -2,10 +2,10 @@
 
 use super::branches::{Kind, events};
 use crate::{EPS, Error};
-use vibroimpact::continuation::Point;
+use vibroimpact::continuation::SolutionPoint;
 use vibroimpact::scenario;
 use vibroimpact_plot::{
-    Axis, Colour, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Panel, Points, SERIES, Shape, Stroke, Text,
+    Colour, DOUBLE_COLUMN, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke, Text,
 };
 use vibroimpact_study::diagram::{self, DiagramPlan};
 use vibroimpact_study::{Control, Parameter, Plan, Results, Span, SystemPlan, Task, run};
@@ -15,15 +15,17 @@ const SHOWN: (f64, f64) = (-0.45, 5.45);
 /// Most impacts of an orbit that is drawn.
 const MOST: usize = 6;
 
-pub(super) fn figure(branches: &[Vec<Point>]) -> Result<Figure, Error> {
-    let mut panel =
-        Panel::new(Axis::new("gap *δ*").range(SHOWN.0, SHOWN.1), Axis::new("impact speed *U*").range(0.0, 4.7));
+pub(super) fn figure(branches: &[Vec<SolutionPoint>]) -> Result<Figure, Error> {
+    let mut panel = Panel::new(
+        FigureAxis::new("gap *δ*").range(SHOWN.0, SHOWN.1),
+        FigureAxis::new("impact speed *U*").range(0.0, 4.7),
+    );
     let (xs, ys) = simulated()?;
     let dots = Points::new(xs, ys, Colour::hex(0xb8_b8b8)).size(1.6);
     panel.add(dots.clone());
     let [stable, unstable] = [Stroke::new(SERIES[0]).width(3.0), Stroke::new(SERIES[1]).width(2.0).dash(Dash::Dashed)];
     // an orbit may be come upon along several branches; dashes drawn twice make a solid line
-    let mut runs: Vec<&[Point]> = Vec::new();
+    let mut runs: Vec<&[SolutionPoint]> = Vec::new();
     for run in branches.iter().flat_map(|branch| branch.chunk_by(|a, b| a.cycle.label == b.cycle.label)) {
         if run[0].cycle.points.len() <= MOST && !runs.iter().any(|known| covers(known, run)) {
             runs.push(run);
@@ -83,7 +85,7 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
         over: Span::new(SHOWN.0, SHOWN.1, 1181)?,
         also: None,
         show: diagram::Show::Velocity,
-        direction: diagram::Direction::Both,
+        direction: diagram::SweepDirection::Both,
         transient: diagram::DEFAULT_TRANSIENT,
         keep: diagram::DEFAULT_KEEP,
     };
@@ -93,7 +95,7 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
     let mut places = Vec::new();
     for step in &found.steps {
         places.extend(step.points.iter().filter_map(|point| match point {
-            diagram::Point::Impact { velocity, .. } => Some((plan.over.at(step.index), *velocity)),
+            diagram::DiagramPoint::Impact { velocity, .. } => Some((plan.over.at(step.index), *velocity)),
             _ => None,
         }));
     }
@@ -101,9 +103,9 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
 }
 
 /// Whether a run of one label passes through the middle of another.
-fn covers(known: &[Point], run: &[Point]) -> bool {
+fn covers(known: &[SolutionPoint], run: &[SolutionPoint]) -> bool {
     let middle = &run[run.len() / 2];
-    let on = |a: &Point, b: &Point| {
+    let on = |a: &SolutionPoint, b: &SolutionPoint| {
         let share = (middle.value - a.value) / (b.value - a.value);
         let speed = a.cycle.fastest() + share * (b.cycle.fastest() - a.cycle.fastest());
         (0.0..=1.0).contains(&share) && (speed - middle.cycle.fastest()).abs() < 1e-2
@@ -112,7 +114,7 @@ fn covers(known: &[Point], run: &[Point]) -> bool {
 }
 
 /// The lines of a run where it is stable, or where it is not: one for each impact of the orbit, by its speed.
-fn pieces(run: &[Point], stable: bool) -> Vec<(Vec<f64>, Vec<f64>)> {
+fn pieces(run: &[SolutionPoint], stable: bool) -> Vec<(Vec<f64>, Vec<f64>)> {
     let speeds: Vec<Vec<f64>> = run
         .iter()
         .map(|point| {

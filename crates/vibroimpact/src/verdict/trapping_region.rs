@@ -9,7 +9,7 @@
 //!
 //! The rims are sampled, in 32 directions, and the radius used is two discs inside the last one that passed. What is
 //! decided by a trap is the same as what [`settle`](super::settle()) decides, within the same budget: a trap is used only where the budget
-//! left suffices for the motion to be followed until it is captured by the cycle as `settle` means it ([`Trap::depth`]). So which cycles are
+//! left suffices for the motion to be followed until it is captured by the cycle as `settle` means it ([`TrappingRegion::depth`]). So which cycles are
 //! known changes the time it takes and no verdict. Tests compare, and [`settle_many`](super::settle_many) checks the first start of every
 //! motion.
 
@@ -23,7 +23,7 @@ use core::f64::consts::{PI, TAU};
 
 /// The disc about one impact of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Trap {
+pub(super) struct TrappingRegion {
     center: ImpactState,
     /// $`P/r^2`$: 11, 12, 22.
     form: [f64; 3],
@@ -53,7 +53,7 @@ const CAPTURED: [f64; 6] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 /// Cycles that contract more slowly than this are left to be followed.
 const SLOWEST: f64 = 0.97;
 
-impl Trap {
+impl TrappingRegion {
     /// The largest trap about the first impact of a stable `cycle` without rests; `None` if there is none worth having.
     /// Flights from its rims end within half of the `steps` that a search may take, so those from inside end within all of them.
     pub(super) fn around(osc: &Oscillator, cycle: &Cycle, steps: u32) -> Option<Self> {
@@ -199,7 +199,7 @@ mod tests {
             let osc = point.oscillator();
             for found in attractors(&osc, 40, 1, &SettleOptions::default()).motions() {
                 let Verdict::Periodic(cycle) = &found.verdict else { continue };
-                let Some(trap) = Trap::around(&osc, cycle, SearchLimits::default().steps) else { continue };
+                let Some(trap) = TrappingRegion::around(&osc, cycle, SearchLimits::default().steps) else { continue };
                 traps += 1;
                 let [a, b, c] = trap.form;
                 let mut inside = 0;

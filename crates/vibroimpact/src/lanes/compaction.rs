@@ -1,7 +1,7 @@
 //! Moving some of eight places to the front, without a branch that could be guessed wrong.
 
 /// The places of the bits that are set, in order, for every byte.
-pub(super) const FRONT: [[u8; 8]; 256] = {
+pub(super) const PLACES_OF_BITS: [[u8; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut byte = 0;
     while byte < 256 {
@@ -29,7 +29,7 @@ pub(super) fn list(bits: u32, first: usize, places: &mut [u32]) -> usize {
 #[inline(always)]
 fn eight(bits: u32, first: usize, places: &mut [u32]) -> usize {
     if let Some(places) = places.first_chunk_mut::<8>() {
-        for (place, offset) in places.iter_mut().zip(&FRONT[(bits & 0xff) as usize]) {
+        for (place, offset) in places.iter_mut().zip(&PLACES_OF_BITS[(bits & 0xff) as usize]) {
             #[allow(clippy::cast_possible_truncation)] // slot numbers
             let first = first as u32;
             *place = first + u32::from(*offset);

@@ -1,6 +1,6 @@
 //! Steps in doubt, side by side as the march met them: the slot of the flight, when the step begins, and the motion at both ends.
 
-use super::front::list;
+use super::compaction::list;
 use super::hull::End;
 use super::stride::WIDEST;
 use crate::math::Single;
@@ -12,14 +12,14 @@ const ROOM: usize = SEGMENT + WIDEST;
 
 /// Steps of flights that are not proven clear.
 #[derive(Clone, Debug)]
-pub(super) struct Doubts {
+pub(super) struct UncertainSteps {
     count: usize,
     slots: [u32; ROOM],
     /// s; x, v, a at the beginning; x, v, a at the end.
     columns: [[f32; ROOM]; 7],
 }
 
-impl Doubts {
+impl UncertainSteps {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self { count: 0, slots: [0; ROOM], columns: [[0.0; ROOM]; 7] })
     }

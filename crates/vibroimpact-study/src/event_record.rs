@@ -1,11 +1,11 @@
 //! An event of a branch in plain words and numbers: what the command's JSON and the Python package tell of it.
 
 use vibroimpact::Side;
-use vibroimpact::continuation::{BranchEvent, Change, Point};
+use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint};
 
 /// An event, with what its kind has to tell; the rest is absent.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Told {
+pub struct EventRecord {
     /// Its name.
     pub kind: &'static str,
     /// Whether the branch ends there.
@@ -28,10 +28,10 @@ pub struct Told {
     pub also: Option<(Option<usize>, Side, f64)>,
 }
 
-impl Told {
+impl EventRecord {
     /// What there is to tell of an event at a point of a branch.
     #[must_use]
-    pub fn of(point: &Point, event: &BranchEvent) -> Self {
+    pub fn of(point: &SolutionPoint, event: &BranchEvent) -> Self {
         let label = point.cycle.label.to_string();
         // where there are none, none is counted
         let counted = |impact: usize| (!point.cycle.points.is_empty()).then_some(impact + 1);

@@ -1,9 +1,9 @@
-//! What the library tells of a plan is what the command prints, writes and draws, to the byte.
+//! What the library answers to a plan is what the command prints, writes and draws, to the byte.
 
 use crate::{S, vibro};
 use serde_json::Value;
 use vibroimpact::Scales;
-use vibroimpact_report::{Units, answer};
+use vibroimpact_report::{Shown, Units, answer};
 use vibroimpact_study::{Control, Plan};
 
 /// A machine: omega_n = 20 rad/s, F/k = 0.005 m.
@@ -39,13 +39,16 @@ fn same(line: &str) {
     let control = Control::default();
     let told = answer(&plan, units(&object), &control).expect("it was answered before");
     assert_eq!(told.json() + "\n", printed, "{line}");
-    let table = told.table().expect("it was written before").map(|table| {
+    let table = told.table(&Shown::default()).expect("it was written before").map(|table| {
         let mut text = Vec::new();
         table.write(&mut text).expect("memory takes it");
         text
     });
     assert!(table == std::fs::read(&csv).ok(), "the table of {line}");
-    let figure = told.figure(&control).expect("it was drawn before").map(|figure| figure.to_svg().into_bytes());
+    let figure = told
+        .figure(&Shown::default(), &control)
+        .expect("it was drawn before")
+        .map(|figure| figure.to_svg().into_bytes());
     assert!(figure == std::fs::read(&svg).ok(), "the figure of {line}");
 }
 

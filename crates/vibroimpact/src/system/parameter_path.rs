@@ -8,10 +8,10 @@ use super::{Oscillator, Parameter, SystemError};
 /// It is a direction: the line in which an oscillator varies is the one that passes through it.
 ///
 /// ```
-/// use vibroimpact::{Oscillator, Parameter, Varying};
+/// use vibroimpact::{Oscillator, Parameter, ParameterPath};
 /// let osc = Oscillator::from_inverse_beta(1.0, 0.5, 0.8)?;
 /// // the gap grows twice as fast as 1/beta
-/// let line = Varying::from(Parameter::InverseBeta).with(Parameter::Gap, 2.0)?;
+/// let line = ParameterPath::from(Parameter::InverseBeta).with(Parameter::Gap, 2.0)?;
 /// let further = line.set(&osc, 1.25)?;
 /// assert_eq!((further.beta(), further.gap()), (0.8, 1.0));
 /// assert_eq!(line.set(&further, 1.0)?, osc);
@@ -19,19 +19,19 @@ use super::{Oscillator, Parameter, SystemError};
 /// # Ok::<(), vibroimpact::SystemError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Varying {
+pub struct ParameterPath {
     parameter: Parameter,
     /// The other, and how much it changes with a change of the first by 1.
     also: Option<(Parameter, f64)>,
 }
 
-impl From<Parameter> for Varying {
+impl From<Parameter> for ParameterPath {
     fn from(parameter: Parameter) -> Self {
         Self { parameter, also: None }
     }
 }
 
-impl Varying {
+impl ParameterPath {
     /// The same with `other` changing by `rate` when the first parameter changes by 1; it replaces another one before.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn two_parameters_in_proportion() {
         let osc = Oscillator::new(0.9, 0.5, 0.6).unwrap().with_second_stop(1.0, 0.7).unwrap();
-        let line = Varying::from(Parameter::Gap).with(Parameter::Restitution, -0.25).unwrap();
+        let line = ParameterPath::from(Parameter::Gap).with(Parameter::Restitution, -0.25).unwrap();
         let there = line.set(&osc, 1.5).unwrap();
         assert_eq!((there.gap(), there.restitution(), there.beta()), (1.5, 0.35, 0.9));
         assert_eq!(line.rates().collect::<Vec<_>>(), [(Parameter::Gap, 1.0), (Parameter::Restitution, -0.25)]);
@@ -98,7 +98,7 @@ mod tests {
         assert!(matches!(line.set(&osc, 4.0), Err(SystemError::Restitution(_))));
         // the stops move to the same side, so that one of them passes where the other one was
         for way in [1.0, -1.0] {
-            let aside = Varying::from(Parameter::Gap).with(Parameter::SecondGap, -1.0).unwrap();
+            let aside = ParameterPath::from(Parameter::Gap).with(Parameter::SecondGap, -1.0).unwrap();
             let moved = aside.set(&osc, 0.5 + 3.0 * way).unwrap();
             assert_eq!((moved.gap(), Parameter::SecondGap.get(&moved)), (0.5 + 3.0 * way, Some(1.0 - 3.0 * way)));
         }
@@ -106,10 +106,10 @@ mod tests {
 
     #[test]
     fn what_is_no_line_is_refused() {
-        let gap = Varying::from(Parameter::Gap);
+        let gap = ParameterPath::from(Parameter::Gap);
         assert_eq!(gap.with(Parameter::Gap, 1.0), Err(SystemError::Together("gap", "gap")));
         assert!(matches!(gap.with(Parameter::Beta, f64::NAN), Err(SystemError::Rate { name: "beta", .. })));
-        let frequency = Varying::from(Parameter::Beta).with(Parameter::InverseBeta, 1.0);
+        let frequency = ParameterPath::from(Parameter::Beta).with(Parameter::InverseBeta, 1.0);
         assert_eq!(frequency, Err(SystemError::Together("beta", "inverse_beta")));
         let osc = Oscillator::new(0.9, 0.5, 0.6).unwrap();
         let second = gap.with(Parameter::SecondGap, 1.0).unwrap();

@@ -9,7 +9,7 @@ use serde::Deserialize;
 /// What is asked, of which system. What varies on an axis need not be given in the system.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Written {
+pub(crate) struct PlanText {
     /// The version of the plan's fields: 1.
     #[schemars(range(min = 1, max = 1))]
     version: u32,
@@ -107,7 +107,7 @@ impl Plan {
     /// The JSON schema of plans, for editors and other programs.
     #[must_use]
     pub fn schema() -> serde_json::Value {
-        let mut schema = schemars::schema_for!(Written).to_value();
+        let mut schema = schemars::schema_for!(PlanText).to_value();
         schema["title"] = "a plan of vibroimpact".into();
         schema
     }
@@ -158,10 +158,10 @@ fn plain(why: &str) -> String {
     })
 }
 
-impl TryFrom<Written> for Plan {
+impl TryFrom<PlanText> for Plan {
     type Error = PlanError;
 
-    fn try_from(written: Written) -> Result<Self, PlanError> {
+    fn try_from(written: PlanText) -> Result<Self, PlanError> {
         let varied = written.task.varied();
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
         let asked = written.system;
