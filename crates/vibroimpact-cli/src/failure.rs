@@ -4,7 +4,8 @@ use std::fmt::Display;
 use std::io;
 use vibroimpact_plot::PlotError;
 use vibroimpact_report::{AnswerError, ReportError};
-use vibroimpact_study::{PlanError, RunError, Stopped, StoreError};
+use vibroimpact_store::StoreError;
+use vibroimpact_study::{PlanError, RunError, Stopped};
 
 /// Why a command did not finish. The texts may carry a second line, `hint: ...`.
 #[derive(Debug, thiserror::Error)]

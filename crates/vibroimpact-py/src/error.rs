@@ -97,9 +97,9 @@ impl From<RunError> for Trouble {
     }
 }
 
-impl From<vibroimpact_study::StoreError> for Trouble {
-    fn from(error: vibroimpact_study::StoreError) -> Self {
-        use vibroimpact_study::StoreError as Of;
+impl From<vibroimpact_store::StoreError> for Trouble {
+    fn from(error: vibroimpact_store::StoreError) -> Self {
+        use vibroimpact_store::StoreError as Of;
         match error {
             Of::Plan(error) => error.into(),
             Of::Stopped(stopped) => stopped.into(),

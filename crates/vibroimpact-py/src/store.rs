@@ -6,7 +6,7 @@ use crate::plan::read;
 use crate::simulate::text;
 use pyo3::prelude::*;
 use std::sync::Arc;
-use vibroimpact_study::store::{Part, Ran, Shelf, shelf};
+use vibroimpact_store::{Part, Ran, Shelf, shelf};
 
 /// Whether this build reaches buckets.
 pub(crate) const BUCKETS: bool = cfg!(feature = "s3");

@@ -2,7 +2,8 @@
 
 use crate::number::short;
 use vibroimpact_plot::PlotError;
-use vibroimpact_study::{PlanError, StoreError};
+use vibroimpact_store::StoreError;
+use vibroimpact_study::PlanError;
 
 /// Why a result has no such figure or table. The sentence names what is asked too much, often with a hint.
 #[derive(Debug, thiserror::Error)]

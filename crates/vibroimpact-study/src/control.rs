@@ -18,13 +18,13 @@ impl Control<'_> {
     ///
     /// # Errors
     /// When the operating system refuses to start them.
-    pub(crate) fn pool(&self) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
+    pub fn pool(&self) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
         let most = std::thread::available_parallelism().map_or(MOST_THREADS, |count| MOST_THREADS * count.get());
         rayon::ThreadPoolBuilder::new().num_threads(self.threads.min(most)).build()
     }
 
     /// Whether someone asked to stop.
-    pub(crate) fn stopping(&self) -> bool {
+    pub fn stopping(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 }
@@ -33,7 +33,7 @@ impl Control<'_> {
 const MOST_THREADS: usize = 8;
 
 /// Points done, told now and then to whoever watches.
-pub(crate) struct Meter<'a> {
+pub struct Meter<'a> {
     control: &'a Control<'a>,
     done: AtomicU64,
     /// Of those, the points of tiles that are finished.
@@ -42,7 +42,7 @@ pub(crate) struct Meter<'a> {
 }
 
 /// The points of one tile. With refinement not every point is computed; those that are not count when the tile is finished.
-pub(crate) struct TileMeter<'a> {
+pub struct TileMeter<'a> {
     meter: &'a Meter<'a>,
     points: u64,
     told: AtomicU64,
@@ -50,7 +50,7 @@ pub(crate) struct TileMeter<'a> {
 
 impl TileMeter<'_> {
     /// One more is computed; says whether to stop.
-    pub(crate) fn tick(&self) -> bool {
+    pub fn tick(&self) -> bool {
         if self.told.fetch_add(1, Ordering::Relaxed) < self.points {
             self.meter.tick()
         } else {
@@ -59,7 +59,7 @@ impl TileMeter<'_> {
     }
 
     /// All of them are known.
-    pub(crate) fn finish(self) {
+    pub fn finish(self) {
         let told = self.told.into_inner().min(self.points);
         self.meter.add(self.points - told);
         self.meter.finished.fetch_add(self.points, Ordering::Relaxed);
@@ -73,17 +73,17 @@ const FEW: u64 = 512;
 
 impl<'a> Meter<'a> {
     /// `done` of `total` points are done already, and finished.
-    pub(crate) const fn new(control: &'a Control<'a>, done: u64, total: u64) -> Self {
+    pub const fn new(control: &'a Control<'a>, done: u64, total: u64) -> Self {
         Self { control, done: AtomicU64::new(done), finished: AtomicU64::new(done), total }
     }
 
     /// For a tile of so many points.
-    pub(crate) const fn tile(&'a self, points: u64) -> TileMeter<'a> {
+    pub const fn tile(&'a self, points: u64) -> TileMeter<'a> {
         TileMeter { meter: self, points, told: AtomicU64::new(0) }
     }
 
     /// One more; says whether to stop.
-    pub(crate) fn tick(&self) -> bool {
+    pub fn tick(&self) -> bool {
         let now = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if self.total <= FEW || now.is_multiple_of(TELL) || now == self.total {
             (self.control.progress)(now);
@@ -100,12 +100,12 @@ impl<'a> Meter<'a> {
     }
 
     /// How far it is in finished tiles, which are kept, as the answer to a wish to stop.
-    pub(crate) fn kept(&self) -> Stopped {
+    pub fn kept(&self) -> Stopped {
         Stopped { done: self.finished.load(Ordering::Relaxed).min(self.total), total: self.total }
     }
 
     /// How far it is, as the answer to a wish to stop.
-    pub(crate) fn stopped(&self) -> Stopped {
+    pub fn stopped(&self) -> Stopped {
         Stopped { done: self.done.load(Ordering::Relaxed).min(self.total), total: self.total }
     }
 }

@@ -11,7 +11,6 @@
 //! | `A:B:N`, N values from A to B; what varies over which values | [`Span`], [`Axis`] |
 //! | a grid and its tiles, the arrays over it | [`Grid`], [`Field`] |
 //! | what a tile of a plan holds | [`Study`], [`study`] |
-//! | where tiles are kept | [`Store`], [`store`] |
 //! | tiles over threads, with a stop flag and progress | [`Control`], [`tiles`] |
 //! | the events of one motion | [`Simulated`] |
 //! | which motion each start of a plane leads to | [`BasinPlan`], [`Basin`] |
@@ -48,7 +47,6 @@ mod region;
 mod run;
 mod simulate;
 mod span;
-pub mod store;
 mod stretch;
 pub mod study;
 mod system;
@@ -58,8 +56,7 @@ pub use axis::{Axis, Coordinate, Values};
 pub use basin::{Basin, BasinPlan};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
 pub use chosen::Chosen;
-pub(crate) use control::Meter;
-pub use control::{Control, Stopped, tiles};
+pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
 pub use cut::{Cut, Target};
 pub use diagram::{Diagram, DiagramPlan};
@@ -76,7 +73,6 @@ pub use region::{DEFAULT_GRID, RegionPlan, Regions, stable_regions};
 pub use run::{Results, run};
 pub use simulate::Simulated;
 pub use span::Span;
-pub use store::{Store, StoreError};
 pub use stretch::Stretch;
 pub use study::Study;
 pub use system::{SecondStop, StartPlan, SystemPlan};

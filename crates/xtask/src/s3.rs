@@ -29,7 +29,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     if !command::succeeds(root, "python3 --version") {
         return Ok(skipped("there is no python3 to run a server with"));
     }
-    let pins = root.join("crates/vibroimpact-study/tests/s3-server.txt");
+    let pins = root.join("crates/vibroimpact-store/tests/s3-server.txt");
     let python = venv::ready(root, &command::target(root)?.join("s3-venv"), &pins).map_err(|why| {
         format!("{why}\nhint: the server needs Python 3.10 or later with venv, and for the first run access to PyPI")
     })?;

@@ -6,8 +6,8 @@ use clap::Args;
 use core::str::FromStr;
 use vibroimpact_report::Units;
 use vibroimpact_report::number::Number;
+use vibroimpact_store::Part;
 use vibroimpact_study::Plan;
-use vibroimpact_study::store::Part;
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Store")]

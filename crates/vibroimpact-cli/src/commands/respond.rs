@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::report;
 use crate::session::Session;
 use vibroimpact_report::{Answer, AnswerError, Shown, Units, answer};
-use vibroimpact_study::store::Part;
+use vibroimpact_store::Part;
 use vibroimpact_study::{Control, Plan, Results, Stopped};
 
 /// Computes the answer of a plan and reports it; with --store the plan is computed into the store instead.

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::report::stored as report;
 use crate::session::Session;
 use clap::Args;
-use vibroimpact_study::store::Part;
+use vibroimpact_store::Part;
 
 /// Compute what a store lacks, and what in it is damaged
 ///

@@ -7,8 +7,8 @@ use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use vibroimpact_store::Part;
 use vibroimpact_study::Plan;
-use vibroimpact_study::store::Part;
 
 /// Run a study from a plan, into a store that can be resumed
 ///

@@ -6,8 +6,9 @@ use crate::report::stored as report;
 use crate::session::Session;
 use serde::Serialize;
 use vibroimpact_report::figure::stored::figure;
-use vibroimpact_study::store::{Part, Ran, Store, shelf};
-use vibroimpact_study::{Plan, StoreError, counted};
+use vibroimpact_store::StoreError;
+use vibroimpact_store::{Part, Ran, Store, shelf};
+use vibroimpact_study::{Plan, counted};
 
 /// The part of an answer about a store.
 #[derive(Serialize)]

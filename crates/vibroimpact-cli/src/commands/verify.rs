@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
+use vibroimpact_store::Verified;
 use vibroimpact_study::counted;
-use vibroimpact_study::store::Verified;
 
 /// Check a store: all that describes it, all check sums, and a sample of tiles computed again
 ///

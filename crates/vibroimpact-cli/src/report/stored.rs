@@ -9,8 +9,9 @@ use vibroimpact_report::json::map::LabelCount;
 use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
+use vibroimpact_store::{Store, StoreError};
 use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, diagram_of, label_of};
-use vibroimpact_study::{Block, Column, Field, Plan, Store, StoreError, Task};
+use vibroimpact_study::{Block, Column, Field, Plan, Task};
 
 /// One JSON object about a store.
 #[derive(Serialize)]

@@ -12,7 +12,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
-use vibroimpact_study::store::{Folder, Part, Store};
+use vibroimpact_store::{Folder, Part, Store};
 use vibroimpact_study::{Control, Plan};
 
 /// Plans of a few tiles each, one of every kind of study.

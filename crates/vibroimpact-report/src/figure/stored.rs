@@ -5,8 +5,9 @@ use crate::figure::{basin, diagram, map, title_without};
 use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
+use vibroimpact_store::Store;
 use vibroimpact_study::study::{diagram_of, label_of};
-use vibroimpact_study::{Axis as Along, LyapunovPlan, Store, SystemPlan, Task};
+use vibroimpact_study::{Axis as Along, LyapunovPlan, SystemPlan, Task};
 
 /// Draws what a store holds.
 ///

@@ -26,9 +26,10 @@ const ORDER: [&str; 12] = [
 ];
 
 /// The crates, and how many files stand in circles there.
-const CRATES: [(&str, usize); 9] = [
+const CRATES: [(&str, usize); 10] = [
     ("crates/vibroimpact/src/lib.rs", 0),
     ("crates/vibroimpact-study/src/lib.rs", 0),
+    ("crates/vibroimpact-store/src/lib.rs", 0),
     ("crates/vibroimpact-plot/src/lib.rs", 0),
     ("crates/vibroimpact-report/src/lib.rs", 0),
     ("crates/vibroimpact-web/src/lib.rs", 0),

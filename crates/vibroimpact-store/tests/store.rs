@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::{fs, io};
-use vibroimpact_study::store::{Folder, Item, Part, Shelf, Store, StoreError};
+use vibroimpact_store::{Folder, Item, Part, Shelf, Store, StoreError};
 use vibroimpact_study::{
     Axis, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Plan, StartPlan, SystemPlan, Task,
 };
@@ -191,6 +191,19 @@ fn a_wrong_tile_is_found_by_computing_it_again() {
     assert!(found.damage[0].what.contains("label/c/0/0"), "{:?}", found.damage);
 }
 
+/// Found by `cargo xtask fuzz`: a chunk at the edge of the grid held other numbers beyond the edge, where nobody reads them.
+#[test]
+fn fz3_a_chunk_that_differs_beyond_the_edge_of_the_grid_is_damaged() {
+    let task = MapPlan::plane("0.6:1.4:9".parse().unwrap(), "-0.5:2:5".parse().unwrap(), 2, 1);
+    let system = SystemPlan { inverse_beta: Some(0.6), gap: -0.5, ..S };
+    let (folder, want) = whole(&Plan { tile: Some(4), ..Plan::new(system, Task::Map(task)) });
+    assert_ne!(want["label/c/0/2/0"], want["label/c/1/2/0"]);
+    fs::copy(folder.path().join("label/c/0/2/0"), folder.path().join("label/c/1/2/0")).unwrap();
+    let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
+    let found = store.verify(u64::MAX, 0, &control(2)).unwrap();
+    assert!(found.damage.len() == 1 && found.damage[0].what.contains("label/c/1/2/0"), "{:?}", found.damage);
+}
+
 #[test]
 fn two_at_once_do_no_harm() {
     for plan in [basin(), map()] {
@@ -361,7 +374,7 @@ fn f09_damage_of_what_describes_a_store_is_found() {
     for plan in [basin(), map()] {
         let (folder, want) = whole(&plan);
         let here = || Store::open(Arc::new(Folder::new(folder.path())));
-        let is_whole = |found: vibroimpact_study::store::Verified| found.damage.is_empty() && found.open == 0;
+        let is_whole = |found: vibroimpact_store::Verified| found.damage.is_empty() && found.open == 0;
         assert!(is_whole(here().unwrap().verify(0, 0, &control(1)).unwrap()));
         let described = |key: &&String| key.ends_with("zarr.json") || key.starts_with("cycle_") || key.ends_with("c/0");
         let keys: Vec<&String> = want.keys().filter(described).collect();

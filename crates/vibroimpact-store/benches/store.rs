@@ -1,13 +1,13 @@
 //! What a store costs beside the computing: a tile of a map computed, written, and read back.
 //!
-//! `cargo bench -p vibroimpact-study`. The share of the store is the second time over the first.
+//! `cargo bench -p vibroimpact-store`. The share of the store is the second time over the first.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
-use vibroimpact_study::store::{Folder, Part, Store};
+use vibroimpact_store::{Folder, Part, Store};
 use vibroimpact_study::{BasinPlan, Control, MapPlan, Plan, Study, SystemPlan, Task};
 
 /// A map like that of the 1971 paper, with few starts: the dearest case for a store.

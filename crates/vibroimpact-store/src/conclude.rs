@@ -1,11 +1,11 @@
 //! When all tiles are there: what only the whole can say, and the names of all labels that occur.
 
-use super::layout::{array_of, array_of_table};
-use super::root::Conclusion;
-use super::{Store, StoreError};
-use crate::field::Column;
-use crate::study::{StudyTable, Tiles, label_of};
+use crate::layout::{array_of, array_of_table};
+use crate::root::Conclusion;
+use crate::{Store, StoreError};
 use std::collections::BTreeSet;
+use vibroimpact_study::Column;
+use vibroimpact_study::study::{StudyTable, Tiles, label_of};
 
 impl Tiles for &Store {
     type Error = StoreError;
@@ -23,7 +23,7 @@ impl Tiles for &Store {
 impl Store {
     /// Adds the tables and the dictionary of labels, and marks the store as complete. What stands there already is not
     /// written again, so that a store that is complete may lie where nothing can be written.
-    pub(super) fn conclude(&self) -> Result<(), StoreError> {
+    pub(crate) fn conclude(&self) -> Result<(), StoreError> {
         if !self.is_ours() && self.concluded()? {
             // another version may say the same in other words
             return Ok(());
@@ -36,8 +36,8 @@ impl Store {
 
     /// What only the whole can say, from tiles that are all there; they are written anew as [`Study::conclude`] says.
     ///
-    /// [`Study::conclude`]: crate::Study::conclude
-    pub(super) fn conclusion(&self, tiles: &mut impl Tiles<Error = StoreError>) -> Result<Conclusion, StoreError> {
+    /// [`Study::conclude`]: vibroimpact_study::Study::conclude
+    pub(crate) fn conclusion(&self, tiles: &mut impl Tiles<Error = StoreError>) -> Result<Conclusion, StoreError> {
         let tables = self.study.conclude(tiles)?;
         let mut labelled = Vec::new();
         for (number, field) in self.layout.fields.iter().enumerate().filter(|(_, field)| field.name == "label") {

@@ -1,24 +1,24 @@
 //! The arrays of a study in a store: one for each field, its coordinates, and the status of its tiles.
 
-use super::chunk::{Chunked, Defect, Description, Holds};
-use crate::field::{Column, Field, NumberType};
-use crate::grid::Grid;
-use crate::study::{Cells, Study, StudyTable};
+use crate::chunk::{Chunked, Defect, Description, Holds};
 use serde_json::{Map, Value, json};
+use vibroimpact_study::Grid;
+use vibroimpact_study::study::{Cells, Study, StudyTable};
+use vibroimpact_study::{Column, Field, NumberType};
 
 /// The field that is written last: its chunk says that the tile is done.
-pub(super) const STATUS: &str = "status";
+pub(crate) const STATUS: &str = "status";
 /// What the status of a finished tile says.
-pub(super) const DONE: i8 = 1;
+pub(crate) const DONE: i8 = 1;
 
 /// The arrays of a study.
-pub(super) struct Layout {
-    pub(super) grid: Grid,
-    pub(super) fields: Vec<Field>,
+pub(crate) struct Layout {
+    pub(crate) grid: Grid,
+    pub(crate) fields: Vec<Field>,
     /// One for each field, in their order.
-    pub(super) arrays: Vec<Chunked>,
-    pub(super) status: Chunked,
-    pub(super) coordinates: Vec<(Chunked, Cells)>,
+    pub(crate) arrays: Vec<Chunked>,
+    pub(crate) status: Chunked,
+    pub(crate) coordinates: Vec<(Chunked, Cells)>,
 }
 
 fn text(value: &str) -> Value {
@@ -42,7 +42,7 @@ fn attributes(long_name: &str, units: &str, comment: &str, flags: &[(i32, String
 }
 
 /// The array of a field, with further flags.
-pub(super) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Result<Chunked, Defect> {
+pub(crate) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Result<Chunked, Defect> {
     let mut dimensions: Vec<_> = grid.dimensions.iter().map(|d| (d.name.clone(), d.count, d.tile)).collect();
     dimensions.extend(field.extra.iter().map(|extra| (extra.name.to_owned(), extra.count, extra.count)));
     let own = field.flags.iter().map(|(value, meaning)| (*value, (*meaning).to_owned()));
@@ -57,7 +57,7 @@ pub(super) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Re
 }
 
 /// The array of a table.
-pub(super) fn array_of_table(table: &StudyTable) -> Result<Chunked, Defect> {
+pub(crate) fn array_of_table(table: &StudyTable) -> Result<Chunked, Defect> {
     let kind = match &table.values {
         Cells::Text(_) => Holds::Text,
         Cells::Numbers(Column::I8(_)) => Holds::Numbers(NumberType::I8),
@@ -74,7 +74,7 @@ pub(super) fn array_of_table(table: &StudyTable) -> Result<Chunked, Defect> {
 }
 
 impl Layout {
-    pub(super) fn new(study: &Study) -> Result<Self, Defect> {
+    pub(crate) fn new(study: &Study) -> Result<Self, Defect> {
         let (grid, fields) = (study.grid().clone(), study.fields());
         let arrays = fields.iter().map(|field| array_of(field, &grid, &[])).collect::<Result<_, _>>()?;
         let tiles = grid.dimensions.iter().zip(grid.tiles_along());
@@ -86,7 +86,7 @@ impl Layout {
             dimensions: tiles.map(|(d, count)| (format!("tile_{}", d.name), count, 1)).collect(),
             attributes: attributes("whether the tile is computed", "1", "", &flags),
         })?;
-        let coordinate = |along: crate::study::Along| {
+        let coordinate = |along: vibroimpact_study::study::Along| {
             let count = along.values.len();
             let array = Chunked::new(Description {
                 name: &along.name,
@@ -102,18 +102,18 @@ impl Layout {
     }
 
     /// The place of a tile's chunk in the array of a field.
-    pub(super) fn place(&self, tile: u64, field: usize) -> Vec<u64> {
+    pub(crate) fn place(&self, tile: u64, field: usize) -> Vec<u64> {
         let place = self.grid.place(tile).into_iter().map(|i| i as u64);
         place.chain(self.fields[field].extra.iter().map(|_| 0)).collect()
     }
 
     /// The place of a tile's status.
-    pub(super) fn status_place(&self, tile: u64) -> Vec<u64> {
+    pub(crate) fn status_place(&self, tile: u64) -> Vec<u64> {
         self.grid.place(tile).into_iter().map(|i| i as u64).collect()
     }
 
     /// The chunk of a tile: its column, filled up where the tile is smaller than a chunk.
-    pub(super) fn padded(&self, tile: u64, field: usize, column: &Column) -> Column {
+    pub(crate) fn padded(&self, tile: u64, field: usize, column: &Column) -> Column {
         let (full, field) = (self.grid.full_tile(tile), &self.fields[field]);
         let mut chunk = field.empty(full.points());
         self.grid.tile(tile).rows(&full, field.width(), |at, from, len| chunk.copy(at, column, from, len));
@@ -121,7 +121,7 @@ impl Layout {
     }
 
     /// The column of a tile, without what fills its chunk up.
-    pub(super) fn unpadded(&self, tile: u64, field: usize, chunk: &Column) -> Column {
+    pub(crate) fn unpadded(&self, tile: u64, field: usize, chunk: &Column) -> Column {
         let (full, field, block) = (self.grid.full_tile(tile), &self.fields[field], self.grid.tile(tile));
         let mut column = field.empty(block.points());
         block.rows(&full, field.width(), |at, from, len| column.copy(from, chunk, at, len));

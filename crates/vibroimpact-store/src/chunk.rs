@@ -3,10 +3,10 @@
 //! Little-endian numbers, Zstandard, and a CRC-32C last, so that a chunk cut short or with a bit turned is told apart from a
 //! whole one. Not-a-number has one bit pattern.
 
-use crate::field::{Column, NumberType};
-use crate::study::Cells;
 use serde_json::{Map, Value};
 use std::sync::Arc;
+use vibroimpact_study::study::Cells;
+use vibroimpact_study::{Column, NumberType};
 use zarrs::array::codec::{Crc32cCodec, ZstdCodec};
 use zarrs::array::{
     Array, ArrayBuilder, ArrayBytes, ArrayToBytesCodecTraits, CodecOptions, FillValue, FromArrayBytes, IntoArrayBytes,
@@ -19,7 +19,7 @@ const LEVEL: i32 = 3;
 
 /// What an array holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Holds {
+pub(crate) enum Holds {
     /// Numbers.
     Numbers(NumberType),
     /// Words.
@@ -27,28 +27,28 @@ pub(super) enum Holds {
 }
 
 /// An array: name, shape, chunks, and how to encode them.
-pub(super) struct Chunked {
-    pub(super) name: String,
+pub(crate) struct Chunked {
+    pub(crate) name: String,
     array: Array<MemoryStore>,
     kind: Holds,
 }
 
 /// Something that should not go wrong, in words.
-pub(super) type Defect = String;
+pub(crate) type Defect = String;
 
 /// What describes an array.
-pub(super) struct Description<'a> {
-    pub(super) name: &'a str,
-    pub(super) kind: Holds,
+pub(crate) struct Description<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) kind: Holds,
     /// What stands where nothing was computed; for real numbers always not-a-number.
-    pub(super) fill: i32,
+    pub(crate) fill: i32,
     /// Name, length and length of a chunk of each dimension.
-    pub(super) dimensions: Vec<(String, usize, usize)>,
-    pub(super) attributes: Map<String, Value>,
+    pub(crate) dimensions: Vec<(String, usize, usize)>,
+    pub(crate) attributes: Map<String, Value>,
 }
 
 impl Chunked {
-    pub(super) fn new(description: Description<'_>) -> Result<Self, Defect> {
+    pub(crate) fn new(description: Description<'_>) -> Result<Self, Defect> {
         let Description { name, kind, fill, dimensions, attributes } = description;
         let (data, fill) = match kind {
             Holds::Numbers(NumberType::I8) => {
@@ -72,28 +72,28 @@ impl Chunked {
     }
 
     /// The key of its description.
-    pub(super) fn description_key(&self) -> String {
+    pub(crate) fn description_key(&self) -> String {
         format!("{}/zarr.json", self.name)
     }
 
     /// Its description, as it stands in `zarr.json`.
-    pub(super) fn description(&self) -> Result<Value, Defect> {
+    pub(crate) fn description(&self) -> Result<Value, Defect> {
         let text = serde_json::to_value(self.array.metadata()).map_err(|error| error.to_string())?;
         Ok(plain(text))
     }
 
     /// The key of a chunk.
-    pub(super) fn key(&self, place: &[u64]) -> String {
+    pub(crate) fn key(&self, place: &[u64]) -> String {
         self.array.chunk_key(place).as_str().to_owned()
     }
 
     /// The place of the first chunk.
-    pub(super) fn first(&self) -> Vec<u64> {
+    pub(crate) fn first(&self) -> Vec<u64> {
         vec![0; self.array.dimensionality()]
     }
 
     /// Whether a key is that of a chunk.
-    pub(super) fn chunk_prefix(&self) -> String {
+    pub(crate) fn chunk_prefix(&self) -> String {
         format!("{}/c/", self.name)
     }
 
@@ -102,7 +102,7 @@ impl Chunked {
     }
 
     /// The bytes of a chunk.
-    pub(super) fn encode(&self, place: &[u64], values: &Cells) -> Result<Vec<u8>, Defect> {
+    pub(crate) fn encode(&self, place: &[u64], values: &Cells) -> Result<Vec<u8>, Defect> {
         let data = self.array.data_type();
         let bytes = match values {
             Cells::Numbers(Column::I8(v)) => v.clone().into_array_bytes(data),
@@ -121,7 +121,7 @@ impl Chunked {
     }
 
     /// The numbers of a chunk; what is wrong with it, if it is not whole.
-    pub(super) fn decode(&self, place: &[u64], bytes: Vec<u8>) -> Result<Cells, Defect> {
+    pub(crate) fn decode(&self, place: &[u64], bytes: Vec<u8>) -> Result<Cells, Defect> {
         let shape = self.array.chunk_shape(place).map_err(|error| error.to_string())?;
         let data = self.array.data_type();
         let codecs = self.array.codecs();
@@ -154,13 +154,13 @@ fn described(name: &str, description: &Value) -> Result<Array<MemoryStore>, Defe
 }
 
 /// The key of the first chunk of an array that is known by its description only.
-pub(super) fn first_key(name: &str, description: &Value) -> Result<String, Defect> {
+pub(crate) fn first_key(name: &str, description: &Value) -> Result<String, Defect> {
     let array = described(name, description)?;
     Ok(array.chunk_key(&vec![0; array.dimensionality()]).as_str().to_owned())
 }
 
 /// Whether these bytes are the first chunk of such an array, whole to the last bit.
-pub(super) fn reads(name: &str, description: &Value, bytes: Vec<u8>) -> bool {
+pub(crate) fn reads(name: &str, description: &Value, bytes: Vec<u8>) -> bool {
     let Ok(array) = described(name, description) else { return false };
     let Ok(shape) = array.chunk_shape(&vec![0; array.dimensionality()]) else { return false };
     let options = Chunked::options();

@@ -1,8 +1,8 @@
 //! A store as arrays in memory, for figures and tables.
 
-use super::{Store, StoreError};
-use crate::Block;
-use crate::field::Column;
+use crate::{Store, StoreError};
+use vibroimpact_study::Block;
+use vibroimpact_study::Column;
 
 impl Store {
     /// Number of the field of that name.
@@ -17,7 +17,7 @@ impl Store {
     /// [`StoreError`] when the place cannot be read, and for a tile that is done and damaged.
     pub fn tile(&self, tile: u64) -> Result<(Block, Vec<Column>), StoreError> {
         let block = self.study.grid().tile(tile);
-        let column = |(number, field): (usize, &crate::Field)| {
+        let column = |(number, field): (usize, &vibroimpact_study::Field)| {
             Ok(self.kept(tile, number)?.unwrap_or_else(|| field.empty(block.points())))
         };
         let columns = self.layout.fields.iter().enumerate().map(column).collect::<Result<_, StoreError>>()?;

@@ -2,8 +2,8 @@
 //!
 //! An object there appears whole or not at all, and listings know of it at once, which is all that a store asks of a place.
 
-use super::StoreError;
-use super::shelf::{Item, Shelf};
+use crate::StoreError;
+use crate::shelf::{Item, Shelf};
 use futures_util::TryStreamExt;
 use object_store::aws::{AmazonS3, AmazonS3Builder, AmazonS3ConfigKey};
 use object_store::path::Path;

@@ -1,13 +1,13 @@
 //! How far a store is, and whether what is in it is what its plan gives.
 
-use super::run::State;
-use super::{Store, StoreError};
-use crate::field::Column;
-use crate::store::shelf::Memory;
-use crate::{Control, Meter};
+use crate::run::State;
+use crate::shelf::Memory;
+use crate::{Store, StoreError};
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
+use vibroimpact_study::Column;
+use vibroimpact_study::{Control, Meter};
 
 /// How far a store is.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +109,7 @@ impl Store {
     }
 
     /// Whether its root says that it was concluded.
-    pub(super) fn concluded(&self) -> Result<bool, StoreError> {
+    pub(crate) fn concluded(&self) -> Result<bool, StoreError> {
         Ok(self.root()?.pointer("/attributes/complete").and_then(serde_json::Value::as_i64) == Some(1))
     }
 
@@ -196,12 +196,20 @@ impl Store {
                 continue;
             }
             // cycles that only this tile has met are numbered when all are there
-            let same = match (self.read(tile, field)?, twin.read(tile, field)?) {
+            let (here, there) = (self.read(tile, field)?, twin.read(tile, field)?);
+            let renumbered = match (&here, &there) {
                 (Some(Column::I32(here)), Some(Column::I32(there))) => {
                     here.len() == there.len()
-                        && here.iter().zip(&there).all(|(a, b)| a == b || (concluded && *b < -1 && *a >= 0))
+                        && here.iter().zip(there).all(|(a, b)| a == b || (concluded && *b < -1 && *a >= 0))
                 }
                 _ => false,
+            };
+            // with these numbers the chunk has to be the same bytes too, beyond the edge of the grid as well
+            let same = if let (true, Some(here)) = (renumbered, &here) {
+                twin.write(tile, field, here)?;
+                self.get(&key)? == twin.get(&key)?
+            } else {
+                false
             };
             if !same {
                 return Ok(Some(format!("`{key}` is not what the plan gives")));

@@ -1,44 +1,44 @@
 //! What describes a store: the arrays that are there from the beginning, and the root, written after them.
 
-use super::chunk::{Chunked, Defect};
-use super::layout::Layout;
-use super::shelf::Shelf;
-use super::{FORMAT, Store, StoreError};
-use crate::study::Cells;
+use crate::chunk::{Chunked, Defect};
+use crate::layout::Layout;
+use crate::shelf::Shelf;
+use crate::{FORMAT, Store, StoreError};
 use serde_json::{Map, Value, json};
 use std::io;
+use vibroimpact_study::study::Cells;
 
 /// What describes the whole store; written when everything else that is there from the beginning is.
-pub(super) const ROOT: &str = "zarr.json";
+pub(crate) const ROOT: &str = "zarr.json";
 
 impl Store {
-    pub(super) fn root(&self) -> Result<Value, StoreError> {
+    pub(crate) fn root(&self) -> Result<Value, StoreError> {
         read_root(self.shelf.as_ref())
     }
 
-    pub(super) fn found(&self, root: &Value) -> Result<Found, StoreError> {
+    pub(crate) fn found(&self, root: &Value) -> Result<Found, StoreError> {
         Found::of(root, &self.place())
     }
 
     /// The arrays that are there from the beginning.
-    pub(super) fn described(&self) -> impl Iterator<Item = &Chunked> {
+    pub(crate) fn described(&self) -> impl Iterator<Item = &Chunked> {
         let Layout { arrays, status, coordinates, .. } = &self.layout;
         arrays.iter().chain([status]).chain(coordinates.iter().map(|(array, _)| array))
     }
 
     /// Writes what is there from the beginning.
-    pub(super) fn describe(&self) -> Result<(), StoreError> {
+    pub(crate) fn describe(&self) -> Result<(), StoreError> {
         self.settle_all(&self.descriptions(None)?)
     }
 
     /// Writes those of these objects that are not there with these very bytes, the last one last.
-    pub(super) fn settle_all(&self, objects: &[Object]) -> Result<(), StoreError> {
+    pub(crate) fn settle_all(&self, objects: &[Object]) -> Result<(), StoreError> {
         objects.iter().try_for_each(|object| self.settle(&object.key, &object.bytes))
     }
 
     /// All objects but the chunks of fields and of the status, the root last: as they are from the beginning, or as they are when all
     /// tiles are there.
-    pub(super) fn descriptions(&self, conclusion: Option<&Conclusion>) -> Result<Vec<Object>, StoreError> {
+    pub(crate) fn descriptions(&self, conclusion: Option<&Conclusion>) -> Result<Vec<Object>, StoreError> {
         let mut written = Described::default();
         let Layout { arrays, status, coordinates, .. } = &self.layout;
         for (number, array) in arrays.iter().enumerate() {
@@ -91,17 +91,17 @@ impl Store {
 }
 
 /// An object of a store: its key, and its bytes.
-pub(super) struct Object {
-    pub(super) key: String,
-    pub(super) bytes: Vec<u8>,
+pub(crate) struct Object {
+    pub(crate) key: String,
+    pub(crate) bytes: Vec<u8>,
 }
 
 /// What only the whole can say.
-pub(super) struct Conclusion {
+pub(crate) struct Conclusion {
     /// The arrays of labels with the names of all that occur, by the numbers of their fields.
-    pub(super) labelled: Vec<(usize, Chunked)>,
+    pub(crate) labelled: Vec<(usize, Chunked)>,
     /// The tables and their values.
-    pub(super) tables: Vec<(Chunked, Cells)>,
+    pub(crate) tables: Vec<(Chunked, Cells)>,
 }
 
 /// Descriptions of arrays, gathered for the root too.
@@ -132,7 +132,7 @@ fn pretty(value: &Value) -> Vec<u8> {
     bytes
 }
 
-pub(super) fn read_root(shelf: &dyn Shelf) -> Result<Value, StoreError> {
+pub(crate) fn read_root(shelf: &dyn Shelf) -> Result<Value, StoreError> {
     let place = shelf.name();
     let damaged = |why: String| StoreError::Damaged { place: place.clone(), key: ROOT.into(), why };
     match shelf.get(ROOT) {
@@ -145,14 +145,14 @@ pub(super) fn read_root(shelf: &dyn Shelf) -> Result<Value, StoreError> {
 }
 
 /// What the description of a store says of it.
-pub(super) struct Found {
-    pub(super) plan: String,
-    pub(super) hash: String,
-    pub(super) version: String,
+pub(crate) struct Found {
+    pub(crate) plan: String,
+    pub(crate) hash: String,
+    pub(crate) version: String,
 }
 
 impl Found {
-    pub(super) fn of(root: &Value, place: &str) -> Result<Self, StoreError> {
+    pub(crate) fn of(root: &Value, place: &str) -> Result<Self, StoreError> {
         let attribute = |name: &str| root.get("attributes").and_then(|all| all.get(name));
         let word = |name: &str| attribute(name).and_then(Value::as_str).map(str::to_owned);
         let Some(format) = attribute("vibroimpact_format").and_then(Value::as_u64) else {

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::sync::Arc;
-use vibroimpact_study::store::{Folder, Part, Store};
+use vibroimpact_store::{Folder, Part, Store};
 use vibroimpact_study::{BasinPlan, Control, MapPlan, Plan, SystemPlan, Task};
 
 /// The system of the plans.

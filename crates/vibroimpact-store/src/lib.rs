@@ -56,8 +56,6 @@ pub use handle::{FORMAT, Store};
 pub use run::{Part, Ran};
 pub use shelf::{Folder, Item, Shelf};
 
-use crate::study::{Cells, Study};
-use crate::{Column, Plan};
 use handle::VERSION;
 use layout::{DONE, Layout};
 use root::{Found, ROOT, read_root};
@@ -65,6 +63,8 @@ use serde_json::Value;
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
+use vibroimpact_study::study::{Cells, Study};
+use vibroimpact_study::{Column, Plan};
 
 /// The shelf at a place: a folder, or `s3://bucket/prefix`.
 ///

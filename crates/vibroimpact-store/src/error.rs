@@ -1,8 +1,8 @@
 //! Why a store cannot be used.
 
-use crate::{PlanError, Stopped};
 use std::io;
 use thiserror::Error;
+use vibroimpact_study::{PlanError, Stopped};
 
 /// Why a store cannot be used. The sentence names the place, and what to do.
 #[derive(Debug, Error)]

@@ -1,13 +1,13 @@
 //! Whether what describes a store is what its plan gives: the description of every array, the root with all of them again, the values
 //! of coordinates and of tables.
 
-use super::check::Damage;
-use super::root::{Object, ROOT};
-use super::{Store, StoreError, chunk};
-use crate::field::Column;
-use crate::study::Tiles;
+use crate::check::Damage;
+use crate::root::{Object, ROOT};
+use crate::{Store, StoreError, chunk};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
+use vibroimpact_study::Column;
+use vibroimpact_study::study::Tiles;
 
 /// The end of the key of a description.
 const DESCRIPTION: &str = "/zarr.json";
@@ -17,7 +17,7 @@ impl Store {
     ///
     /// They are compared byte by byte. Another version may have said the same in other words, and what only the whole can say needs all
     /// tiles: there they are compared with each other, and with the plan in all that readers need to find the numbers.
-    pub(super) fn description_damage(&self, whole: bool) -> Result<Vec<Damage>, StoreError> {
+    pub(crate) fn description_damage(&self, whole: bool) -> Result<Vec<Damage>, StoreError> {
         let concluded = self.concluded()?;
         if !self.is_ours() || (concluded && !whole) {
             return self.structural_damage();
@@ -53,7 +53,7 @@ impl Store {
 
     /// What keeps readers from the numbers: descriptions that are missing, do not read, or do not fit the plan or each other, and
     /// coordinates and tables that are damaged.
-    pub(super) fn structural_damage(&self) -> Result<Vec<Damage>, StoreError> {
+    pub(crate) fn structural_damage(&self) -> Result<Vec<Damage>, StoreError> {
         let root = self.root()?;
         let mut damage = Vec::new();
         let none = Map::new();
@@ -112,7 +112,7 @@ impl Store {
     }
 
     /// Writes descriptions and coordinates anew where they are damaged.
-    pub(super) fn mend_descriptions(&self) -> Result<(), StoreError> {
+    pub(crate) fn mend_descriptions(&self) -> Result<(), StoreError> {
         if self.structural_damage()?.is_empty() { Ok(()) } else { self.describe() }
     }
 }

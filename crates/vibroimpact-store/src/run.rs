@@ -1,10 +1,10 @@
 //! Filling tiles, over threads, until all are there.
 
-use super::{Store, StoreError};
-use crate::{Control, Grid, Meter};
+use crate::{Store, StoreError};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
+use vibroimpact_study::{Control, Grid, Meter};
 
 /// Part `index` of `of` of the tiles, counted from 1: every `of`-th of them, so that dear and cheap ones are spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -148,7 +148,7 @@ impl Store {
     }
 
     /// Whether a tile is there, and whole to its last bit.
-    pub(super) fn state(&self, tile: u64) -> Result<State, StoreError> {
+    pub(crate) fn state(&self, tile: u64) -> Result<State, StoreError> {
         if !self.done(tile)? {
             // a status that is there but not whole is damage, too
             let there = self.get(&self.layout.status.key(&self.layout.status_place(tile)))?.is_some();
@@ -163,7 +163,7 @@ impl Store {
     }
 
     /// Tiles that are done.
-    pub(super) fn count_done(&self) -> Result<u64, StoreError> {
+    pub(crate) fn count_done(&self) -> Result<u64, StoreError> {
         let prefix = self.layout.status.chunk_prefix();
         let items = self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?;
         Ok(items.len() as u64)
@@ -172,7 +172,7 @@ impl Store {
 
 /// What there is of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum State {
+pub(crate) enum State {
     /// Nothing that counts.
     Open,
     /// It was done, but a chunk of it is missing or not whole.
