@@ -1,4 +1,4 @@
-//! Remarks and errors for people.
+//! Remarks and errors on stderr.
 
 use std::io::{self, Write};
 

@@ -102,7 +102,6 @@ impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
         match error {
             ReportError::Plot(error) => error.into(),
-            ReportError::Store(error) => error.into(),
             _ => Self::bad(error),
         }
     }

@@ -129,7 +129,7 @@ fn abreast(osc: &Oscillator, width: Width, starts: Vec<Start>, duration: Duratio
     median_rate(duration, || black_box(round()))
 }
 
-/// Starts per second to a proven motion, the survey of the basin included.
+/// Starts per second to a confirmed motion, the survey of the basin included.
 fn basin(width: Width, duration: Duration) -> f64 {
     let (osc, options) = (scenario::S.oscillator(), SettleOptions::default());
     let start = |k: u64| {

@@ -23,7 +23,7 @@ fn place_of(name: &str) -> Result<Arc<dyn Shelf>, Trouble> {
 
 /// A store that is open: cheap to hold, so that one process opens it once.
 #[pyclass(frozen, module = "vibroimpact._core")]
-pub(crate) struct Store(Arc<vibroimpact_study::Store>);
+pub(crate) struct Store(Arc<vibroimpact_store::Store>);
 
 /// Tiles computed, found done, mended, and left.
 type Counts = (u64, u64, u64, u64);
@@ -66,8 +66,8 @@ impl Store {
         let store = door::run(py, Watch::alone("opening a store"), move |_| {
             let shelf = place_of(&place)?;
             Ok(match plan {
-                Some(plan) => vibroimpact_study::Store::create(shelf, &plan)?,
-                None => vibroimpact_study::Store::open(shelf)?,
+                Some(plan) => vibroimpact_store::Store::create(shelf, &plan)?,
+                None => vibroimpact_store::Store::open(shelf)?,
             })
         })?;
         Ok(Self(Arc::new(store)))

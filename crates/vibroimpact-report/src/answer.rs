@@ -8,7 +8,6 @@ use serde::{Serialize, Serializer};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{PaperRule, PaperVerdict};
 use vibroimpact_plot::Figure;
-use vibroimpact_store::StoreError;
 use vibroimpact_study::{Control, Plan, PlanError, Results, RunError, Stopped, Task, run};
 
 /// A plan and its result, in memory. As JSON (it is [`Serialize`]) it is the object that the command prints with `--json`.
@@ -77,7 +76,7 @@ impl From<RunError> for AnswerError {
 impl From<ReportError> for AnswerError {
     fn from(error: ReportError) -> Self {
         match error {
-            ReportError::Plan(error) | ReportError::Store(StoreError::Plan(error)) => Self::Plan(error),
+            ReportError::Plan(error) => Self::Plan(error),
             error => Self::Report(error),
         }
     }

@@ -2,7 +2,6 @@
 
 use crate::number::short;
 use vibroimpact_plot::PlotError;
-use vibroimpact_store::StoreError;
 use vibroimpact_study::PlanError;
 
 /// Why a result has no such figure or table. The sentence names what is asked too much, often with a hint.
@@ -54,7 +53,4 @@ pub enum ReportError {
     /// A range in the units of the results leaves the range of numbers.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// What is drawn cannot be read.
-    #[error(transparent)]
-    Store(#[from] StoreError),
 }

@@ -1,8 +1,24 @@
 //! A store as arrays in memory, for figures and tables.
 
 use crate::{Store, StoreError};
-use vibroimpact_study::Block;
-use vibroimpact_study::Column;
+use vibroimpact_study::study::StudyArrays;
+use vibroimpact_study::{Block, Column, Plan, Study};
+
+impl StudyArrays for Store {
+    type Error = StoreError;
+
+    fn plan(&self) -> &Plan {
+        self.plan()
+    }
+
+    fn study(&self) -> &Study {
+        self.study()
+    }
+
+    fn array(&self, field: usize) -> Result<Column, StoreError> {
+        self.column(field)
+    }
+}
 
 impl Store {
     /// Number of the field of that name.

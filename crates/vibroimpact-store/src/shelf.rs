@@ -221,7 +221,7 @@ impl Shelf for Memory {
 
 #[cfg(test)]
 mod tests {
-    use crate::*;
+    use super::*;
 
     #[test]
     fn objects_are_whole_and_leftovers_are_swept() {

@@ -38,7 +38,7 @@ impl Coordinate {
         parameters.chain([Self::X, Self::V, Self::Phase]).find(|coordinate| coordinate.name() == name)
     }
 
-    /// What it is, for people.
+    /// A sentence that says what it is.
     #[must_use]
     pub const fn long_name(self) -> &'static str {
         match self {

@@ -24,6 +24,7 @@ impl Control<'_> {
     }
 
     /// Whether someone asked to stop.
+    #[must_use]
     pub fn stopping(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
@@ -32,7 +33,7 @@ impl Control<'_> {
 /// Threads per processor at most.
 const MOST_THREADS: usize = 8;
 
-/// Points done, told now and then to whoever watches.
+/// Counts the points done and reports them now and then.
 pub struct Meter<'a> {
     control: &'a Control<'a>,
     done: AtomicU64,
@@ -49,7 +50,7 @@ pub struct TileMeter<'a> {
 }
 
 impl TileMeter<'_> {
-    /// One more is computed; says whether to stop.
+    /// Counts one more point; returns whether to stop.
     pub fn tick(&self) -> bool {
         if self.told.fetch_add(1, Ordering::Relaxed) < self.points {
             self.meter.tick()
@@ -68,16 +69,17 @@ impl TileMeter<'_> {
 
 /// Points between two tellings, where there are many.
 const TELL: u64 = 64;
-/// So few that each is told: they are large.
+/// Up to this number each point is reported, because each takes long.
 const FEW: u64 = 512;
 
 impl<'a> Meter<'a> {
     /// `done` of `total` points are done already, and finished.
+    #[must_use]
     pub const fn new(control: &'a Control<'a>, done: u64, total: u64) -> Self {
         Self { control, done: AtomicU64::new(done), finished: AtomicU64::new(done), total }
     }
 
-    /// For a tile of so many points.
+    /// For a tile of this number of points.
     pub const fn tile(&'a self, points: u64) -> TileMeter<'a> {
         TileMeter { meter: self, points, told: AtomicU64::new(0) }
     }
@@ -135,10 +137,6 @@ pub struct Stopped {
 ///
 /// # Errors
 /// [`Stopped`] when the stop flag was set before all tiles were done.
-///
-/// # Panics
-/// When the operating system refuses to start threads.
-#[allow(clippy::expect_used)]
 pub fn tiles<T: Send>(
     total: u64,
     tile: u64,
@@ -148,16 +146,15 @@ pub fn tiles<T: Send>(
     let meter = Meter::new(control, 0, total);
     let tick = || meter.tick();
     let count = total.div_ceil(tile.max(1));
-    let pool = control.pool().expect("threads can be started");
-    let results: Vec<Option<T>> = pool.install(|| {
-        (0..count)
-            .into_par_iter()
-            .map(|k| {
-                let range = k * tile..((k + 1) * tile).min(total);
-                (!control.stopping()).then(|| work(range, &tick))
-            })
-            .collect()
-    });
+    let one = |k: u64| {
+        let range = k * tile..((k + 1) * tile).min(total);
+        (!control.stopping()).then(|| work(range, &tick))
+    };
+    let results: Vec<Option<T>> = match control.pool() {
+        Ok(pool) => pool.install(|| (0..count).into_par_iter().map(one).collect()),
+        // a system without threads, such as a browser: one tile after another
+        Err(_) => (0..count).map(one).collect(),
+    };
     let stopped = meter.stopped();
     if stopped.done < total || control.stopping() {
         return Err(stopped);

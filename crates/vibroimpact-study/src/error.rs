@@ -269,12 +269,12 @@ pub enum PlanError {
     },
     /// No motion of a label to begin with.
     #[error(
-        "no orbit {label} was found that is a motion, so there is nothing to follow\nhint: `vibro orbit` lists what there is; solutions that are no motions ({others} here) are followed when named"
+        "no admissible orbit {label} was found, so there is nothing to follow\nhint: `vibro orbit` lists what there is; inadmissible solutions ({others} here) are followed only when their number is given"
     )]
     NoOrbit {
         /// The label.
         label: Label,
-        /// Solutions of the equations that are no motions.
+        /// Inadmissible solutions of the equations.
         others: usize,
     },
     /// An orbit by a number that none has.

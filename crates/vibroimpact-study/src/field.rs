@@ -25,7 +25,7 @@ pub struct Extra {
 pub struct Field {
     /// Its name.
     pub name: &'static str,
-    /// What it is, for people.
+    /// A sentence that says what it is.
     pub long_name: &'static str,
     /// Its unit; `"1"` for pure numbers.
     pub units: &'static str,

@@ -98,7 +98,8 @@ impl Grid {
     }
 
     /// Tile number `k` with the shape of a full one, though it may reach beyond the grid.
-    pub(crate) fn full_tile(&self, k: u64) -> Block {
+    #[must_use]
+    pub fn full_tile(&self, k: u64) -> Block {
         let range = |(d, i): (&Dimension, usize)| i * d.tile..(i + 1) * d.tile;
         Block { ranges: self.dimensions.iter().zip(self.place(k)).map(range).collect() }
     }
@@ -136,7 +137,7 @@ impl Block {
 
     /// The rows of this block as parts of a larger one that contains it, with `width` numbers a point: where each begins
     /// there, where it begins here, and its length.
-    pub(crate) fn rows(&self, within: &Self, width: usize, mut row: impl FnMut(usize, usize, usize)) {
+    pub fn rows(&self, within: &Self, width: usize, mut row: impl FnMut(usize, usize, usize)) {
         let Some(len) = self.ranges.last().map(ExactSizeIterator::len).filter(|len| *len > 0) else { return };
         for r in 0..self.points() / len {
             let index = self.index(r * len);

@@ -77,3 +77,8 @@ pub use stretch::Stretch;
 pub use study::Study;
 pub use system::{SecondStop, StartPlan, SystemPlan};
 pub use words::counted;
+
+/// The listing of the README of this crate is compiled and run with the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

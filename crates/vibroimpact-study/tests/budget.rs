@@ -1,4 +1,4 @@
-//! A small budget decides less, never otherwise.
+//! A small budget leaves more starts undecided and changes no label.
 
 use vibroimpact::verdict::{SettleOptions, StartBox, scattered_starts, settle};
 use vibroimpact_study::SystemPlan;

@@ -78,3 +78,8 @@ pub use system::{Frequency, Machine, Oscillator, Parameter, ParameterPath, Scale
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// The listing of the README of this crate is compiled and run with the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

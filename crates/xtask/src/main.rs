@@ -7,6 +7,7 @@
 mod bench_peers;
 mod command;
 mod docs;
+mod examples;
 mod explorer;
 mod figures;
 mod finish;
@@ -21,6 +22,7 @@ mod test;
 mod tools;
 mod totals;
 mod venv;
+mod wasm;
 
 use finish::finish;
 use std::process::ExitCode;
@@ -44,6 +46,8 @@ usage: cargo xtask COMMAND
   fuzz [--seconds N] [--seed S]
                           random and adversarial questions to the command, plans, stores and the page; a minute
                           by default; `cargo xtask fuzz --help` lists all options
+  wasm                    whether the core, plans, plots and reports compile for WebAssembly
+  examples                runs the examples of the core
   s3                      studies in buckets, against a server that it installs in target/s3-venv
 ";
 
@@ -72,6 +76,8 @@ fn main() -> ExitCode {
         ["fuzz", words @ ..] => fuzz::run(&root, words),
         ["explorer"] => finish(explorer::test(&root)),
         ["s3"] => finish(s3::test(&root)),
+        ["wasm"] => finish(wasm::check(&root)),
+        ["examples"] => finish(examples::run(&root)),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");
             ExitCode::SUCCESS

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use crate::totals::{self, Totals};
-use crate::{command, docs, licences, links, python, tools};
+use crate::{command, docs, examples, licences, links, python, tools, wasm};
 
 /// What was asked for on the command line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -96,10 +96,12 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::command("lints", "cargo clippy --workspace --all-targets --all-features -- -D warnings").fast(),
         Step::tests("tests", tests).fast(),
         Step::tests("doc tests", "cargo test --workspace --all-features --doc --no-fail-fast"),
+        Step::check("examples", "cargo xtask examples", examples::run),
         // the same questions in every run, so that one that fails was made to fail by a change
         Step::tests("fuzz", "cargo xtask fuzz --seconds 60 --seed 1"),
         Step::tests("explorer", "cargo xtask explorer"),
         Step::check("documentation", "cargo xtask docs", docs::build),
+        Step::check("WebAssembly", "cargo xtask wasm", wasm::check),
         Step::check("Python package", "cargo xtask python", python::install),
         Step::tests("buckets", "cargo xtask s3"),
     ];

@@ -36,7 +36,7 @@ pub(crate) struct Basin {
     #[arg(long, value_parser = number, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "Starts")]
     phase: f64,
 
-    /// Follow each start for so many impacts at most, 1 to 1000000; what is not settled by then is undecided
+    /// Budget of impacts for each start, 1 to 1000000; what is not settled by then is undecided
     #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
     impacts: Option<u32>,
 

@@ -16,7 +16,7 @@ use vibroimpact_report::PROGRAM;
 ///
 /// Impacts per second on one thread: `scalar` follows one motion, `lanes` many side by side. chaos: on the chaotic motion at
 /// 1/beta = 1.11, gap 3, restitution 0.5; regular: on the settled motions at 1/beta = 1.3, gap 0.75, as many impacts of 1/1 as
-/// of 2/1. Starts per second: a basin of 100 x 100 starts there, each to its proven motion. Medians of many short slices.
+/// of 2/1. Starts per second: a basin of 100 x 100 starts there, each to its confirmed motion. Medians of many short slices.
 #[derive(Clone, Debug, Args)]
 #[command(override_usage = "vibro bench [OPTIONS]", after_help = "Example: for a script\n  vibro bench --json")]
 pub(crate) struct Bench {
@@ -141,7 +141,7 @@ fn text(answer: &BenchFields) -> String {
     if let Starts { basin: Some(lanes), basin_scalar: Some(scalar) } = answer.starts_per_second {
         let (scalar, lanes) = (million(scalar), million(lanes));
         text.push_str(&format!(
-            "basin    starts per second to a proven motion: {scalar} one after another, {lanes} in lanes\n"
+            "basin    starts per second to a confirmed motion: {scalar} one after another, {lanes} in lanes\n"
         ));
     }
     text

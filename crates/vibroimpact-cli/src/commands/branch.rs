@@ -55,7 +55,7 @@ pub(crate) struct Branch {
     #[arg(long, value_name = "PARAMETER=VALUE", allow_hyphen_values = true, help_heading = "Branch")]
     also: Option<Named<f64>>,
 
-    /// Follow up to so many of the branches that begin at flips and branch points, 0 to 100
+    /// Follow up to this number of the branches that begin at flips and branch points, 0 to 100
     #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = 0, allow_hyphen_values = true, help_heading = "Branch")]
     follow: u32,
 
@@ -77,7 +77,7 @@ pub(crate) struct Branch {
     #[arg(long, help_heading = "Output")]
     no_diagram: bool,
 
-    /// Draw solutions that are no motions too, dotted
+    /// Draw inadmissible solutions too, dotted
     #[arg(long = "virtual", help_heading = "Output")]
     show_virtual: bool,
 

@@ -15,7 +15,7 @@ use vibroimpact_study::{CurvePlan, FollowedEvent, Plan, Stretch, Task};
 /// The orbit is looked for at the system given and followed in the first parameter, to both ends of its range, while it
 /// keeps its label. From an event of the kind asked for the curve is followed both ways to the edge of the plane. Points
 /// of codimension two are named: cusp, resonant grazing (curves of folds and flips end there), double grazing,
-/// degenerate grazing, touch (beyond, the orbit is no motion), 1:2. The cycles of a grazing curve have the impact of speed
+/// degenerate grazing, touch (beyond it the orbit is inadmissible), 1:2. The cycles of a grazing curve have the impact of speed
 /// zero among theirs.
 #[derive(Clone, Debug, Args)]
 #[command(

@@ -12,7 +12,7 @@ use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, 
 
 /// Which motions there are at each point of a plane of parameters
 ///
-/// At each point so many starts are settled: the first from rest, the second on the motion
+/// At each point --starts starts are settled: the first from rest, the second on the motion
 /// without stops if that clears them, the others scattered over a box around the motion.
 /// One to four of the parameters take ranges, the others a value each: A:B:N is N values from A to B,
 /// both included, A:B:N:log the same in equal ratios, and A,B,C these. The first of them, or of --axes, runs to the right.
@@ -37,7 +37,7 @@ pub(crate) struct Map {
     #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = 1, help_heading = "Starts")]
     seed: u64,
 
-    /// Follow each start for so many impacts at most, 1 to 1000000; what is not settled by then is undecided
+    /// Budget of impacts for each start, 1 to 1000000; what is not settled by then is undecided
     #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
     impacts: Option<u32>,
 

@@ -16,6 +16,7 @@ mod orbit;
 mod outputs;
 mod plot;
 mod region;
+#[cfg(feature = "reproduce")]
 mod reproduce;
 mod respond;
 mod resume;
@@ -80,6 +81,7 @@ enum Command {
     Slurm(slurm::Slurm),
     Schema(schema::Schema),
     Bench(bench::Bench),
+    #[cfg(feature = "reproduce")]
     Reproduce(reproduce::Reproduce),
     Completions(completions::Completions),
     Man(man::Man),
@@ -108,6 +110,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Slurm(args) => slurm::run(args, session),
         Command::Schema(_) => schema::run(session),
         Command::Bench(args) => bench::run(args, session),
+        #[cfg(feature = "reproduce")]
         Command::Reproduce(args) => reproduce::run(args, session),
         Command::Completions(args) => completions::run(*args, CommandLine::command(), session),
         Command::Man(args) => man::run(args, CommandLine::command(), session),

@@ -13,7 +13,7 @@ use vibroimpact_study::{Plan, Task};
 ///
 /// Looked for by Newton's method from many seeds, and in closed form for 1/n. An orbit that no seed leads to is not found.
 ///
-/// A solution of the equations that passes through a stop on its way is no motion: "physical" is false, and
+/// A solution of the equations that passes through a stop on its way is inadmissible: "physical" is false, and
 /// "earlier_contact" says after which of its impacts, counted from 1, it meets which stop, and how long after (for 0, which has no impacts, how
 /// long after phase 0). Of these only some come up.
 #[derive(Clone, Debug, Args)]

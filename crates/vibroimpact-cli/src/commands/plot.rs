@@ -23,7 +23,7 @@ pub(crate) struct Plot {
 pub(super) fn run(args: &Plot, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
     let picture = Picture::reserve(&args.file, session.force)?;
-    picture.write(&figure(&store)?)?;
+    picture.write(&figure::<_, Failure>(&store)?)?;
     session.note(&format!("wrote {}", args.file.display()));
     Ok(())
 }

@@ -34,7 +34,7 @@ pub(crate) struct Settle {
     start: StartArgs,
 
     /// By which rule
-    #[arg(long, value_enum, value_name = "RULE", default_value_t = Rule::Proved, help_heading = "Rule")]
+    #[arg(long, value_enum, value_name = "RULE", default_value_t = Rule::Confirmed, help_heading = "Rule")]
     rule: Rule,
 
     /// Tolerance of the paper's rule in per cent, positive [default: 0.1]
@@ -88,7 +88,8 @@ impl From<Views> for View {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Rule {
     /// Recurrence, confirmed by Newton's method
-    Proved,
+    #[value(alias = "proved")]
+    Confirmed,
     /// Also the 1971 paper's own rule (11), which cannot tell a slow transient from a period
     Paper,
 }
@@ -113,7 +114,7 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
 
 impl Settle {
     fn paper_rule(&self) -> Result<Option<PaperRule>, Failure> {
-        if self.rule == Rule::Proved {
+        if self.rule == Rule::Confirmed {
             return match (self.percent, self.limit) {
                 (None, None) => Ok(None),
                 _ => Err(Failure::bad("--percent and --limit belong to --rule paper")),

@@ -12,8 +12,8 @@ use vibroimpact_study::{Plan, Task};
 
 /// Follow a motion event by event: impacts, grazes, sticking, release
 ///
-/// Prints every event with its time, the phase of the force and the velocities. It ends after so many impacts, after so
-/// many forcing periods, or when nothing happens any more, and says which.
+/// Prints every event with its time, the phase of the force and the velocities. It ends after a given number of impacts
+/// or of forcing periods, or when no event follows, and says which.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro simulate --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]",
@@ -28,11 +28,11 @@ pub(crate) struct Simulate {
     #[command(flatten)]
     start: StartArgs,
 
-    /// Stop after so many impacts, 1 to 10000000 [default: 100, or 1000000 with --periods]
+    /// Stop after this number of impacts, 1 to 10000000 [default: 100, or 1000000 with --periods]
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
     impacts: Option<u64>,
 
-    /// Stop after so many forcing periods, up to 1e9, of 2 pi / beta each
+    /// Stop after this number of forcing periods, up to 1e9, of 2 pi / beta each
     #[arg(long, value_parser = number, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
     periods: Option<f64>,
 

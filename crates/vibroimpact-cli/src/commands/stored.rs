@@ -6,8 +6,7 @@ use crate::report::stored as report;
 use crate::session::Session;
 use serde::Serialize;
 use vibroimpact_report::figure::stored::figure;
-use vibroimpact_store::StoreError;
-use vibroimpact_store::{Part, Ran, Store, shelf};
+use vibroimpact_store::{Part, Ran, Store, StoreError, shelf};
 use vibroimpact_study::{Plan, counted};
 
 /// The part of an answer about a store.
@@ -72,7 +71,7 @@ pub(super) fn run(plan: &Plan, place: &str, part: Part, outputs: Outputs, sessio
         return Ok(());
     }
     let (json, silent) = (outputs.json(), outputs.any());
-    outputs.stream(session, |out| report::table(&store, false, out), || Ok(figure(&store)?))?;
+    outputs.stream(session, |out| report::table(&store, false, out), || figure(&store))?;
     if json {
         return session.print_json(&report::StoredFields::new(&store, Some(filled))?);
     }

@@ -19,7 +19,7 @@ pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
 pub(crate) fn chosen(chosen: &Chosen) -> String {
     let which = if chosen.count > 1 { format!("orbit {} of {}, ", chosen.number, chosen.count) } else { String::new() };
     let stable = match (chosen.orbit.physical, chosen.orbit.cycle.stable()) {
-        (false, _) => "no motion",
+        (false, _) => "inadmissible",
         (true, true) => "stable",
         (true, false) => "unstable",
     };
@@ -125,7 +125,7 @@ const fn plain(point: &SolutionPoint) -> bool {
 /// `1/1 stable`.
 fn state(point: &SolutionPoint) -> String {
     let stability = match (point.physical, point.stable()) {
-        (false, _) => "no motion",
+        (false, _) => "inadmissible",
         (true, true) => "stable",
         (true, false) => "unstable",
     };

@@ -39,7 +39,7 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
             // at an event itself rounding decides; what lies beside it counts
             let beside = [k.checked_sub(1).and_then(|k| all.get(k)), all.get(k + 1)];
             let physical = point.physical || beside.into_iter().flatten().any(|point| point.physical);
-            let motion = if physical { plan.label.trim() } else { "no motion" }.to_owned();
+            let motion = if physical { plan.label.trim() } else { "inadmissible" }.to_owned();
             Some(vec![point.event?.name().into(), precise(p), precise(q), motion])
         })
         .collect();

@@ -37,7 +37,7 @@ fn one(orbit: &Orbit, osc: &Oscillator, units: &Units) -> String {
         return motion(&Verdict::Periodic(orbit.cycle.clone()), osc, units);
     }
     let cycle = &orbit.cycle;
-    let mut text = format!("{}: not physical, it passes through a stop on its way\n", cycle.label);
+    let mut text = format!("{}: inadmissible, it passes through a stop on its way\n", cycle.label);
     text.push_str(&impacts(cycle, osc, units));
     text.push_str(&format!("  multipliers {}\n", multipliers(cycle.multipliers)));
     if let Some(contact) = &orbit.earlier {

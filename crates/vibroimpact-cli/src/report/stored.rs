@@ -39,7 +39,7 @@ impl<'a, Filled: Serialize> StoredFields<'a, Filled> {
     }
 }
 
-/// The labels as a table for people.
+/// The labels as a table of text.
 pub(crate) fn label_table(labels: &[LabelCount]) -> String {
     let heads = ["<label", "points", "share of starts"].map(str::to_owned);
     let row = |count: &LabelCount| vec![count.label.clone(), count.points.to_string(), percent(count.share)];
@@ -79,7 +79,7 @@ fn labels(store: &Store) -> Result<Vec<LabelCount>, Failure> {
     Ok(list)
 }
 
-/// A summary for people.
+/// A summary as text.
 pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
     let grid = store.study().grid();
     let sides: Vec<String> = grid.dimensions.iter().rev().map(|d| format!("{} {}", d.count, d.name)).collect();

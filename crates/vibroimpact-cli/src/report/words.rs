@@ -1,4 +1,4 @@
-//! Text for people: what it is called, what that means, the numbers, and on what grounds.
+//! Text about motions: the label, what it means, the numbers, and the grounds.
 
 use std::fmt::Write;
 use vibroimpact::chaos::Measured;
@@ -131,7 +131,7 @@ const fn stability(stable: Option<bool>, verdict: &Verdict) -> &'static str {
         (Some(true), _) => "stable",
         (Some(false), Verdict::Chaotic(_)) => "every single motion in it is unstable",
         (Some(false), _) => "unstable",
-        (None, Verdict::NoImpact(_)) => "neutral: without damping its neighbours keep their distance",
+        (None, Verdict::NoImpact(_)) => "neutrally stable (no damping)",
         (None, _) => "open",
     }
 }

@@ -14,7 +14,7 @@ pub(super) fn lines() -> Words {
         4 => line("settle", vec![
             system(),
             start(),
-            flag("rule", 0.1, word(&["paper", "proved", "none"])),
+            flag("rule", 0.1, word(&["paper", "confirmed", "proved", "none"])),
             flag("percent", 0.05, number()),
             flag("limit", 0.05, count()),
             outputs("csv"),

@@ -155,7 +155,7 @@ class Branch:
         diagram : bool
             Whether what simulation finds lies behind it, in grey.
         virtual : bool
-            Whether solutions that are no motions are drawn too, dotted.
+            Whether inadmissible solutions are drawn too, dotted.
         si : bool
             Metres and seconds.
         """
@@ -229,7 +229,7 @@ def branch(
     orbit : int
         Which of several orbits, counted from 1 as `orbits` lists them; the stable one, else the fastest motion, unless given.
     follow : int
-        Follow up to so many of the branches that begin at flips and branch points, 0 to 100.
+        Follow up to this number of the branches that begin at flips and branch points, 0 to 100.
     points : int
         Points of each branch at most, 2 to 100000.
 

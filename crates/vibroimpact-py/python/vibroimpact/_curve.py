@@ -87,7 +87,7 @@ class Curve:
         return self.cycles.multipliers
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """The curve in its plane, dotted where the orbit is no motion, with its points of codimension two."""
+        """The curve in its plane, dotted where the orbit is inadmissible, with its points of codimension two."""
         from vibroimpact import _plane
 
         return _plane.curve(self, ax)

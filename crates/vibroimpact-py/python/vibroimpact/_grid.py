@@ -121,9 +121,9 @@ def basin(
         Position, velocity and phase of the starts: a number for all, or values: "-4:0.75:200" for 200 of them, or an array.
         The first of them that varies is drawn to the right, the second upwards.
     refine : int
-        Compute every so many-th point first, and those between only where neighbours differ.
+        Compute every K-th point first, K being this number, and those between only where neighbours differ.
     impacts : int
-        Follow each start for so many impacts at most; what is not settled by then is undecided.
+        Budget of impacts for each start; what is not settled by then is undecided.
     store : path
         Where results are kept; what is there already is not computed again.
     client : distributed.Client
@@ -193,9 +193,9 @@ def region_map(
     seed : int
         Which sequence of them.
     refine : int
-        Compute every so many-th point first, and those between only where neighbours differ.
+        Compute every K-th point first, K being this number, and those between only where neighbours differ.
     impacts : int
-        Follow each start for so many impacts at most; what is not settled by then is undecided.
+        Budget of impacts for each start; what is not settled by then is undecided.
     store, client, tile, threads, progress
         As for `basin`.
 

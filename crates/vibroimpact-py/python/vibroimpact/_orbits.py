@@ -13,7 +13,7 @@ from vibroimpact._motion import Motion, fields_of
 
 
 class EarlierContact(NamedTuple):
-    """Where a solution that is no motion meets a stop before it is meant to."""
+    """Where an inadmissible solution meets a stop before its next impact."""
 
     #: After which of its impacts, counted from 1; None where it has no impacts.
     after_impact: int | None
@@ -33,14 +33,14 @@ class Orbit(Motion):
     earlier_contact: EarlierContact | None
 
     def _remark(self) -> str:
-        return "" if self.physical else ", no motion"
+        return "" if self.physical else ", inadmissible"
 
     def waveform(
         self, points_per_period: float = 200, periods: float | None = None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """As that of a Motion; a solution that is no motion has none."""
+        """As that of a Motion; an inadmissible solution has none."""
         if not self.physical:
-            raise _core.QuestionError(f"this solution {self.label} is no motion: it passes through a stop on its way")
+            raise _core.QuestionError(f"this solution {self.label} is inadmissible: it passes through a stop on its way")
         return Motion.waveform(self, points_per_period, periods)
 
     def to_dict(self) -> dict[str, Any]:
@@ -53,7 +53,7 @@ def orbits(osc: Oscillator, label: str) -> list[Orbit]:
     """Find all periodic orbits with m impacts in n forcing periods, stable or not, the fastest last.
 
     Looked for by Newton's method from many seeds, and in closed form for 1/n. An orbit that no seed leads to is not
-    found. Solutions that pass through a stop on their way are no motions and marked; only some of them come up.
+    found. Solutions that pass through a stop on their way are inadmissible and marked; only some of them are found.
 
     Parameters
     ----------

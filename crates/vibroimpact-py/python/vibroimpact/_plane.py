@@ -47,12 +47,12 @@ def _frame(ax: "Axes", of: "Curve | Region") -> None:
 
 
 def curve(of: "Curve", ax: "Axes | None") -> "Axes":
-    """The curve, dotted where the orbit is no motion, with its points of codimension two."""
+    """The curve, dotted where the orbit is inadmissible, with its points of codimension two."""
     ax = new_axes(ax, (7.2, 4.8))
     colour, events = _KINDS[of.kind], {event.point for event in of.events}
     # an event lies on the edge and counts for neither side
     steps = [k if k + 1 in events and k not in events else k + 1 for k in range(len(of) - 1)]
-    for physical, dash, words in ((True, "-", ""), (False, ":", ", no motion")):
+    for physical, dash, words in ((True, "-", ""), (False, ":", ", inadmissible")):
         xs, ys = (np.array(column, dtype=float) for column in _broken(of.values, of.physical[steps] == physical))
         if len(xs):
             ax.plot(xs, ys, dash, color=colour, linewidth=1.8, label=f"{of.kind} of {named(of.label)}{words}")

@@ -1,4 +1,4 @@
-"""Who is told how much is done: nobody, a function, or a bar of tqdm."""
+"""Progress: reported to nobody, to a function, or to a bar of tqdm."""
 
 import warnings
 from collections.abc import Callable, Iterator

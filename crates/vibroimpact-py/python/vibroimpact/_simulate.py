@@ -143,9 +143,9 @@ def simulate(
     phase : float
         Phase of the force at the start, radians.
     impacts : int
-        Stop after so many impacts, 1 to 1e7; 100 unless given, 1e6 with `periods`.
+        Stop after this number of impacts, 1 to 1e7; 100 unless given, 1e6 with `periods`.
     periods : float
-        Stop after so many forcing periods, up to 1e9.
+        Stop after this number of forcing periods, up to 1e9.
 
     Examples
     --------

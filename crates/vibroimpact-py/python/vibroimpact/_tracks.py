@@ -21,7 +21,7 @@ _VALUES = 401
 _NAMED = 12
 #: Marks of events.
 _MARKS = {"fold": "s", "flip": "D", "branch point": "o", "grazing": "^", "loss of contact": "v", "soft landing": "P"}
-_LOOKS = {"stable": "-", "unstable": "--", "no motion": ":"}
+_LOOKS = {"stable": "-", "unstable": "--", "inadmissible": ":"}
 
 
 def plot(branch: "Branch", ax: "Axes | None", diagram: bool, virtual: bool, si: bool) -> "Axes":
@@ -36,12 +36,12 @@ def plot(branch: "Branch", ax: "Axes | None", diagram: bool, virtual: bool, si: 
     looks: list[str] = []
     for one in branches:
         for label, look, xs, ys in pieces(one):
-            if look == "no motion" and not virtual:
+            if look == "inadmissible" and not virtual:
                 continue
             colour, alpha = colours.setdefault(label, _colour(len(colours)))
             if look not in looks:
                 looks.append(look)
-            width = 1.0 if look == "no motion" else 1.8
+            width = 1.0 if look == "inadmissible" else 1.8
             ax.plot(xs * unit, ys * speed, _LOOKS[look], color=colour, alpha=alpha, linewidth=width)
     for label, (colour, alpha) in list(colours.items())[:_NAMED]:
         ax.plot([], [], color=colour, alpha=alpha, linewidth=1.8, label=named(label))
@@ -114,7 +114,7 @@ def _runs(branch: "Branch", begin: int, end: int) -> Iterator[tuple[str, slice]]
     for k in range(begin, end - 1):
         at = k if k + 1 in events and k not in events else k + 1
         inside = bool(np.all(np.abs(branch.multipliers[at]) < 1))
-        look = "no motion" if not branch.physical[at] else "stable" if inside else "unstable"
+        look = "inadmissible" if not branch.physical[at] else "stable" if inside else "unstable"
         if before is not None and look != before:
             yield before, slice(first, k + 1)
             first = k

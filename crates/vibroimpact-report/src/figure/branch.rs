@@ -84,7 +84,7 @@ pub fn figure(
         let name = match look {
             Look::Stable => "stable",
             Look::Unstable => "unstable",
-            Look::Virtual => "no motion",
+            Look::Virtual => "inadmissible",
         };
         let (width, dash) = pen(look);
         legend = legend.line(Stroke::new(Colour::BLACK).width(width).dash(dash), name);

@@ -5,35 +5,38 @@ use crate::figure::{basin, diagram, map, title_without};
 use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
-use vibroimpact_store::Store;
-use vibroimpact_study::study::{diagram_of, label_of};
+use vibroimpact_study::study::{StudyArrays, diagram_of, label_of};
 use vibroimpact_study::{Axis as Along, LyapunovPlan, SystemPlan, Task};
 
 /// Draws what a store holds.
 ///
 /// # Errors
-/// [`ReportError`] for what has no figure, or cannot be read.
-pub fn figure(store: &Store) -> Result<Figure, ReportError> {
+/// [`ReportError`] for what has no figure, and the error of the store for what cannot be read.
+pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(store: &A) -> Result<Figure, E> {
     let system = store.plan().system;
     match &store.plan().task {
         Task::Map(plan) => of_map(store, &plan.axes, title_without(&system, &varied(&plan.axes))),
         Task::Basin(plan) => of_basin(store, &plan.axes, title_without(&system, &varied(&plan.axes))),
         Task::Lyapunov(plan) => of_exponents(store, plan, &system),
         Task::Diagram(plan) => {
-            let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>()?;
-            diagram::figure(&diagram_of(plan, &columns), &Asked { system, units: Units::default() })
+            let columns = (0..store.study().fields().len()).map(|k| store.array(k)).collect::<Result<Vec<_>, _>>()?;
+            Ok(diagram::figure(&diagram_of(plan, &columns), &Asked { system, units: Units::default() })?)
         }
-        _ => Err(ReportError::Scattered),
+        _ => Err(ReportError::Scattered.into()),
     }
 }
 
-fn of_map(store: &Store, axes: &[Along], title: String) -> Result<Figure, ReportError> {
+fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    axes: &[Along],
+    title: String,
+) -> Result<Figure, E> {
     let plane = Plane::of(axes, &Units::default())?;
-    let Some(label) = store.field("label") else { return Err(ReportError::NoLabels) };
+    let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
     let mut known: BTreeMap<i32, usize> = BTreeMap::new();
     let mut group = |code: i32| *known.entry(code).or_insert_with(|| map::group(&label_of(code).unwrap_or_default()));
-    let column = store.column(label)?;
+    let column = store.array(label)?;
     let cells: Vec<Vec<usize>> = (column.whole().chunks(width))
         .map(|codes| {
             let mut groups = Vec::new();
@@ -45,15 +48,19 @@ fn of_map(store: &Store, axes: &[Along], title: String) -> Result<Figure, Report
             groups
         })
         .collect();
-    map::draw(&plane, &cells, title)
+    Ok(map::draw(&plane, &cells, title)?)
 }
 
 #[allow(clippy::cast_precision_loss)] // counts below 2^53
-fn of_basin(store: &Store, axes: &[Along], title: String) -> Result<Figure, ReportError> {
+fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    axes: &[Along],
+    title: String,
+) -> Result<Figure, E> {
     let plane = Plane::of(axes, &Units::default())?;
-    let Some(label) = store.field("label") else { return Err(ReportError::NoLabels) };
-    let labels = store.column(label)?;
-    let cycles = store.field("cycle").map(|cycle| store.column(cycle)).transpose()?;
+    let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
+    let labels = store.array(label)?;
+    let cycles = store.field_number("cycle").map(|cycle| store.array(cycle)).transpose()?;
     let key = |k: usize| (labels.whole()[k], cycles.as_ref().map_or(-1, |cycles| cycles.whole()[k]));
     let mut motions: BTreeMap<(i32, i32), (u16, u64)> = BTreeMap::new();
     let mut cells = Vec::with_capacity(labels.len());
@@ -74,15 +81,19 @@ fn of_basin(store: &Store, axes: &[Along], title: String) -> Result<Figure, Repo
         label: label_of(code).unwrap_or_default(),
         share: count as f64 / total,
     };
-    basin::draw(&plane, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)
+    Ok(basin::draw(&plane, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
 }
 
 /// Both exponents over one axis, and the line where they would be neither.
-fn of_exponents(store: &Store, plan: &LyapunovPlan, system: &SystemPlan) -> Result<Figure, ReportError> {
-    let ([axis], Some(field)) = (plan.axes.as_slice(), store.field("exponent")) else {
-        return Err(ReportError::Exponents);
+fn of_exponents<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    plan: &LyapunovPlan,
+    system: &SystemPlan,
+) -> Result<Figure, E> {
+    let ([axis], Some(field)) = (plan.axes.as_slice(), store.field_number("exponent")) else {
+        return Err(ReportError::Exponents.into());
     };
-    let column = store.column(field)?;
+    let column = store.array(field)?;
     let side = PlaneAxis::of(axis, &Units::default())?;
     let values = axis.over.all();
     let of = |which: usize, colour: Colour| {

@@ -13,7 +13,7 @@ use vibroimpact::system::phase;
 pub(crate) enum Look {
     Stable,
     Unstable,
-    /// A solution that is no motion.
+    /// An inadmissible solution.
     Virtual,
 }
 
@@ -37,7 +37,7 @@ impl Followed<'_> {
             Self::Velocity => return cycle.points.iter().map(|p| (p.state.phase, p.state.velocity)).collect(),
             Self::Position(oscillator) => oscillator(point.value),
         };
-        // what is no motion has no states
+        // an inadmissible solution has no states
         let (Some(osc), Some(first), true) = (oscillator, cycle.points.first(), point.physical) else {
             return Vec::new();
         };

@@ -15,7 +15,7 @@ pub struct BasinPlan {
     /// The coordinates that are on no axis.
     #[serde(default)]
     pub start: StartPlan,
-    /// Where results are stored: compute every so many-th point first, and the points between only where neighbours
+    /// Where results are stored: compute every K-th point first, K being this number, and the points between only where neighbours
     /// differ. All of them when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<u32>,

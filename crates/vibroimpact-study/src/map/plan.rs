@@ -21,7 +21,7 @@ pub struct MapPlan {
     /// Which sequence of them.
     #[serde(default)]
     pub seed: u64,
-    /// Where results are stored: compute every so many-th point first, and the points between only where neighbours
+    /// Where results are stored: compute every K-th point first, K being this number, and the points between only where neighbours
     /// differ. All of them when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refine: Option<u32>,

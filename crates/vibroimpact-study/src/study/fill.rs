@@ -13,7 +13,7 @@ pub struct Along {
     pub dimension: String,
     /// A value for each index.
     pub values: Vec<f64>,
-    /// What it is, for people.
+    /// A sentence that says what it is.
     pub long_name: &'static str,
     /// Its unit.
     pub units: &'static str,

@@ -4,6 +4,7 @@
 //! machine. What only the whole can say, such as how many starts led to each motion, is worked out [at the
 //! end](Study::conclude) from all tiles.
 
+mod arrays;
 mod basin;
 mod code;
 mod cycles;
@@ -17,6 +18,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub use arrays::StudyArrays;
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, STUCK, UNDECIDED, code, label_of};
 pub use diagram::diagram_of;
 pub use fill::{Along, Fill};

@@ -7,7 +7,7 @@ use crate::Column;
 pub struct StudyTable {
     /// Its name.
     pub name: &'static str,
-    /// What it is, for people.
+    /// A sentence that says what it is.
     pub long_name: &'static str,
     /// Its unit.
     pub units: &'static str,

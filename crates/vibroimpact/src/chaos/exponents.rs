@@ -8,7 +8,7 @@
 //! settles after the measurement has begun, the measurement begins again. So a transient that was chaotic is not mixed with what it ended in.
 //!
 //! A stick ends everything that was measured: the release is one state, so nothing before it matters, and transient and
-//! measurement begin again from there. A second stick on the same stop is a proof that the motion is periodic and sticks in
+//! measurement begin again from there. A second stick on the same stop shows that the motion is periodic and sticks in
 //! each turn, so that both exponents are $`-\infty`$. So a motion is begun again at most once for each stop.
 
 use super::dimension;

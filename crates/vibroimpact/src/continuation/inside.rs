@@ -9,7 +9,7 @@ use super::walk::Stride;
 use crate::orbit::{Floquet, Orbit, ring_cycle, solve};
 
 impl Round<'_> {
-    /// The orbit at `target`, followed straight from one on the edge; `None` if it is no motion of this sheet, or lost.
+    /// The orbit at `target`, followed straight from one on the edge; `None` if it is inadmissible on this sheet, or not reached.
     pub(super) fn reach(&self, from: &[f64], target: (f64, f64), below: bool) -> Option<Seed> {
         let (p, q) = Plane::values(from);
         let (dp, dq) = (target.0 - p, target.1 - q);

@@ -28,6 +28,7 @@ mod compaction;
 mod flight;
 mod hull;
 mod pack;
+#[cfg(target_arch = "x86_64")]
 mod pair;
 #[cfg(target_arch = "x86_64")]
 mod single;

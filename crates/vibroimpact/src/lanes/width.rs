@@ -1,7 +1,6 @@
 //! How many flights are flown side by side, and the one place where the processor is asked.
 
 use super::pack::Pack;
-use super::pair::Pair;
 use super::slots::{Lists, Slots};
 use super::stride::{Stride, Table};
 use super::uncertain::SEGMENT;
@@ -10,6 +9,8 @@ use super::uncertain::SEGMENT;
 use super::avx2::Four;
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Eight;
+#[cfg(target_arch = "x86_64")]
+use super::pair::Pair;
 #[cfg(target_arch = "x86_64")]
 use super::single::EightSingle;
 

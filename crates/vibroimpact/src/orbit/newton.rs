@@ -85,7 +85,7 @@ mod tests {
     use crate::orbit::one_impact;
     use crate::system::Side;
 
-    /// From afar, and to an orbit that is not physical all the same.
+    /// From a distant guess, and to an inadmissible orbit.
     #[test]
     fn reaches_the_closed_form() {
         for (inverse, gap, zeta) in [(1.3, 0.75, 0.0), (1.11, 2.0, 0.0), (0.8, 0.4, 0.07), (1.0, 3.0, 0.05)] {

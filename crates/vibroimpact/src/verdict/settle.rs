@@ -9,8 +9,8 @@
 //!   *captured*: it is close and its next turn obeys the cycle's linear law to a fraction of the contraction. A
 //!   transient that merely passes a cycle fails the last point and is followed on. Newton's flights end at first contact, so the
 //!   cycle is physical by construction;
-//! - **periodic with a stick**: what follows a release is one motion, so a release that leads back to itself is a proof
-//!   by itself ([`from_release`]); the multipliers are 0;
+//! - **periodic with a stick**: every motion is the same after a release, so a release that leads back to itself shows the
+//!   cycle ([`from_release`]); the multipliers are 0;
 //! - **chaotic**: the largest Lyapunov exponent, measured along the motion as it is followed, exceeds its error bar of three standard
 //!   errors, neighbours have parted by more than they can on the way from an unstable cycle to a stable one
 //!   ([`Spectrum::chaotic`](crate::chaos::Spectrum::chaotic)), and nothing of the above was shown in the meantime. Chaos that ends within the

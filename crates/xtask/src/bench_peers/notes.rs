@@ -88,7 +88,7 @@ pub(super) fn fairness(rates: &Rates) -> String {
   that was done. With RK45 as it comes the motion is not the true one for long; what is timed is then another motion of the same
   kind.
 - vibroimpact runs with one thread. Its lanes follow several motions at once, and so does the batch of heyoka. In the basin it does
-  not count to 120: it stops when the motion is proven to have settled, and looks further where it has not. It does more at each
+  not count to 120: it stops when the motion is confirmed to have settled, and looks further where it has not. It does more at each
   impact than the peers: the touch that is no impact, the chatter that ends and the mass that sticks are results of their own.
 ",
         per_cent(share("heyoka, one motion")),
