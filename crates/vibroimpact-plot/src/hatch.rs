@@ -29,7 +29,7 @@ pub struct Hatch {
     pub colour: Colour,
 }
 
-/// TextSide of the repeated tile. Eight units are 1 mm in print: three lines fit a legend patch, and
+/// Side of the repeated tile. Eight units are 1 mm in print: three lines fit a legend patch, and
 /// one or two a cell of a 40-column map.
 const TILE: f64 = 8.0;
 

@@ -15,7 +15,7 @@ pub const DPI_300: f64 = 300.0 / 25.4 / 8.0;
 
 /// Numbers at ticks.
 pub(crate) const TICK_TEXT: f64 = 20.0;
-/// FigureAxis labels.
+/// Axis labels.
 pub(crate) const LABEL_TEXT: f64 = 23.0;
 /// Panel captions.
 pub(crate) const CAPTION_TEXT: f64 = 22.0;

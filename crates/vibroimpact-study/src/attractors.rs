@@ -1,39 +1,24 @@
 //! The motions of one system from many scattered starts, over threads.
 
-use crate::{Control, Stopped, tiles};
-use vibroimpact::Oscillator;
-use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Census, KnownAttractors, SettleOptions, StartBox, scattered_starts, settle_many};
+use crate::study::{BasinFill, tiles_of};
+use crate::{Control, RunError, SystemPlan};
+use vibroimpact::verdict::Census;
 
 /// Starts of a tile.
-const TILE: u64 = 1024;
-/// Starts settled beforehand, to know the cycles and their traps ...
-const SURVEY: u64 = 24;
-/// ... where there are more starts than this.
-const WORTH_A_SURVEY: u64 = 500;
-
-/// Settles `starts` scattered starts of the box and counts the distinct motions; the same as
+const TILE: u32 = 1024;
+/// Settles scattered starts of the natural box of the system and counts the distinct motions; the same as
 /// [`vibroimpact::verdict::attractors`], but over threads.
-///
-/// # Errors
-/// [`Stopped`] when stopped from outside.
 pub(crate) fn attractors(
-    osc: &Oscillator,
-    area: StartBox,
+    system: &SystemPlan,
     (starts, seed): (u64, u64),
-    options: &SettleOptions,
     control: &Control<'_>,
-) -> Result<Census, Stopped> {
-    let start = |index: u64| scattered_starts(osc, area, seed, index);
-    // small questions are not worth a survey
-    let surveyed = if starts > WORTH_A_SURVEY { SURVEY } else { 0 };
-    let survey = KnownAttractors::survey(osc, (0..surveyed).map(start), options);
-    let parts = tiles(starts, TILE, control, |range, tick| {
-        settle_many(osc, range, start, &survey, options, Width::best(), tick).motions
-    })?;
+) -> Result<Census, RunError> {
+    let task = BasinFill::scattered(system, (starts, seed), Some(TILE))?;
     let mut merged = Census::default();
-    for found in parts.iter().flatten() {
-        merged.add_found(found);
+    for (_, tile) in tiles_of(&task, control)? {
+        for found in tile.met.motions() {
+            merged.add_found(found);
+        }
     }
     Ok(merged)
 }
@@ -41,13 +26,14 @@ pub(crate) fn attractors(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use vibroimpact::verdict::SettleOptions;
 
     #[test]
     fn as_one_after_another() {
-        let osc = vibroimpact::scenario::Q.oscillator();
-        let options = SettleOptions::default();
-        let serial = vibroimpact::verdict::attractors(&osc, 100, 3, &options);
-        let threaded = attractors(&osc, StartBox::natural(&osc), (100, 3), &options, &Control::default()).unwrap();
+        let system = SystemPlan { inverse_beta: Some(0.7), gap: 2.5, restitution: 0.5, ..SystemPlan::default() };
+        let osc = system.oscillator().unwrap();
+        let serial = vibroimpact::verdict::attractors(&osc, 100, 3, &SettleOptions::default());
+        let threaded = attractors(&system, (100, 3), &Control::default()).unwrap();
         let summary =
             |c: &Census| c.motions().iter().map(|f| (f.verdict.label().into_owned(), f.count)).collect::<Vec<_>>();
         assert_eq!(summary(&serial), summary(&threaded));

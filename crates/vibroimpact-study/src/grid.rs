@@ -130,6 +130,12 @@ impl Block {
         Index { of, dimensions }
     }
 
+    /// The number of its point with these indices in the grid.
+    #[must_use]
+    pub fn number(&self, index: &[usize]) -> usize {
+        index.iter().zip(&self.ranges).fold(0, |sum, (i, range)| sum * range.len() + (i - range.start))
+    }
+
     /// Copies the column of this block into that of a larger one, with `width` numbers a point.
     pub fn put(&self, part: &Column, within: &Self, width: usize, whole: &mut Column) {
         self.rows(within, width, |at, from, len| whole.copy(at, part, from, len));
@@ -141,8 +147,7 @@ impl Block {
         let Some(len) = self.ranges.last().map(ExactSizeIterator::len).filter(|len| *len > 0) else { return };
         for r in 0..self.points() / len {
             let index = self.index(r * len);
-            let at = index.iter().zip(&within.ranges).fold(0, |sum, (i, range)| sum * range.len() + (i - range.start));
-            row(at * width, r * len * width, len * width);
+            row(within.number(&index) * width, r * len * width, len * width);
         }
     }
 }

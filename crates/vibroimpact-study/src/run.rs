@@ -14,7 +14,7 @@ use crate::{
 };
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
 use vibroimpact::orbit::{FindOptions, Orbit, find_while};
-use vibroimpact::verdict::{Census, SettleOptions, Settled, StartBox, settle_while};
+use vibroimpact::verdict::{Census, SettleOptions, Settled, settle_while};
 use vibroimpact::{Label, Start};
 
 /// The result of each [`Task`].
@@ -79,10 +79,7 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
             let start = start.start(&osc)?;
             Results::Settle(start, settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(stopped)?)
         }
-        Task::Attractors { starts, seed } => {
-            let (area, options) = (StartBox::natural(&osc), SettleOptions::default());
-            Results::Attractors(attractors(&osc, area, (*starts, *seed), &options, control)?)
-        }
+        Task::Attractors { starts, seed } => Results::Attractors(attractors(system, (*starts, *seed), control)?),
         Task::Orbit { label } => {
             let label: Label = label.parse().map_err(PlanError::from)?;
             Results::Orbit(find_while(&osc, label, FindOptions::default(), go_on).ok_or(stopped)?)

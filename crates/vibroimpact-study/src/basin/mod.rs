@@ -5,9 +5,9 @@ mod plan;
 pub use plan::BasinPlan;
 
 use crate::limits::MOST_CELLS;
-use crate::{Control, PlanError, RunError, SystemPlan, axis, tiles};
-use vibroimpact::lanes::Width;
-use vibroimpact::verdict::{Census, CountedMotion, KnownAttractors, settle_many};
+use crate::study::{BasinFill, Cell, tiles_of};
+use crate::{Control, PlanError, RunError, SystemPlan, axis};
+use vibroimpact::verdict::{Census, CountedMotion, settle};
 use vibroimpact::{Oscillator, Start};
 
 /// The motions of a basin and, for every start, which of them it leads to.
@@ -36,10 +36,8 @@ impl Basin {
     }
 }
 
-/// Points of a tile: large enough that merging costs nothing, small enough to stop quickly and share evenly.
-const TILE: u64 = 4096;
-/// Starts settled beforehand, spread over the plane, to know its cycles and their traps.
-const SURVEY: u64 = 24;
+/// Starts of a tile, about: large enough that merging costs nothing, small enough to stop quickly and share evenly.
+const TILE: u32 = 4096;
 
 /// The start of cell number `k` of a basin of one oscillator.
 #[must_use]
@@ -74,9 +72,8 @@ pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>
     in_tiles(system, plan, control, TILE)
 }
 
-fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: u64) -> Result<Basin, RunError> {
+fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: u32) -> Result<Basin, RunError> {
     plan.check(system)?;
-    let options = &plan.options();
     let (osc, total) = (&system.oscillator()?, plan.starts());
     if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
         let (task, name) = ("basin of one system", axis.vary.name());
@@ -85,22 +82,49 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
     if total > MOST_CELLS {
         return Err(axis::too_many("starts", &plan.axes).into());
     }
-    let start = |k: u64| start(osc, plan, k);
-    let survey =
-        KnownAttractors::survey(osc, (0..SURVEY.min(total)).map(|k| start(total / SURVEY.min(total) * k)), options);
-    let parts = tiles(total, tile, control, |range, tick| {
-        let settlement = settle_many(osc, range, start, &survey, options, Width::best(), tick);
-        let cells: Vec<u16> = settlement.cells.iter().map(|&cell| u16::try_from(cell).unwrap_or(u16::MAX)).collect();
-        (settlement.motions, cells)
-    })?;
+    let all = BasinPlan { refine: None, ..plan.clone() };
+    let dimensions = i32::try_from(plan.axes.len()).unwrap_or(1);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at least 1, at most 4096
+    let side = f64::from(tile).powf(1.0 / f64::from(dimensions)).round().max(1.0) as u32;
+    let task = BasinFill::plane(system, &all, Some(side))?;
+    let whole = axis::whole(&plan.axes);
     let mut merged = Census::default();
-    let mut all = Vec::with_capacity(usize::try_from(total).unwrap_or(0));
-    for (motions, cells) in parts {
-        let numbers: Vec<u16> =
-            motions.iter().map(|found| u16::try_from(merged.add_found(found)).unwrap_or(u16::MAX)).collect();
-        all.extend(cells.into_iter().map(|local| numbers[usize::from(local)]));
+    let mut cells = vec![u16::MAX; whole.points()];
+    // of each motion the start whose verdict the census has
+    let mut sources: Vec<usize> = Vec::new();
+    for (block, tile) in tiles_of(&task, control)? {
+        let numbers: Vec<usize> = tile.met.motions().iter().map(|found| merged.add_found(found)).collect();
+        for (k, cell) in tile.cells.iter().enumerate() {
+            // without refinement every start is settled
+            let Cell::Computed(local) = cell else { continue };
+            let (place, number) = (whole.number(&block.index(k)), numbers[*local as usize]);
+            if number == sources.len() {
+                sources.push(place);
+            }
+            cells[place] = u16::try_from(number).unwrap_or(u16::MAX);
+        }
     }
-    Ok(Basin { plan: plan.clone(), motions: merged.motions().to_vec(), cells: all })
+    let mut order: Vec<(usize, usize)> = Vec::new();
+    let mut renumbered = vec![None; sources.len()];
+    for (place, cell) in cells.iter_mut().enumerate() {
+        let number = usize::from(*cell);
+        let new = *renumbered[number].get_or_insert_with(|| {
+            order.push((number, place));
+            order.len() - 1
+        });
+        *cell = u16::try_from(new).unwrap_or(u16::MAX);
+    }
+    let motions = order.into_iter().map(|(number, first)| {
+        let found = &merged.motions()[number];
+        // the verdict is that of the first start, whatever the tiles are
+        let verdict = if sources[number] == first {
+            found.verdict.clone()
+        } else {
+            settle(osc, start(osc, plan, first as u64), &plan.options()).verdict
+        };
+        CountedMotion { verdict, count: found.count }
+    });
+    Ok(Basin { plan: plan.clone(), motions: motions.collect(), cells })
 }
 
 #[cfg(test)]
@@ -134,7 +158,7 @@ mod tests {
         let got = basin(&system, &plan, &Control::default()).unwrap();
         let mut census = Census::default();
         let one_by_one = |k| {
-            let verdict = vibroimpact::verdict::settle(&osc, start(&osc, &plan, k), &plan.options());
+            let verdict = settle(&osc, start(&osc, &plan, k), &plan.options());
             census.add(&verdict.verdict)
         };
         let cells: Vec<usize> = (0..1200).map(one_by_one).collect();

@@ -14,7 +14,8 @@ mod strobes;
 pub use follow::{DiagramPoint, MotionKind};
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirection};
 
-use crate::{Control, PlanError, RunError, SystemPlan, tiles};
+use crate::study::{DiagramFill, tiles_of};
+use crate::{Control, PlanError, RunError, SystemPlan};
 use follow::AfterTransient;
 use vibroimpact::verdict::{StartBox, scattered_starts};
 use vibroimpact::{Oscillator, Start};
@@ -52,8 +53,8 @@ pub struct Diagram {
     pub steps: Vec<DiagramStep>,
 }
 
-/// Scattered starts of a tile.
-const TILE: u64 = 16;
+/// Scattered starts of a tile, and values.
+const TILE: u32 = 4;
 
 /// Follows the motions at all values.
 ///
@@ -61,38 +62,17 @@ const TILE: u64 = 16;
 /// [`RunError`] for a plan that makes no sense, or when stopped.
 pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
     plan.check(system)?;
-    let values = u64::from(plan.over.count());
-    let tile = if let SweepDirection::Scatter { .. } = plan.direction { TILE } else { values };
-    let parts = tiles(values * plan.runs(), tile, control, |range, tick| {
-        let mut steps = Vec::new();
-        let mut before = None;
-        for k in range {
-            let (index, sweep) = place(plan, k);
-            steps.push(step(system, plan, (index, sweep), before).map(|(step, left)| {
-                before = Some(left);
-                step
-            }));
-            if tick() {
-                break;
-            }
-        }
-        steps
-    })?;
-    let steps = parts.into_iter().flatten().collect::<Result<Vec<_>, _>>()?;
+    let task = DiagramFill::new(system, plan, Some(TILE));
+    let parts = tiles_of(&task, control)?;
+    let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
+    if let SweepDirection::Scatter { .. } = plan.direction {
+        // tiles hold several starts at several values: value by value, at each the starts in order
+        steps.sort_by_key(|step| (step.index, step.sweep));
+    }
     Ok(Diagram { plan: *plan, steps })
 }
 
-/// Motion number `k`: at which value, and which of those there.
-#[allow(clippy::cast_possible_truncation)] // indices of a range of at most 1e6 values
-fn place(plan: &DiagramPlan, k: u64) -> (u32, Sweep) {
-    let count = u64::from(plan.over.count());
-    match plan.direction {
-        SweepDirection::Scatter { starts, .. } => ((k / starts) as u32, Sweep::Start(k % starts)),
-        _ => carried(plan, k / count, (k % count) as u32),
-    }
-}
-
-/// DiagramStep number `j` of sweep number `row`: at which value, and in which direction.
+/// Step number `j` of sweep number `row`: at which value, and in which direction.
 pub(crate) fn carried(plan: &DiagramPlan, row: u64, j: u32) -> (u32, Sweep) {
     let count = plan.over.count();
     let (first, last) = plan.over.ends();

@@ -6,7 +6,8 @@ pub use plan::MapPlan;
 pub(crate) use plan::{check_impacts, check_refine};
 
 use crate::limits::MOST_CELLS;
-use crate::{Control, RunError, SystemPlan, axis, tiles};
+use crate::study::{Cell, MapFill, tiles_of};
+use crate::{Control, RunError, SystemPlan, axis};
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{
@@ -46,30 +47,26 @@ pub struct RegionMap {
 /// [`RunError`] for a plan that makes no sense, or when stopped.
 pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result<RegionMap, RunError> {
     plan.check(system)?;
-    let options = &plan.options();
-    let total = plan.points();
-    if total > MOST_CELLS {
+    if plan.points() > MOST_CELLS {
         return Err(axis::too_many("points", &plan.axes).into());
     }
-    let all = axis::whole(&plan.axes);
-    let parts = tiles(total, 4, control, |range, tick| {
-        let mut points = Vec::new();
-        for k in range {
-            // at most MOST_CELLS
-            let index = all.index(usize::try_from(k).unwrap_or(usize::MAX));
+    let all = MapPlan { refine: None, ..plan.clone() };
+    // small tiles, because one point may take a thousand times as long as another
+    let task = MapFill::new(system, &all, Some(if plan.axes.len() > 1 { 2 } else { 4 }));
+    let whole = axis::whole(&plan.axes);
+    let mut points: Vec<Option<MapPoint>> = (0..whole.points()).map(|_| None).collect();
+    for (block, tile) in tiles_of(&task, control)? {
+        for (k, cell) in tile.into_iter().enumerate() {
+            let index = block.index(k);
             let place = |axis: usize| index[index.len() - 1 - axis];
-            points.push(plan.oscillator(system, place).map(|osc| {
-                let at = plan.axes.iter().enumerate().map(|(k, axis)| axis.over.at(place(k))).collect();
-                MapPoint { at, motions: motions(&osc, plan, options) }
-            }));
-            if tick() {
-                break;
+            let at = plan.axes.iter().enumerate().map(|(k, axis)| axis.over.at(place(k))).collect();
+            // without refinement every point is computed
+            if let Cell::Computed(found) = cell {
+                points[whole.number(&index)] = Some(MapPoint { at, motions: found? });
             }
         }
-        points
-    })?;
-    let points = parts.into_iter().flatten().collect::<Result<Vec<_>, _>>()?;
-    Ok(RegionMap { plan: plan.clone(), points })
+    }
+    Ok(RegionMap { plan: plan.clone(), points: points.into_iter().flatten().collect() })
 }
 
 /// The motions at one point, the most frequent first, and their shares of the starts.

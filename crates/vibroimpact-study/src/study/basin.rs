@@ -11,6 +11,8 @@ use crate::field::{Column, Field, NumberType};
 use crate::grid::{Block, Dimension, Grid};
 use crate::limits::MOST_STARTS;
 use crate::{BasinPlan, PlanError, SystemPlan};
+use core::cell::RefCell;
+use std::sync::OnceLock;
 use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{
     Census, CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
@@ -32,7 +34,7 @@ enum Starts {
     Scattered { area: StartBox, seed: u64 },
 }
 
-pub(super) struct BasinFill {
+pub(crate) struct BasinFill {
     system: SystemPlan,
     /// The oscillator, where all starts are of one.
     one: Option<Surveyed>,
@@ -46,14 +48,28 @@ pub(super) struct BasinFill {
 struct Surveyed {
     osc: Oscillator,
     survey: KnownAttractors,
-    cycles: Vec<Verdict>,
+    /// The cycles that are numbered in all tiles alike; worked out when a tile is stored.
+    cycles: OnceLock<Vec<Verdict>>,
 }
 
-/// What a start leads to: its label, and the number of its cycle.
+/// The motions of a tile.
+pub(crate) struct BasinTile {
+    /// Of one oscillator, the motions that were met, in the order of the first start that was settled into each.
+    pub(crate) met: Census,
+    /// Where parameters vary too, the codes that were met.
+    codes: Vec<i32>,
+    /// For each point the number of its motion in `met`, or of its code.
+    pub(crate) cells: Vec<Cell<u32>>,
+}
+
+/// What a start leads to: the code of its label, and the number of its cycle.
 type Leads = (i32, i32);
 
+/// Where so few starts are to be settled, none is settled beforehand.
+const WORTH_A_SURVEY: u64 = 500;
+
 impl BasinFill {
-    pub(super) fn plane(system: &SystemPlan, plan: &BasinPlan, tile: Option<u32>) -> Result<Self, PlanError> {
+    pub(crate) fn plane(system: &SystemPlan, plan: &BasinPlan, tile: Option<u32>) -> Result<Self, PlanError> {
         let starts = Starts::Grid(plan.clone());
         let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
         let osc = if plan.one_system() { Some(system.oscillator()?) } else { None };
@@ -61,7 +77,7 @@ impl BasinFill {
             .surveyed(osc))
     }
 
-    pub(super) fn scattered(
+    pub(crate) fn scattered(
         system: &SystemPlan,
         (starts, seed): (u64, u64),
         tile: Option<u32>,
@@ -78,27 +94,45 @@ impl BasinFill {
 
     fn surveyed(self, osc: Option<Oscillator>) -> Self {
         let one = osc.map(|osc| {
-            let (whole, options) = (self.grid.whole(), self.options);
             let total = self.grid.points();
-            let start = |k: u64| self.start(&osc, &whole.index(usize::try_from(k).unwrap_or(0)));
-            let spread = |n: u64| (0..n.min(total)).map(move |k| total / n.min(total) * k);
-            let survey = KnownAttractors::survey(&osc, spread(TRAPS).map(start), &options);
-            let numbers: Vec<u64> = spread(SURVEY).collect();
-            let known = |k: u64| start(numbers[usize::try_from(k).unwrap_or(0)]);
-            let found = settle_many(&osc, 0..numbers.len() as u64, known, &survey, &options, Width::best(), &|| false);
+            let traps = if total > WORTH_A_SURVEY { TRAPS } else { 0 };
+            let starts = self.spread(traps).map(|k| self.nth(&osc, k));
+            Surveyed { survey: KnownAttractors::survey(&osc, starts, &self.options), cycles: OnceLock::new(), osc }
+        });
+        Self { one, ..self }
+    }
+
+    /// Numbers of points spread evenly over the grid.
+    fn spread(&self, count: u64) -> impl Iterator<Item = u64> + use<> {
+        let total = self.grid.points();
+        let count = count.min(total);
+        (0..count).map(move |k| total / count * k)
+    }
+
+    /// The start at point number `k` of the grid.
+    fn nth(&self, osc: &Oscillator, k: u64) -> Start {
+        self.start(osc, &self.grid.whole().index(usize::try_from(k).unwrap_or(0)))
+    }
+
+    /// The cycles of a survey, which every tile can repeat.
+    fn cycles<'a>(&self, one: &'a Surveyed) -> &'a [Verdict] {
+        one.cycles.get_or_init(|| {
+            let numbers: Vec<u64> = self.spread(SURVEY).collect();
+            let known = |k: u64| self.nth(&one.osc, numbers[usize::try_from(k).unwrap_or(0)]);
+            let (range, width) = (0..numbers.len() as u64, Width::best());
+            let found = settle_many(&one.osc, range, known, &one.survey, &self.options, width, &|| false);
             let mut census = Census::default();
             for found in &found.motions {
                 census.add_found(found);
             }
-            Surveyed { survey, cycles: cycles::survey(&census), osc }
-        });
-        Self { one, ..self }
+            cycles::survey(&census)
+        })
     }
 
     /// The same as if the survey had met nothing.
     #[cfg(test)]
     pub(super) fn forgetful(self) -> Self {
-        Self { one: self.one.map(|one| Surveyed { cycles: Vec::new(), ..one }), ..self }
+        Self { one: self.one.map(|one| Surveyed { cycles: OnceLock::from(Vec::new()), ..one }), ..self }
     }
 
     /// The start at a point of the grid.
@@ -115,21 +149,28 @@ impl BasinFill {
         axis::system_at(&self.system, &plan.axes, |k| on_axis(index, k)).ok()?.oscillator().ok()
     }
 
-    /// Settles these points of a tile, and collects the cycles that the survey has not met.
+    /// Settles these points of a tile: for each the number of its motion or code in the tile.
     fn settled(
         &self,
         block: &Block,
         wanted: &[usize],
-        unknown: &mut Census,
+        (met, codes): (&mut Census, &mut Vec<i32>),
         tick: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Vec<Leads>> {
+    ) -> Option<Vec<u32>> {
         let options = self.options;
+        let whole = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
         let Some(one) = &self.one else {
             let alone = |k: &usize| {
                 let index = block.index(*k);
-                let Some(osc) = self.oscillator(&index) else { return Some((super::UNDECIDED, cycles::NONE)) };
-                let found = vibroimpact::verdict::settle(&osc, self.start(&osc, &index), &options);
-                (!tick()).then(|| (code(&found.verdict), cycles::NONE))
+                // the corners were checked, and a point between legal ones that is none is undecided
+                let found = self.oscillator(&index).map_or(super::UNDECIDED, |osc| {
+                    code(&vibroimpact::verdict::settle(&osc, self.start(&osc, &index), &options).verdict)
+                });
+                let number = codes.iter().position(|known| *known == found).unwrap_or_else(|| {
+                    codes.push(found);
+                    codes.len() - 1
+                });
+                (!tick()).then(|| whole(number))
             };
             return wanted.iter().map(alone).collect();
         };
@@ -142,27 +183,32 @@ impl BasinFill {
         if settlement.cells.len() < wanted.len() {
             return None;
         }
-        let leads = |found: &CountedMotion| (code(&found.verdict), cycles::number(&one.cycles, unknown, found));
-        let motions: Vec<Leads> = settlement.motions.iter().map(leads).collect();
-        Some(settlement.cells.iter().map(|cell| motions[*cell as usize]).collect())
+        let numbers: Vec<u32> = settlement.motions.iter().map(|found| whole(met.add_found(found))).collect();
+        Some(settlement.cells.iter().map(|cell| numbers[*cell as usize]).collect())
     }
 
-    /// The motions of a tile, and the cycles only it has met.
-    fn leads(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<(Vec<Cell<Leads>>, Census)> {
+    /// What each motion of a tile is stored as, and the cycles that the survey has not met.
+    fn leads(&self, tile: &BasinTile) -> (Vec<Leads>, Census) {
         let mut unknown = Census::default();
-        let compute = |wanted: &[usize]| self.settled(block, wanted, &mut unknown, tick);
-        let cells = match self.refine {
-            Some(step) => refine::fill(block, step as usize, compute, |a, b| a == b)?,
-            None => {
-                let mut compute = compute;
-                compute(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect()
-            }
+        let Some(one) = &self.one else {
+            return (tile.codes.iter().map(|code| (*code, cycles::NONE)).collect(), unknown);
         };
-        Some((cells, unknown))
+        let known = self.cycles(one);
+        let leads = |found: &CountedMotion| (code(&found.verdict), cycles::number(known, &mut unknown, found));
+        (tile.met.motions().iter().map(leads).collect(), unknown)
+    }
+
+    /// Whether two numbers of a tile stand for one motion, or for two that have one label and no cycle.
+    fn alike(&self, met: &Census, a: u32, b: u32) -> bool {
+        let label = |number: u32| met.motions().get(number as usize).map(|found| &found.verdict);
+        let plain = |of: Option<&Verdict>| of.filter(|verdict| !matches!(verdict, Verdict::Periodic(_))).map(code);
+        a == b || (plain(label(a)).is_some() && plain(label(a)) == plain(label(b)))
     }
 }
 
 impl Fill for BasinFill {
+    type Tile = BasinTile;
+
     fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -216,12 +262,33 @@ impl Fill for BasinFill {
         fields
     }
 
-    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        let (cells, _) = self.leads(block, tick)?;
-        let of = |cell: &Cell<Leads>| match cell {
-            Cell::Computed(leads) => *leads,
+    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<BasinTile> {
+        let (mut met, mut codes) = (Census::default(), Vec::new());
+        let cells = match self.refine {
+            None => {
+                let all: Vec<usize> = (0..block.points()).collect();
+                let numbers = self.settled(block, &all, (&mut met, &mut codes), tick)?;
+                numbers.into_iter().map(Cell::Computed).collect()
+            }
+            Some(step) => {
+                let shared = RefCell::new((&mut met, &mut codes));
+                let compute = |wanted: &[usize]| {
+                    let (met, codes) = &mut *shared.borrow_mut();
+                    self.settled(block, wanted, (met, codes), tick)
+                };
+                refine::fill(block, step as usize, compute, |a, b| self.alike(shared.borrow().0, *a, *b))?
+            }
+        };
+        Some(BasinTile { met, codes, cells })
+    }
+
+    fn columns(&self, block: &Block, tile: BasinTile) -> Vec<Column> {
+        let (leads, _) = self.leads(&tile);
+        let cells = &tile.cells;
+        let of = |cell: &Cell<u32>| match cell {
+            Cell::Computed(number) => leads[*number as usize],
             Cell::Like(corner) => match cells[*corner] {
-                Cell::Computed(leads) => leads,
+                Cell::Computed(number) => leads[number as usize],
                 Cell::Like(_) => (super::UNDECIDED, cycles::NONE),
             },
         };
@@ -236,17 +303,17 @@ impl Fill for BasinFill {
             }
         }
         if self.refine.is_some() {
-            columns.push(computed_column(&cells));
+            columns.push(computed_column(cells));
         }
-        Some(columns)
+        columns
     }
 
     fn numbered(&self) -> Option<Numbering<'_>> {
         let one = self.one.as_ref()?;
         let unknown = |k: u64| {
-            let found = self.leads(&self.grid.tile(k), &|| false);
-            found.map(|(_, unknown)| unknown).unwrap_or_default()
+            let tile = self.compute(&self.grid.tile(k), &|| false);
+            tile.map(|tile| self.leads(&tile).1).unwrap_or_default()
         };
-        Some(Numbering { field: 1, known: &one.cycles, unknown: Box::new(unknown) })
+        Some(Numbering { field: 1, known: self.cycles(one), unknown: Box::new(unknown) })
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn survey(found: &Census) -> Vec<Verdict> {
 }
 
 /// What is needed to number what the survey has not met.
-pub struct Numbering<'a> {
+pub(crate) struct Numbering<'a> {
     /// Which field holds the numbers.
     pub(super) field: usize,
     /// The cycles of the survey.

@@ -5,13 +5,13 @@ use crate::axis::Coordinate;
 use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep, SweepDirection, carried, step};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::grid::{Block, Dimension, Grid};
-use crate::{DiagramPlan, SystemPlan};
+use crate::{DiagramPlan, PlanError, SystemPlan};
 use vibroimpact::Side;
 
 /// Starts and values of a tile of scattered starts.
 const TILE: (usize, usize) = (16, 64);
 
-pub(super) struct DiagramFill {
+pub(crate) struct DiagramFill {
     system: SystemPlan,
     plan: DiagramPlan,
     grid: Grid,
@@ -19,7 +19,7 @@ pub(super) struct DiagramFill {
 }
 
 impl DiagramFill {
-    pub(super) fn new(system: &SystemPlan, plan: &DiagramPlan, tile: Option<u32>) -> Self {
+    pub(crate) fn new(system: &SystemPlan, plan: &DiagramPlan, tile: Option<u32>) -> Self {
         let dimension =
             |name: &str, count: usize, tile: usize| Dimension { name: name.into(), count, tile: tile.min(count) };
         let (values, runs) = (plan.over.count() as usize, usize::try_from(plan.runs()).unwrap_or(usize::MAX));
@@ -38,6 +38,9 @@ impl DiagramFill {
 }
 
 impl Fill for DiagramFill {
+    /// The motions of the rows one after another, each in the order of its sweep.
+    type Tile = Vec<Result<DiagramStep, PlanError>>;
+
     fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -110,10 +113,10 @@ impl Fill for DiagramFill {
         fields
     }
 
-    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
         let (rows, values) = (&block.ranges[0], &block.ranges[1]);
-        let mut tile = Tile::empty(block.points(), self.keep);
-        for (i, row) in rows.clone().enumerate() {
+        let mut steps = Vec::with_capacity(block.points());
+        for row in rows.clone() {
             let mut before = None;
             for j in 0..values.len() {
                 let row = row as u64;
@@ -121,25 +124,36 @@ impl Fill for DiagramFill {
                     SweepDirection::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
                     _ => carried(&self.plan, row, u32::try_from(j).ok()?),
                 };
-                // the ends were checked, and a value between legal ones is legal
-                let (step, left) = step(&self.system, &self.plan, (index, sweep), before).ok()?;
-                before = Some(left);
-                tile.put(i * values.len() + (index as usize - values.start), &step, self.keep);
+                steps.push(step(&self.system, &self.plan, (index, sweep), before).map(|(step, left)| {
+                    before = Some(left);
+                    step
+                }));
                 if tick() {
                     return None;
                 }
             }
         }
-        Some(match self.plan.show {
+        Some(steps)
+    }
+
+    fn columns(&self, block: &Block, steps: Self::Tile) -> Vec<Column> {
+        let values = &block.ranges[1];
+        let mut tile = Tile::empty(block.points(), self.keep);
+        // the ends were checked, and a value between legal ones is legal
+        for (k, step) in steps.iter().enumerate().filter_map(|(k, step)| Some((k, step.as_ref().ok()?))) {
+            let row = k / values.len();
+            tile.put(row * values.len() + (step.index as usize - values.start), step, self.keep);
+        }
+        match self.plan.show {
             Show::Velocity => {
                 vec![tile.kind, tile.first, tile.second, tile.side].into_iter().map(Part::column).collect()
             }
             Show::Strobe => vec![tile.kind, tile.first, tile.second].into_iter().map(Part::column).collect(),
-        })
+        }
     }
 }
 
-/// The diagram that the columns of its study hold, motions in the order of [`crate::diagram()`].
+/// The diagram that the columns of its study hold, motions in the order of [`Diagram`].
 ///
 /// Motions of tiles that are not done are left out.
 #[must_use]

@@ -19,8 +19,11 @@ pub struct Along {
     pub units: &'static str,
 }
 
-/// What each tile holds.
-pub trait Fill: Send + Sync {
+/// A task over a grid: what a tile of it computes, and how that is stored.
+pub(crate) trait Fill: Send + Sync {
+    /// The results of a tile.
+    type Tile: Send;
+
     /// The grid and its tiles.
     fn grid(&self) -> &Grid;
 
@@ -30,12 +33,46 @@ pub trait Fill: Send + Sync {
     /// The arrays.
     fn fields(&self) -> Vec<Field>;
 
-    /// The columns of a tile, one for each field. `tick` is called for each point and says whether to stop.
-    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
+    /// Computes a tile; `None` if stopped. `tick` is called for each point and returns whether to stop.
+    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile>;
+
+    /// The columns of a tile, one for each field.
+    fn columns(&self, block: &Block, tile: Self::Tile) -> Vec<Column>;
 
     /// The field that numbers cycles, and the cycles known beforehand, where there is such a field.
     fn numbered(&self) -> Option<cycles::Numbering<'_>> {
         None
+    }
+}
+
+/// A [`Fill`] whose results are known as columns only, so that a study can hold any of them.
+pub(super) trait Columns: Send + Sync {
+    fn grid(&self) -> &Grid;
+    fn coordinates(&self) -> Vec<Along>;
+    fn fields(&self) -> Vec<Field>;
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
+    fn numbered(&self) -> Option<cycles::Numbering<'_>>;
+}
+
+impl<F: Fill> Columns for F {
+    fn grid(&self) -> &Grid {
+        Fill::grid(self)
+    }
+
+    fn coordinates(&self) -> Vec<Along> {
+        Fill::coordinates(self)
+    }
+
+    fn fields(&self) -> Vec<Field> {
+        Fill::fields(self)
+    }
+
+    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+        Some(self.columns(block, self.compute(block, tick)?))
+    }
+
+    fn numbered(&self) -> Option<cycles::Numbering<'_>> {
+        Fill::numbered(self)
     }
 }
 

@@ -46,6 +46,8 @@ const fn grounds(of: &Grounds) -> i8 {
 }
 
 impl Fill for LyapunovFill {
+    type Tile = Vec<Column>;
+
     fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -82,7 +84,7 @@ impl Fill for LyapunovFill {
         fields
     }
 
-    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
+    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         let points = block.points();
         let mut numbers = [2, 2, 1, 1, 1].map(|width| vec![f64::NAN; width * points]);
         let mut why = vec![0_i8; points];
@@ -110,5 +112,9 @@ impl Fill for LyapunovFill {
             }
         }
         Some(numbers.into_iter().map(Column::F64).chain([Column::I8(why)]).collect())
+    }
+
+    fn columns(&self, _: &Block, tile: Vec<Column>) -> Vec<Column> {
+        tile
     }
 }

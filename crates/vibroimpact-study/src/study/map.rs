@@ -5,7 +5,7 @@ use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::refine::{self, Cell};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::map::motions;
-use crate::{Block, Grid, MapPlan, SystemPlan};
+use crate::{Block, Grid, MapPlan, PlanError, Share, SystemPlan};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{SettleOptions, Verdict};
 
@@ -14,21 +14,12 @@ const MOST_MOTIONS: usize = 8;
 /// Points of a tile along each of two axes where no number is given; some seconds of work.
 const TILE: usize = 64;
 
-pub(super) struct MapFill {
+pub(crate) struct MapFill {
     system: SystemPlan,
     plan: MapPlan,
     options: SettleOptions,
     grid: Grid,
     kept: usize,
-}
-
-/// A motion as it is stored.
-#[derive(Clone, Debug)]
-struct Row {
-    label: i32,
-    share: f64,
-    speed: f64,
-    multiplier: f64,
 }
 
 /// Points of a tile along each axis, so that tiles are of a like size for any number of axes.
@@ -43,22 +34,33 @@ pub(super) const fn side(plane: usize, axes: usize) -> usize {
 }
 
 impl MapFill {
-    pub(super) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
+    pub(crate) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
         let kept = usize::try_from(plan.starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
         let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
         Self { system: *system, plan: plan.clone(), options: plan.options(), grid, kept }
     }
 
-    /// The motions at a point; none where it is no legal system, which only the corners were checked for.
-    fn point(&self, index: &[usize]) -> Vec<Row> {
-        let Ok(osc) = self.plan.oscillator(&self.system, |k| on_axis(index, k)) else { return Vec::new() };
-        let row = |found: crate::Share| Row {
-            label: code(&found.verdict),
-            share: found.share,
-            speed: speed(&found.verdict),
-            multiplier: multiplier(&found.verdict, &osc),
-        };
-        motions(&osc, &self.plan, &self.options).into_iter().take(self.kept).map(row).collect()
+    /// The oscillator at a point; only the corners of the grid were checked.
+    fn oscillator(&self, index: &[usize]) -> Result<Oscillator, PlanError> {
+        self.plan.oscillator(&self.system, |k| on_axis(index, k))
+    }
+
+    /// The motions at a point.
+    fn point(&self, index: &[usize]) -> MapTilePoint {
+        Ok(motions(&self.oscillator(index)?, &self.plan, &self.options))
+    }
+
+    /// The labels of the motions that are kept of a point, in order.
+    fn labels(&self, point: &MapTilePoint) -> Vec<i32> {
+        let mut labels: Vec<i32> = self.kept(point).iter().map(|found| code(&found.verdict)).collect();
+        labels.sort_unstable();
+        labels
+    }
+
+    /// The motions that are kept of a point; none where it is no legal system.
+    fn kept<'a>(&self, point: &'a MapTilePoint) -> &'a [Share] {
+        let all = point.as_deref().unwrap_or(&[]);
+        &all[..all.len().min(self.kept)]
     }
 }
 
@@ -72,17 +74,12 @@ fn multiplier(verdict: &Verdict, osc: &Oscillator) -> f64 {
     verdict.multipliers(osc).map_or(f64::NAN, |[a, b]| a.modulus().max(b.modulus()))
 }
 
-/// Whether two points have the same motions by name, in whatever order.
-fn alike(a: &[Row], b: &[Row]) -> bool {
-    let labels = |rows: &[Row]| {
-        let mut labels: Vec<i32> = rows.iter().map(|row| row.label).collect();
-        labels.sort_unstable();
-        labels
-    };
-    labels(a) == labels(b)
-}
+/// The motions at a point, the most frequent first, or why there is no system.
+type MapTilePoint = Result<Vec<Share>, PlanError>;
 
 impl Fill for MapFill {
+    type Tile = Vec<Cell<MapTilePoint>>;
+
     fn grid(&self) -> &Grid {
         &self.grid
     }
@@ -128,33 +125,38 @@ impl Fill for MapFill {
         fields
     }
 
-    fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
-        let points = block.points();
-        let rows = |wanted: &[usize]| -> Option<Vec<Vec<Row>>> {
+    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
+        let points = |wanted: &[usize]| -> Option<Vec<MapTilePoint>> {
             wanted.iter().map(|k| (!tick()).then(|| self.point(&block.index(*k)))).collect()
         };
-        let cells: Vec<Cell<Vec<Row>>> = match self.plan.refine {
-            None => rows(&(0..points).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
-            Some(step) => refine::fill(block, step as usize, rows, |a, b| alike(a, b))?,
-        };
+        match self.plan.refine {
+            None => Some(points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect()),
+            // the same motions by name, in whatever order
+            Some(step) => refine::fill(block, step as usize, points, |a, b| self.labels(a) == self.labels(b)),
+        }
+    }
+
+    fn columns(&self, block: &Block, cells: Self::Tile) -> Vec<Column> {
+        let points = block.points();
         let mut label = vec![super::NO_MOTION; points * self.kept];
         let mut numbers = [(); 3].map(|()| vec![f64::NAN; points * self.kept]);
         for (k, cell) in cells.iter().enumerate() {
-            let (rows, own) = match cell {
-                Cell::Computed(rows) => (rows, true),
+            let (point, own) = match cell {
+                Cell::Computed(point) => (point, true),
                 Cell::Like(corner) => match &cells[*corner] {
-                    Cell::Computed(rows) => (rows, false),
+                    Cell::Computed(point) => (point, false),
                     // corners are computed
                     Cell::Like(_) => continue,
                 },
             };
-            for (i, row) in rows.iter().enumerate() {
+            let osc = if own { self.oscillator(&block.index(k)).ok() } else { None };
+            for (i, found) in self.kept(point).iter().enumerate() {
                 let at = k * self.kept + i;
-                label[at] = row.label;
-                numbers[0][at] = row.share;
+                label[at] = code(&found.verdict);
+                numbers[0][at] = found.share;
                 // numbers of another point would be wrong here, its labels are what was found to agree
-                if own {
-                    (numbers[1][at], numbers[2][at]) = (row.speed, row.multiplier);
+                if let Some(osc) = &osc {
+                    (numbers[1][at], numbers[2][at]) = (speed(&found.verdict), multiplier(&found.verdict, osc));
                 }
             }
         }
@@ -163,7 +165,7 @@ impl Fill for MapFill {
         if self.plan.refine.is_some() {
             columns.push(computed_column(&cells));
         }
-        Some(columns)
+        columns
     }
 }
 

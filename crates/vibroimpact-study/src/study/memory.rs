@@ -1,10 +1,11 @@
 //! A study computed in memory, whole: for grids that fit it.
 
+use super::fill::Fill;
 use super::{Study, StudyTable, Tiles};
 use crate::field::{Column, Field};
 use crate::grid::Grid;
 use crate::limits::MOST_CELLS;
-use crate::{Control, Meter, PlanError, RunError, tiles};
+use crate::{Block, Control, Meter, PlanError, RunError, Stopped, tiles};
 
 /// A study with all its arrays.
 pub struct Sheet {
@@ -29,23 +30,10 @@ pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError>
         return Err(PlanError::Memory { numbers, most: 4 * MOST_CELLS }.into());
     }
     let points = usize::try_from(grid.points()).unwrap_or(usize::MAX);
-    // one tile of the grid is one unit of work, but what is told are points
-    let meter = Meter::new(control, 0, grid.points());
-    let untold = Control { progress: &|_| {}, ..*control };
-    let parts = tiles(grid.tiles(), 1, &untold, |range, finished| {
-        let part = meter.tile(grid.tile(range.start).points() as u64);
-        let columns = study.tile(range.start, &|| part.tick());
-        if columns.is_some() {
-            part.finish();
-        }
-        finished();
-        columns
-    });
-    let parts = parts.map_err(|_| meter.stopped())?;
+    let parts = each_tile(&grid, control, |k, tick| study.tile(k, tick))?;
     let mut columns: Vec<Column> = fields.iter().map(|field| field.empty(points)).collect();
     let all = grid.whole();
     for (k, part) in parts.into_iter().enumerate() {
-        let part = part.ok_or_else(|| meter.stopped())?;
         for ((field, column), part) in fields.iter().zip(&mut columns).zip(&part) {
             grid.tile(k as u64).rows(&all, field.width(), |at, from, len| column.copy(at, part, from, len));
         }
@@ -53,6 +41,35 @@ pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError>
     let mut whole = Whole { grid: &grid, fields: &fields, columns: &mut columns };
     let tables = study.conclude(&mut whole).unwrap_or_else(|never| match never {});
     Ok(Sheet { fields, columns, tables, study })
+}
+
+/// The results of all tiles of a task, in the order of the tiles.
+pub(crate) fn tiles_of<F: Fill>(task: &F, control: &Control<'_>) -> Result<Vec<(Block, F::Tile)>, Stopped> {
+    let grid = task.grid();
+    let blocks = (0..grid.tiles()).map(|k| grid.tile(k));
+    Ok(blocks.zip(each_tile(grid, control, |k, tick| task.compute(&grid.tile(k), tick))?).collect())
+}
+
+/// Computes the tiles of a grid over threads. Progress is reported in points.
+fn each_tile<T: Send>(
+    grid: &Grid,
+    control: &Control<'_>,
+    compute: impl Fn(u64, &(dyn Fn() -> bool + Sync)) -> Option<T> + Sync,
+) -> Result<Vec<T>, Stopped> {
+    let meter = Meter::new(control, 0, grid.points());
+    // one tile of the grid is one unit of work, but points are reported
+    let silent = Control { progress: &|_| {}, ..*control };
+    let parts = tiles(grid.tiles(), 1, &silent, |range, finished| {
+        let part = meter.tile(grid.tile(range.start).points() as u64);
+        let computed = compute(range.start, &|| part.tick());
+        if computed.is_some() {
+            part.finish();
+        }
+        finished();
+        computed
+    });
+    let parts = parts.map_err(|_| meter.stopped())?;
+    parts.into_iter().collect::<Option<Vec<T>>>().ok_or_else(|| meter.stopped())
 }
 
 struct Whole<'a> {

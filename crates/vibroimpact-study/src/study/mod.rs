@@ -21,15 +21,18 @@ mod tests;
 pub use arrays::StudyArrays;
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, STUCK, UNDECIDED, code, label_of};
 pub use diagram::diagram_of;
-pub use fill::{Along, Fill};
+pub use fill::Along;
+pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, in_memory};
+pub(crate) use refine::Cell;
 pub use tables::{Cells, StudyTable, Tiles};
+pub(crate) use {basin::BasinFill, diagram::DiagramFill, map::MapFill};
 
 use crate::{Column, Field, Grid, Plan, PlanError, Task};
 
 /// A plan that fills a grid.
 pub struct Study {
-    fill: Box<dyn Fill>,
+    fill: Box<dyn fill::Columns>,
 }
 
 impl Study {
@@ -40,14 +43,12 @@ impl Study {
     pub fn new(plan: &Plan) -> Result<Self, PlanError> {
         plan.check()?;
         let tile = plan.tile;
-        let fill: Box<dyn Fill> = match &plan.task {
-            Task::Map(map) => Box::new(map::MapFill::new(&plan.system, map, tile)),
-            Task::Basin(basin) => Box::new(basin::BasinFill::plane(&plan.system, basin, tile)?),
-            Task::Attractors { starts, seed } => {
-                Box::new(basin::BasinFill::scattered(&plan.system, (*starts, *seed), tile)?)
-            }
+        let fill: Box<dyn fill::Columns> = match &plan.task {
+            Task::Map(map) => Box::new(MapFill::new(&plan.system, map, tile)),
+            Task::Basin(basin) => Box::new(BasinFill::plane(&plan.system, basin, tile)?),
+            Task::Attractors { starts, seed } => Box::new(BasinFill::scattered(&plan.system, (*starts, *seed), tile)?),
             Task::Lyapunov(lyapunov) => Box::new(lyapunov::LyapunovFill::new(&plan.system, lyapunov, tile)),
-            Task::Diagram(diagram) => Box::new(diagram::DiagramFill::new(&plan.system, diagram, tile)),
+            Task::Diagram(diagram) => Box::new(DiagramFill::new(&plan.system, diagram, tile)),
             Task::Simulate { .. } => return Err(PlanError::NoStudy("simulate")),
             Task::Settle { .. } => return Err(PlanError::NoStudy("settle")),
             Task::Orbit { .. } => return Err(PlanError::NoStudy("find orbits")),

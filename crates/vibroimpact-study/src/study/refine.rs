@@ -9,7 +9,7 @@ use std::collections::HashSet;
 
 /// What a point was given.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Cell<T> {
+pub(crate) enum Cell<T> {
     /// Its own result.
     Computed(T),
     /// That of the corner of a box, its point number ...

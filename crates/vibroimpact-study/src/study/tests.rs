@@ -54,7 +54,7 @@ fn cycles_that_nobody_knew_of_are_numbered_at_the_end() {
     let plan = Plan { tile: Some(8), ..Plan::new(S, task) };
     let Task::Basin(basin) = &plan.task else { panic!() };
     let told = in_memory(Study::new(&plan).unwrap(), &Control::default()).unwrap();
-    let untold = basin::BasinFill::plane(&S, basin, plan.tile).unwrap().forgetful();
+    let untold = BasinFill::plane(&S, basin, plan.tile).unwrap().forgetful();
     let untold = in_memory(Study { fill: Box::new(untold) }, &Control::default()).unwrap();
     let (a, b) = (columns(&told, "cycle").whole(), columns(&untold, "cycle").whole());
     assert!(b.iter().all(|n| (0..2).contains(n)), "{b:?}");
