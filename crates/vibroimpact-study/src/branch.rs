@@ -296,7 +296,7 @@ mod tests {
         assert!(branch.points.iter().all(|point| point.stable() && point.cycle.rests.len() == 1));
         // at 0 there is none
         let nothing = branches(&SystemPlan { gap: 0.0, ..system }, &plan, &Control::default()).unwrap_err().to_string();
-        assert!(nothing.starts_with("no orbit inf/1 was found"), "{nothing}");
+        assert!(nothing.starts_with("no admissible orbit inf/1 was found"), "{nothing}");
     }
 
     #[test]

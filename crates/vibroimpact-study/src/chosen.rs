@@ -89,7 +89,7 @@ mod tests {
         assert_eq!(choose(&osc, Label::new(2, 1), None, &AtomicBool::new(true)), Ok(None));
         let far = Oscillator::from_inverse_beta(0.7, 40.0, 0.5).unwrap();
         let error = chosen(&far, Label::new(1, 1), None).unwrap_err().to_string();
-        assert!(error.starts_with("no orbit 1/1 was found"), "{error}");
+        assert!(error.starts_with("no admissible orbit 1/1 was found"), "{error}");
         // without damping the motion without impacts is one of many
         let error = chosen(&far, Label::new(0, 1), None).unwrap_err().to_string();
         assert!(error.starts_with("without damping the steady motion without impacts"), "{error}");

@@ -24,7 +24,6 @@
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 
-mod attractors;
 pub mod axis;
 pub mod basin;
 mod branch;
@@ -37,6 +36,7 @@ mod error;
 mod event_record;
 mod field;
 mod grid;
+mod in_memory;
 mod limits;
 mod lyapunov;
 mod map;

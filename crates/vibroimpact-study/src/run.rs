@@ -1,11 +1,8 @@
 //! The one function that turns a plan into its result, in memory. The command, the page and the Python package call it.
 
-use crate::attractors::attractors;
-use crate::basin::basin;
 use crate::branch::branches;
 use crate::curve::curve;
-use crate::diagram::diagram;
-use crate::map::map;
+use crate::in_memory::{attractors, basin, diagram, map};
 use crate::region::regions;
 use crate::simulate::simulate;
 use crate::{

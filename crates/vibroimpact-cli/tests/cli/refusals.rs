@@ -95,7 +95,7 @@ fn bad_questions_are_named() {
         (format!("branch {S} --label 2/1 --vary restitution --to 1.5"), "eps = 1.5 lies outside"),
         (format!("branch {S} --label 2/1 --vary mass --to 1"), "invalid value 'mass'"),
         (format!("branch {S} --label 2/1 --vary second-gap --to 1"), "there is no second stop"),
-        (format!("branch {S} --label inf/1 --vary gap --to 1"), "no orbit inf/1 was found"),
+        (format!("branch {S} --label inf/1 --vary gap --to 1"), "no admissible orbit inf/1 was found"),
         (
             format!("curve {S} --label inf/1 --kind fold --vary gap=0:2 --and beta=0.5:1"),
             "a cycle that rests on a stop",
@@ -105,7 +105,7 @@ fn bad_questions_are_named() {
             "without damping the steady motion without impacts is one of many",
         ),
         (format!("branch {S} --label 5/4 --vary gap --to 1 --orbit 99"), "there is no orbit 5/4 number 99"),
-        ("branch --inverse-beta 0.7 --gap 40 --restitution 0.5 --label 1/1 --vary gap --to 41".into(), "no orbit 1/1"),
+        ("branch --inverse-beta 0.7 --gap 40 --restitution 0.5 --label 1/1 --vary gap --to 41".into(), "no admissible orbit 1/1"),
         (
             format!("branch {S} --label 2/1 --vary gap --to 1 --follow 101"),
             "follow = 101 lies outside 0 <= follow <= 100",

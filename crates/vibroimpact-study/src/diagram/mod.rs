@@ -14,8 +14,7 @@ mod strobes;
 pub use follow::{DiagramPoint, MotionKind};
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirection};
 
-use crate::study::{DiagramFill, tiles_of};
-use crate::{Control, PlanError, RunError, SystemPlan};
+use crate::{PlanError, SystemPlan};
 use follow::AfterTransient;
 use vibroimpact::verdict::{StartBox, scattered_starts};
 use vibroimpact::{Oscillator, Start};
@@ -53,25 +52,6 @@ pub struct Diagram {
     pub steps: Vec<DiagramStep>,
 }
 
-/// Scattered starts of a tile, and values.
-const TILE: u32 = 4;
-
-/// Follows the motions at all values.
-///
-/// # Errors
-/// [`RunError`] for a plan that makes no sense, or when stopped.
-pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
-    plan.check(system)?;
-    let task = DiagramFill::new(system, plan, Some(TILE));
-    let parts = tiles_of(&task, control)?;
-    let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
-    if let SweepDirection::Scatter { .. } = plan.direction {
-        // tiles hold several starts at several values: value by value, at each the starts in order
-        steps.sort_by_key(|step| (step.index, step.sweep));
-    }
-    Ok(Diagram { plan: *plan, steps })
-}
-
 /// Step number `j` of sweep number `row`: at which value, and in which direction.
 pub(crate) fn carried(plan: &DiagramPlan, row: u64, j: u32) -> (u32, Sweep) {
     let count = plan.over.count();
@@ -105,133 +85,4 @@ pub(crate) fn step(
         Show::Strobe => strobes::after_transients(&osc, start, plan.transient, plan.keep),
     };
     Ok((DiagramStep { index, sweep, kind, points }, (osc, last)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Parameter, Stretch};
-
-    const S: SystemPlan =
-        SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, damping: 0.0, second_stop: None };
-
-    fn plan(over: &str) -> DiagramPlan {
-        DiagramPlan {
-            vary: Parameter::Gap,
-            over: over.parse().unwrap(),
-            also: None,
-            show: Show::Velocity,
-            direction: SweepDirection::Both,
-            transient: 200,
-            keep: 40,
-        }
-    }
-
-    fn run(system: &SystemPlan, plan: &DiagramPlan) -> Diagram {
-        diagram(system, plan, &Control::default()).unwrap()
-    }
-
-    #[test]
-    fn the_same_for_any_number_of_threads() {
-        let scatter = SweepDirection::Scatter { starts: 5, seed: 3 };
-        for (direction, show) in
-            [(SweepDirection::Both, Show::Velocity), (SweepDirection::Both, Show::Strobe), (scatter, Show::Velocity)]
-        {
-            let plan = DiagramPlan { direction, show, ..plan("-0.5:3:29") };
-            let run = |threads| diagram(&S, &plan, &Control { threads, ..Control::default() }).unwrap();
-            let one = run(1);
-            assert_eq!(one.steps.len() as u64, 29 * plan.runs());
-            for threads in [2, 3, 8] {
-                assert_eq!(run(threads), one);
-            }
-        }
-    }
-
-    #[test]
-    fn sweeps_run_up_and_down_whichever_way_the_range_is_written() {
-        for over in ["0:3:7", "3:0:7"] {
-            let plan = plan(over);
-            let found = run(&S, &plan);
-            let order = |sweep| -> Vec<f64> {
-                found.steps.iter().filter(|s| s.sweep == sweep).map(|s| plan.over.at(s.index)).collect()
-            };
-            assert!(order(Sweep::Up).is_sorted() && order(Sweep::Up).len() == 7);
-            assert!(order(Sweep::Down).is_sorted_by(|a, b| a >= b) && order(Sweep::Down).len() == 7);
-        }
-        let written = |over| run(&S, &plan(over)).steps.into_iter().map(|s| s.points).collect::<Vec<_>>();
-        assert_eq!(written("0:3:7"), written("3:0:7"));
-    }
-
-    /// At S of the 1971 paper 1/1 and 2/1 coexist. Coming from where only one of them exists, a sweep stays on it.
-    #[test]
-    fn a_carried_sweep_shows_hysteresis() {
-        let plan = plan("0:2:81");
-        let found = run(&S, &plan);
-        let here = |sweep| {
-            let step = found.steps.iter().find(|s| s.sweep == sweep && plan.over.at(s.index) == 0.75).unwrap();
-            let mut speeds: Vec<f64> = step
-                .points
-                .iter()
-                .filter_map(|p| if let DiagramPoint::Impact { velocity, .. } = p { Some(*velocity) } else { None })
-                .collect();
-            speeds.sort_by(f64::total_cmp);
-            speeds
-        };
-        let close = |got: Vec<f64>, want: &[f64]| {
-            assert!(got.len() == want.len() && got.iter().zip(want).all(|(g, w)| (g - w).abs() < 1e-9), "{got:?}");
-        };
-        close(here(Sweep::Up), &[0.777_626_654_634_881_8, 2.644_018_587_785_435]);
-        close(here(Sweep::Down), &[2.797_349_151_953_767_4]);
-    }
-
-    #[test]
-    fn scattered_starts_find_both() {
-        let plan = DiagramPlan { direction: SweepDirection::Scatter { starts: 12, seed: 1 }, ..plan("0.75:0.75:1") };
-        let found = run(&S, &plan);
-        let mut sizes: Vec<usize> = found.steps.iter().map(|step| step.points.len()).collect();
-        sizes.sort_unstable();
-        sizes.dedup();
-        assert_eq!(sizes, [1, 2]);
-        assert_eq!(found.steps[7].sweep, Sweep::Start(7));
-    }
-
-    /// Along a line through two parameters each motion is that of the system there.
-    #[test]
-    fn a_line_through_two_parameters() {
-        let also = Stretch { parameter: Parameter::InverseBeta, from: 1.1, to: 1.5 };
-        let line = DiagramPlan {
-            also: Some(also),
-            direction: SweepDirection::Scatter { starts: 3, seed: 1 },
-            ..plan("0:2:5")
-        };
-        let found = run(&S, &line);
-        assert_eq!(found.steps.len(), 15);
-        for k in 0..5_u32 {
-            let value = f64::from(k) / 2.0;
-            let system = SystemPlan { inverse_beta: Some(line.values(k).last().unwrap().1), ..S };
-            let alone =
-                run(&system, &DiagramPlan { also: None, over: format!("{value}:{value}:1").parse().unwrap(), ..line });
-            let here: Vec<_> = found.steps.iter().filter(|step| step.index == k).map(|step| &step.points).collect();
-            assert_eq!(here, alone.steps.iter().map(|step| &step.points).collect::<Vec<_>>(), "at {value}");
-        }
-        // carried over a frequency that changes as well
-        let carried = run(&S, &DiagramPlan { direction: SweepDirection::Both, ..line });
-        assert!(carried.steps.iter().all(|step| step.kind != MotionKind::Undecided));
-    }
-
-    /// Damped, below resonance: from a large gap the motion without impacts is carried down to the gap it just clears, and
-    /// up again only further out.
-    #[test]
-    fn a_motion_without_impacts_is_carried_too() {
-        let system = SystemPlan { inverse_beta: Some(0.7), restitution: 0.8, damping: 0.01, ..S };
-        let plan = plan("0:3:61");
-        let found = run(&system, &plan);
-        let free = plan.cut().oscillator(&system, 1.0).unwrap().free_amplitude();
-        for step in found.steps.iter().filter(|step| step.sweep == Sweep::Down) {
-            let gap = plan.over.at(step.index);
-            assert_eq!(step.kind == MotionKind::NoImpact, gap > free, "gap {gap}: {:?}", step.kind);
-        }
-        let lost = |sweep| found.steps.iter().filter(|s| s.sweep == sweep && s.kind == MotionKind::NoImpact).count();
-        assert!(lost(Sweep::Up) < lost(Sweep::Down), "{} {}", lost(Sweep::Up), lost(Sweep::Down));
-    }
 }

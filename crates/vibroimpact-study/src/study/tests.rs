@@ -26,7 +26,7 @@ fn columns<'a>(sheet: &'a Sheet, name: &str) -> &'a Column {
 fn a_basin_is_that_of_the_starts_one_by_one() {
     let plan = BasinPlan::plane(span("-4:0.75:37"), span("-4:4:29"), 0.3);
     let found = sheet(S, Task::Basin(plan.clone()), Some(10), 2);
-    let direct = crate::basin::basin(&S, &plan, &Control::default()).unwrap();
+    let direct = crate::in_memory::basin(&S, &plan, &Control::default()).unwrap();
     let labels: Vec<String> = columns(&found, "label").whole().iter().map(|c| label_of(*c).unwrap()).collect();
     let want: Vec<String> = (0..37 * 29).map(|k| direct.label(k).into_owned()).collect();
     assert_eq!(labels, want);
@@ -68,7 +68,7 @@ fn a_map_is_that_of_its_points() {
     let system = SystemPlan { inverse_beta: Some(1.0), gap: 0.0, ..S };
     let plan = MapPlan::plane(span("0.6:1.4:9"), span("-0.5:2:7"), 6, 1);
     let found = sheet(system, Task::Map(plan.clone()), Some(4), 2);
-    let direct = crate::map::map(&system, &plan, &Control::default()).unwrap();
+    let direct = crate::in_memory::map(&system, &plan, &Control::default()).unwrap();
     let (labels, shares) = (columns(&found, "label").whole(), columns(&found, "share").real());
     for (k, point) in direct.points.iter().enumerate() {
         for (i, motion) in point.motions.iter().enumerate() {
@@ -178,7 +178,7 @@ fn a_diagram_is_that_of_its_steps() {
             keep: 6,
         };
         let found = sheet(S, Task::Diagram(plan), None, 2);
-        let direct = crate::diagram::diagram(&S, &plan, &Control::default()).unwrap();
+        let direct = crate::in_memory::diagram(&S, &plan, &Control::default()).unwrap();
         assert_eq!(diagram_of(&plan, &found.columns), direct);
         let beside = found.study.coordinates().into_iter().find(|along| along.name == "damping");
         assert_eq!(beside.map(|along| (along.dimension, along.values[10])), also.map(|_| ("gap".into(), 0.01)));
@@ -186,7 +186,7 @@ fn a_diagram_is_that_of_its_steps() {
         let held = sheet(S, Task::Diagram(strobes), None, 2);
         assert_eq!(
             diagram_of(&strobes, &held.columns),
-            crate::diagram::diagram(&S, &strobes, &Control::default()).unwrap()
+            crate::in_memory::diagram(&S, &strobes, &Control::default()).unwrap()
         );
         let speeds = columns(&found, "velocity").real();
         assert_eq!(speeds.len(), rows * 41 * 6);

@@ -38,7 +38,7 @@ pub enum CurveEvent {
     DoubleGrazing,
     /// The mass touches with no acceleration: $`\sin\theta = \delta`$. No motion does, for its path goes on like
     /// $`\beta\cos\theta\,t^3/6`$, beyond the stop on one side of the touch; that needs $`\cos\theta = 0`$ and $`\delta = 1`$. Such
-    /// points lie on the curves of solutions that are no motions.
+    /// points lie on the curves of inadmissible solutions.
     DegenerateGrazing,
     /// A flight of a cycle at a fold or a flip touches a stop: beyond, the curve is not one of motions.
     Touch,

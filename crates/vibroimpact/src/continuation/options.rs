@@ -25,7 +25,7 @@ pub struct BranchOptions {
     pub points: u32,
     /// The most impacts a cycle may come to have, one with a rest excepted; towards a complete chatter there is no end of them.
     pub impacts: u32,
-    /// Whether the signature is kept at grazing events, so that the branch goes on through solutions that are no motions.
+    /// Whether the signature is kept at grazing events, so that the branch goes on through inadmissible solutions.
     pub keep_signature: bool,
 }
 

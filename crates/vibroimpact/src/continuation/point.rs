@@ -130,7 +130,7 @@ pub enum BranchEvent {
         /// Label of the branch so far.
         before: Label,
     },
-    /// A branch that was followed through solutions that are no motions becomes one.
+    /// A branch that was followed through inadmissible solutions becomes one.
     BecomesPhysical,
     /// A branch that keeps its signature ceases to be one of motions.
     BecomesVirtual,

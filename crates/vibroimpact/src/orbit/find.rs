@@ -32,7 +32,7 @@ impl Default for FindOptions {
 /// whole chain of impacts at once ([equations](super)). Orbits with a rest in them - all `inf/n`, and m/n with
 /// restitution 0 - come from their release, and none can be missed; those with one impact a period come from their
 /// closed form, and none can be missed; 0 is the steady motion [without impacts](without_impacts). The search for the others is deterministic but not exhaustive: an orbit that no
-/// seed leads to is not found. Of the solutions that are no motions only some come up. A solution with an impact whose speed is
+/// seed leads to is not found. Of the inadmissible solutions only some come up. A solution with an impact whose speed is
 /// zero to within rounding is the orbit without that impact, which touches the stop there, and is not listed.
 #[must_use]
 pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> {

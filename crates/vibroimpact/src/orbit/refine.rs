@@ -10,7 +10,7 @@ use crate::system::Oscillator;
 /// `None` if Newton's method does not converge from there, or `guess` has rests.
 ///
 /// Only phases, speeds and intervals of the guess are used. Newton's method takes all impacts as unknown at once and no
-/// first contact, so it converges through grazing as elsewhere, also to solutions that are no motions: those are
+/// first contact, so it converges through grazing as elsewhere, also to inadmissible solutions: those are
 /// marked. The speed of an impact may come out zero or negative then.
 ///
 /// ```

@@ -17,7 +17,7 @@ fn frame(p: std::ops::RangeInclusive<f64>, q: std::ops::RangeInclusive<f64>) -> 
     Frame { parameters: (Parameter::InverseBeta, Parameter::Gap), ranges: (p, q) }
 }
 
-/// The first event of that name on the branch of 1/n in the gap, solutions that are no motions included.
+/// The first event of that name on the branch of 1/n in the gap, inadmissible solutions included.
 fn event(osc: &Oscillator, n: u32, direction: Direction, name: &str) -> SolutionPoint {
     let orbits = find(osc, Label::new(1, n), FindOptions::default());
     let options = BranchOptions { keep_signature: true, ..Default::default() };

@@ -1,0 +1,113 @@
+//! A basin in memory: its tiles put together, the motions in the order of the first start that leads to each.
+
+use crate::basin::{Basin, BasinPlan, start};
+use crate::limits::MOST_CELLS;
+use crate::study::{BasinFill, Cell, tiles_of};
+use crate::{Control, PlanError, RunError, SystemPlan, axis};
+use vibroimpact::verdict::{Census, CountedMotion, settle};
+
+/// Starts of a tile, about: large enough that merging costs nothing, small enough to stop quickly and share evenly.
+const TILE: u32 = 8192;
+
+/// Settles every start of the basin of one system; all of them, without refinement.
+///
+/// # Errors
+/// [`RunError`] for a plan that makes no sense or varies parameters too, or when stopped.
+pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>) -> Result<Basin, RunError> {
+    in_tiles(system, plan, control, TILE)
+}
+
+fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: u32) -> Result<Basin, RunError> {
+    plan.check(system)?;
+    let (osc, total) = (&system.oscillator()?, plan.starts());
+    if let Some(axis) = plan.axes.iter().find(|axis| !axis.vary.is_start()) {
+        let (task, name) = ("basin of one system", axis.vary.name());
+        return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
+    }
+    if total > MOST_CELLS {
+        return Err(axis::too_many("starts", &plan.axes).into());
+    }
+    let all = BasinPlan { refine: None, ..plan.clone() };
+    let dimensions = i32::try_from(plan.axes.len()).unwrap_or(1);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // at least 1, at most 4096
+    let side = f64::from(tile).powf(1.0 / f64::from(dimensions)).round().max(1.0) as u32;
+    let task = BasinFill::plane(system, &all, Some(side))?;
+    let whole = axis::whole(&plan.axes);
+    let mut merged = Census::default();
+    let mut cells = vec![u16::MAX; whole.points()];
+    // of each motion the start whose verdict the census has
+    let mut sources: Vec<usize> = Vec::new();
+    for (block, tile) in tiles_of(&task, control)? {
+        let numbers: Vec<usize> = tile.met.motions().iter().map(|found| merged.add_found(found)).collect();
+        for (k, cell) in tile.cells.iter().enumerate() {
+            // without refinement every start is settled
+            let Cell::Computed(local) = cell else { continue };
+            let (place, number) = (whole.number(&block.index(k)), numbers[*local as usize]);
+            if number == sources.len() {
+                sources.push(place);
+            }
+            cells[place] = u16::try_from(number).unwrap_or(u16::MAX);
+        }
+    }
+    let mut order: Vec<(usize, usize)> = Vec::new();
+    let mut renumbered = vec![None; sources.len()];
+    for (place, cell) in cells.iter_mut().enumerate() {
+        let number = usize::from(*cell);
+        let new = *renumbered[number].get_or_insert_with(|| {
+            order.push((number, place));
+            order.len() - 1
+        });
+        *cell = u16::try_from(new).unwrap_or(u16::MAX);
+    }
+    let motions = order.into_iter().map(|(number, first)| {
+        let found = &merged.motions()[number];
+        // the verdict is that of the first start, whatever the tiles are
+        let verdict = if sources[number] == first {
+            found.verdict.clone()
+        } else {
+            settle(osc, start(osc, plan, first as u64), &plan.options()).verdict
+        };
+        CountedMotion { verdict, count: found.count }
+    });
+    Ok(Basin { plan: plan.clone(), motions: motions.collect(), cells })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_same_for_any_number_of_threads() {
+        let osc = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
+        let plan = BasinPlan::plane("-4:0.75:50".parse().unwrap(), "-4:4:40".parse().unwrap(), 0.0);
+        let run = |threads| basin(&osc, &plan, &Control { threads, ..Control::default() }).unwrap();
+        let one = run(1);
+        assert_eq!(one.cells.len(), 2000);
+        assert_eq!(one.motions.iter().map(|m| m.count).sum::<u64>(), 2000);
+        assert_eq!(one.motions.len(), 2);
+        for threads in [2, 3, 8] {
+            assert_eq!(run(threads), one);
+        }
+        for tile in [1, 7, 64, 999, 100_000] {
+            let control = Control { threads: 2, ..Control::default() };
+            assert_eq!(in_tiles(&osc, &plan, &control, tile).unwrap(), one, "{tile}");
+        }
+    }
+
+    /// As one start after another, without lanes and traps.
+    #[test]
+    fn the_same_as_one_by_one() {
+        let system = SystemPlan { inverse_beta: Some(1.7), gap: 2.25, restitution: 0.5, ..SystemPlan::default() };
+        let osc = system.oscillator().unwrap();
+        let plan = BasinPlan::plane("-4:2.25:40".parse().unwrap(), "-4:4:30".parse().unwrap(), 0.5);
+        let got = basin(&system, &plan, &Control::default()).unwrap();
+        let mut census = Census::default();
+        let one_by_one = |k| {
+            let verdict = settle(&osc, start(&osc, &plan, k), &plan.options());
+            census.add(&verdict.verdict)
+        };
+        let cells: Vec<usize> = (0..1200).map(one_by_one).collect();
+        assert_eq!(got.cells.iter().map(|&cell| usize::from(cell)).collect::<Vec<_>>(), cells);
+        assert_eq!(got.motions, census.motions());
+    }
+}
