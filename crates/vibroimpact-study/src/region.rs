@@ -109,7 +109,7 @@ fn side_by_side(
 /// Where each of several motions exists and is stable.
 ///
 /// # Errors
-/// As [`regions`].
+/// [`RunError`] for a plan that makes no sense, or when stopped, which is asked for at every point of the grid and every step.
 pub fn stable_regions(
     system: &SystemPlan,
     plans: &[RegionPlan],

@@ -82,4 +82,4 @@ struct Readme;
 /// The listing of the README of this crate is compiled and run with the documentation.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct Readme;
+struct CrateReadme;

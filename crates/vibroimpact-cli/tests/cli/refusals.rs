@@ -105,7 +105,10 @@ fn bad_questions_are_named() {
             "without damping the steady motion without impacts is one of many",
         ),
         (format!("branch {S} --label 5/4 --vary gap --to 1 --orbit 99"), "there is no orbit 5/4 number 99"),
-        ("branch --inverse-beta 0.7 --gap 40 --restitution 0.5 --label 1/1 --vary gap --to 41".into(), "no admissible orbit 1/1"),
+        (
+            "branch --inverse-beta 0.7 --gap 40 --restitution 0.5 --label 1/1 --vary gap --to 41".into(),
+            "no admissible orbit 1/1",
+        ),
         (
             format!("branch {S} --label 2/1 --vary gap --to 1 --follow 101"),
             "follow = 101 lies outside 0 <= follow <= 100",
