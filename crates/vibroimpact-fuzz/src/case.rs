@@ -58,7 +58,7 @@ pub fn runner(seed: u64, family: &str, k: u64) -> TestRunner {
     TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
 }
 
-/// Draws a case and checks it. `begun` is told the case before anything is asked; a kind of fault that is `known` is not made
+/// Draws a case and checks it. `begun` is called with the case before it is checked; a kind of fault that is `known` is not made
 /// smaller again.
 ///
 /// # Errors

@@ -65,7 +65,7 @@ impl Page {
             let small = case.small();
             let patience = if small { PATIENCE } else { GLANCE };
             let over = || if small { Err(format!("no answer within {} s", PATIENCE.as_secs())) } else { Ok(None) };
-            // a request that nobody waits for any more is dropped, and its work stops
+            // a request whose client has gone is dropped, and its work stops
             tokio::time::timeout(patience, asked).await.unwrap_or_else(|_| over())
         })
     }

@@ -1,4 +1,4 @@
-//! A worker: the cases of one family, one after another, told line by line to the driver.
+//! A worker: runs the cases of one family one after another and reports each to the driver on a line.
 
 use crate::case::{self, Fault, Property};
 use crate::{Family, command, page, plan, store, verdicts};
@@ -19,7 +19,7 @@ pub struct Job {
     pub from: u64,
     /// Up to here.
     pub until: u64,
-    /// And so many seconds.
+    /// And this number of seconds.
     pub seconds: f64,
     /// The command to test.
     pub vibro: PathBuf,
@@ -52,7 +52,7 @@ impl Job {
 /// Does it. Each line is `{"begin": K, "case": ...}`, `{"end": K}` or `{"fault": K, "why": ..., "case": ...}`.
 ///
 /// # Errors
-/// Where there is no place for temporary files, or nobody reads.
+/// When temporary files cannot be made, or the output is closed.
 pub fn work(task: &Job, out: &mut impl Write) -> io::Result<()> {
     case::keep_panics();
     let vibro = task.vibro.as_path();

@@ -1,7 +1,7 @@
 //! Colours: 8-bit sRGB with opacity, and their distance as the eye sees it.
 //!
 //! The distance is the CIE 1976 one, the Euclidean length in CIE L\*a\*b\* under white point D65
-//! (CIE 15:2004). About 2.3 is just noticeable side by side; patches that must be told apart from
+//! (CIE 15:2004). About 2.3 is just noticeable side by side; patches that must be distinguished by
 //! a legend need ten or more.
 
 /// An sRGB colour with opacity.

@@ -1,7 +1,7 @@
-//! The one door for work that takes time: off the interpreter's lock, on a thread of its own, with a stop flag.
+//! Runs work that takes time: without the interpreter's lock, on a thread of its own, with a stop flag.
 //!
-//! The calling thread meanwhile looks every 50 ms whether Ctrl-C was pressed and tells the progress callback how much is
-//! done. Work that looks at its stop flag has ended when the exception is raised; a search that knows no flag is left behind
+//! Every 50 ms the calling thread checks whether Ctrl-C was pressed and calls the progress callback.
+//! Work that reads its stop flag has ended when the exception is raised; other work is abandoned
 //! after half a second.
 
 use crate::error::Trouble;
@@ -13,7 +13,7 @@ use std::thread;
 use std::time::Duration;
 use vibroimpact_study::{Control, Plan, Results, Stopped};
 
-/// How long work that is to stop is waited for; what knows no flag is left behind after it.
+/// How long to wait for work that was asked to stop; after it the work is abandoned.
 const PATIENCE: Duration = Duration::from_millis(500);
 /// Between two looks.
 const BEAT: Duration = Duration::from_millis(50);
@@ -109,7 +109,7 @@ fn wait<T>(receiver: &Receiver<Result<T, Trouble>>, shared: &Shared, watch: &Wat
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(trouble) = look(watch, shared.done.load(Ordering::Relaxed)) {
                     shared.stop.store(true, Ordering::Relaxed);
-                    // whatever it comes to, nobody asks any more
+                    // the result is not needed any more
                     let _ = receiver.recv_timeout(PATIENCE);
                     return Err(trouble);
                 }
@@ -118,7 +118,7 @@ fn wait<T>(receiver: &Receiver<Result<T, Trouble>>, shared: &Shared, watch: &Wat
     }
 }
 
-/// Listens for Ctrl-C and tells how much is done.
+/// Checks for Ctrl-C and reports how much is done.
 fn look(watch: &Watch, done: u64) -> Result<(), Trouble> {
     Python::attach(|py| {
         py.check_signals()?;

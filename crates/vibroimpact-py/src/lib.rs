@@ -1,4 +1,4 @@
-//! The compiled part of the Python package `vibroimpact`: parse (Python to a plan), run (behind [`door`]), report (arrays).
+//! The compiled part of the Python package `vibroimpact`: parse (Python to a plan), run (in [`door`]), report (arrays).
 //!
 //! One function family in one file. What has methods, figures and documentation is Python, in `python/vibroimpact`; here
 //! are the checked parameters, the plans and columns of numbers.

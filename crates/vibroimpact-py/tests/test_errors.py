@@ -57,7 +57,7 @@ def test_oscillators_in_the_words_of_the_command(
         (lambda osc: vi.orbits(osc, "1/0"), "label `1/0` is not m/n"),
         (lambda osc: vi.branch(osc, "1/1", "gup", 1), "`gup` is no parameter; there are beta, inverse_beta, gap"),
         (lambda osc: vi.branch(osc, "1/1", "gap", 0.75), "gap is to go from 0.75 to 0.75"),
-        (lambda osc: vi.branch(osc, "9/7", "gap", 1), "no orbit 9/7 was found"),
+        (lambda osc: vi.branch(osc, "9/7", "gap", 1), "no admissible orbit 9/7 was found"),
         (lambda osc: vi.curve(osc, "inf/1", "fold", {"gap": (0, 1), "beta": (0.5, 1)}), "a cycle that rests on a stop has no equations"),
         (lambda osc: vi.curve(osc, "1/1", "fald", {"gap": (0, 1), "beta": (0.5, 1)}), "`fald` is no kind of curve"),
         (lambda osc: vi.curve(osc, "1/1", "fold", {"gap": (0, 1)}), "a plane has two parameters, and 1 are given"),

@@ -64,7 +64,7 @@ impl Units {
 }
 
 /// The number that was divided by `unit` to give `value`: of all that do, the one with the fewest digits. So what was given in
-/// metres as `0.005` is told as `0.005`, and not as `0.0050000000000000001`.
+/// metres as `0.005` is printed as `0.005`, and not as `0.0050000000000000001`.
 pub(crate) fn given(value: f64, unit: f64) -> f64 {
     let product = value * unit;
     if unit == 1.0 {

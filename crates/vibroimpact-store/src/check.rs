@@ -22,11 +22,11 @@ pub struct Progress {
     pub points_done: u64,
     /// Whether it was concluded.
     pub complete: bool,
-    /// When the first tile was done, as far as the place tells.
+    /// When the first tile was done, if the place records it.
     pub first: Option<SystemTime>,
     /// When the last one was.
     pub last: Option<SystemTime>,
-    /// How long the rest will take at the rate of the last tiles; `None` where that cannot be told.
+    /// How long the rest will take at the rate of the last tiles; `None` where that is unknown.
     pub left: Option<Duration>,
     /// Numbers of the tiles that are not done, up to a thousand of them.
     pub missing: Vec<u64>,

@@ -1,7 +1,7 @@
 //! One array of a store: its description, and its chunks between numbers and bytes.
 //!
-//! Little-endian numbers, Zstandard, and a CRC-32C last, so that a chunk cut short or with a bit turned is told apart from a
-//! whole one. Not-a-number has one bit pattern.
+//! Little-endian numbers, Zstandard, and a CRC-32C last, so that a chunk that was cut short or has a flipped bit is
+//! recognised. Not-a-number has one bit pattern.
 
 use serde_json::{Map, Value};
 use std::sync::Arc;

@@ -13,7 +13,7 @@ pub struct Item {
     pub key: String,
     /// Its length in bytes.
     pub size: u64,
-    /// When it was written, as the place tells.
+    /// When it was written, according to the place.
     pub modified: SystemTime,
 }
 

@@ -164,7 +164,7 @@ struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// The points of a branch, as far as nobody stops it.
+    /// The points of a branch, until the work is stopped.
     fn points(&self, branch: Branch) -> Vec<SolutionPoint> {
         branch.take_while(|_| !self.stop.load(Ordering::Relaxed)).collect()
     }
@@ -184,7 +184,7 @@ impl Ground<'_> {
 const SAME: f64 = 1e-7;
 
 impl Branches {
-    /// Follows what begins at the events of all branches so far, branch by branch, up to so many.
+    /// Follows the branches that begin at the events of all branches so far, up to `most`.
     fn follow(&mut self, ground: &Ground<'_>, most: usize) {
         let mut seen: Vec<(f64, Label)> = Vec::new();
         let mut at = 0;

@@ -1,4 +1,4 @@
-//! Tiles over threads: the one door for long work. Results come back in tile order, whatever the threads did.
+//! Tiles over threads. Results come back in tile order, whatever the threads did.
 
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use rayon::prelude::*;

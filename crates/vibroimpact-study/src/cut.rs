@@ -4,7 +4,7 @@ use crate::{Parameter, PlanError, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Oscillator, ParameterPath};
 
-/// The line of an orbit diagram or branch. The value of the first parameter tells the place on it.
+/// The line of an orbit diagram or branch. The value of the first parameter gives the place on it.
 ///
 /// ```
 /// use vibroimpact_study::{Cut, Parameter, Stretch, SystemPlan};
@@ -118,7 +118,7 @@ mod tests {
         let (from, there) = (line.oscillator(&system, 0.3).unwrap(), line.oscillator(&system, 1.9).unwrap());
         let followed = line.varying().unwrap().set(&from, 1.9).unwrap();
         assert!((followed.beta() - there.beta()).abs() < 1e-15 && followed.gap() == there.gap());
-        // the frequency is told as it varies, however the system has it
+        // the frequency is given in the form that varies, whatever form the system has
         let other = SystemPlan { beta: Some(3.0), inverse_beta: None, ..system };
         assert_eq!(line.system(&other, 0.3).unwrap(), line.system(&system, 0.3).unwrap());
         let level = cut(Some((Parameter::Damping, 0.1, 0.1)));

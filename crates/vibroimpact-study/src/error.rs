@@ -177,7 +177,7 @@ pub enum PlanError {
         total = u128::from(*rows) * u128::from(*columns)
     )]
     Size {
-        /// What there would be so many of.
+        /// What is counted.
         what: &'static str,
         /// Values on one axis.
         columns: u64,

@@ -139,9 +139,9 @@ pub enum Task {
     Simulate {
         /// Where to start.
         start: StartPlan,
-        /// At most so many impacts.
+        /// The largest number of impacts.
         impacts: Option<u64>,
-        /// At most so many forcing periods.
+        /// The largest number of forcing periods.
         periods: Option<f64>,
     },
     /// What a motion settles into.

@@ -194,7 +194,7 @@ impl TryFrom<PlanText> for Plan {
 mod tests {
     use super::*;
 
-    /// Found by `cargo xtask fuzz`: types of this program in what a reader is told.
+    /// Found by `cargo xtask fuzz`: type names of this program in error messages.
     #[test]
     fn fz1_a_text_that_is_no_plan_is_refused_in_plain_words() {
         let long = format!("version = 1\ntask = {}", "[".repeat(5000));

@@ -1,4 +1,4 @@
-//! Long work told while it goes on, as server-sent events: `progress`, then `done` or `error`.
+//! The progress of long work as server-sent events: `progress`, then `done` or `error`.
 
 use crate::refusal::Refusal;
 use axum::response::sse::{Event, KeepAlive, Sse};
@@ -13,10 +13,10 @@ use tokio::sync::mpsc;
 /// Between two tellings.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Points done, as the work tells them.
+/// Points done, as the work reports them.
 pub(crate) type Done = Arc<AtomicU64>;
 
-/// Answers with the events of `work`, which tells how many of `total` points are done. When the page goes away, so does the work.
+/// Answers with the events of `work`, which reports how many of `total` points are done. When the page goes away, the work stops.
 pub(crate) fn stream(
     total: u64,
     done: Done,

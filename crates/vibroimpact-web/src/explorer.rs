@@ -31,7 +31,7 @@ impl Explorer {
     /// An explorer at this port of the local machine that makes `threads` tiles at a time, as many as there are processors for 0.
     #[must_use]
     pub fn new(port: u16, threads: usize) -> Self {
-        // about so many answers fit, of the size of a tile
+        // about this number of answers of the size of a tile fit
         let finished = Cache::with_weighter(2000, CACHE, Weight);
         Self { port, workshop: Arc::new(Workshop::with_threads(threads)), finished: Arc::new(finished) }
     }

@@ -13,7 +13,7 @@ use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 use tower::Service;
 
-/// The port where nobody asks for another.
+/// The default port.
 pub const PORT: u16 = 8411;
 /// Ports tried after a busy one, before any free one is taken.
 const NEXT: u16 = 20;
@@ -71,7 +71,7 @@ impl BoundServer {
                 () = set(stop) => Ok(()),
             }
         });
-        // work that was told to stop does so by itself
+        // work that was asked to stop ends by itself
         runtime.shutdown_timeout(Duration::from_millis(500));
         result
     }

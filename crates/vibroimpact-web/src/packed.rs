@@ -46,7 +46,7 @@ impl Named {
     }
 }
 
-/// What tells cycles of one label apart: their fastest impact.
+/// What distinguishes cycles of one label: their fastest impact.
 #[derive(Serialize)]
 struct Cycle {
     label: String,

@@ -54,7 +54,7 @@ impl From<PlanError> for Refusal {
 impl From<RunError> for Refusal {
     fn from(error: RunError) -> Self {
         match error {
-            // nobody is left to read it
+            // the client has gone
             RunError::Stopped(stopped) => Self::new(StatusCode::REQUEST_TIMEOUT, stopped.to_string()),
             other => Self::bad(other.to_string()),
         }

@@ -1,6 +1,6 @@
 //! Work beside the server: so much at a time, for so long, and not for a page that has moved on.
 //!
-//! Two kinds of benches, so that a click is answered while tiles are made. Work whose request is gone is told to stop, and
+//! Two kinds of benches, so that a click is answered while tiles are made. Work whose client has gone is stopped, and
 //! its bench is free again when it has; so there is never more of it than benches.
 
 use crate::refusal::Refusal;
@@ -72,7 +72,7 @@ impl Drop for Waiting<'_> {
 }
 
 impl Workshop {
-    /// Benches for so many tiles at a time, as many as there are processors for 0.
+    /// Benches for this number of tiles at a time, as many as there are processors for 0.
     pub(crate) fn with_threads(threads: usize) -> Self {
         Self::new(if threads == 0 { processors() } else { threads }, ANSWERS, LIMIT)
     }

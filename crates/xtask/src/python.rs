@@ -49,6 +49,8 @@ fn pip(root: &Path, words: &[&str]) -> Result<(), String> {
     let mut command = command::words(root, &format!("{ENVIRONMENT}/bin/python -m pip install --quiet"));
     command.args(["--disable-pip-version-check", "--no-input"]).args(words);
     with_programs(&mut command, &root.join(ENVIRONMENT).join("bin"));
+    // tests need no optimisation across crates
+    command.envs([("CARGO_PROFILE_RELEASE_LTO", "off"), ("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")]);
     command::run(command)
 }
 

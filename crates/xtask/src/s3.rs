@@ -36,7 +36,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     let run = |line: &str, packages: Option<PathBuf>| {
         let mut tests = command::words(root, line);
         tests.env(VARIABLE, format!("'{}' {SERVER}", python.display()));
-        // a proxy knows nothing of a server on this machine
+        // a proxy cannot reach a server on this machine
         tests.env("NO_PROXY", "127.0.0.1");
         tests.envs(packages.map(|folder| ("PYTHONPATH", folder)));
         command::run(tests)

@@ -75,7 +75,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Announces a stage of so many points, unless the run was stopped.
+    /// Announces a stage of this number of points, unless the run was stopped.
     fn stage(&self, name: &str, points: u64) -> Result<(), Error> {
         (self.stage)(name, points);
         if self.control.stop.load(Ordering::Relaxed) {

@@ -12,8 +12,8 @@ use vibroimpact_study::{Plan, Task};
 
 /// The steady motions that many scattered starts lead to, and their shares
 ///
-/// Starts are spread evenly over positions, velocities and phases of a box around the motion; the same starts on every
-/// machine. Two motions with one label are two if their impacts differ.
+/// The starts are spread evenly over positions, velocities and phases of a box around the motion. They are the same on
+/// every machine. Two motions with one label are counted apart if their impacts differ.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro attractors --beta B --gap D --restitution E --starts N [OPTIONS]",

@@ -12,7 +12,7 @@ use vibroimpact_study::{BasinPlan, Plan, Span, Task};
 
 /// Which motion each start of a plane of positions and velocities leads to
 ///
-/// A:B:N is N values from A to B, both included. Without --csv, --plot or --json the shares are printed.
+/// A:B:N is N values from A to B, both included. Without --csv, --plot or --json the command prints the shares.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro basin --beta B --gap D --restitution E --x A:B:N --v A:B:N [OPTIONS]",

@@ -12,11 +12,12 @@ use std::time::Duration;
 use vibroimpact::lanes::Width;
 use vibroimpact_report::PROGRAM;
 
-/// How fast this machine is, in about ten seconds
+/// Measure the speed of this machine, in about ten seconds
 ///
-/// Impacts per second on one thread: `scalar` follows one motion, `lanes` many side by side. chaos: on the chaotic motion at
-/// 1/beta = 1.11, gap 3, restitution 0.5; regular: on the settled motions at 1/beta = 1.3, gap 0.75, as many impacts of 1/1 as
-/// of 2/1. Starts per second: a basin of 100 x 100 starts there, each to its confirmed motion. Medians of many short slices.
+/// Impacts per second on one thread: `scalar` follows one motion, `lanes` many side by side. chaos: the chaotic motion at
+/// 1/beta = 1.11, gap 3, restitution 0.5. regular: the settled motions at 1/beta = 1.3, gap 0.75, as many impacts of 1/1
+/// as of 2/1. Starts per second: a basin of 100 x 100 starts there, each to its confirmed motion. All rates are medians
+/// over many short intervals.
 #[derive(Clone, Debug, Args)]
 #[command(override_usage = "vibro bench [OPTIONS]", after_help = "Example: for a script\n  vibro bench --json")]
 pub(crate) struct Bench {

@@ -10,15 +10,15 @@ use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Target, Task};
 
-/// An orbit followed in one parameter, stable or not, with every event on the way
+/// Follow an orbit in one parameter, stable or unstable, with all events on the branch
 ///
-/// The orbit is looked for at the system given, as `vibro orbit` does, and followed from there by pseudo-arclength to the
-/// value of --to. Events are located to rounding: fold, flip (a multiplier is -1), branch point, grazing (an impact
-/// appears or disappears, and the branch goes on with the motion that takes over), loss of contact.
+/// The orbit is found at the given system as `vibro orbit` does, and followed by pseudo-arclength to the value of --to.
+/// Events are located to rounding: fold, flip (a multiplier is -1), branch point, grazing (an impact appears or
+/// disappears, and the branch continues with the motion beyond), loss of contact.
 ///
-/// An orbit that rests on a stop, inf/n or one with restitution 0, is followed by its release instead, to where the rest ends.
+/// An orbit that sticks, inf/n or one with restitution 0, is followed by its release, to where the sticking ends.
 ///
-/// In JSON a multiplier that is infinite, as at a grazing, is null; impacts are counted from 1, after a rest from the release
+/// In JSON an infinite multiplier, as at a grazing, is null. Impacts are counted from 1, after sticking from the release
 /// on.
 #[derive(Clone, Debug, Args)]
 #[command(

@@ -10,13 +10,13 @@ use std::path::PathBuf;
 use vibroimpact_report::{Shown, Units};
 use vibroimpact_study::{CurvePlan, FollowedEvent, Plan, Stretch, Task};
 
-/// The curve of an event of an orbit in a plane of two parameters: where it folds, flips or grazes
+/// The curve of an event of an orbit over two parameters: fold, flip or grazing
 ///
-/// The orbit is looked for at the system given and followed in the first parameter, to both ends of its range, while it
-/// keeps its label. From an event of the kind asked for the curve is followed both ways to the edge of the plane. Points
-/// of codimension two are named: cusp, resonant grazing (curves of folds and flips end there), double grazing,
-/// degenerate grazing, touch (beyond it the orbit is inadmissible), 1:2. The cycles of a grazing curve have the impact of speed
-/// zero among theirs.
+/// The orbit is found at the given system and followed in the first parameter, to both ends of its range, while it keeps
+/// its label. From an event of the given kind the curve is followed in both directions to the edge of the plane. Points
+/// of codimension two are named: cusp, resonant grazing (curves of folds and flips end there), double grazing, degenerate
+/// grazing, touch (beyond it the orbit is inadmissible), 1:2. The cycles of a grazing curve include the impact of speed
+/// zero.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro curve --beta B --gap D --restitution E --label m/n --kind KIND --vary PARAMETER=A:B --and PARAMETER=A:B [OPTIONS]",

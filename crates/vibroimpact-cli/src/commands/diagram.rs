@@ -11,19 +11,20 @@ use vibroimpact_report::Shown;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Stretch, Task};
 
-/// The orbit diagram: impacts or states after the transient, at each value of one parameter, or along a line through two
+/// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
 ///
-/// The system is given without the parameter that varies (a machine in physical units whole: its value is replaced).
+/// The parameter that varies is left out of the system (a machine in physical units is given completely, and the value is
+/// replaced).
 ///
-/// A sweep starts at rest and carries the state from value to value, so that sweeps up and down differ where motions
-/// coexist. A mass on the stop stays on it when the gap changes, and one that the stop has moved over is put on the stop.
-/// Motions without impacts are carried too.
+/// A sweep starts at rest and carries the state from value to value, so sweeps up and down differ where motions coexist.
+/// A mass on the stop stays on it when the gap changes; a mass beyond the moved stop is put on the stop. Motions without
+/// impacts are carried too.
 ///
-/// Kinds of rows: impact; chatter, the end of infinitely many impacts, at velocity 0; and with empty places none (no more
-/// impacts), stuck (at rest for ever), undecided (the search ran out of steps). Of a stroboscopic diagram the kind says
-/// whether the motion strikes in the periods shown. A motion that repeats itself, to 1e-9, is shown once.
+/// Kinds of rows: impact; chatter (the end of infinitely many impacts, at velocity 0); and without numbers none (no more
+/// impacts), stuck (sticks for ever), undecided (the search ran out of steps). In a stroboscopic diagram the kind says
+/// whether the motion strikes in the periods shown. A motion that repeats to within 1e-9 is shown once.
 ///
-/// Without --csv, --plot or --json a summary is printed.
+/// Without --csv, --plot or --json the command prints a summary.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro diagram --inverse-beta X --restitution E --vary gap --over A:B:N [OPTIONS]",

@@ -6,11 +6,12 @@ use crate::signal;
 use clap::Args;
 use vibroimpact_web::{BoundServer, PORT};
 
-/// See the plane of motions on a page in the browser, point at it, and understand
+/// Explore the map of motions on a page in the browser
 ///
-/// Serves one page to this machine and no other, opens it in the browser and prints its address. Zoom into the map of motions over
-/// any two parameters, click to see the motion there, its basin and what coexists with it, draw a line for a bifurcation
-/// diagram. The address of the page holds all that is shown. Ctrl-C ends it.
+/// The server serves one page to this machine only, opens it in the browser and prints its address. On the page you zoom
+/// into the map of motions over any two parameters, click on a point to see its motion, its basin and the motions that
+/// coexist, and draw a line for a bifurcation diagram. The address of the page holds everything that is shown. Ctrl-C
+/// ends the server.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro explore [--port N] [--no-open]",

@@ -11,13 +11,14 @@ use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
 use vibroimpact_report::Shown;
 use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, Plan, Task};
 
-/// The Lyapunov exponents of the motion from a start, with error bars, and its attractor's dimension
+/// The Lyapunov exponents of the motion from a start, with error bars, and the dimension of its attractor
 ///
-/// Both exponents, per unit of time and per forcing period, measured through impacts over a long motion; their error bars are
-/// three standard errors and allow for correlation. A positive one is chaos. Their sum is 2 ln(eps) times the rate of impacts less
-/// 2 zeta. A motion without impacts has the exponents of its flight. One that sticks forgets everything: both are
-/// minus infinity, as one of them is with restitution 0. One that only touches the stop has none. In JSON such a value is null, and
-/// "why" says minus_infinity or undefined; "grounds" says how they were found.
+/// Both exponents are measured through impacts over a long motion, per unit of time and per forcing period. The error
+/// bars are three standard errors and allow for correlation. A positive exponent is chaos. The sum of the exponents is 2
+/// ln(eps) times the rate of impacts minus 2 zeta. A motion without impacts has the exponents of its flight. After
+/// sticking all neighbours are one motion, so both exponents are minus infinity; with restitution 0 one of them is. A
+/// motion that only grazes the stop has no exponents. In JSON such a value is null, and "why" is minus_infinity or
+/// undefined; "grounds" says how the values were found.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro lyapunov --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]",

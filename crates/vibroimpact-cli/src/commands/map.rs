@@ -10,13 +10,13 @@ use std::path::PathBuf;
 use vibroimpact_report::{Shown, Units};
 use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, Task};
 
-/// Which motions there are at each point of a plane of parameters
+/// Which motions exist at each point of a plane of parameters
 ///
-/// At each point --starts starts are settled: the first from rest, the second on the motion
-/// without stops if that clears them, the others scattered over a box around the motion.
-/// One to four of the parameters take ranges, the others a value each: A:B:N is N values from A to B,
-/// both included, A:B:N:log the same in equal ratios, and A,B,C these. The first of them, or of --axes, runs to the right.
-/// Without --csv, --plot or --json a summary is printed.
+/// At each point the number of starts given by --starts is settled: the first from rest, the second on the motion without
+/// stops if that clears them, the others scattered over a box around the motion. One to four parameters take ranges, the
+/// others one value: A:B:N is N values from A to B, both included, A:B:N:log is N values in equal ratios, and A,B,C is a
+/// list. The first of the ranges, or of --axes, is the abscissa. Without --csv, --plot or --json the command prints a
+/// summary.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro map --inverse-beta A:B:N --gap A:B:N --restitution E --starts N [OPTIONS]",

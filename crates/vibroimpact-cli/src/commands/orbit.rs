@@ -9,13 +9,14 @@ use clap::Args;
 use vibroimpact_report::Shown;
 use vibroimpact_study::{Plan, Task};
 
-/// All periodic orbits with m impacts in n forcing periods, stable or not
+/// All periodic orbits with m impacts in n forcing periods, stable or unstable
 ///
-/// Looked for by Newton's method from many seeds, and in closed form for 1/n. An orbit that no seed leads to is not found.
+/// Newton's method starts from many seeds; orbits 1/n are also found in closed form. An orbit that no seed leads to is
+/// not found.
 ///
-/// A solution of the equations that passes through a stop on its way is inadmissible: "physical" is false, and
-/// "earlier_contact" says after which of its impacts, counted from 1, it meets which stop, and how long after (for 0, which has no impacts, how
-/// long after phase 0). Of these only some come up.
+/// A solution of the equations that passes through a stop is inadmissible. In JSON its "physical" is false, and
+/// "earlier_contact" gives the impact, counted from 1, after which it meets a stop, the stop, and the time since that
+/// impact (for 0, which has no impacts, the time since phase 0). Only some of the inadmissible solutions are found.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro orbit --beta B --gap D --restitution E --label m/n [OPTIONS]",

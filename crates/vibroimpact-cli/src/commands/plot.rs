@@ -8,7 +8,7 @@ use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::figure::stored::figure;
 
-/// Draw what a store holds; of one that is not complete, what there is
+/// Draw the figure of a store; of an incomplete store, the tiles that are done
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Plot {
     /// The store

@@ -10,14 +10,14 @@ use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown, Units};
 use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task};
 
-/// Where in a plane of two parameters a motion exists, and where it is stable: closed polygons
+/// Where a motion exists and where it is stable, over two parameters: closed polygons
 ///
 /// Two parameters are given as ranges A:B, the others as values; ranges replace values of a machine in physical units.
-/// Orbits are looked for on a grid, and from each a walk goes
-/// round the part of the region it lies in, along the curves that bound it: fold (two orbits meet), flip (a multiplier
-/// is -1), no speed (an impact has speed zero), touch (a flight touches a stop), merging (with an orbit of half the
-/// period), frame. The surface of orbits folds, so polygons of different sheets may overlap. The region of the motion without
-/// impacts, label 0, is known in closed form: its amplitude exceeds no gap, and a touch bounds it.
+/// Orbits are searched for on a grid. From each orbit the boundary of its part of the region is followed along the curves
+/// that bound it: fold (two orbits meet), flip (a multiplier is -1), no speed (an impact has speed zero), touch (a flight
+/// touches a stop), merging (with an orbit of half the period), frame. The surface of orbits folds, so polygons of
+/// different sheets may overlap. The region of the motion without impacts, label 0, is known in closed form: its
+/// amplitude exceeds no gap, and a touch bounds it.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro region --label m/n --inverse-beta A:B --gap A:B --restitution E [OPTIONS]",

@@ -6,10 +6,10 @@ use clap::Args;
 use fukaya_irie_1971::{Error, ReproductionOptions, reproduce};
 use std::path::{Path, PathBuf};
 
-/// Compute the figures of the 1971 paper anew and compare
+/// Compute the figures of the 1971 paper and compare them with the paper
 ///
-/// Writes every figure as SVG, PNG and CSV with a report that puts beside each thing the paper says what was found
-/// here, and prints that comparison. A full run takes minutes, --quick seconds.
+/// Writes every figure as SVG, PNG and CSV with a report that compares each statement of the paper with the result here,
+/// and prints that comparison. A full run takes minutes, --quick seconds.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "Example:\n  vibro reproduce --quick --out /tmp/paper")]
 pub(crate) struct Reproduce {

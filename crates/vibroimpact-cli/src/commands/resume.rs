@@ -8,9 +8,9 @@ use crate::session::Session;
 use clap::Args;
 use vibroimpact_store::Part;
 
-/// Compute what a store lacks, and what in it is damaged
+/// Compute the tiles of a store that are missing or damaged
 ///
-/// The check sums of all finished tiles are read; a tile that is missing, cut short or altered is computed anew. The
+/// The check sums of all finished tiles are read; a tile that is missing, cut short or altered is computed again. The
 /// result is, byte for byte, that of a run without interruption.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Resume {

@@ -12,9 +12,9 @@ use vibroimpact_study::Plan;
 
 /// Run a study from a plan, into a store that can be resumed
 ///
-/// The plan says what is asked, of which system, over which axes; `vibro schema` prints what may be in it, and any command
-/// with --json prints the plan of its question. The store is a Zarr group: xarray, zarr and napari open it as it is.
-/// What is there already is not computed again; several processes and machines may fill one store.
+/// The plan says what is computed, for which system and over which axes; `vibro schema` prints what a plan may contain,
+/// and any command with --json prints its plan. The store is a Zarr group, which xarray, zarr and napari open. Tiles that
+/// are done are not computed again. Several processes and machines may fill one store.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "Examples:\n  \
     vibro run map.toml --store map.zarr --plot map.png\n  \
@@ -53,7 +53,7 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     Plan::from_text(&text).map_err(|error| Failure::bad(format!("`{name}`: {error}")))
 }
 
-/// Where the store of a plan is when nobody says.
+/// Where the store of a plan is by default.
 pub(super) fn default_store(plan: &Path) -> String {
     let stem = plan.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     format!("{stem}.zarr")

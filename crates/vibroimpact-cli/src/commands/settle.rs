@@ -12,10 +12,10 @@ use vibroimpact_report::Shown;
 use vibroimpact_report::scene::View;
 use vibroimpact_study::{Plan, Results, Task};
 
-/// What the motion from a start settles into, and why that is so
+/// What the motion from a start settles into, and on what grounds
 ///
-/// The answer is a label m/n (m impacts in n forcing periods), inf/n (with a complete chatter), 0 (no more impacts),
-/// chaotic, stuck or undecided. A periodic motion is confirmed by Newton's method to rounding and comes with its
+/// The result is a label: m/n (m impacts in n forcing periods), inf/n (with a complete chatter), 0 (no more impacts),
+/// chaotic, stuck or undecided. A periodic motion is confirmed by Newton's method to rounding and is printed with its
 /// impacts and Floquet multipliers.
 #[derive(Clone, Debug, Args)]
 #[command(

@@ -11,8 +11,8 @@ use vibroimpact_study::{Study, counted};
 
 /// Print a Slurm script that runs a study as an array of jobs
 ///
-/// Each job fills its part of the tiles of one store; the one that finishes last concludes it. A job that was killed may
-/// be submitted again as it is.
+/// Each job fills its part of the tiles of one store; the last one completes the store. A job that was killed can be
+/// submitted again.
 #[derive(Clone, Debug, Args)]
 #[command(
     after_help = "Example:\n  vibro slurm map.toml --store /scratch/map.zarr --jobs 32 > map.sh && sbatch map.sh"
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
     let program =
         std::env::current_exe().map_err(|error| Failure::Failed(format!("where this program is: {error}")))?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
-    // a bucket is where it is; a folder is told by its whole name
+    // a bucket is where it is; a folder is given by its full path
     let place = if place.contains("://") { place } else { whole(Path::new(&place))? };
     let partition = args.partition.as_ref().map_or_else(String::new, |name| format!("#SBATCH --partition={name}\n"));
     session.print(&format!(

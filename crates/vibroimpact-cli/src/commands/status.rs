@@ -8,7 +8,7 @@ use serde::Serialize;
 use std::time::{Duration, SystemTime};
 use vibroimpact_study::{Plan, counted};
 
-/// How far a store is: which tiles are done, how long the rest will take, and its plan
+/// The progress of a store: the tiles that are done, the time that is left, and the plan
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Status {
     /// The store

@@ -9,9 +9,9 @@ use serde::Serialize;
 use vibroimpact_store::Verified;
 use vibroimpact_study::counted;
 
-/// Check a store: all that describes it, all check sums, and a sample of tiles computed again
+/// Check a store: its metadata, all check sums, and a sample of tiles that are computed again
 ///
-/// Changes nothing. What is damaged is written anew by `vibro resume`. Exit code 1 if anything is wrong.
+/// The store is not changed. `vibro resume` mends what is damaged. The exit code is 1 if anything is wrong.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct Verify {
     /// The store

@@ -106,7 +106,7 @@ fn of(branch: &Followed, cut: &Cut, units: &Units) -> String {
     text
 }
 
-/// What a branch is beside an event. Two events that no point lies between are closer than rounding lets their multipliers be told;
+/// The stability of a branch beside an event. Where no point lies between two events, rounding hides the multipliers between them;
 /// where the branch ends with the event, what is beyond was not followed.
 fn beside(neighbour: Option<&SolutionPoint>, label: Label) -> String {
     match neighbour {

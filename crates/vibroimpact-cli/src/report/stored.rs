@@ -107,7 +107,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let (study, all) = (store.study(), store.study().fields());
     let shown: Vec<usize> =
         (0..all.len()).filter(|k| long || !has_short(&all) || SHORT.contains(&all[*k].name)).collect();
-    // scattered starts are told by their coordinates
+    // scattered starts are identified by their coordinates
     let along: Vec<Option<Vec<f64>>> = (study.grid().dimensions.iter())
         .map(|d| study.coordinates().into_iter().find(|along| along.name == d.name).map(|along| along.values))
         .collect();

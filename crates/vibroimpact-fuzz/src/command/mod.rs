@@ -18,7 +18,7 @@ use vibroimpact_report::question::quoted;
 use vibroimpact_report::{Units, answer};
 use vibroimpact_study::{Control, Plan};
 
-/// A command line, and whether its budget is one that nobody waits for.
+/// A command line, and whether its budget is very large.
 #[derive(Clone, Debug)]
 pub struct CommandCase {
     words: Vec<String>,

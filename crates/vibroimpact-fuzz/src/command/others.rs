@@ -1,4 +1,4 @@
-//! Command lines of the verbs about files, pages and the program itself, and questions of a budget that nobody waits for.
+//! Command lines of the verbs about files, pages and the program itself, and questions of a very large budget.
 
 use super::parts::{Words, all, flag, line, switch, system, word};
 use crate::values::{count, number, odd};

@@ -1,4 +1,4 @@
-//! Parts of a command line: flags with their values, systems, starts, outputs, and words that nobody asked for.
+//! Parts of a command line: flags with their values, systems, starts, outputs, and unexpected words.
 
 use crate::system::{self, SystemValues};
 use crate::values::{ProptestText, file, number, odd, restitution, typed};

@@ -44,7 +44,7 @@ fn basin() -> Words {
     )
 }
 
-/// A system of which so many parameters vary over ranges.
+/// A system of which this number of parameters vary over ranges.
 fn varied(
     most: usize,
     over: fn(f64, f64) -> ProptestText,

@@ -155,7 +155,7 @@ enum Refused {
     Stopped,
 }
 
-/// Everything that is told of it: JSON, table, figure.
+/// Everything that is reported of it: JSON, table, figure.
 struct EventRecord {
     json: String,
     table: Vec<u8>,
@@ -210,7 +210,7 @@ fn answered(plan: &Plan, first: &EventRecord) -> Result<(), String> {
     }
 }
 
-/// Work with a flag that says stop after so long, in processor time where the system tells it.
+/// Runs work with a flag that is set after this time, measured in processor time where the system gives it.
 fn stopped_after<T>(limit: Duration, work: impl FnOnce(&AtomicBool) -> T) -> T {
     const LOOK: Duration = Duration::from_millis(100);
     let stop = AtomicBool::new(false);

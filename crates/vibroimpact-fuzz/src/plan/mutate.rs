@@ -15,7 +15,7 @@ pub(super) enum Change {
     Rename(Index, String),
     /// A field more.
     Add(Index, String, Value),
-    /// The value in so many lists.
+    /// The value, nested in this number of lists.
     Nest(Index, u16),
     /// An element of a list twice.
     Twice(Index),

@@ -17,7 +17,7 @@ const MOST_DOTS: usize = 50_000;
 const MOST_COLUMNS: usize = 800;
 /// Rows of that picture.
 const CELL_ROWS: usize = 400;
-/// Rows finer than can be told apart: of the dots in one row at one value one is drawn.
+/// Rows finer than the eye resolves: of the dots in one row at one value one is drawn.
 const ROWS: f64 = 2000.0;
 /// A large dot, in small ones.
 const LARGE: f64 = 1.9;

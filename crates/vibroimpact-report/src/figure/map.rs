@@ -8,7 +8,7 @@ use vibroimpact_plot::{
 };
 use vibroimpact_study::{MapPoint, RegionMap, SystemPlan};
 
-/// Above so many points coexisting motions could not be told apart, and a raster shows the most frequent one.
+/// Above this number of points coexisting motions would be too small to see, and a raster shows the most frequent one.
 const SPLIT: usize = 40_000;
 
 /// The figure of `vibro map`.

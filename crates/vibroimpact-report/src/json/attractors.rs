@@ -26,7 +26,7 @@ struct Area {
     phase: (f64, f64),
 }
 
-/// The object of `vibro attractors`: of so many starts of that sequence in the natural box of the system.
+/// The object of `vibro attractors`, for a number of starts of a sequence in the natural box of the system.
 #[must_use]
 pub fn document<'a>(
     asked: &Asked,

@@ -18,7 +18,7 @@ pub const fn side(side: Side) -> &'static str {
     }
 }
 
-/// A motion as JSON tells it.
+/// The JSON object of a motion.
 #[derive(Serialize)]
 pub struct MotionFields {
     kind: &'static str,

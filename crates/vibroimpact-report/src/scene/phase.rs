@@ -12,7 +12,7 @@ use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Po
 const MOST: usize = 200_000;
 /// Impacts marked one by one; more would be a band.
 const MARKED: usize = 120;
-/// Impacts up to which curves are told apart though they are thick.
+/// Up to this number of impacts thick curves stay distinguishable.
 const CLEAR: usize = 30;
 
 /// The motion from `start` between two times, `from < until`.

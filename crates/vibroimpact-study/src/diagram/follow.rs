@@ -50,7 +50,7 @@ pub enum DiagramPoint {
 pub(super) struct AfterTransient {
     pub(super) kind: MotionKind,
     pub(super) points: Vec<DiagramPoint>,
-    /// Where it was when nobody looked any more.
+    /// Its state at the end.
     pub(super) last: Start,
 }
 

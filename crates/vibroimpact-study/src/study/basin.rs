@@ -30,7 +30,7 @@ const TRAPS: u64 = 24;
 enum Starts {
     /// At the points of the axes.
     Grid(BasinPlan),
-    /// Scattered, so many with that seed.
+    /// Scattered, with this seed.
     Scattered { area: StartBox, seed: u64 },
 }
 

@@ -79,7 +79,7 @@ impl<F: Fill> Columns for F {
 /// Tiles along an axis there are at least, so that all processors have something to do and little is lost in a break.
 const FEWEST: usize = 16;
 
-/// The grid of some axes, the first running fastest. Tiles have the side asked for; where nobody asks, `side` or, on short axes,
+/// The grid of some axes, the first running fastest. Tiles have the given side; by default `side` or, on short axes,
 /// less, but no less than a quarter of it.
 pub(super) fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
     let dimension = |axis: &Axis| {

@@ -84,8 +84,8 @@ impl Study {
         self.fill.fill(&self.grid().tile(k), tick)
     }
 
-    /// What only the whole can say, once all tiles are there. Writes tiles anew where cycles were met that nobody knew
-    /// of when they were computed; doing it twice changes nothing.
+    /// The tables of the whole study, once all tiles are there. Tiles with cycles that were unknown when they were computed
+    /// are written again; doing it twice changes nothing.
     ///
     /// # Errors
     /// When tiles cannot be read or written.

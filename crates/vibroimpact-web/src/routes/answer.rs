@@ -1,4 +1,4 @@
-//! What the command tells of a plan: as JSON, as a table, as a figure, and the command itself.
+//! What the command prints, writes and draws for a plan, and the command line itself.
 
 use super::asked::{PlanRequest, Query, bytes, wants_events};
 use crate::Explorer;
@@ -19,7 +19,7 @@ use vibroimpact_report::scene::View;
 use vibroimpact_report::{AnswerError, Shown, Units, answer as ask};
 use vibroimpact_study::Control;
 
-/// The object that `--json` prints; told while it goes on, where the page wants that.
+/// The object that `--json` prints; with progress events where the page asks for them.
 pub(super) async fn answer(
     State(explorer): State<Explorer>,
     headers: HeaderMap,

@@ -57,7 +57,7 @@ impl<S: Send + Sync> FromRequest<S> for PlanRequest {
     }
 }
 
-/// Whether the page wants to be told how far it is.
+/// Whether the page asks for progress events.
 pub(super) fn wants_events(headers: &HeaderMap) -> bool {
     headers.get(header::ACCEPT).is_some_and(|kind| kind.as_bytes().starts_with(b"text/event-stream"))
 }

@@ -18,7 +18,7 @@ use vibroimpact_study::Task;
 
 /// Values along the line at which its motions are looked for.
 const LOOKS: u32 = 24;
-/// Motions whose branches are followed where nobody names any: those that most starts lead to.
+/// Number of motions whose branches are followed by default: those that most starts lead to.
 const MOST_LABELS: usize = 6;
 
 /// Motions with commas between; those found on the line where there are none.

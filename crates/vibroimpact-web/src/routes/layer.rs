@@ -18,7 +18,7 @@ use vibroimpact_study::{
     Axis, Control, Coordinate, MapPlan, Parameter, RegionPlan, Stretch, SystemPlan, Task, stable_regions,
 };
 
-/// Motions whose regions are drawn where nobody names any: those of the 1971 paper, and what they double into.
+/// Motions whose regions are drawn by default: those of the 1971 paper, and what they double into.
 const LABELS: [&str; 9] = ["1/1", "2/1", "3/1", "4/1", "1/2", "1/3", "2/2", "3/2", "2/4"];
 /// Points of the grid at which orbits are looked for.
 const GRID: u32 = 20;

@@ -1,7 +1,7 @@
 //! The exponents of the motion from a start, through whatever happens to it.
 //!
 //! The transient is passed first, the tangent vectors carried along all the while: they start anyhow and turn into their
-//! directions meanwhile. Then so many impacts are measured, in [blocks](super) that give the error bars.
+//! directions meanwhile. Then the given number of impacts is measured, in [blocks](super) that give the error bars.
 //!
 //! The motion is watched as [`settle`](crate::verdict::settle()) watches it, for cycles, rests and fading impacts, however long it is
 //! followed; what it is shown to settle into stands beside the exponents ([`Exponents::motion`]), and they are of that motion: where it
@@ -39,7 +39,7 @@ pub struct ExponentOptions {
 }
 
 impl ExponentOptions {
-    /// So many impacts after so many others, and two hundred search steps for each: ordinary flights take ten.
+    /// Measures `impacts` after `transient`, with two hundred search steps for each: ordinary flights take ten.
     #[must_use]
     pub const fn new(impacts: u64, transient: u64) -> Self {
         let max_steps = impacts.saturating_add(transient).saturating_mul(200).saturating_add(2_000_000);
@@ -57,7 +57,7 @@ impl Default for ExponentOptions {
 /// Where the exponents come from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grounds {
-    /// Measured over so many impacts, after so many others.
+    /// Measured over `impacts` impacts, after `transient` others.
     Measured {
         /// Impacts measured over.
         impacts: u64,
@@ -76,7 +76,7 @@ pub enum Grounds {
     Stuck(Side),
     /// It touches a stop again and again with no speed, or ever less: there is no derivative and no exponent.
     Touches(NoImpact),
-    /// The search ran out before so many impacts were seen.
+    /// The search ran out of steps before enough impacts were seen.
     Undecided {
         /// Impacts seen.
         impacts: u64,

@@ -31,7 +31,7 @@ struct Touched {
 }
 
 impl Resting {
-    /// What happens between here and the value `to`, where the motion is `there`; `None` if that cannot be told.
+    /// What happens between here and the value `to`, where the motion is `there`; `None` if that is unknown.
     pub(super) fn between(&self, to: f64, there: Option<&Excursion>, alike: &Likeness) -> Option<Found> {
         match (alike, there) {
             (Likeness::From(places), Some(there)) => {

@@ -40,7 +40,7 @@ const MOST_POLYGONS: usize = 200;
 const LEAST: f64 = 1e-9;
 /// Speeds below this are rounding: an edge along which none is more is that of no orbit.
 const STILL: f64 = 1e-9;
-/// One fold of so many vertices is crossed.
+/// One fold in this number of vertices is crossed.
 const FOLDS: usize = 8;
 /// Places of an edge from which an orbit is followed to a point of the grid.
 const PLACES: usize = 6;

@@ -99,7 +99,7 @@ pub(crate) struct Measure {
 }
 
 impl Measure {
-    /// From an impact on, over so many further ones.
+    /// From an impact on, over this number of further ones.
     pub(crate) fn new(from: ImpactState, impacts: u32) -> Self {
         Self {
             state: from,

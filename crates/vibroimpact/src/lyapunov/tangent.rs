@@ -1,6 +1,6 @@
 //! How neighbours of a motion move: the flight's derivative, the jump of it at an impact, two vectors carried along.
 //!
-//! A neighbour is told by its distance $`(\mathrm dx, \mathrm dv)`$ at the same moment. In flight the force cancels, and
+//! A neighbour is described by its distance $`(\mathrm dx, \mathrm dv)`$ at the same moment. In flight the force cancels, and
 //!
 //! $$`\Phi(s) = \begin{pmatrix} C & S \\ -S & C - 2\zeta S \end{pmatrix}, \qquad \det\Phi = e^{-2\zeta s}.`$$
 //!
@@ -173,7 +173,7 @@ mod tests {
         }
     }
 
-    /// The same neighbours told by phase and speed of arrival: another route to the derivative.
+    /// The same neighbours described by phase and speed of arrival: another route to the derivative.
     #[test]
     fn the_impact_map_has_the_same_derivative() {
         for osc in systems() {

@@ -51,7 +51,7 @@ pub(crate) struct Excursion {
 }
 
 impl Excursion {
-    /// From the release from the stop on `side`, for at most so many events and forcing periods; `None` if the stop never
+    /// From the release from the stop on `side`, for at most this number of events and forcing periods; `None` if the stop never
     /// releases the mass.
     pub(crate) fn new(osc: &Oscillator, side: Side, events: u32, periods: f64) -> Option<Self> {
         release_phase(osc, side)?;

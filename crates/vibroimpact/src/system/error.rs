@@ -90,7 +90,7 @@ pub enum SystemError {
         /// The value given.
         value: f64,
     },
-    /// A phase so large that its double tells no place on the circle.
+    /// A phase so large that its double does not determine a point on the circle.
     #[error(
         "start phase = {0:?} lies outside -1e15 <= phase <= 1e15\nhint: numbers that large are too far apart to be angles; give the phase modulo 2 pi"
     )]

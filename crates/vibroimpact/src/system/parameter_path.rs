@@ -3,7 +3,7 @@
 use super::{Oscillator, Parameter, SystemError};
 
 /// A parameter that varies, and where asked another one that varies with it in proportion: a straight line through the
-/// parameters, on which the value of the first tells the place.
+/// parameters, on which the value of the first gives the place.
 ///
 /// It is a direction: the line in which an oscillator varies is the one that passes through it.
 ///
@@ -46,7 +46,7 @@ impl ParameterPath {
         Ok(Self { also: Some((other, rate)), ..self })
     }
 
-    /// The parameter whose value tells the place on the line.
+    /// The parameter whose value gives the place on the line.
     #[must_use]
     pub const fn parameter(self) -> Parameter {
         self.parameter

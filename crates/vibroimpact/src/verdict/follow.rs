@@ -140,7 +140,7 @@ impl Follow {
     ) -> Option<Verdict> {
         let since = self.since + interval;
         if self.impacts.len() >= KEPT.max(4 * options.longest as usize) {
-            // recurrences are looked for among so many
+            // recurrences are searched for among these
             let gone = self.impacts.len() - 2 * options.longest as usize - 2;
             self.impacts.drain(..gone);
             self.earlier += gone;

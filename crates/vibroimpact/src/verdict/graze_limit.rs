@@ -93,7 +93,7 @@ fn clears(osc: &Oscillator, flight: &Flight, (from, until): (f64, f64), by: f64)
     }
 }
 
-/// The last impact of a motion, from which the next tells whether impacts fade away.
+/// The last impact of a motion, which the next is compared with to decide whether impacts fade away.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fading {
     last: Option<ImpactState>,

@@ -4,7 +4,7 @@
 //! impacts. What saves time is what is known already: a motion that falls into the [trap](super::trap) of a cycle needs no
 //! more following. Whatever the lanes do not fly is handed to a scalar [`Motion`], in the middle of its flight.
 //!
-//! The result does not depend on how the starts are divided: motions are told apart as [`Census`](super::Census) does, and the verdict that stands
+//! The result does not depend on how the starts are divided: motions are compared as [`Census`](super::Census) does, and the verdict that stands
 //! for each is what [`settle`] says of the first start that leads to it.
 
 use super::CountedMotion;

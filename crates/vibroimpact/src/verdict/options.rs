@@ -45,7 +45,7 @@ impl Default for SettleOptions {
 }
 
 impl SettleOptions {
-    /// At most so many impacts. A budget below that of the default has search steps for that many ordinary flights, and chaos is decided
+    /// A budget of this number of impacts. A budget below that of the default has search steps for that many ordinary flights, and chaos is decided
     /// at the same numbers of impacts as by the default, the first of which is 5000; what it decides, the default decides alike, and the
     /// rest is undecided.
     #[must_use]

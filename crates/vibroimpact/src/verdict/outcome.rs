@@ -25,7 +25,7 @@ pub enum Verdict {
 
 /// Chaos as it was seen: what was measured, and for how long the motion was followed without an end of it.
 ///
-/// Chaos may be a transient, and no finite time tells: this says how long it lasted at least.
+/// Chaos may be a transient, which no finite observation excludes: this gives how long it lasted at least.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chaos {
     /// The Lyapunov exponents.
@@ -86,7 +86,7 @@ pub enum Undecided {
         /// The Lyapunov exponents of the last stretch, if it had any.
         spectrum: Option<Spectrum>,
     },
-    /// A flight was followed for so many forcing periods, too few to speak of no more impacts.
+    /// A flight was followed for this number of forcing periods, too few to conclude that there are no more impacts.
     Search {
         /// Forcing periods without contact.
         periods: f64,

@@ -14,7 +14,7 @@
 //! - **chaotic**: the largest Lyapunov exponent, measured along the motion as it is followed, exceeds its error bar of three standard
 //!   errors, neighbours have parted by more than they can on the way from an unstable cycle to a stable one
 //!   ([`Spectrum::chaotic`](crate::chaos::Spectrum::chaotic)), and nothing of the above was shown in the meantime. Chaos that ends within the
-//!   budget is told with what it ended in ([`Settled::transient`]); of chaos that does not, the verdict says for how long it was seen;
+//!   budget is reported in [`Settled::transient`] beside the motion that follows; for other chaos the verdict says over how many impacts it was seen;
 //! - **stuck**: the force will never lift the mass again;
 //! - **undecided**: none of these within the budget; what was tried is in the verdict.
 

@@ -44,7 +44,7 @@ fn off(kind: Kind) -> f64 {
 /// Both sides of an event; `room` is the distance to the next event.
 pub(super) fn sides(event: &Event, room: f64) -> Result<Sides, Error> {
     let h = off(event.kind).min(0.3 * room);
-    // at a flip what is near and what is far is told by the doubled orbit, which grows like a root
+    // at a flip the doubled orbit, which grows like a root, decides what is near and what is far
     let aside = if event.kind == Kind::Flip { 0.03 * h.sqrt() } else { 1e-3 * h };
     let look = |gap: f64| event.orbits.iter().map(|orbit| seen(gap, orbit, (h, aside))).collect::<Result<Vec<_>, _>>();
     let (below, above) = (look(event.gap - h)?, look(event.gap + h)?);
