@@ -30,7 +30,7 @@ pub(super) fn word(words: &'static [&'static str]) -> ProptestText {
     prop::sample::select(words).prop_map(str::to_owned).boxed()
 }
 
-/// SystemValues as flags.
+/// Values as flags.
 #[must_use]
 pub(super) fn flags(values: &SystemValues) -> Vec<String> {
     values.iter().map(|(name, value)| format!("--{}={value}", name.replace('_', "-"))).collect()

@@ -2,7 +2,7 @@
 
 use crate::limits::MOST_CELLS;
 use crate::map::{MapPlan, MapPoint, RegionMap};
-use crate::study::{Cell, MapFill, tiles_of};
+use crate::study::{Cell, MapFill, on_axis, tiles_of};
 use crate::{Control, RunError, SystemPlan, axis};
 
 /// Settles several starts at every point of the plane; all of them, without refinement.
@@ -22,8 +22,7 @@ pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) ->
     for (block, tile) in tiles_of(&task, control)? {
         for (k, cell) in tile.into_iter().enumerate() {
             let index = block.index(k);
-            let place = |axis: usize| index[index.len() - 1 - axis];
-            let at = plan.axes.iter().enumerate().map(|(k, axis)| axis.over.at(place(k))).collect();
+            let at = plan.axes.iter().enumerate().map(|(k, axis)| axis.over.at(on_axis(&index, k))).collect();
             // without refinement every point is computed
             if let Cell::Computed(found) = cell {
                 points[whole.number(&index)] = Some(MapPoint { at, motions: found? });

@@ -104,6 +104,6 @@ pub(super) fn along(axes: &[Axis]) -> Vec<Along> {
 }
 
 /// The place on axis number `k` of a point with these indices in the grid.
-pub(super) fn on_axis(index: &[usize], k: usize) -> usize {
+pub(crate) fn on_axis(index: &[usize], k: usize) -> usize {
     index[index.len() - 1 - k]
 }

@@ -22,6 +22,7 @@ pub use arrays::StudyArrays;
 pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, STUCK, UNDECIDED, code, label_of};
 pub use diagram::diagram_of;
 pub use fill::Along;
+pub(crate) use fill::on_axis;
 pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, in_memory};
 pub(crate) use refine::Cell;
