@@ -1,0 +1,101 @@
+//! What is traced along a branch by the equations of its impacts.
+
+use super::free::hides;
+use crate::continuation::equations::cycle_equations::CycleEquations;
+use crate::continuation::equations::test_functions::{Place, TestFunction};
+use crate::continuation::trace::equations::Equations;
+use crate::continuation::trace::tracer::{Problem, Solution, StepRules, Tracer};
+use crate::orbit::{Orbit, ring_cycle};
+
+/// The equations of a cycle with one parameter free, and the test functions of its events.
+#[derive(Clone, Debug)]
+pub(crate) struct BranchProblem {
+    pub(crate) equations: CycleEquations,
+    pub(crate) tests: Vec<TestFunction>,
+    /// Of the parameter.
+    pub(crate) range: (f64, f64),
+}
+
+/// A trace of a branch.
+pub(crate) type BranchTracer = Tracer<BranchProblem>;
+
+/// A solution on it: beside unknowns and test functions, the cycle and whether it is a motion.
+pub(crate) type BranchSolution = Solution<Orbit>;
+
+impl Equations for BranchProblem {
+    fn weights(&self) -> &[f64] {
+        self.equations.weights()
+    }
+
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        self.equations.at(w)
+    }
+}
+
+impl Problem for BranchProblem {
+    type Known = Orbit;
+
+    fn rules(&self) -> StepRules {
+        StepRules {
+            stray: 0.3,
+            rounding: 1e-9,
+            bend: 0.95,
+            straight: 0.995,
+            few: 3,
+            many: 5,
+            zero: 1e-11,
+            // right at a branch point nothing converges
+            beside: COARSE,
+        }
+    }
+
+    fn tests(&self) -> usize {
+        self.tests.len()
+    }
+
+    fn look(&self, w: &[f64], tangent: &[f64]) -> Option<(Vec<f64>, Orbit)> {
+        let (osc, ring, flights) = self.equations.flights(w)?;
+        let place = Place { osc: &osc, ring: &ring, flights: &flights };
+        let values = self.tests.iter().map(|test| test.value(&self.equations, tangent, &place)).collect();
+        Some((values, Orbit::judged(&osc, ring_cycle(&osc, &ring, &flights))))
+    }
+
+    fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
+        let along = if self.tests[j] == TestFunction::Pace { tangent()? } else { Vec::new() };
+        let (osc, ring, flights) = self.equations.flights(w)?;
+        Some(self.tests[j].value(&self.equations, &along, &Place { osc: &osc, ring: &ring, flights: &flights }))
+    }
+
+    fn resolution(&self, j: usize) -> f64 {
+        // folds and branch points are looked at more closely later
+        if self.tests[j].critical() { COARSE } else { RESOLUTION }
+    }
+
+    fn phases(&self) -> usize {
+        2 * self.equations.impacts()
+    }
+
+    fn range(&self) -> Option<(f64, f64)> {
+        Some(self.range)
+    }
+
+    /// What ends a motion must not be stepped over: neither a motion that is none any more without an event, nor, where nothing
+    /// strikes, a resonance between two frequencies at which the mass clears the stops.
+    fn admits(&self, here: &BranchSolution, there: &BranchSolution, crossed: &[usize]) -> bool {
+        if here.known.physical && !there.known.physical && !crossed.iter().any(|&j| self.tests[j].needed()) {
+            return false;
+        }
+        if self.equations.impacts() > 0 || !there.known.physical {
+            return true;
+        }
+        match (self.equations.split(&here.w), self.equations.split(&there.w)) {
+            (Some((from, _)), Some((to, _))) => !hides(&from, &to),
+            _ => false,
+        }
+    }
+}
+
+/// Events are located to this along the step.
+pub(crate) const RESOLUTION: f64 = 1e-15;
+/// How closely folds and branch points are located before they are looked at.
+const COARSE: f64 = 3e-5;

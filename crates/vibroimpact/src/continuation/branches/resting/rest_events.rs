@@ -1,0 +1,277 @@
+//! What happens to a cycle with a rest between two values of the parameter.
+//!
+//! A flight comes to touch a stop, or an impact loses its speed: the smallest distance of that flight from the stop is a
+//! smooth function of the parameter on either side, since all before the touch is the same motion, and its zero is the event.
+//! Or all impacts of a chatter lose their speed together, which shows in where the mass is when the force begins to press.
+//! Or a rest shrinks to nothing: a chatter, seen from the release, shrinks by a fixed factor each time on the verge of
+//! completing, and the time at rest is no smooth function there (it goes like a power of the distance, near 0.6), but whether
+//! the mass comes to rest is decided to the last digit.
+
+use super::super::point::{BranchEvent, Change, Touch};
+use super::likeness::{Likeness, likeness, shape, stretch};
+use super::rest_branch::{FoundEvent, RestBranch};
+use crate::contact::sticking::release_phase;
+use crate::continuation::trace::root;
+use crate::flight::Flight;
+use crate::math::sin_cos;
+use crate::orbit::{Excursion, Stretch, turning_near};
+use crate::system::{Oscillator, Side, phase};
+use core::f64::consts::PI;
+
+/// An impact that comes or goes.
+struct Touched {
+    value: f64,
+    change: Change,
+    /// Stretch and impact.
+    place: (usize, usize),
+    /// Time flown up to this impact here and beyond, where there is one.
+    flown: [Option<f64>; 2],
+    side: Side,
+    phase: f64,
+}
+
+impl RestBranch {
+    /// What happens between here and the value `to`, where the motion is `there`; `None` if that is unknown.
+    pub(crate) fn between(&self, to: f64, there: Option<&Excursion>, alike: &Likeness) -> Option<FoundEvent> {
+        match (alike, there) {
+            (Likeness::From(places), Some(there)) => {
+                if let Some(found) = places.iter().find_map(|&place| self.landing(place, to, there)) {
+                    return Some(found);
+                }
+                let off = |touched: &Touched| (touched.value - self.value).abs();
+                let mut touched: Vec<Touched> =
+                    places.iter().filter_map(|&place| self.touch(place, to, there)).collect();
+                touched.sort_by(|a, b| off(a).total_cmp(&off(b)));
+                let first = touched.first()?.value;
+                touched.retain(|touched| (touched.value - first).abs() <= TOGETHER * (1.0 + first.abs()));
+                self.graze(&touched, there)
+            }
+            (Likeness::Rests, _) => self.other_rests(to),
+            _ => None,
+        }
+    }
+
+    /// Where the flight towards impact `k` of stretch `s`, which is another at `to`, touches a stop.
+    fn touch(&self, (s, k): (usize, usize), to: f64, there: &Excursion) -> Option<Touched> {
+        let (a, b) = (self.excursion.stretches.get(s)?, there.stretches.get(s)?);
+        let (change, struck, clear, long) = match (a.strikes.get(k), b.strikes.get(k)) {
+            (Some(x), Some(y)) if y.flown < x.flown => (Change::Appears, y, a, Some(x.flown)),
+            (Some(x), Some(y)) => (Change::Disappears, x, b, Some(y.flown)),
+            (None, Some(y)) => (Change::Appears, y, a, None),
+            (Some(x), None) => (Change::Disappears, x, b, None),
+            (None, None) => return None,
+        };
+        // without a longer flight, it stays on the stop after the impact before: restitution 0
+        if long.is_none() && clear.rest.is_none_or(|rest| rest.span.chatter) {
+            return None;
+        }
+        let side = struck.state.side;
+        let near = |value: f64| -> Option<(f64, f64)> {
+            let osc = self.at(value)?;
+            let excursion = self.excursion_at(value)?;
+            let stretch = excursion.stretches.get(s)?;
+            match long {
+                Some(long) => {
+                    let flight = leaving(&osc, stretch, k)?;
+                    let closest = turning_near(&osc, &flight, side, long, struck.flown)?;
+                    Some((closest.distance, flight.phase_at(closest.time)))
+                }
+                None => {
+                    let last = stretch.strikes.get(k.checked_sub(1)?)?.state;
+                    Some((osc.stop(side)?.gap - side.sign() * sin_cos(last.phase).0, last.phase))
+                }
+            }
+        };
+        let width = (to - self.value).abs();
+        let (here, beyond) = (near(self.value)?.0, near(to)?.0);
+        if here * beyond >= 0.0 {
+            return None;
+        }
+        let by = root::between(|by| Some(near(self.ahead(by))?.0), (0.0, here), (width, beyond), RESOLUTION * width)?;
+        let value = self.ahead(by);
+        let phase = phase::wrap(near(value)?.1);
+        let flown = [a, b].map(|stretch| stretch.strikes.get(k).map(|strike| strike.flown));
+        Some(Touched { value, change, place: (s, k), flown, side, phase })
+    }
+
+    /// Touches that happen together: one, or with two stops alike one on each.
+    fn graze(&self, touched: &[Touched], there: &Excursion) -> Option<FoundEvent> {
+        let first = touched.first()?;
+        if !self.explained(touched, there) {
+            return None;
+        }
+        let (before, after) = (self.excursion.cycle()?.label, there.cycle()?.label);
+        let excursion = self.short_of(touched)?;
+        let cycle = excursion.cycle()?;
+        let told = |touched: &Touched| {
+            let (s, k) = touched.place;
+            let listed = excursion.before(s) + k;
+            let impact = match touched.change {
+                Change::Disappears => listed,
+                // after the release that begins the list: the last of the turn before
+                Change::Appears => listed.checked_sub(1).unwrap_or(cycle.points.len().saturating_sub(1)),
+            };
+            Touch { impact, side: touched.side, phase: touched.phase }
+        };
+        let (Touch { impact, side, phase }, change) = (told(first), first.change);
+        let also = touched.get(1).filter(|second| second.change == change).map(told);
+        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns: false, also };
+        Some(FoundEvent { value: first.value, event, cycle })
+    }
+
+    /// Whether these impacts are all that has changed.
+    fn explained(&self, touched: &[Touched], there: &Excursion) -> bool {
+        let without = |excursion: &Excursion, change: Change| {
+            let mut excursion = excursion.clone();
+            for (s, k) in touched.iter().filter(|touched| touched.change == change).map(|touched| touched.place) {
+                if let Some(stretch) = excursion.stretches.get_mut(s).filter(|stretch| k < stretch.strikes.len()) {
+                    let gone = stretch.strikes.remove(k);
+                    if let Some(next) = stretch.strikes.get_mut(k) {
+                        next.flown += gone.flown;
+                    }
+                }
+            }
+            excursion
+        };
+        let (here, there) = (without(&self.excursion, Change::Disappears), without(there, Change::Appears));
+        matches!(likeness(&here, &there), Likeness::Alike(_))
+    }
+
+    /// Whether up to where impacts are slow the motion at another value is the one here.
+    fn begins_like(&self, other: &Excursion) -> bool {
+        let slow = |stretch: &Stretch, k: usize| stretch.strikes.get(k).is_none_or(|x| x.state.velocity < UNSEEN);
+        let pairs = self.excursion.stretches.iter().zip(&other.stretches);
+        pairs.into_iter().all(|(a, b)| stretch(a, b).map_or_else(|k| slow(a, k) && slow(b, k), |_| true))
+    }
+
+    /// The cycle of the branch so far at a touch; a little before it where rounding has made it the other one.
+    fn short_of(&self, touched: &[Touched]) -> Option<Excursion> {
+        let so_far = |excursion: &Excursion| {
+            touched.iter().all(|touched| {
+                let (s, k) = touched.place;
+                let strike = excursion.stretches.get(s).and_then(|stretch| stretch.strikes.get(k));
+                match (strike.map(|strike| strike.flown), touched.flown) {
+                    (Some(flown), [Some(here), Some(beyond)]) => (flown - here).abs() < (flown - beyond).abs(),
+                    (flown, [here, _]) => flown.is_some() == here.is_some(),
+                }
+            })
+        };
+        let value = touched.first()?.value;
+        let width = (value - self.value).abs();
+        let mut back = RESOLUTION * width;
+        let mut at = value;
+        for _ in 0..MAX_BACK {
+            if let Some(excursion) = self.excursion_at(at).filter(so_far) {
+                return Some(excursion);
+            }
+            back *= 10.0;
+            if back >= width {
+                break;
+            }
+            at = self.ahead(width - back);
+        }
+        Some(self.excursion.clone())
+    }
+
+    /// Where the mass lands without speed, if the impacts up to `k` of stretch `s` have next to none here and at `to`: there it is
+    /// on the stop at the phase at which the force begins to press.
+    fn landing(&self, (s, k): (usize, usize), to: f64, there: &Excursion) -> Option<FoundEvent> {
+        let (a, b) = (self.excursion.stretches.get(s)?, there.stretches.get(s)?);
+        let slow = |stretch: &Stretch, k: usize| stretch.strikes.get(k).is_some_and(|x| x.state.velocity < SLOW);
+        let first = (0..=k).find(|&k| slow(a, k) && slow(b, k))?;
+        let strike = a.strikes.get(first)?;
+        let side = strike.state.side;
+        // time and phase of that moment, the distance from the stop then, and the speed
+        let then = |value: f64| -> Option<(f64, f64, f64)> {
+            let osc = self.at(value)?;
+            let flight = leaving(&osc, self.excursion_at(value)?.stretches.get(s)?, first)?;
+            let pressed = phase::wrap(PI - release_phase(&osc, side)?);
+            let time = strike.flown + phase::difference(pressed, strike.state.phase) / osc.beta();
+            let point = flight.at(time);
+            let room = osc.stop(side)?.gap - side.sign() * flight.x;
+            Some((pressed, room - side.sign() * point.displacement, point.v))
+        };
+        let width = (to - self.value).abs();
+        let (here, beyond) = (then(self.value)?.1, then(to)?.1);
+        if here * beyond >= 0.0 {
+            return None;
+        }
+        let by = root::between(|by| Some(then(self.ahead(by))?.1), (0.0, here), (width, beyond), RESOLUTION * width)?;
+        let value = self.ahead(by);
+        let (phase, _, speed) = then(value)?;
+        if speed.abs() > SOFT {
+            return None;
+        }
+        let excursion = self.excursion_at(value).filter(|excursion| excursion.periods.is_some());
+        let excursion = excursion.unwrap_or_else(|| self.excursion.clone());
+        let cycle = excursion.cycle()?;
+        let (before, after) = (self.excursion.cycle()?.label, there.cycle()?.label);
+        let impact = excursion.before(s) + first;
+        Some(FoundEvent { value, event: BranchEvent::SoftLanding { impact, side, phase, before, after }, cycle })
+    }
+
+    /// Between here and `to` the rests change: one shrinks to nothing, or ends no more, or a chatter becomes complete.
+    pub(crate) fn other_rests(&self, to: f64) -> Option<FoundEvent> {
+        let same = |excursion: &Excursion| shape(excursion) == shape(&self.excursion);
+        if self.excursion_at(to).is_some_and(|there| same(&there)) {
+            return None;
+        }
+        let (mut inside, mut outside) = (self.value, to);
+        for _ in 0..MAX_HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            if middle == inside || middle == outside {
+                break;
+            }
+            if self.excursion_at(middle).is_some_and(|excursion| same(&excursion)) {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        let excursion = self.excursion_at(inside).filter(|inside| self.begins_like(inside))?;
+        let cycle = excursion.cycle()?;
+        let osc = self.at(outside)?;
+        for rest in excursion.rests() {
+            let side = rest.span.side;
+            if release_phase(&osc, side).is_none() && osc.stop(side).is_some_and(|stop| stop.gap < 0.0) {
+                return Some(FoundEvent { value: outside, event: BranchEvent::RestForEver { side }, cycle });
+            }
+        }
+        let shrunk = |excursion: &Excursion| {
+            excursion.rests().find(|rest| rest.held * osc.beta() < SHRUNK).map(|rest| rest.span)
+        };
+        if let Some(rest) = shrunk(&excursion) {
+            let event = BranchEvent::EndOfRest { side: rest.side, phase: rest.release };
+            return Some(FoundEvent { value: inside, event, cycle });
+        }
+        let beyond = self.excursion_at(outside)?;
+        let rest = shrunk(&beyond)?;
+        let event = BranchEvent::Chatter { side: rest.side, phase: rest.release, before: cycle.label };
+        Some(FoundEvent { value: outside, event, cycle: beyond.cycle()? })
+    }
+}
+
+/// The flight towards impact `k` of a stretch.
+fn leaving(osc: &Oscillator, stretch: &Stretch, k: usize) -> Option<Flight> {
+    match k.checked_sub(1) {
+        None => Some(Flight::release(osc, stretch.from, release_phase(osc, stretch.from)?)),
+        Some(before) => Some(Flight::new(osc, stretch.strikes.get(before)?.state.rebound(osc))),
+    }
+}
+
+/// How closely a touch is located, as a share of where it is looked for.
+const RESOLUTION: f64 = 1e-13;
+/// Impacts faster than this do not lose their speed on a short stretch of a branch.
+const SLOW: f64 = 0.02;
+/// Where rests change, slower impacts than this may come and go without being listed.
+const UNSEEN: f64 = 1e-4;
+/// A speed this small at a landing is zero.
+const SOFT: f64 = 1e-6;
+/// Touches at values closer than this, relative, are one event.
+const TOGETHER: f64 = 1e-11;
+/// Halvings down to neighbouring numbers, at most.
+const MAX_HALVINGS: u32 = 100;
+/// Powers of ten to go back from a touch, at most.
+const MAX_BACK: u32 = 14;
+/// A rest of this much phase or less, found next to where it is no more, shrinks to nothing there.
+const SHRUNK: f64 = 1e-6;

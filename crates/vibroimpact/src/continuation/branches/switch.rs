@@ -1,0 +1,144 @@
+//! Branches that begin where a multiplier is -1 or +1.
+
+use super::branch::Branch;
+use super::impact_branch::ImpactBranch;
+use super::options::{BranchError, BranchOptions};
+use super::point::{BranchEvent, SolutionPoint};
+use crate::continuation::equations::cycle_equations::CycleEquations;
+use crate::continuation::trace::equations::{Equations, correct};
+use crate::orbit::{Block, Floquet, Ring, blocks, solve};
+use crate::system::{Oscillator, ParameterPath};
+use core::ops::RangeInclusive;
+
+impl Branch {
+    /// The branch of twice the period that begins or ends at `flip`, a [flip](BranchEvent::Flip) of a branch of `osc` in
+    /// what varies.
+    ///
+    /// It leaves along the direction that a turn reverses. Of its two ends at the flip, one is the other one shifted by a
+    /// period, so there is only one way.
+    ///
+    /// # Errors
+    /// [`BranchError::NotThere`] if the point is no flip, else as [`Branch::new`].
+    pub fn from_flip(
+        osc: &Oscillator,
+        flip: &SolutionPoint,
+        varying: impl Into<ParameterPath>,
+        range: RangeInclusive<f64>,
+        options: BranchOptions,
+    ) -> Result<Self, BranchError> {
+        if flip.event != Some(BranchEvent::Flip) {
+            return Err(BranchError::NotThere);
+        }
+        let varying = varying.into();
+        let (osc, ring, flights) = solved(osc, flip, varying)?;
+        let once = carried(&osc, &ring, &flights, -1.0).ok_or(BranchError::NoCycle)?;
+        let direction: Vec<f64> = once.iter().copied().chain(once.iter().map(|d| -d)).collect();
+        leave(&osc, &ring.repeated(2), (varying, flip.value), range, direction, options)
+    }
+
+    /// The two branches that leave the branch of `osc` in the same parameters at a [branch point](BranchEvent::BranchPoint), to
+    /// either side.
+    ///
+    /// # Errors
+    /// [`BranchError::NotThere`] if the point is no branch point, else as [`Branch::new`].
+    pub fn from_branch_point(
+        osc: &Oscillator,
+        point: &SolutionPoint,
+        varying: impl Into<ParameterPath>,
+        range: RangeInclusive<f64>,
+        options: BranchOptions,
+    ) -> Result<[Self; 2], BranchError> {
+        if point.event != Some(BranchEvent::BranchPoint) {
+            return Err(BranchError::NotThere);
+        }
+        let varying = varying.into();
+        let (osc, ring, flights) = solved(osc, point, varying)?;
+        let direction = carried(&osc, &ring, &flights, 1.0).ok_or(BranchError::NoCycle)?;
+        let back: Vec<f64> = direction.iter().map(|d| -d).collect();
+        let at = (varying, point.value);
+        Ok([leave(&osc, &ring, at, range.clone(), direction, options)?, leave(&osc, &ring, at, range, back, options)?])
+    }
+}
+
+/// The oscillator and the solution of the equations at a point of a branch.
+fn solved(
+    osc: &Oscillator,
+    point: &SolutionPoint,
+    varying: ParameterPath,
+) -> Result<(Oscillator, Ring, Vec<Block>), BranchError> {
+    let osc = varying.set(osc, point.value).map_err(|_| BranchError::NoCycle)?;
+    let ring = Ring::of(&osc, &point.cycle).ok_or(BranchError::Rests)?;
+    // at a branch point the equations are singular and the point is as good as it gets
+    let solved = solve(&osc, ring.clone());
+    let (ring, flights) = match solved {
+        Some(solved) => solved,
+        None => {
+            let flights = blocks(&osc, &ring).ok_or(BranchError::NoCycle)?;
+            (ring, flights)
+        }
+    };
+    Ok((osc, ring, flights))
+}
+
+/// The direction at every impact that a turn takes to `multiplier` times itself.
+fn carried(osc: &Oscillator, ring: &Ring, flights: &[Block], multiplier: f64) -> Option<Vec<f64>> {
+    let mut at = Floquet::new(osc, ring, flights).direction(multiplier);
+    let mut all = Vec::with_capacity(2 * ring.len());
+    for block in flights {
+        all.extend(at);
+        let driven = block.left.apply(at);
+        at = block.right.solve([-driven[0], -driven[1]])?;
+    }
+    Some(all)
+}
+
+/// The flip of the cycle that `ring` goes round twice, near the parameter value `value`: that cycle gone round twice, and
+/// the value.
+pub(crate) fn halved(equations: &CycleEquations, ring: &Ring, value: f64) -> Option<(Ring, f64)> {
+    let once = ring.half();
+    let equations = equations.with(&once);
+    let row = equations.parameter_row();
+    let at = |w: &[f64], value: f64| -> Option<(Vec<f64>, f64)> {
+        let (w, _) = correct(&equations, w, &row, value)?;
+        let (osc, ring, flights) = equations.flights(&w)?;
+        let test = Floquet::new(&osc, &ring, &flights).minus_one();
+        Some((w, test))
+    };
+    // secant steps
+    let mut before = at(&CycleEquations::join(&once, value), value)?;
+    let mut there = value + 1e-7 * (1.0 + value.abs());
+    for _ in 0..MAX_SECANTS {
+        let here = at(&before.0, there)?;
+        let from = *before.0.last()?;
+        let next = there - here.1 * (there - from) / (here.1 - before.1);
+        if !next.is_finite() || (next - there).abs() <= f64::EPSILON * there.abs() {
+            let (_, ring) = equations.split(&here.0)?;
+            return Some((ring.repeated(2), there));
+        }
+        (before, there) = (here, next);
+    }
+    let (_, ring) = equations.split(&before.0)?;
+    let value = *before.0.last()?;
+    Some((ring.repeated(2), value))
+}
+
+/// Secant steps at most.
+const MAX_SECANTS: u32 = 12;
+
+/// The branch that leaves `ring` in the direction given, the parameter not changing at first.
+fn leave(
+    osc: &Oscillator,
+    ring: &Ring,
+    (varying, value): (ParameterPath, f64),
+    range: RangeInclusive<f64>,
+    mut direction: Vec<f64>,
+    options: BranchOptions,
+) -> Result<Branch, BranchError> {
+    let equations = ImpactBranch::equations(osc, varying, &range, value, ring)?;
+    direction.push(0.0);
+    let length = equations.length(&direction);
+    direction.iter_mut().for_each(|d| *d /= length);
+    let w = CycleEquations::join(ring, value);
+    let branch = ImpactBranch::begin(equations, w, direction, (*range.start(), *range.end()), options);
+    branch.map(Branch::from).ok_or(BranchError::NoCycle)
+}

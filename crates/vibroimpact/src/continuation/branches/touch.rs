@@ -1,0 +1,122 @@
+//! A branch at a grazing impact: what happens, and which cycle it goes on with.
+
+use super::free::{arriving, leaving};
+use super::graze::{Beyond, beyond};
+use super::impact_branch::{ImpactBranch, value};
+use super::point::{BranchEvent, Change, Touch};
+use super::problem::BranchSolution;
+use crate::continuation::equations::test_functions::TestFunction;
+use crate::continuation::trace::tracer::Crossing;
+use crate::orbit::{closest, crest};
+use crate::system::{Side, phase};
+use crate::verdict::Label;
+
+impl ImpactBranch {
+    /// Where in the list of the point's cycle impact `k` is.
+    pub(crate) fn listed(&self, at: &BranchSolution, k: usize) -> usize {
+        let points = &at.known.cycle.points;
+        let Some((_, ring)) = self.cycles().split(&at.w).filter(|(_, ring)| k < ring.len()) else { return k };
+        let theta = phase::wrap(ring.theta(k));
+        points.iter().position(|p| p.state.phase == theta && p.state.velocity == ring.speed(k)).unwrap_or(k)
+    }
+
+    /// A grazing event and what is beyond it: the impacts and touches of this step that happen together.
+    pub(crate) fn graze(&mut self, crossed: &[Crossing], at: &BranchSolution) {
+        let together = crossed.iter().take_while(|(s, _)| s - crossed[0].0 < TOGETHER);
+        let tests: Vec<TestFunction> = together.filter_map(|(_, j)| j.map(|j| self.tracer.problem.tests[j])).collect();
+        let gone: Vec<usize> =
+            tests.iter().filter_map(|w| if let TestFunction::Speed(k) = w { Some(*k) } else { None }).collect();
+        let rooms: Vec<Side> =
+            tests.iter().filter_map(|w| if let TestFunction::Room(side) = w { Some(*side) } else { None }).collect();
+        let mut touches: Vec<_> = tests
+            .iter()
+            .filter_map(|w| if let TestFunction::Clear(k, side) = w { Some((*k, *side)) } else { None })
+            .collect();
+        if !gone.is_empty() {
+            // a touch at the same time is that of another turn of the cycle that is left
+            touches.clear();
+        }
+        let Some((osc, ring)) = self.cycles().split(&at.w) else {
+            return self.finish(BranchEvent::NoConvergence);
+        };
+        let before = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
+        let (change, k, side) = match (touches.first(), gone.first(), rooms.first()) {
+            (Some(&(k, side)), ..) => (Change::Appears, k, side),
+            (None, Some(&k), _) => (Change::Disappears, k, ring.side(k)),
+            (None, None, Some(&side)) => (Change::Appears, 0, side),
+            (None, None, None) => return self.finish(BranchEvent::NoConvergence),
+        };
+        let phase_of = |k: usize, side: Side| match change {
+            Change::Appears if ring.len() == 0 => crest(&osc, side),
+            Change::Appears => {
+                let time = closest(&osc, &ring, k, side).map_or(0.0, |closest| closest.time);
+                phase::advance(phase::wrap(ring.theta(k)), osc.beta(), time)
+            }
+            Change::Disappears => phase::wrap(ring.theta(k)),
+        };
+        let phase = phase_of(k, side);
+        let second = match (touches.get(1), gone.get(1), rooms.get(1)) {
+            (Some(&second), ..) => Some(second),
+            (None, Some(&k), _) => Some((k, ring.side(k))),
+            (None, None, Some(&side)) => Some((0, side)),
+            (None, None, None) => None,
+        };
+        let also = second.map(|(k, side)| Touch { impact: self.listed(at, k), side, phase: phase_of(k, side) });
+        let value = value(&at.w);
+        let next = if ring.len() == 0 {
+            arriving(self.cycles(), &osc, value, &rooms)
+        } else if (0..ring.len()).all(|k| ring.speed(k).abs() < AT_REST) {
+            // where the motion without impacts just touches, all impacts of a longer cycle go at once
+            let next = leaving(self.cycles(), &osc, value, side);
+            if next.is_none() {
+                return self.end(at, BranchEvent::LossOfContact { side, phase });
+            }
+            next
+        } else {
+            beyond(self.cycles(), (&osc, &ring, value), &touches, &gone, &at.tangent)
+        };
+        let Some((Beyond { equations, w, tangent, positive }, after)) = next.and_then(|next| {
+            let (_, ring) = next.equations.split(&next.w)?;
+            let label = Label::new(u32::try_from(ring.len()).unwrap_or(u32::MAX), ring.periods);
+            Some((next, label))
+        }) else {
+            return self.finish(BranchEvent::NoConvergence);
+        };
+        let turns = self.cycles().pace(&at.tangent) * equations.pace(&tangent) < 0.0;
+        let impact = self.listed(at, k);
+        let event = BranchEvent::Grazing { change, impact, side, phase, before, after, turns, also };
+        let again = |(v, e): &(f64, BranchEvent)| (v - value).abs() < AGAIN * (1.0 + value.abs()) && alike(e, &event);
+        if self.grazed.iter().any(again) {
+            return self.end(at, BranchEvent::Closed);
+        }
+        self.grazed.push((value, event));
+        self.emit(at, event);
+        if equations.impacts() > self.options.impacts as usize {
+            self.tracer.here.w.clone_from(&at.w);
+            self.tracer.here.known.clone_from(&at.known);
+            return self.finish(BranchEvent::ImpactLimit);
+        }
+        if !self.go_on(equations, w, tangent, &positive) {
+            self.finish(BranchEvent::NoConvergence);
+        }
+    }
+}
+
+/// Whether two grazing events at the same value are the same.
+fn alike(a: &BranchEvent, b: &BranchEvent) -> bool {
+    use BranchEvent::Grazing;
+    match (a, b) {
+        (
+            Grazing { change, side, phase, before, after, .. },
+            Grazing { change: c, side: s, phase: p, before: b, after: a, .. },
+        ) => (change, side, before, after) == (c, s, b, a) && phase::difference(*phase, *p).abs() < 1e-6,
+        _ => false,
+    }
+}
+
+/// Grazes no further apart than this along the step are one event.
+const TOGETHER: f64 = 1e-9;
+/// Speeds below this at a grazing event are zero: there they are located to rounding.
+const AT_REST: f64 = 1e-6;
+/// Grazing events at values closer than this, relative, may be the same.
+const AGAIN: f64 = 1e-9;

@@ -1,0 +1,290 @@
+//! Curves of folds, flips and grazing impacts in a plane of two parameters, and the points of codimension two on them.
+
+use super::end::{Trail, reason};
+use super::frame::Frame;
+use super::point::{CurveEvent, CurveKind, CurveOptions, CurvePoint};
+use crate::continuation::branches::{BranchError, BranchEvent, Change, SolutionPoint};
+use crate::continuation::equations::plane_equations::{Condition, Plane};
+use crate::continuation::equations::plane_tracer::{PlaneSolution, PlaneTracer};
+use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::trace::root;
+use crate::math::{Multiplier, hypot};
+use crate::orbit::{Floquet, Orbit, Ring, ring_cycle};
+use crate::system::{Oscillator, Parameter, Side};
+use std::collections::VecDeque;
+
+/// A curve of folds, flips or grazing impacts: an iterator over its points, one way from where it was begun.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    kind: CurveKind,
+    /// The grazing impact, on a grazing curve.
+    grazing: Option<usize>,
+    tracer: PlaneTracer,
+    begin: PlaneSolution,
+    options: CurveOptions,
+    count: u32,
+    pending: VecDeque<CurvePoint>,
+    over: bool,
+    trail: Trail,
+}
+
+impl Curve {
+    /// The two ways along the curve through an event of a branch of `osc` in `parameter`: a fold, a flip, a grazing or a
+    /// loss of contact. `parameter` need not be one of those of `frame`.
+    ///
+    /// # Errors
+    /// [`BranchError::NotThere`] for another event, [`BranchError::OutOfRange`] if the point lies outside the frame,
+    /// [`BranchError::NoCycle`] if no curve is found through it.
+    pub fn through(
+        osc: &Oscillator,
+        point: &SolutionPoint,
+        parameter: Parameter,
+        frame: &Frame,
+        options: CurveOptions,
+    ) -> Result<[Self; 2], BranchError> {
+        let osc = parameter.set(osc, point.value).map_err(|_| BranchError::NoCycle)?;
+        let mut ring = Ring::of(&osc, &point.cycle).ok_or(BranchError::Rests)?;
+        let (kind, grazing) = match point.event {
+            Some(BranchEvent::Fold) => (CurveKind::Fold, None),
+            Some(BranchEvent::Flip) => (CurveKind::Flip, None),
+            Some(BranchEvent::Grazing { change: Change::Disappears, impact, .. }) => (CurveKind::Grazing, Some(impact)),
+            Some(BranchEvent::LossOfContact { .. }) => (CurveKind::Grazing, Some(0)),
+            Some(BranchEvent::Grazing { change: Change::Appears, side, phase, .. }) if ring.len() == 0 => {
+                ring = Ring { sides: vec![side], unknowns: vec![phase, 0.0], periods: 1 };
+                (CurveKind::Grazing, Some(0))
+            }
+            Some(BranchEvent::Grazing { change: Change::Appears, impact, side, phase, .. }) => {
+                let ahead = crate::system::phase::wrap(phase - ring.theta(impact));
+                // the touch may come more than a turn after the impact: where the mass is nearest
+                let touch = crate::orbit::closest(&osc, &ring, impact, side);
+                let theta = ring.theta(impact) + touch.map_or(ahead, |touch| osc.beta() * touch.time);
+                ring.insert(impact, theta, side);
+                (CurveKind::Grazing, Some(impact + 1))
+            }
+            _ => return Err(BranchError::NotThere),
+        };
+        let values = (frame.parameters.0.get(&osc), frame.parameters.1.get(&osc));
+        let (Some(p), Some(q)) = values else {
+            return Err(BranchError::NoSuchParameter(frame.parameters.1.name()));
+        };
+        if !frame.sensible() || !frame.holds((p, q)) {
+            let (low, high) = (*frame.ranges.0.start(), *frame.ranges.0.end());
+            return Err(BranchError::OutOfRange { value: p, low, high });
+        }
+        let condition = match (kind, grazing) {
+            (CurveKind::Fold, _) => Condition::PlusOne,
+            (CurveKind::Flip, _) => Condition::MinusOne,
+            (CurveKind::Grazing, k) => Condition::Speed(k.unwrap_or(0)),
+        };
+        let plane = Plane::new(&osc, frame.parameters, frame.scales(), &ring, condition);
+        let mut watched: Vec<Condition> = frame.edges().to_vec();
+        for k in 0..ring.len() {
+            if grazing != Some(k) {
+                watched.push(Condition::Speed(k));
+            }
+            // one impact of speed zero in n periods is the motion without impacts: its other crests are the same touch
+            let itself = |side: Side| grazing.is_some() && ring.len() == 1 && side == ring.side(k);
+            watched.extend(osc.stops().filter(|(s, _)| !itself(*s)).map(|(side, _)| Condition::Clear(k, side)));
+        }
+        if let Some(k) = grazing {
+            watched.extend([Condition::Trace, Condition::Pull(k)]);
+        }
+        let w = Plane::join(&ring, (p, q));
+        let forth = Self::begin(kind, grazing, plane.clone(), watched.clone(), &w, 1.0, options);
+        let back = Self::begin(kind, grazing, plane, watched, &w, -1.0, options);
+        match (forth, back) {
+            (Some(forth), Some(back)) => Ok([forth, back]),
+            _ => Err(BranchError::NoCycle),
+        }
+    }
+
+    fn begin(
+        kind: CurveKind,
+        grazing: Option<usize>,
+        plane: Plane,
+        watched: Vec<Condition>,
+        w: &[f64],
+        way: f64,
+        options: CurveOptions,
+    ) -> Option<Self> {
+        let (p, q) = (w.len() - 2, w.len() - 1);
+        // along whichever parameter changes the curve's point; first onto the curve itself
+        let row = |at: usize| {
+            let mut row = vec![0.0; w.len()];
+            row[at] = way;
+            row
+        };
+        let rows = [row(p), row(q)];
+        // a parameter that does not change at all along the curve, but by rounding, gives it no direction
+        let pace = |row: &Vec<f64>| tangent(&plane, w, row).map(|t| plane.pace(&t, row));
+        let usable =
+            |least: f64| rows.iter().find(|row| pace(row).is_some_and(|pace| pace > least && pace.is_finite()));
+        let row = usable(SLOWEST).or_else(|| usable(0.0))?.clone();
+        let along = tangent(&plane, w, &row)?;
+        let fix = plane.row(&along);
+        let level = fix.iter().zip(w).map(|(r, w)| r * w).sum();
+        let (w, _) = correct(&plane, w, &fix, level)?;
+        let tracer = PlaneTracer::along(plane, watched, w, &row, options.longest)?;
+        let begin = tracer.here.clone();
+        let mut curve = Self {
+            kind,
+            grazing,
+            tracer,
+            begin,
+            options,
+            count: 0,
+            pending: VecDeque::new(),
+            over: false,
+            trail: Trail::default(),
+        };
+        let first = curve.point(&curve.tracer.here, None)?;
+        curve.pending.push_back(first);
+        Some(curve)
+    }
+
+    /// What holds along it.
+    #[must_use]
+    pub const fn kind(&self) -> CurveKind {
+        self.kind
+    }
+
+    fn point(&self, spot: &PlaneSolution, event: Option<CurveEvent>) -> Option<CurvePoint> {
+        let (osc, ring, flights) = self.tracer.problem.plane.flights(&spot.w)?;
+        let mut cycle = ring_cycle(&osc, &ring, &flights);
+        if self.grazing.is_some() {
+            // the derivative grows like the inverse of the speed, and without speed there is none
+            cycle.multipliers = [Multiplier { re: f64::NAN, im: f64::NAN }; 2];
+        }
+        let physical = match self.grazing {
+            // where an impact has no speed, or a flight just touches, a motion may be the limit of motions
+            None if event.is_none() => Orbit::judged(&osc, cycle.clone()).physical,
+            _ => grazes(&self.tracer.problem.watched, spot),
+        };
+        Some(CurvePoint { values: Plane::values(&spot.w), cycle, physical, event })
+    }
+
+    fn emit(&mut self, spot: &PlaneSolution, event: Option<CurveEvent>) {
+        if let Some(point) = self.point(spot, event) {
+            self.pending.push_back(point);
+        }
+        self.count += 1;
+    }
+
+    fn finish(&mut self, spot: &PlaneSolution, event: CurveEvent) {
+        self.emit(spot, Some(event));
+        self.over = true;
+    }
+
+    fn advance(&mut self) {
+        let here = self.tracer.here.clone();
+        if self.count >= self.options.points {
+            return self.finish(&here, CurveEvent::StepLimit);
+        }
+        let Some(mut step) = self.tracer.step() else {
+            if let Some(edge) = self.on_edge() {
+                return self.end_of_box(&edge);
+            }
+            let (spot, event) =
+                reason(&self.tracer, self.kind, &self.trail).unwrap_or((here, CurveEvent::NoConvergence));
+            return self.finish(&spot, event);
+        };
+        let course = |spot: &PlaneSolution| self.tracer.problem.plane.scaled(&spot.tangent);
+        let ((p, q), (r, s)) = (course(&here), course(&step.there));
+        // where only speeds still grow, rounding turns the course
+        let moves = hypot(p, q).max(hypot(r, s)) > STILL;
+        if self.kind == CurveKind::Fold && p * r + q * s < 0.0 && moves {
+            let f = |at: f64| {
+                let (r, s) = course(&self.tracer.solution(self.tracer.between(&step, at)?)?);
+                Some(p * r + q * s)
+            };
+            let ends = ((0.0, p * p + q * q), (step.length, p * r + q * s));
+            match root::between(f, ends.0, ends.1, 1e-13) {
+                Some(at) => step.crossed.push((at, None)),
+                None => return self.finish(&here, CurveEvent::NoConvergence),
+            }
+            step.crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        for &(at, what) in &step.crossed {
+            let Some(spot) = self.tracer.between(&step, at).and_then(|w| self.tracer.solution(w)) else {
+                return self.finish(&here, CurveEvent::NoConvergence);
+            };
+            let event = match what.map(|j| self.tracer.problem.watched[j]) {
+                None => CurveEvent::Cusp,
+                Some(Condition::Line(..)) => return self.end_of_box(&spot),
+                Some(Condition::Trace) => CurveEvent::ResonantGrazing,
+                Some(Condition::Pull(_)) => CurveEvent::DegenerateGrazing,
+                Some(Condition::Speed(_)) if self.kind != CurveKind::Grazing => {
+                    return self.finish(&spot, CurveEvent::ResonantGrazing);
+                }
+                Some(_) if self.kind == CurveKind::Grazing => CurveEvent::DoubleGrazing,
+                Some(_) => CurveEvent::Touch,
+            };
+            self.emit(&spot, Some(event));
+        }
+        let there = step.there;
+        let closed = self.count > 3
+            && self.tracer.passes(&self.begin, &there)
+            && self.tracer.problem.dot(&self.begin.tangent, &there.tangent) > 0.5;
+        self.tracer.take(there.clone());
+        if self.kind == CurveKind::Fold {
+            self.trail.pass(&self.tracer);
+        }
+        self.emit(&there, closed.then_some(CurveEvent::Closed));
+        self.over = closed;
+    }
+
+    /// The point on an edge of the box that the curve has come so near to that only the edge itself is left: beyond it
+    /// there may be no oscillator to try a step with.
+    fn on_edge(&self) -> Option<PlaneSolution> {
+        let here = &self.tracer.here;
+        let edges = self.tracer.problem.watched.iter().zip(&here.values);
+        let near = |(condition, value): (&Condition, &f64)| match condition {
+            Condition::Line(a, b, c) if value.abs() < AT_EDGE => Some((*a, *b, *c)),
+            _ => None,
+        };
+        edges.filter_map(near).find_map(|(a, b, c)| {
+            let mut row = vec![0.0; here.w.len()];
+            let (p, q) = (row.len() - 2, row.len() - 1);
+            (row[p], row[q]) = (a, b);
+            let (mut w, _) = correct(&self.tracer.problem.plane, &here.w, &row, c)?;
+            let at = if a == 0.0 { (q, c / b) } else { (p, c / a) };
+            w[at.0] = at.1;
+            self.tracer.solution(w)
+        })
+    }
+
+    fn end_of_box(&mut self, spot: &PlaneSolution) {
+        let turn = self.tracer.problem.plane.flights(&spot.w).map(|(o, r, f)| Floquet::new(&o, &r, &f).determinant);
+        if self.kind == CurveKind::Flip && turn.is_some_and(|det| (det - 1.0).abs() < 1e-12) {
+            self.emit(spot, Some(CurveEvent::OneToTwo));
+        }
+        self.finish(spot, CurveEvent::EndOfBox);
+    }
+}
+
+/// Whether nothing but impacts of speed zero and touches is wrong with the cycle at a point of a curve.
+fn grazes(watched: &[Condition], spot: &PlaneSolution) -> bool {
+    watched.iter().zip(&spot.values).all(|(condition, &value)| match condition {
+        Condition::Speed(_) | Condition::Pull(_) => value > -1e-9,
+        Condition::Clear(_, Side::Upper | Side::Lower) => value > -1e-9,
+        _ => true,
+    })
+}
+
+/// Nearer to an edge of the box than this a lost curve is at the edge.
+const AT_EDGE: f64 = 1e-8;
+/// A parameter that changes less than this, in quarters of its range over the length of the curve, does so by rounding.
+const SLOWEST: f64 = 1e-9;
+/// A course slower than this, parameters over arclength, is rounding.
+const STILL: f64 = 1e-4;
+
+impl Iterator for Curve {
+    type Item = CurvePoint;
+
+    fn next(&mut self) -> Option<CurvePoint> {
+        while self.pending.is_empty() && !self.over {
+            self.advance();
+        }
+        self.pending.pop_front()
+    }
+}

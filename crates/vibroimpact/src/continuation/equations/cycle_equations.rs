@@ -1,0 +1,108 @@
+//! The equations of a cycle with one parameter among the unknowns, or a line through two.
+
+use crate::continuation::trace::equations::Equations;
+use crate::orbit::{Block, Ring, blocks, by_parameter, fill};
+use crate::system::{Oscillator, ParameterPath, Side};
+
+/// The equations of the cycles with a given signature - which stop each impact is on, and how many forcing periods - in
+/// the phases and speeds of the impacts and one parameter, the last unknown.
+#[derive(Clone, Debug)]
+pub(crate) struct CycleEquations {
+    osc: Oscillator,
+    varying: ParameterPath,
+    sides: Vec<Side>,
+    periods: u32,
+    weights: Vec<f64>,
+    scale: f64,
+}
+
+impl CycleEquations {
+    /// For rings like `ring`; a change of the parameter by `scale` counts as much as one of all phases by a radian.
+    pub(crate) fn new(osc: &Oscillator, varying: ParameterPath, ring: &Ring, scale: f64) -> Self {
+        let m = ring.len();
+        let mut weights = vec![1.0 / m as f64; 2 * m];
+        weights.push(1.0 / (scale * scale));
+        Self { osc: *osc, varying, sides: ring.sides.clone(), periods: ring.periods, weights, scale }
+    }
+
+    /// The same for another signature.
+    pub(crate) fn with(&self, ring: &Ring) -> Self {
+        Self::new(&self.osc, self.varying, ring, self.scale)
+    }
+
+    /// Impacts.
+    pub(crate) fn impacts(&self) -> usize {
+        self.sides.len()
+    }
+
+    /// The part of a tangent that changes the parameter, 1 when nothing else changes.
+    pub(crate) fn pace(&self, tangent: &[f64]) -> f64 {
+        tangent.last().map_or(0.0, |p| p / self.scale)
+    }
+
+    /// The row that picks the parameter.
+    pub(crate) fn parameter_row(&self) -> Vec<f64> {
+        let mut row = vec![0.0; self.weights.len()];
+        if let Some(last) = row.last_mut() {
+            *last = 1.0;
+        }
+        row
+    }
+
+    /// A ring and a parameter value as unknowns.
+    pub(crate) fn join(ring: &Ring, value: f64) -> Vec<f64> {
+        let mut w = ring.unknowns.clone();
+        w.push(value);
+        w
+    }
+
+    /// The oscillator and the ring that unknowns stand for; `None` for an impossible parameter value.
+    pub(crate) fn split(&self, w: &[f64]) -> Option<(Oscillator, Ring)> {
+        let (value, unknowns) = w.split_last()?;
+        let osc = self.varying.set(&self.osc, *value).ok()?;
+        Some((osc, Ring { sides: self.sides.clone(), unknowns: unknowns.to_vec(), periods: self.periods }))
+    }
+
+    /// The same at another value of the parameter.
+    pub(crate) fn split_at(&self, w: &[f64], value: f64) -> Option<(Oscillator, Ring)> {
+        let mut w = w.to_vec();
+        *w.last_mut()? = value;
+        self.split(&w)
+    }
+
+    /// The flights that unknowns stand for.
+    pub(crate) fn flights(&self, w: &[f64]) -> Option<(Oscillator, Ring, Vec<Block>)> {
+        let (osc, ring) = self.split(w)?;
+        let flights = blocks(&osc, &ring)?;
+        Some((osc, ring, flights))
+    }
+}
+
+impl Equations for CycleEquations {
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let (osc, ring, flights) = self.flights(w)?;
+        let rows = slopes(&osc, &ring, &flights, &[self.varying])?;
+        Some((flights.iter().flat_map(|b| b.miss).collect(), rows))
+    }
+}
+
+/// The derivatives of what flights miss by, in a square matrix, row by row: by the phases and speeds of the impacts, then along
+/// these lines through the parameters. A row for each line is left at the end, for what else is asked.
+pub(crate) fn slopes(osc: &Oscillator, ring: &Ring, flights: &[Block], lines: &[ParameterPath]) -> Option<Vec<f64>> {
+    let impacts = 2 * ring.len();
+    let width = impacts + lines.len();
+    let mut rows = vec![0.0; width * width];
+    fill(&mut rows, width, flights);
+    for (k, line) in lines.iter().enumerate() {
+        for (parameter, rate) in line.rates() {
+            for (row, slope) in by_parameter(osc, ring, parameter)?.into_iter().enumerate() {
+                rows[row * width + impacts + k] += rate * slope;
+            }
+        }
+    }
+    Some(rows)
+}

@@ -1,0 +1,78 @@
+//! What is watched along a branch: functions that are smooth on it and change sign at an event.
+
+use super::cycle_equations::CycleEquations;
+use crate::math::sin_cos;
+use crate::orbit::{Block, Floquet, Ring, closest, room};
+use crate::system::{Oscillator, Side};
+
+/// A watched function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum TestFunction {
+    /// The pace of the parameter: zero where it turns.
+    Pace,
+    /// Zero where a multiplier is +1.
+    PlusOne,
+    /// Zero where a multiplier is -1.
+    MinusOne,
+    /// Speed of an impact.
+    Speed(usize),
+    /// Smallest distance to a stop between an impact and the next.
+    Clear(usize, Side),
+    /// Distance of the motion without impacts from a stop.
+    Room(Side),
+    /// Restitution 0: the pull away from the stop after an impact.
+    Pull(usize),
+}
+
+impl TestFunction {
+    /// All that is watched for the cycles of these equations.
+    pub(crate) fn all(osc: &Oscillator, ring: &Ring) -> Vec<Self> {
+        if ring.len() == 0 {
+            return osc.stops().map(|(side, _)| Self::Room(side)).collect();
+        }
+        let mut list = vec![Self::Pace, Self::PlusOne, Self::MinusOne];
+        for k in 0..ring.len() {
+            list.push(Self::Speed(k));
+            list.extend(osc.stops().map(|(side, _)| Self::Clear(k, side)));
+            if osc.stop(ring.side(k)).is_some_and(|stop| stop.restitution == 0.0) {
+                list.push(Self::Pull(k));
+            }
+        }
+        list
+    }
+
+    /// Whether the cycle is a motion only while this is positive.
+    pub(crate) const fn needed(&self) -> bool {
+        matches!(self, Self::Speed(_) | Self::Clear(..) | Self::Room(_) | Self::Pull(_))
+    }
+
+    /// Whether it is zero where folds and branch points are.
+    pub(crate) const fn critical(&self) -> bool {
+        matches!(self, Self::Pace | Self::PlusOne)
+    }
+
+    /// Its value at a point: the tangent and the flights there.
+    pub(crate) fn value(self, equations: &CycleEquations, tangent: &[f64], at: &Place<'_>) -> f64 {
+        let Place { osc, ring, flights } = *at;
+        match self {
+            Self::Pace => equations.pace(tangent),
+            Self::PlusOne => Floquet::new(osc, ring, flights).plus_one(),
+            Self::MinusOne => Floquet::new(osc, ring, flights).minus_one(),
+            Self::Speed(k) => ring.speed(k),
+            Self::Clear(k, side) => closest(osc, ring, k, side).map_or(f64::INFINITY, |closest| closest.distance),
+            Self::Room(side) => room(osc, side),
+            Self::Pull(k) => {
+                let gap = osc.stop(ring.side(k)).map_or(0.0, |stop| stop.gap);
+                gap - ring.side(k).sign() * sin_cos(ring.theta(k)).0
+            }
+        }
+    }
+}
+
+/// Where watched functions are evaluated.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<'a> {
+    pub(crate) osc: &'a Oscillator,
+    pub(crate) ring: &'a Ring,
+    pub(crate) flights: &'a [Block],
+}

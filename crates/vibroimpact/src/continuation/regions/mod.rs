@@ -1,0 +1,23 @@
+//! Where in a plane of two parameters a motion exists or is stable, as polygons.
+//!
+//! | idea | file |
+//! |---|---|
+//! | the region | [`region`], [`Region`], [`RegionOptions`] |
+//! | orbits on a grid, and the sheets of solutions that they lie on | `search`, `seed` |
+//! | the edge of a sheet; from it to a point inside and over a fold | `sheet_walk`, `inside` |
+//! | where the equations of a sheet are singular | `singular` |
+//! | the region of the motion without impacts, in closed form | `free_region` |
+
+mod free_region;
+mod inside;
+mod options;
+mod polygon;
+mod region;
+mod search;
+mod seed;
+mod sheet_walk;
+mod singular;
+
+pub use options::{RegionKind, RegionOptions};
+pub use polygon::{Bound, Polygon, Region, Vertex};
+pub use region::{region, region_while};

@@ -1,0 +1,12 @@
+//! Where a walk round a region begins.
+
+use crate::orbit::Ring;
+use crate::system::Oscillator;
+
+/// An orbit at a point of the plane.
+#[derive(Clone, Debug)]
+pub(crate) struct Seed {
+    pub(crate) ring: Ring,
+    pub(crate) osc: Oscillator,
+    pub(crate) below: bool,
+}

@@ -1,0 +1,120 @@
+//! Curves of solutions by pseudo-arclength.
+//!
+//! N equations in N + 1 unknowns have curves of solutions. From a point $`w_0`$ with unit tangent $`t`$ the next one is
+//! looked for at $`w_0 + ht`$ and corrected, by Newton's method, in the plane across:
+//!
+//! $$`G(w) = 0, \qquad \langle t, w - w_0\rangle = h,`$$
+//!
+//! which stays regular where a parameter turns back (H. B. Keller, "Numerical solution of bifurcation and nonlinear
+//! eigenvalue problems", in: Applications of Bifurcation Theory, Academic Press 1977, 359-384). The inner product has
+//! weights, so that unknowns of different kinds count alike.
+
+use crate::math::Lu;
+
+/// Equations, one fewer than unknowns.
+pub(crate) trait Equations {
+    /// What each unknown counts in the inner product; as many as there are unknowns.
+    fn weights(&self) -> &[f64];
+
+    /// What the equations miss by at `w`, and their Jacobian row by row with room for one more row; `None` where they
+    /// make no sense.
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>;
+
+    /// The weighted inner product.
+    fn dot(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.weights().iter().zip(a.iter().zip(b)).map(|(w, (a, b))| w * a * b).sum()
+    }
+
+    /// The weighted length.
+    fn length(&self, a: &[f64]) -> f64 {
+        self.dot(a, a).sqrt()
+    }
+
+    /// The row that takes the inner product with `a`.
+    fn row(&self, a: &[f64]) -> Vec<f64> {
+        self.weights().iter().zip(a).map(|(w, a)| w * a).collect()
+    }
+}
+
+/// Corrections of a point, at most.
+const MAX_CORRECTIONS: u32 = 10;
+/// After a correction this small only rounding is left, convergence being quadratic.
+const SETTLED: f64 = 1e-9;
+/// A correction longer than this leads elsewhere.
+const ASTRAY: f64 = 1.0;
+
+/// The solution near `guess` for which `row` times the unknowns is `level`, and the corrections it took.
+pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], level: f64) -> Option<(Vec<f64>, u32)> {
+    let width = guess.len();
+    let mut w = guess.to_vec();
+    for count in 1..=MAX_CORRECTIONS {
+        let (miss, mut rows) = equations.at(&w)?;
+        rows[width * (width - 1)..].copy_from_slice(row);
+        let off: f64 = row.iter().zip(&w).map(|(r, w)| r * w).sum::<f64>() - level;
+        let mut change: Vec<f64> = miss.iter().map(|m| -m).chain([-off]).collect();
+        Lu::new(rows, width)?.solve(&mut change);
+        let size = equations.length(&change);
+        if size.is_nan() || size > ASTRAY {
+            return None;
+        }
+        for (w, change) in w.iter_mut().zip(&change) {
+            *w += change;
+        }
+        if size <= SETTLED {
+            return Some((w, count));
+        }
+    }
+    None
+}
+
+/// The unit tangent of the curve at `w` that `row` is positive along; `None` if it is across every one.
+pub(crate) fn tangent<E: Equations>(equations: &E, w: &[f64], row: &[f64]) -> Option<Vec<f64>> {
+    let width = w.len();
+    let (_, mut rows) = equations.at(w)?;
+    rows[width * (width - 1)..].copy_from_slice(row);
+    let mut along = vec![0.0; width];
+    along[width - 1] = 1.0;
+    Lu::new(rows, width)?.solve(&mut along);
+    let length = equations.length(&along);
+    if !(length > 0.0 && length.is_finite()) {
+        return None;
+    }
+    along.iter_mut().for_each(|a| *a /= length);
+    Some(along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The unit circle.
+    struct Circle;
+
+    impl Equations for Circle {
+        fn weights(&self) -> &[f64] {
+            &[1.0, 1.0]
+        }
+
+        fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+            Some((vec![w[0] * w[0] + w[1] * w[1] - 1.0], vec![2.0 * w[0], 2.0 * w[1], 0.0, 0.0]))
+        }
+    }
+
+    #[test]
+    fn once_round_a_circle() {
+        let (mut w, mut t) = (vec![1.0, 0.0], vec![0.0, 1.0]);
+        let mut turned = 0.0_f64;
+        for _ in 0..100 {
+            let row = Circle.row(&t);
+            let level = Circle.dot(&t, &w) + 0.1;
+            let guess = [w[0] + 0.1 * t[0], w[1] + 0.1 * t[1]];
+            let (next, _) = correct(&Circle, &guess, &row, level).unwrap();
+            let angle: f64 = next[1].atan2(next[0]) - w[1].atan2(w[0]);
+            turned += angle.rem_euclid(std::f64::consts::TAU);
+            t = tangent(&Circle, &next, &row).unwrap();
+            w = next;
+            assert!((Circle.length(&w) - 1.0).abs() < 1e-15 && Circle.dot(&t, &w).abs() < 1e-15);
+        }
+        assert!((turned - 100.0 * 0.1_f64.asin()).abs() < 1e-12, "{turned}");
+    }
+}

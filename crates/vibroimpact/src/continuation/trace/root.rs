@@ -1,0 +1,69 @@
+//! A zero of a function within a bracket.
+
+/// Evaluations at most.
+const MAX_EVALUATIONS: u32 = 90;
+
+/// Where `f` changes sign between `low` and `high`, whose values are given, to within `resolution`: by regula falsi with
+/// the value of an end that stays halved (Illinois), and by halving where that gets on slowly or values are infinite.
+/// `None` when the function has no value somewhere.
+pub(crate) fn between(
+    mut f: impl FnMut(f64) -> Option<f64>,
+    (mut low, mut at_low): (f64, f64),
+    (mut high, mut at_high): (f64, f64),
+    resolution: f64,
+) -> Option<f64> {
+    let mut last = 0;
+    let mut width = high - low;
+    for count in 0..MAX_EVALUATIONS {
+        if at_high == 0.0 {
+            return Some(high);
+        }
+        if high - low <= resolution {
+            break;
+        }
+        let mut s = low - at_low * (high - low) / (at_high - at_low);
+        // every third step must have shrunk the bracket to a quarter
+        let slow = count % 3 == 2 && {
+            let slow = high - low > 0.25 * width;
+            width = high - low;
+            slow
+        };
+        if slow || !(s > low && s < high) {
+            s = 0.5 * (low + high);
+        }
+        if s <= low || s >= high {
+            break;
+        }
+        let value = f(s)?;
+        if value == 0.0 {
+            return Some(s);
+        }
+        if (value > 0.0) == (at_high > 0.0) {
+            (high, at_high) = (s, value);
+            if last == 1 {
+                at_low *= 0.5;
+            }
+            last = 1;
+        } else {
+            (low, at_low) = (s, value);
+            if last == -1 {
+                at_high *= 0.5;
+            }
+            last = -1;
+        }
+    }
+    Some(if at_low.abs() < at_high.abs() { low } else { high })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn simple_threefold_and_jumping() {
+        let find = |f: fn(f64) -> f64| between(|s| Some(f(s)), (0.0, f(0.0)), (2.0, f(2.0)), 1e-15).unwrap();
+        assert!((find(|s| s * s - 2.0) - 2.0_f64.sqrt()).abs() < 3e-15);
+        assert!((find(|s| (1.25 - s) * (1.25 - s) * (1.25 - s)) - 1.25).abs() < 1e-5);
+        assert!((find(|s| if s < 0.7 { -0.01 } else { f64::INFINITY }) - 0.7).abs() < 3e-15);
+    }
+}
