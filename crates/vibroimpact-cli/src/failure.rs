@@ -1,5 +1,6 @@
 //! Why a command did not finish.
 
+use crate::hints;
 use std::fmt::Display;
 use std::io;
 use vibroimpact_plot::PlotError;
@@ -41,13 +42,13 @@ impl Failure {
 
 impl From<PlanError> for Failure {
     fn from(error: PlanError) -> Self {
-        Self::bad(error)
+        Self::bad(hints::worded(&error, hints::plan(&error)))
     }
 }
 
 impl From<vibroimpact::SystemError> for Failure {
     fn from(error: vibroimpact::SystemError) -> Self {
-        Self::bad(error)
+        Self::bad(hints::worded(&error, hints::system(&error)))
     }
 }
 
@@ -68,6 +69,7 @@ impl From<RunError> for Failure {
 
 impl From<StoreError> for Failure {
     fn from(error: StoreError) -> Self {
+        let text = hints::worded(&error, hints::store(&error));
         match error {
             StoreError::Plan(error) => error.into(),
             StoreError::Stopped(_) => Self::Stopped(format!("{error}; `vibro resume` goes on")),
@@ -76,8 +78,8 @@ impl From<StoreError> for Failure {
             | StoreError::Begin { .. }
             | StoreError::Damaged { .. }
             | StoreError::DamagedTile { .. }
-            | StoreError::Threads(_) => Self::Failed(error.to_string()),
-            _ => Self::bad(error),
+            | StoreError::Threads(_) => Self::Failed(text),
+            _ => Self::bad(text),
         }
     }
 }
@@ -102,7 +104,7 @@ impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
         match error {
             ReportError::Plot(error) => error.into(),
-            _ => Self::bad(error),
+            _ => Self::bad(hints::worded(&error, hints::report(&error))),
         }
     }
 }

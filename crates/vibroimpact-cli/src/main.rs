@@ -9,6 +9,7 @@ mod complain;
 mod exit;
 mod failure;
 mod files;
+mod hints;
 mod measure;
 mod picture;
 mod progress;

@@ -66,7 +66,13 @@ impl From<Trouble> for PyErr {
 
 impl From<PlanError> for Trouble {
     fn from(error: PlanError) -> Self {
-        Self::Question(error.to_string())
+        // the library names parameters only; where a name of this package helps, it is added
+        let hint = match &error {
+            PlanError::Frequency(_) => "\nhint: beta=B or inverse_beta=X, with X = 1/B",
+            PlanError::NoEvent { .. } => "\nhint: `branch` lists the events",
+            _ => "",
+        };
+        Self::Question(format!("{error}{hint}"))
     }
 }
 

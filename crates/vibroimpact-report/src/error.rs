@@ -9,10 +9,10 @@ use vibroimpact_study::PlanError;
 #[non_exhaustive]
 pub enum ReportError {
     /// Values on an axis that are in no order.
-    #[error("a figure needs values in rising or falling order\nhint: --csv takes any order")]
+    #[error("a figure needs values in rising or falling order\nhint: a table takes any order")]
     Order,
     /// Another number of axes than two.
-    #[error("a figure needs two axes, not {0}\nhint: --csv takes any number, and xarray opens a store")]
+    #[error("a figure needs two axes, not {0}\nhint: a table takes any number, and xarray opens a store")]
     Axes(usize),
     /// An axis with more values than a picture can have.
     #[error("a figure shows at most {most} values on an axis, not {given}")]
@@ -23,17 +23,17 @@ pub enum ReportError {
         most: usize,
     },
     /// Exponents over more or fewer than one axis.
-    #[error("exponents are drawn over one axis\nhint: `vibro export --csv`, or xarray, for more")]
+    #[error("exponents are drawn over one axis\nhint: a table or xarray takes more")]
     Exponents,
     /// A store of scattered starts.
-    #[error("scattered starts have no figure\nhint: `vibro export --csv` has them all")]
+    #[error("scattered starts have no figure\nhint: a table has them all")]
     Scattered,
     /// A store without the field that is drawn.
     #[error("there are no labels")]
     NoLabels,
     /// A waveform with more points than a table should have.
     #[error(
-        "step = {} gives {} points over a time of {}; at most {most} are allowed\nhint: a longer --step, or fewer --periods or --impacts",
+        "step = {} gives {} points over a time of {}; at most {most} are allowed\nhint: a longer step, or fewer periods or impacts",
         short(*step), short(until / step), short(*until)
     )]
     Points {

@@ -26,7 +26,7 @@ pub enum StoreError {
     },
     /// An object cannot be written.
     #[error(
-        "cannot write `{key}` of the store {place}: {error}\nhint: the tiles that are finished are kept; go on with `vibro resume` when that is mended"
+        "cannot write `{key}` of the store {place}: {error}\nhint: the tiles that are finished are kept; resume the study when that is mended"
     )]
     Write {
         /// The store.
@@ -45,7 +45,7 @@ pub enum StoreError {
         error: io::Error,
     },
     /// There is no store.
-    #[error("there is no store at {0}\nhint: `vibro run PLAN --store {0}` begins one")]
+    #[error("there is no store at {0}")]
     Absent(String),
     /// Something else is there.
     #[error("{0} is not empty, and no store of this program\nhint: a store needs a folder of its own")]
@@ -65,9 +65,7 @@ pub enum StoreError {
         program: String,
     },
     /// A store of another plan.
-    #[error(
-        "the store {place} holds another plan ({theirs}, not {ours})\nhint: `vibro status {place}` prints it; choose another folder for this one"
-    )]
+    #[error("the store {place} holds another plan ({theirs}, not {ours})\nhint: choose another folder for this one")]
     OtherPlan {
         /// The store.
         place: String,
@@ -90,7 +88,7 @@ pub enum StoreError {
     },
     /// A tile that is done has a chunk that is not whole.
     #[error(
-        "`{key}` of tile {tile} in the store {place} is missing, cut short or has a wrong check sum\nhint: `vibro resume {place}` computes the tile anew"
+        "`{key}` of tile {tile} in the store {place} is missing, cut short or has a wrong check sum\nhint: resuming the study computes the tile anew"
     )]
     DamagedTile {
         /// The store.
@@ -102,7 +100,7 @@ pub enum StoreError {
     },
     /// What describes the store is damaged.
     #[error(
-        "`{key}` of the store {place} is damaged: {why}\nhint: `vibro run PLAN --store {place}` with the plan it was made from mends it"
+        "`{key}` of the store {place} is damaged: {why}\nhint: running the plan it was made from into it again mends it"
     )]
     Damaged {
         /// The store.

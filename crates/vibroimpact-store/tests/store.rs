@@ -165,7 +165,10 @@ fn fz2_a_damaged_tile_is_never_read_as_an_open_one() {
         let field = store.field("cycle").unwrap();
         for refused in [store.column(field).map(drop), store.tile(0).map(drop), store.whole(&control(2))] {
             let sentence = refused.unwrap_err().to_string();
-            assert!(sentence.contains("`cycle/c/0/0` of tile 0") && sentence.contains("vibro resume"), "{sentence}");
+            assert!(
+                sentence.contains("`cycle/c/0/0` of tile 0") && sentence.contains("resuming the study"),
+                "{sentence}"
+            );
         }
         assert!(store.tile(1).is_ok());
     }

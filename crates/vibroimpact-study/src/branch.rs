@@ -4,7 +4,6 @@ use crate::chosen::{Chosen, choose};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stopped, Stretch, SystemPlan, Target};
 use core::ops::RangeInclusive;
-use core::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::verdict::Count;
@@ -139,34 +138,34 @@ pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control
     let from = vary.get(&osc).map_err(PlanError::from)?;
     let label = plan.label.parse().map_err(PlanError::from)?;
     let stopped = |done: usize| Stopped { done: done as u64, total: u64::from(plan.follow) + 1 };
-    let chosen = choose(&osc, label, plan.orbit, control.stop)?.ok_or_else(|| stopped(0))?;
+    let chosen = choose(&osc, label, plan.orbit, || !control.stopping())?.ok_or_else(|| stopped(0))?;
     let range = from.min(plan.to)..=from.max(plan.to);
     let direction = if plan.to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points: plan.points, ..BranchOptions::default() };
     let first = Branch::new(&osc, &chosen.orbit.cycle, vary, range.clone(), direction, options);
-    let ground = Ground { osc, vary, range, options, stop: control.stop };
+    let ground = Ground { osc, vary, range, options, control };
     let points = ground.points(first.map_err(PlanError::from)?);
     let mut all = Branches { chosen, followed: vec![Followed { origin: None, points }], lost: Vec::new() };
     all.follow(&ground, plan.follow as usize);
-    if control.stop.load(Ordering::Relaxed) {
+    if control.stopping() {
         return Err(stopped(all.followed.len() - 1).into());
     }
     Ok(all)
 }
 
 /// What all branches of a plan have in common.
-struct Ground<'a> {
+struct Ground<'a, 'c> {
     osc: Oscillator,
     vary: ParameterPath,
     range: RangeInclusive<f64>,
     options: BranchOptions,
-    stop: &'a AtomicBool,
+    control: &'a Control<'c>,
 }
 
-impl Ground<'_> {
+impl Ground<'_, '_> {
     /// The points of a branch, until the work is stopped.
     fn points(&self, branch: Branch) -> Vec<SolutionPoint> {
-        branch.take_while(|_| !self.stop.load(Ordering::Relaxed)).collect()
+        branch.take_while(|_| !self.control.stopping()).collect()
     }
 
     /// The branches that begin at an event.
@@ -185,7 +184,7 @@ const SAME: f64 = 1e-7;
 
 impl Branches {
     /// Follows the branches that begin at the events of all branches so far, up to `most`.
-    fn follow(&mut self, ground: &Ground<'_>, most: usize) {
+    fn follow(&mut self, ground: &Ground<'_, '_>, most: usize) {
         let mut seen: Vec<(f64, Label)> = Vec::new();
         let mut at = 0;
         while at < self.followed.len() && self.followed.len() <= most {
@@ -280,7 +279,7 @@ mod tests {
     #[test]
     fn it_stops_when_told_to() {
         let (system, plan) = plan();
-        let stop = AtomicBool::new(true);
+        let stop = core::sync::atomic::AtomicBool::new(true);
         let stopped = branches(&system, &plan, &Control { stop: &stop, ..Control::default() });
         assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
     }

@@ -1,7 +1,6 @@
 //! With which orbit of a label a branch begins.
 
 use crate::PlanError;
-use std::sync::atomic::{AtomicBool, Ordering};
 use vibroimpact::continuation::BranchError;
 use vibroimpact::orbit::{FindOptions, Orbit, find_while};
 use vibroimpact::verdict::Count;
@@ -30,8 +29,8 @@ pub(crate) fn followable(label: &str) -> Result<Label, PlanError> {
     }
 }
 
-/// Orbit number `number` of those with this label; where none is named, the stable one, else the fastest that is a motion. `None` when
-/// stopped while looking.
+/// Orbit number `number` of those with this label; where none is named, the stable one, else the fastest that is a motion. `None` once
+/// `go_on`, which is asked at every seed of the search, says no.
 ///
 /// # Errors
 /// [`PlanError`] where there is none to choose.
@@ -39,12 +38,11 @@ pub(crate) fn choose(
     osc: &Oscillator,
     label: Label,
     number: Option<u32>,
-    stop: &AtomicBool,
+    go_on: impl Fn() -> bool,
 ) -> Result<Option<Chosen>, PlanError> {
     if label.impacts == Count::Finite(0) && osc.damping() == 0.0 {
         return Err(BranchError::Undamped.into());
     }
-    let go_on = || !stop.load(Ordering::Relaxed);
     let Some(orbits) = find_while(osc, label, FindOptions::default(), go_on) else { return Ok(None) };
     let count = orbits.len();
     let index = match number {
@@ -68,10 +66,8 @@ pub(crate) fn choose(
 mod tests {
     use super::*;
 
-    static ON: AtomicBool = AtomicBool::new(false);
-
     fn chosen(osc: &Oscillator, label: Label, number: Option<u32>) -> Result<Chosen, PlanError> {
-        choose(osc, label, number, &ON).map(|chosen| chosen.expect("nobody stops it"))
+        choose(osc, label, number, || true).map(|chosen| chosen.expect("nobody stops it"))
     }
 
     #[test]
@@ -86,7 +82,7 @@ mod tests {
             let error = chosen(&osc, Label::new(1, 2), Some(given)).unwrap_err();
             assert!(matches!(error, PlanError::NoSuchOrbit { given: g, .. } if g == given));
         }
-        assert_eq!(choose(&osc, Label::new(2, 1), None, &AtomicBool::new(true)), Ok(None));
+        assert_eq!(choose(&osc, Label::new(2, 1), None, || false), Ok(None));
         let far = Oscillator::from_inverse_beta(0.7, 40.0, 0.5).unwrap();
         let error = chosen(&far, Label::new(1, 1), None).unwrap_err().to_string();
         assert!(error.starts_with("no admissible orbit 1/1 was found"), "{error}");

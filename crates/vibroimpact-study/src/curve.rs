@@ -3,7 +3,6 @@
 use crate::chosen::{Chosen, choose, followable};
 use crate::stretch::check_plane;
 use crate::{Control, PlanError, RunError, Stopped, Stretch, SystemPlan};
-use core::sync::atomic::Ordering;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{
     Branch, BranchEvent, BranchOptions, Curve, CurveEvent, CurveOptions, CurvePoint, Direction, SolutionPoint,
@@ -105,8 +104,8 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
     plan.check(system)?;
     let osc = system.oscillator()?;
     let label = followable(&plan.label)?;
-    let chosen = choose(&osc, label, plan.orbit, control.stop)?.ok_or(Stopped { done: 0, total: 2 })?;
-    let going = || !control.stop.load(Ordering::Relaxed);
+    let chosen = choose(&osc, label, plan.orbit, || !control.stopping())?.ok_or(Stopped { done: 0, total: 2 })?;
+    let going = || !control.stopping();
     let stopped = |done| if going() { Ok(()) } else { Err(Stopped { done, total: 2 }) };
     let events = events(&osc, &chosen, plan, label, going)?;
     stopped(0)?;

@@ -15,7 +15,7 @@ pub enum PlanError {
     #[error(transparent)]
     System(#[from] SystemError),
     /// A text that is no plan.
-    #[error("the plan does not read: {0}\nhint: `vibro schema` prints what may be in a plan")]
+    #[error("the plan does not read: {0}")]
     Text(String),
     /// A range that is not `A:B:N`.
     #[error(
@@ -106,9 +106,7 @@ pub enum PlanError {
     #[error("neither in the system nor on an axis: {}", .0.join(", "))]
     Missing(Vec<&'static str>),
     /// Neither or both of beta and its inverse.
-    #[error(
-        "the frequency is given {0}: exactly one of beta and inverse beta is needed\nhint: --beta B or --inverse-beta X, with X = 1/B"
-    )]
+    #[error("the frequency is given {0}: exactly one of beta and inverse beta is needed")]
     Frequency(&'static str),
     /// A number of starts that makes no sense.
     #[error("starts = {given} lies outside 1 <= starts <= {most}")]
@@ -173,7 +171,7 @@ pub enum PlanError {
     NoSecondStop(&'static str),
     /// More results than fit any memory.
     #[error(
-        "{rows} x {columns} = {total} {what}; at most {most} are allowed\nhint: fewer values, or a store (--store), which holds any number",
+        "{rows} x {columns} = {total} {what}; at most {most} are allowed\nhint: fewer values, or a store, which holds any number",
         total = u128::from(*rows) * u128::from(*columns)
     )]
     Size {
@@ -195,7 +193,7 @@ pub enum PlanError {
         most: u64,
     },
     /// A parameter that is to go where it is already.
-    #[error("{name} is to go from {value} to {value}: there is nothing on the way\nhint: --to another value")]
+    #[error("{name} is to go from {value} to {value}: there is nothing on the way")]
     Nowhere {
         /// The parameter.
         name: &'static str,
@@ -269,7 +267,7 @@ pub enum PlanError {
     },
     /// No motion of a label to begin with.
     #[error(
-        "no admissible orbit {label} was found, so there is nothing to follow\nhint: `vibro orbit` lists what there is; inadmissible solutions ({others} here) are followed only when their number is given"
+        "no admissible orbit {label} was found, so there is nothing to follow\nhint: inadmissible solutions ({others} here) are followed only when their number is given"
     )]
     NoOrbit {
         /// The label.
@@ -279,7 +277,7 @@ pub enum PlanError {
     },
     /// An orbit by a number that none has.
     #[error(
-        "there is no orbit {label} number {given}; found: {count}\nhint: they are numbered from 1, as `vibro orbit` lists them"
+        "there is no orbit {label} number {given}; found: {count}\nhint: they are numbered from 1, as the search for orbits lists them"
     )]
     NoSuchOrbit {
         /// What was asked.
@@ -291,7 +289,7 @@ pub enum PlanError {
     },
     /// No event of a kind on a branch, or none of that number.
     #[error(
-        "{} on the branch of {label} with {name} from {from} to {to}{}\nhint: `vibro branch` lists the events",
+        "{} on the branch of {label} with {name} from {from} to {to}{}",
         asked.map_or_else(|| format!("no {kind} was found"), |n| format!("there is no {kind} number {n}")),
         if *count == 0 { String::new() } else { format!(": {count} found") }
     )]

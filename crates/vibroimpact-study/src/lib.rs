@@ -20,7 +20,7 @@
 //! | a branch of periodic orbits in one parameter, and those that begin on it | [`BranchPlan`], [`Branches`] |
 //! | which orbit it begins with; what an event on it has to tell | [`Chosen`], [`EventRecord`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
-//! | where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stable_regions`] |
+//! | where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 
@@ -69,7 +69,7 @@ pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use parameter::{Parameter, is_length};
 pub use plan::{Plan, Task};
-pub use region::{DEFAULT_GRID, RegionPlan, Regions, stable_regions};
+pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
 pub use run::{Results, run};
 pub use simulate::Simulated;
 pub use span::Span;

@@ -3,10 +3,9 @@
 use crate::chosen::followable;
 use crate::stretch::check_plane;
 use crate::{Control, Parameter, PlanError, RunError, Stretch, SystemPlan, tiles};
-use core::sync::atomic::Ordering;
 use serde::{Deserialize, Serialize};
-use vibroimpact::Label;
-use vibroimpact::continuation::{Region, RegionKind, RegionOptions, region_while};
+use vibroimpact::continuation::{Frame, Region, RegionKind, RegionOptions, region_while};
+use vibroimpact::{Label, Oscillator};
 
 /// Points of the grid at which orbits are looked for, in each direction, where no number is given.
 pub const DEFAULT_GRID: u32 = 24;
@@ -72,51 +71,52 @@ pub struct Regions {
     pub stability: Region,
 }
 
-/// One region of a motion; `None` if stopped.
-fn found(
-    system: &SystemPlan,
-    plan: &RegionPlan,
-    kind: RegionKind,
-    control: &Control<'_>,
-) -> Result<Option<Region>, PlanError> {
-    let (p, q) = (&plan.across, &plan.up);
-    let osc = system.with(p.parameter, p.from)?.with(q.parameter, q.from)?.oscillator()?;
-    let label = followable(&plan.label)?;
-    let (frame, options) = (p.frame(q), RegionOptions { grid: (plan.grid, plan.grid), ..RegionOptions::default() });
-    Ok(region_while(&osc, label, kind, &frame, options, &|| !control.stop.load(Ordering::Relaxed)))
+/// What the regions of several motions in one plane have in common.
+struct Plane {
+    osc: Oscillator,
+    frame: Frame,
+    options: RegionOptions,
 }
 
-/// Several regions side by side, each on a thread of its own.
-fn side_by_side(
-    system: &SystemPlan,
-    wanted: &[(&RegionPlan, RegionKind)],
-    control: &Control<'_>,
-) -> Result<Vec<Region>, RunError> {
-    wanted.iter().try_for_each(|(plan, _)| plan.check(system))?;
-    let each = tiles(wanted.len() as u64, 1, control, |range, tick| {
-        // one region a tile
-        let (plan, kind) = wanted[usize::try_from(range.start).unwrap_or(0)];
-        let found = found(system, plan, kind, control);
-        if !matches!(found, Ok(None)) {
-            tick();
-        }
-        found
-    })?;
-    // none is missing, or they would be fewer than asked for
-    Ok(each.into_iter().collect::<Result<Option<Vec<_>>, _>>()?.unwrap_or_default())
+impl Plane {
+    fn new(system: &SystemPlan, across: &Stretch, up: &Stretch, grid: u32) -> Result<Self, PlanError> {
+        let osc = system.with(across.parameter, across.from)?.with(up.parameter, up.from)?.oscillator()?;
+        let options = RegionOptions { grid: (grid, grid), ..RegionOptions::default() };
+        Ok(Self { osc, frame: across.frame(up), options })
+    }
+
+    /// Several regions side by side, each on a thread of its own.
+    fn regions(&self, wanted: &[(Label, RegionKind)], control: &Control<'_>) -> Result<Vec<Region>, RunError> {
+        let each = tiles(wanted.len() as u64, 1, control, |range, tick| {
+            // one region a tile
+            let (label, kind) = wanted[usize::try_from(range.start).unwrap_or(0)];
+            let region = region_while(&self.osc, label, kind, &self.frame, self.options, || !control.stopping());
+            if region.is_some() {
+                tick();
+            }
+            region
+        })?;
+        // none is missing, or they would be fewer than asked for
+        Ok(each.into_iter().collect::<Option<_>>().unwrap_or_default())
+    }
 }
 
-/// Where each of several motions exists and is stable.
+/// Where each of several motions is stable, as lines over a map: no result of a plan, which asks for one motion.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense, or when stopped, which is asked for at every point of the grid and every step.
-pub fn stable_regions(
+/// [`RunError`] for a label or a plane that makes no sense, or when stopped, which is asked for at every point of the grid and every
+/// step.
+pub fn stability_regions(
     system: &SystemPlan,
-    plans: &[RegionPlan],
+    labels: &[String],
+    (across, up): (&Stretch, &Stretch),
+    grid: u32,
     control: &Control<'_>,
 ) -> Result<Vec<Region>, RunError> {
-    let wanted: Vec<_> = plans.iter().map(|plan| (plan, RegionKind::Stability)).collect();
-    side_by_side(system, &wanted, control)
+    check_plane(system, across, up)?;
+    let wanted = labels.iter().map(|label| Ok((followable(label)?, RegionKind::Stability)));
+    let wanted = wanted.collect::<Result<Vec<_>, PlanError>>()?;
+    Plane::new(system, across, up, grid)?.regions(&wanted, control)
 }
 
 /// Finds both regions.
@@ -124,8 +124,11 @@ pub fn stable_regions(
 /// # Errors
 /// [`RunError`] for a plan that makes no sense, or when stopped, which is asked for at every point of the grid and every step.
 pub(crate) fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
-    let both = side_by_side(system, &[(plan, RegionKind::Existence), (plan, RegionKind::Stability)], control)?;
-    let mut both = both.into_iter();
+    plan.check(system)?;
+    let label = followable(&plan.label)?;
+    let plane = Plane::new(system, &plan.across, &plan.up, plan.grid)?;
+    let mut both =
+        plane.regions(&[(label, RegionKind::Existence), (label, RegionKind::Stability)], control)?.into_iter();
     let mut next = || both.next().unwrap_or(Region { polygons: Vec::new(), unresolved: Vec::new() });
     Ok(Regions { existence: next(), stability: next() })
 }
@@ -152,8 +155,8 @@ mod tests {
             assert_eq!(found.stability.contains((1.11, gap)), stable, "{gap}");
         }
         assert_eq!(regions(&system, &plan, &Control { threads: 2, ..Control::default() }).unwrap(), found);
-        let two = [plan.clone(), RegionPlan { label: "1/2".into(), ..plan }];
-        let stable = stable_regions(&system, &two, &Control::default()).unwrap();
+        let (two, plane) = (["1/1".to_owned(), "1/2".to_owned()], (&plan.across, &plan.up));
+        let stable = stability_regions(&system, &two, plane, plan.grid, &Control::default()).unwrap();
         assert_eq!(stable[0], found.stability);
         assert!(stable[1].contains((1.11, 2.0)) && !stable[1].contains((1.11, 1.5)));
     }
@@ -181,7 +184,7 @@ mod tests {
 
     #[test]
     fn stopped_in_the_middle() {
-        use core::sync::atomic::AtomicBool;
+        use core::sync::atomic::{AtomicBool, Ordering};
         let (system, plan) = plan();
         let stop = AtomicBool::new(false);
         std::thread::scope(|scope| {

@@ -86,7 +86,7 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
         Task::Diagram(task) => Results::Diagram(diagram(system, task, control)?),
         Task::Lyapunov(task) => {
             if let Some(axis) = task.axes.first() {
-                let (task, known) = ("measurement of one motion", "none: over axes it is a study, for `vibro run`");
+                let (task, known) = ("measurement of one motion", "none: over axes it is a study");
                 return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known }.into());
             }
             let start = task.start.start(&osc)?;

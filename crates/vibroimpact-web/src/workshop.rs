@@ -121,7 +121,7 @@ mod tests {
 
     /// Works until it is stopped.
     fn endless(control: &Control<'_>, ended: &AtomicBool) -> Result<(), Refusal> {
-        while !control.stop.load(Ordering::Relaxed) {
+        while !control.stopping() {
             std::thread::sleep(Duration::from_millis(1));
         }
         ended.store(true, Ordering::Relaxed);

@@ -4,7 +4,6 @@
 //! command starts in seconds from a fresh checkout, before anything else is built.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal: printing is what it is for")]
 
-mod bench_peers;
 mod command;
 mod docs;
 mod examples;
@@ -14,15 +13,14 @@ mod finish;
 mod fuzz;
 mod licences;
 mod line;
-mod links;
 mod python;
 mod s3;
-mod spdx;
 mod test;
 mod tools;
 mod totals;
 mod venv;
 mod wasm;
+mod words;
 
 use finish::finish;
 use std::process::ExitCode;
@@ -36,12 +34,9 @@ usage: cargo xtask COMMAND
   docs                    the API documentation, with formulas, in target/doc
   figures                 the pictures of the README, by `vibro reproduce`
   line                    the table and the figure of docs/orbits.md
-  bench-peers [--rounds N] [--seconds S] [--quick]
-                          vibroimpact beside other programs, into docs/performance.md
-                          --quick  a look, into target/peers/performance.md
   python                  the Python package, into an environment under target/
   licences                the licence of every dependency against the allow-list
-  links                   every relative link in the Markdown files
+  words                   links in the Markdown files, and spelling, by lychee and typos
   explorer                the explorer's page in a browser, against the server
   fuzz [--seconds N] [--seed S]
                           random and adversarial questions to the command, plans, stores and the page; a minute
@@ -66,13 +61,9 @@ fn main() -> ExitCode {
         ["docs"] => finish(docs::build(&root)),
         ["figures"] => finish(figures::draw(&root)),
         ["line"] => finish(line::write(&root)),
-        ["bench-peers", switches @ ..] => match bench_peers::Options::parse(switches) {
-            Ok(options) => finish(bench_peers::run(&root, options)),
-            Err(sentence) => bad_question(&sentence),
-        },
         ["python"] => finish(python::install(&root)),
         ["licences"] => finish(licences::check(&root)),
-        ["links"] => finish(links::check(&root)),
+        ["words"] => finish(words::check(&root)),
         ["fuzz", words @ ..] => fuzz::run(&root, words),
         ["explorer"] => finish(explorer::test(&root)),
         ["s3"] => finish(s3::test(&root)),

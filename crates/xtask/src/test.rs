@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use crate::totals::{self, Totals};
-use crate::{command, docs, examples, licences, links, python, tools, wasm};
+use crate::{command, docs, examples, licences, python, tools, wasm, words};
 
 /// What was asked for on the command line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,7 +92,7 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::check("tools", "rustup component add rustfmt clippy", tools::ensure).fast(),
         Step::command("format", "cargo fmt --all --check").fast(),
         Step::check("licences", "cargo xtask licences", licences::check),
-        Step::check("links", "cargo xtask links", links::check),
+        Step::check("words", "cargo xtask words", words::check),
         Step::command("lints", "cargo clippy --workspace --all-targets --all-features -- -D warnings").fast(),
         Step::tests("tests", tests).fast(),
         Step::tests("doc tests", "cargo test --workspace --all-features --doc --no-fail-fast"),

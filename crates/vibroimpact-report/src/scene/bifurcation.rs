@@ -2,7 +2,6 @@
 
 use crate::figure::branch::figure;
 use crate::{AnswerError, Asked};
-use core::sync::atomic::Ordering;
 use std::collections::BTreeMap;
 use vibroimpact::Label;
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
@@ -61,7 +60,7 @@ fn follow(
     let (from, to) = plan.over.ends();
     let looks = if from == to { return Ok(()) } else { Span::new(from, to, LOOKS)? };
     for (k, value) in (0_u64..).zip(looks.values()) {
-        if control.stop.load(Ordering::Relaxed) {
+        if control.stopping() {
             return Err(Stopped { done: k, total: u64::from(LOOKS) }.into());
         }
         if followed.iter().any(|branch| passes(branch, name, value, NEAR * (to - from).abs())) {

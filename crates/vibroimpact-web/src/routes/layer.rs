@@ -14,9 +14,7 @@ use core::sync::atomic::Ordering;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use vibroimpact::continuation::{Polygon, Region};
-use vibroimpact_study::{
-    Axis, Control, Coordinate, MapPlan, Parameter, RegionPlan, Stretch, SystemPlan, Task, stable_regions,
-};
+use vibroimpact_study::{Axis, Control, Coordinate, MapPlan, Parameter, Stretch, SystemPlan, Task, stability_regions};
 
 /// Motions whose regions are drawn by default: those of the 1971 paper, and what they double into.
 const LABELS: [&str; 9] = ["1/1", "2/1", "3/1", "4/1", "1/2", "1/3", "2/2", "3/2", "2/4"];
@@ -98,9 +96,7 @@ pub(super) async fn layer(
 
 /// The polygons in which each motion is stable.
 fn edges(plane: &Plane, labels: &[String], control: &Control<'_>) -> Result<Value, Refusal> {
-    let plan = |label: &String| RegionPlan { label: label.clone(), across: plane.across, up: plane.up, grid: GRID };
-    let plans: Vec<_> = labels.iter().map(plan).collect();
-    let found = stable_regions(&plane.system, &plans, control)?;
+    let found = stability_regions(&plane.system, labels, (&plane.across, &plane.up), GRID, control)?;
     let ring = |polygon: &Polygon| polygon.vertices.iter().map(|vertex| vertex.values).collect();
     let edge = |(label, region): (&String, Region)| Edge {
         motion: Named::new(label),

@@ -13,7 +13,7 @@ fn written(x: f64) -> String {
 pub enum SystemError {
     /// The frequency ratio is not a number in [1e-15, 1e15].
     #[error(
-        "frequency ratio beta = {} lies outside 1e-15 <= beta <= 1e15\nhint: beta = omega / omega_n; its inverse is given by --inverse-beta",
+        "frequency ratio beta = {} lies outside 1e-15 <= beta <= 1e15\nhint: beta = omega / omega_n",
         written(*.0)
     )]
     Beta(f64),
