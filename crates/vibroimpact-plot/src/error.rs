@@ -4,6 +4,7 @@ use std::fmt;
 
 /// A reason why a figure could not be made.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum PlotError {
     /// The number of class indices is not `nx * ny`.
     RasterSize {

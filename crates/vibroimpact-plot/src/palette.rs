@@ -94,22 +94,53 @@ pub fn legend_group(label: &str) -> &'static str {
     let (Ok(m), Ok(n)) = (m.parse::<u64>(), n.parse::<u64>()) else {
         return "other";
     };
-    match (m, n) {
-        (_, 0) => "other",
-        (0, _) => "0",
-        (1, 1) => "1/1",
-        (2, 1) => "2/1",
-        (3, 1) => "3/1",
-        (4, 1) => "4/1",
-        (_, 1) => "m/1",
-        (1, 2) => "1/2",
-        (1, 3) => "1/3",
-        (1, _) => "1/n",
-        (m, n) if m == n => "k/k",
-        (3, 2) => "3/2",
-        _ => "m/n",
+    let rule = GROUP_RULES.iter().find(|rule| rule.holds(m, n));
+    rule.map_or("other", |rule| rule.group)
+}
+
+/// Which motions m/n a legend group gathers: those with m and n in these ranges.
+#[derive(Clone, Copy, Debug)]
+pub struct GroupRule {
+    /// The fewest and the most impacts.
+    pub m: (u64, u64),
+    /// The fewest and the most forcing periods.
+    pub n: (u64, u64),
+    /// Whether m = n is asked.
+    pub equal: bool,
+    /// The group.
+    pub group: &'static str,
+}
+
+impl GroupRule {
+    const fn new(m: (u64, u64), n: (u64, u64), group: &'static str) -> Self {
+        Self { m, n, equal: false, group }
+    }
+
+    /// Whether it gathers m/n.
+    #[must_use]
+    pub const fn holds(&self, m: u64, n: u64) -> bool {
+        self.m.0 <= m && m <= self.m.1 && self.n.0 <= n && n <= self.n.1 && (!self.equal || m == n)
     }
 }
+
+/// No bound.
+const ANY: u64 = u64::MAX;
+
+/// The groups of motions m/n: the first rule that holds names the group. The Python package and the page have them as tables.
+pub const GROUP_RULES: [GroupRule; 12] = [
+    GroupRule::new((0, 0), (1, ANY), "0"),
+    GroupRule::new((1, 1), (1, 1), "1/1"),
+    GroupRule::new((2, 2), (1, 1), "2/1"),
+    GroupRule::new((3, 3), (1, 1), "3/1"),
+    GroupRule::new((4, 4), (1, 1), "4/1"),
+    GroupRule::new((5, ANY), (1, 1), "m/1"),
+    GroupRule::new((1, 1), (2, 2), "1/2"),
+    GroupRule::new((1, 1), (3, 3), "1/3"),
+    GroupRule::new((1, 1), (4, ANY), "1/n"),
+    GroupRule { equal: true, ..GroupRule::new((2, ANY), (2, ANY), "k/k") },
+    GroupRule::new((3, 3), (2, 2), "3/2"),
+    GroupRule::new((2, ANY), (2, ANY), "m/n"),
+];
 
 /// The style of a motion's label, the same in every figure. The label of a group gives its style.
 #[must_use]

@@ -5,28 +5,71 @@
 #![allow(clippy::expect_used)]
 
 use std::path::Path;
-use vibroimpact_plot::{GROUPS, SERIES, class_style};
+use vibroimpact_plot::{GROUP_RULES, GROUPS, SERIES, class_style, legend_text};
 
 const PYTHON: &str = "../vibroimpact-py/python/vibroimpact/_tables.py";
+const PAGE: &str = "../vibroimpact-web/page/tables.js";
+const WRITTEN: &str = "Written by crates/vibroimpact-plot/tests/tables.rs; do not edit.";
 
-/// The colours of series and of the groups of motions, in Python.
+/// The rules of groups, each a line between these brackets; `no_limit` stands for no upper bound.
+fn rules([open, close]: [char; 2], [no, yes]: [&str; 2], no_limit: &str) -> String {
+    let range = |(from, to): (u64, u64)| {
+        let to = if to == u64::MAX { no_limit.to_owned() } else { to.to_string() };
+        format!("{open}{from}, {to}{close}")
+    };
+    let rule = |rule: &vibroimpact_plot::GroupRule| {
+        let equal = if rule.equal { yes } else { no };
+        format!("{open}{}, {}, {equal}, \"{}\"{close},\n", range(rule.m), range(rule.n), rule.group)
+    };
+    GROUP_RULES.iter().map(rule).collect()
+}
+
+/// Markup of this crate, `*m*` for an italic m, as mathtext of matplotlib.
+fn mathtext(markup: &str) -> String {
+    markup
+        .split('*')
+        .enumerate()
+        .map(|(k, part)| if k % 2 == 1 { format!("${part}$") } else { part.to_owned() })
+        .collect()
+}
+
+/// The colours of series, and of the groups of motions with their texts and rules, in Python.
 fn python() -> String {
+    let indented = |lines: String| lines.lines().map(|line| format!("    {line}\n")).collect::<String>();
     let series: String = SERIES.iter().map(|colour| format!("    \"{}\",\n", colour.to_hex())).collect();
-    let classes: String =
-        GROUPS.iter().map(|group| format!("    \"{group}\": \"{}\",\n", class_style(group).colour.to_hex())).collect();
+    let group = |text: &dyn Fn(&str) -> String| {
+        GROUPS.iter().map(|group| format!("    \"{group}\": \"{}\",\n", text(group))).collect::<String>()
+    };
+    let classes = group(&|group| class_style(group).colour.to_hex());
+    let legend = group(&|group| mathtext(legend_text(group)));
+    let rules = indented(rules(['(', ')'], ["False", "True"], "math.inf"));
     format!(
-        "\"\"\"Colours of series, and of the groups of motions in the order of a legend.\n\n\
-         Written by crates/vibroimpact-plot/tests/tables.rs; do not edit.\n\"\"\"\n\n\
-         SERIES = (\n{series})\n\nCLASSES = {{\n{classes}}}\n"
+        "\"\"\"Colours of series, and of the groups of motions in the order of a legend.\n\n{WRITTEN}\n\"\"\"\n\nimport math\n\n\
+         SERIES = (\n{series})\n\nCLASSES = {{\n{classes}}}\n\n\
+         #: The words of a legend.\nLEGEND = {{\n{legend}}}\n\n\
+         #: The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked.\n\
+         GROUP_RULES = (\n{rules})\n"
+    )
+}
+
+/// The rules of groups in JavaScript.
+fn page() -> String {
+    let rules: String =
+        rules(['[', ']'], ["false", "true"], "Infinity").lines().map(|line| format!("  {line}\n")).collect();
+    format!(
+        "/** The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked. {WRITTEN} */\n\
+         export const GROUP_RULES = [\n{rules}];\n"
     )
 }
 
 #[test]
 fn tables_of_other_languages_are_fresh() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(PYTHON);
-    if std::env::var_os("VIBROIMPACT_WRITE_TABLES").is_some() {
-        std::fs::write(&path, python()).expect("the table can be written");
+    for (path, text) in [(PYTHON, python()), (PAGE, page())] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+        if std::env::var_os("VIBROIMPACT_WRITE_TABLES").is_some() {
+            std::fs::write(&path, &text).expect("the table can be written");
+        }
+        let there = std::fs::read_to_string(&path).expect("the table is checked in");
+        assert_eq!(there, text, "VIBROIMPACT_WRITE_TABLES=1 writes {} anew", path.display());
     }
-    let there = std::fs::read_to_string(&path).expect("the table is checked in");
-    assert_eq!(there, python(), "VIBROIMPACT_WRITE_TABLES=1 writes it anew");
 }

@@ -1,5 +1,7 @@
 /** Colours of labels, as the server gives them: by the label itself where a tile had it, else by its group. */
 
+import { GROUP_RULES } from "./tables.js";
+
 const byLabel = new Map();
 
 /** The group of a label in the legends of all figures. */
@@ -7,9 +9,9 @@ function group(label) {
   const [m, n] = label.split("/");
   if (n === undefined || byLabel.has(label)) return label;
   if (m === "inf") return "inf/n";
-  if (n === "1") return "m/1";
-  if (m === "1") return "1/n";
-  return m === n ? "k/k" : "m/n";
+  const holds = ([[fewest, most], [shortest, longest], equal]) =>
+    fewest <= +m && +m <= most && shortest <= +n && +n <= longest && (!equal || m === n);
+  return GROUP_RULES.find(holds)?.at(-1) ?? "other";
 }
 
 /** @param {{name: string, colour: string}[]} looks that are known from now on */

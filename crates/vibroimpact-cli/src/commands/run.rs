@@ -4,6 +4,7 @@ use super::stored;
 use crate::args::Tiles;
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
+use crate::hints;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -50,7 +51,8 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     let name = path.display();
     let text = std::fs::read_to_string(path)
         .map_err(|error| Failure::bad(format!("the plan `{name}` cannot be read: {error}")))?;
-    Plan::from_text(&text).map_err(|error| Failure::bad(format!("`{name}`: {error}")))
+    Plan::from_text(&text)
+        .map_err(|error| Failure::bad(format!("`{name}`: {}", hints::worded(&error, hints::plan(&error)))))
 }
 
 /// Where the store of a plan is by default.

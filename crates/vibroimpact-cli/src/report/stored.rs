@@ -1,6 +1,7 @@
 //! What is in a store: a summary, and a table with a row for each point and motion.
 
 use crate::failure::Failure;
+use crate::hints;
 use crate::report::words::table as columns_of_text;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -174,7 +175,7 @@ fn text(field: &Field, column: &Column, at: usize) -> String {
 fn bands(store: &Store, mut each: impl FnMut(&Block, &[Column]) -> io::Result<()>) -> io::Result<()> {
     let (grid, fields) = (store.study().grid(), store.study().fields());
     let per_band = grid.tiles() / grid.tiles_along().first().map_or(1, |n| *n as u64);
-    let failed = |error: StoreError| io::Error::other(error);
+    let failed = |error: StoreError| io::Error::other(hints::worded(&error, hints::store(&error)));
     for first in (0..grid.tiles()).step_by(usize::try_from(per_band).unwrap_or(1)) {
         let mut whole = grid.whole();
         whole.ranges[0] = grid.tile(first).ranges[0].clone();

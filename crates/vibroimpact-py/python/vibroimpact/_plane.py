@@ -25,6 +25,7 @@ _MARKS = {
     "degenerate flip": "X",
     "loss of contact": "P",
     "whole periods": "P",
+    "speeds without bound": "P",
 }
 #: What bounds a region: colour, dash, words. The frame is the edge of the figure.
 _BOUNDS = {

@@ -3,6 +3,8 @@
 Written by crates/vibroimpact-plot/tests/tables.rs; do not edit.
 """
 
+import math
+
 SERIES = (
     "#0072b2",
     "#d55e00",
@@ -33,3 +35,40 @@ CLASSES = {
     "undecided": "#ffffff",
     "other": "#9a9a9a",
 }
+
+#: The words of a legend.
+LEGEND = {
+    "0": "no impact",
+    "1/1": "1/1",
+    "2/1": "2/1",
+    "3/1": "3/1",
+    "4/1": "4/1",
+    "m/1": "$m$/1, $m$ ≥ 5",
+    "1/2": "1/2",
+    "1/3": "1/3",
+    "1/n": "1/$n$, $n$ ≥ 4",
+    "k/k": "$k$/$k$, $k$ ≥ 2",
+    "3/2": "3/2",
+    "m/n": "other $m$/$n$",
+    "inf/n": "∞/$n$ (chatter)",
+    "chaotic": "chaotic",
+    "stuck": "stuck",
+    "undecided": "undecided",
+    "other": "other",
+}
+
+#: The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked.
+GROUP_RULES = (
+    ((0, 0), (1, math.inf), False, "0"),
+    ((1, 1), (1, 1), False, "1/1"),
+    ((2, 2), (1, 1), False, "2/1"),
+    ((3, 3), (1, 1), False, "3/1"),
+    ((4, 4), (1, 1), False, "4/1"),
+    ((5, math.inf), (1, 1), False, "m/1"),
+    ((1, 1), (2, 2), False, "1/2"),
+    ((1, 1), (3, 3), False, "1/3"),
+    ((1, 1), (4, math.inf), False, "1/n"),
+    ((2, math.inf), (2, math.inf), True, "k/k"),
+    ((3, 3), (2, 2), False, "3/2"),
+    ((2, math.inf), (2, math.inf), False, "m/n"),
+)

@@ -88,6 +88,7 @@ const fn shape(event: CurveEvent) -> Option<Shape> {
         CurveEvent::Touch | CurveEvent::OneToTwo => Shape::Circle,
         CurveEvent::DegenerateFlip => Shape::Cross,
         CurveEvent::LossOfContact | CurveEvent::WholePeriods | CurveEvent::Unbounded => Shape::Plus,
-        CurveEvent::Closed | CurveEvent::EndOfBox | CurveEvent::StepLimit | CurveEvent::NoConvergence => return None,
+        // where a curve ends for no reason of its own
+        _ => return None,
     })
 }

@@ -17,6 +17,7 @@ use thiserror::Error;
 
 /// Why no periodic orbit came out of a guess.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum ShootingError {
     /// The motion from an iterate does not make that many impacts.
     #[error("the motion stops striking, or sticks, before the period is complete")]

@@ -39,6 +39,7 @@ impl Default for BranchOptions {
 
 /// Why a branch cannot begin.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum BranchError {
     /// The parameter belongs to a stop that is not there.
     #[error("{0} is a parameter of the second stop, and there is only one stop")]

@@ -48,6 +48,7 @@ pub struct Touch {
 
 /// What happens at a point of a branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BranchEvent {
     /// The parameter turns back; a multiplier is +1.
     Fold,

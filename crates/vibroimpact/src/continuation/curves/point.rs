@@ -28,6 +28,7 @@ pub struct CurvePoint {
 
 /// What happens at a point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum CurveEvent {
     /// A fold curve comes back on itself: two folds meet.
     Cusp,

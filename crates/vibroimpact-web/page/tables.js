@@ -1,0 +1,15 @@
+/** The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked. Written by crates/vibroimpact-plot/tests/tables.rs; do not edit. */
+export const GROUP_RULES = [
+  [[0, 0], [1, Infinity], false, "0"],
+  [[1, 1], [1, 1], false, "1/1"],
+  [[2, 2], [1, 1], false, "2/1"],
+  [[3, 3], [1, 1], false, "3/1"],
+  [[4, 4], [1, 1], false, "4/1"],
+  [[5, Infinity], [1, 1], false, "m/1"],
+  [[1, 1], [2, 2], false, "1/2"],
+  [[1, 1], [3, 3], false, "1/3"],
+  [[1, 1], [4, Infinity], false, "1/n"],
+  [[2, Infinity], [2, Infinity], true, "k/k"],
+  [[3, 3], [2, 2], false, "3/2"],
+  [[2, Infinity], [2, Infinity], false, "m/n"],
+];
