@@ -4,7 +4,7 @@
 //!
 //! $$`\ddot\xi + 2\zeta\dot\xi + \xi = \sin(\beta\tau + \varphi_0), \quad \xi \le \delta, \quad u_+ = -\varepsilon u_-.`$$
 //!
-//! This crate simulates such motions event by event in closed form, says what they settle into and proves it, and finds
+//! This crate simulates such motions event by event in closed form, says what they settle into and confirms it, and finds
 //! periodic orbits whether stable or not. Three things it does that general solvers do not:
 //!
 //! - **no impact is missed** ([`flight::first_contact`]): the search only advances over times in which contact is proven impossible;

@@ -19,14 +19,25 @@ pub(crate) fn root() -> PathBuf {
 /// # Errors
 /// The sentence that says why cargo does not tell.
 pub(crate) fn target(root: &Path) -> Result<PathBuf, String> {
-    let unreadable = |why: String| format!("the answer of `cargo metadata` cannot be read: {why}");
-    let output = words(root, "cargo metadata --no-deps --format-version 1")
+    let metadata = metadata(root, "--no-deps")?;
+    let target = metadata["target_directory"].as_str().ok_or("`cargo metadata` names no target directory")?;
+    Ok(PathBuf::from(target))
+}
+
+/// What cargo knows of the packages.
+///
+/// # Errors
+/// The sentence that says why cargo does not tell.
+pub(crate) fn metadata(root: &Path, switches: &str) -> Result<Value, String> {
+    let output = words(root, &format!("cargo metadata --format-version 1 {switches}"))
         .stderr(Stdio::inherit())
         .output()
         .map_err(|error| format!("`cargo metadata` cannot be started: {error}"))?;
-    let metadata: Value = serde_json::from_slice(&output.stdout).map_err(|error| unreadable(error.to_string()))?;
-    let target = metadata["target_directory"].as_str().ok_or_else(|| unreadable("no target directory".to_owned()))?;
-    Ok(PathBuf::from(target))
+    if !output.status.success() {
+        return Err(format!("`cargo metadata` ended with {}", output.status));
+    }
+    serde_json::from_slice(&output.stdout)
+        .map_err(|error| format!("the answer of `cargo metadata` cannot be read: {error}"))
 }
 
 /// A command written as one would type it: words parted by blanks, no quoting.

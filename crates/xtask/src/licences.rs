@@ -2,7 +2,6 @@
 //! together with this program.
 
 use std::path::Path;
-use std::process::Stdio;
 
 use serde_json::Value;
 use spdx::{Expression, LicenseReq};
@@ -34,16 +33,7 @@ const ALLOWED: &[&str] = &[
 /// # Errors
 /// A sentence for each package whose licence is not allowed, cannot be read or is not stated.
 pub(crate) fn check(root: &Path) -> Result<String, String> {
-    let output = command::words(root, "cargo metadata --all-features --format-version 1")
-        .stderr(Stdio::inherit())
-        .output()
-        .map_err(|error| format!("`cargo metadata` cannot be started: {error}"))?;
-    if !output.status.success() {
-        return Err(format!("`cargo metadata` ended with {}", output.status));
-    }
-    let metadata: Value = serde_json::from_slice(&output.stdout)
-        .map_err(|error| format!("the answer of `cargo metadata` cannot be read: {error}"))?;
-    verdict(&metadata)
+    verdict(&command::metadata(root, "--all-features")?)
 }
 
 fn verdict(metadata: &Value) -> Result<String, String> {

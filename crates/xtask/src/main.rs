@@ -14,6 +14,7 @@ mod fuzz;
 mod licences;
 mod line;
 mod python;
+mod release;
 mod s3;
 mod test;
 mod tools;
@@ -43,6 +44,7 @@ usage: cargo xtask COMMAND
                           by default; `cargo xtask fuzz --help` lists all options
   wasm                    whether the core, plans, plots and reports compile for WebAssembly
   examples                runs the examples of the core
+  release                 whether the crates compile with the oldest Rust they name, and build from their packages
   s3                      studies in buckets, against a server that it installs in target/s3-venv
 ";
 
@@ -68,6 +70,7 @@ fn main() -> ExitCode {
         ["explorer"] => finish(explorer::test(&root)),
         ["s3"] => finish(s3::test(&root)),
         ["wasm"] => finish(wasm::check(&root)),
+        ["release"] => finish(release::check(&root)),
         ["examples"] => finish(examples::run(&root)),
         ["help" | "--help" | "-h"] => {
             print!("{USAGE}");

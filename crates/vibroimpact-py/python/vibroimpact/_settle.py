@@ -15,7 +15,7 @@ from vibroimpact._whole import THREADS, whole
 
 
 def settle(osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: float = 0.0) -> Motion:
-    """Say what the motion from a start settles into, and prove it.
+    """Say what the motion from a start settles into, and confirm it.
 
     Parameters
     ----------

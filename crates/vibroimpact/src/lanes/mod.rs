@@ -10,7 +10,7 @@
 //! | where the flights of a batch are kept, and their passes | `slots` |
 //! | many motions, none waiting for another | [`Batch`] |
 //! | how many side by side, and on what processor | [`Width`] |
-//! | steps in doubt, side by side; moving some of them to the front | `doubts`, `front` |
+//! | steps in doubt, side by side; moving some of them to the front | `uncertain`, `compaction` |
 //! | the lane types | `pack` (portable), `avx2` and `single`, `avx512`, `pair` |
 //!
 //! The algorithm is written once, generic over the lane type of [`math`](crate::math). A single

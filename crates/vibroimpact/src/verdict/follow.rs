@@ -117,7 +117,7 @@ impl Follow {
         end.min(measured)
     }
 
-    /// Whether a motion that is caught in a trap of that depth is decided by the cycle before anything else can be decided, followed as any
+    /// Whether a motion that is caught in a trapping region of that depth is decided by the cycle before anything else can be decided, followed as any
     /// other: until it is close, and up to the next look for a recurrence.
     pub(super) fn reaches(&self, depth: Depth, options: &SettleOptions) -> bool {
         let close = self.count() + depth.impacts;

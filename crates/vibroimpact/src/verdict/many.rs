@@ -1,7 +1,7 @@
 //! Many starts of one oscillator settled side by side, to the same verdicts as one after another.
 //!
 //! The flights are those of a [`Batch`]; each motion is [followed](super::follow) as a single one would be, on the same
-//! impacts. What saves time is what is known already: a motion that falls into the [trap](super::trap) of a cycle needs no
+//! impacts. What saves time is what is known already: a motion that falls into the [trapping region](super::trapping_region) of a cycle needs no
 //! more following. Whatever the lanes do not fly is handed to a scalar [`Motion`], in the middle of its flight.
 //!
 //! The result does not depend on how the starts are divided: motions are compared as [`Census`](super::Census) does, and the verdict that stands
@@ -28,7 +28,7 @@ pub struct KnownAttractors {
 }
 
 impl KnownAttractors {
-    /// Settles these few starts one by one and keeps the cycles that have a trap.
+    /// Settles these few starts one by one and keeps the cycles that have a trapping region.
     #[must_use]
     pub fn survey(osc: &Oscillator, starts: impl Iterator<Item = Start>, options: &SettleOptions) -> Self {
         let mut survey = Self::default();
@@ -79,7 +79,7 @@ pub fn settle_many(
     let full = |k: u64| settle(osc, start(k), options).verdict;
     let question = Question { osc, options, width, tick };
     question.decide(range.clone(), &start, survey).settlement(range.start, full).unwrap_or_else(|| {
-        // the first start of each motion was settled in full, and that contradicts a trap: do without
+        // the first start of each motion was settled in full, and that contradicts a trapping region: do without
         let part = question.decide(range.clone(), &start, &KnownAttractors::default());
         part.settlement(range.start, full).unwrap_or_default()
     })

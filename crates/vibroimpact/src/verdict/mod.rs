@@ -6,7 +6,7 @@
 //! | what a motion can settle into | [`Verdict`] |
 //! | from a start to a verdict | [`settle`], `follow` |
 //! | many starts side by side | [`settle_many`] |
-//! | neighbourhoods of cycles that no motion leaves | `trap` |
+//! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
 //! | ever gentler impacts: the limit without impacts | [`graze_limit`] |
 //! | the 1971 paper's own rule | [`paper_rule`] |
 //! | the distinct motions from many starts, and their shares | [`Census`], [`attractors`] |

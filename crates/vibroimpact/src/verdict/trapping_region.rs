@@ -1,4 +1,4 @@
-//! A trap: a neighbourhood of a stable cycle that no motion leaves, so that whatever enters it is decided.
+//! A trapping region: a neighbourhood of a stable cycle that no motion leaves, so that whatever enters it is decided.
 //!
 //! About an impact of the cycle the m-fold impact map contracts in the norm $`\|d\|_P^2 = d^TPd`$,
 //! $`P = \sum_k (J^k)^TQJ^k`$, by the factor $`\vartheta < 1`$ as far as its derivative $`J`$ goes. How far that is, is tried out:
@@ -8,7 +8,7 @@
 //! stays, and shrinks from disc to disc onto the cycle.
 //!
 //! The rims are sampled, in 32 directions, and the radius used is two discs inside the last one that passed. What is
-//! decided by a trap is the same as what [`settle`](super::settle()) decides, within the same budget: a trap is used only where the budget
+//! decided by a trapping region is the same as what [`settle`](super::settle()) decides, within the same budget: a region is used only where the budget
 //! left suffices for the motion to be followed until it is captured by the cycle as `settle` means it ([`TrappingRegion::depth`]). So which cycles are
 //! known changes the time it takes and no verdict. Tests compare, and [`settle_many`](super::settle_many) checks the first start of every
 //! motion.
@@ -30,7 +30,7 @@ pub(super) struct TrappingRegion {
     depth: Depth,
 }
 
-/// How long a motion is in a trap until it is so close to the cycle that it counts as captured: what [`settle`](super::settle()) needs to
+/// How long a motion is in a trapping region until it is so close to the cycle that it counts as captured: what [`settle`](super::settle()) needs to
 /// decide it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Depth {
@@ -54,7 +54,7 @@ const CAPTURED: [f64; 6] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 const SLOWEST: f64 = 0.97;
 
 impl TrappingRegion {
-    /// The largest trap about the first impact of a stable `cycle` without rests; `None` if there is none worth having.
+    /// The largest trapping region about the first impact of a stable `cycle` without rests; `None` if there is none worth having.
     /// Flights from its rims end within half of the `steps` that a search may take, so those from inside end within all of them.
     pub(super) fn around(osc: &Oscillator, cycle: &Cycle, steps: u32) -> Option<Self> {
         let center = cycle.points.first()?.state;
@@ -97,7 +97,7 @@ impl TrappingRegion {
         Some(Self { center, form: p.map(|x| x / (r * r)), depth })
     }
 
-    /// How long a motion that is caught takes to be decided without the trap.
+    /// How long a motion that is caught takes to be decided without the region.
     pub(super) const fn depth(&self) -> Depth {
         self.depth
     }

@@ -127,7 +127,7 @@ impl<'a> SheetWalk<'a> {
         None
     }
 
-    /// SheetWalk the edge from `start` on `bound`, where `out` led; where the walk is lost, round it the other way to the same
+    /// Round the edge from `start` on `bound`, where `out` led; where the walk is lost, round it the other way to the same
     /// place. Not closed if that is another.
     pub(crate) fn edge(&self, bound: usize, start: &[f64], out: &PlaneTracer) -> Edge {
         // with the inside, where the walk came from, to the left
@@ -185,7 +185,7 @@ impl<'a> SheetWalk<'a> {
         None
     }
 
-    /// SheetWalk the edge from where `walk` begins, on bound `first`, as far as it gets.
+    /// Round the edge from where `walk` begins, on bound `first`, as far as it gets.
     fn circle(&self, first: usize, mut walk: PlaneTracer) -> Edge {
         let begin = walk.here.clone();
         let mut active = first;
