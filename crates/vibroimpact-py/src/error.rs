@@ -1,12 +1,12 @@
-//! One table from the errors of Rust to the exceptions of Python.
+//! The conversion of Rust errors to Python exceptions, in one table.
 //!
-//! | what happened | exception |
+//! | cause | exception |
 //! |---|---|
-//! | the question makes no sense | `QuestionError`, a `ValueError`, with the sentence the command prints |
-//! | the progress callback asked to stop | `StoppedError` |
+//! | the question is invalid | `QuestionError`, a `ValueError`, with the message of the command |
+//! | the progress callback stopped the work | `StoppedError` |
 //! | a store cannot be read, written or used | `StoreError`, an `OSError` |
 //! | Ctrl-C, or an exception in the progress callback | that exception |
-//! | a defect of ours | `RuntimeError` |
+//! | a defect of this program | `RuntimeError` |
 
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::{PyErr, create_exception};
@@ -29,18 +29,18 @@ create_exception!(
     "A store cannot be used; the text names the place and what to do."
 );
 
-/// Why there is no answer.
+/// The reason why there is no result.
 #[derive(Debug)]
 pub(crate) enum Trouble {
-    /// The question makes no sense.
+    /// The question is invalid.
     Question(String),
-    /// It was stopped on the way.
+    /// The work was stopped.
     Stopped(Stopped),
     /// A store cannot be used.
     Store(String),
     /// An exception of Python.
     Raised(PyErr),
-    /// A defect of ours.
+    /// A defect of this program.
     Defect(&'static str),
 }
 
@@ -66,7 +66,7 @@ impl From<Trouble> for PyErr {
 
 impl From<PlanError> for Trouble {
     fn from(error: PlanError) -> Self {
-        // the library names parameters only; where a name of this package helps, it is added
+        // messages of the library name parameters only; a hint adds the argument of this package where it helps
         let hint = match &error {
             PlanError::Frequency(_) => "\nhint: beta=B or inverse_beta=X, with X = 1/B",
             PlanError::NoEvent { .. } => "\nhint: `branch` lists the events",
@@ -110,6 +110,7 @@ impl From<vibroimpact_store::StoreError> for Trouble {
             Of::Plan(error) => error.into(),
             Of::Stopped(stopped) => stopped.into(),
             Of::Part { .. } => Self::Question(error.to_string()),
+            Of::Absent(_) => Self::Store(format!("{error}\nhint: `run(plan, store)` begins one")),
             other => Self::Store(other.to_string()),
         }
     }

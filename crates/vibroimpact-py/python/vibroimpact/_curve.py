@@ -1,4 +1,4 @@
-"""A fold, flip or grazing of an orbit over a plane of two parameters."""
+"""Curves of folds, flips or grazing impacts of an orbit in a plane of two parameters."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,20 +11,37 @@ from vibroimpact import _core
 from vibroimpact._axis import Interval, plane
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import Cycles, pairs
+from vibroimpact._figure import named, new_axes
+from vibroimpact._palette import SERIES
+from vibroimpact._plane import broken, frame
 from vibroimpact._whole import NUMBER, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+_KINDS = {"fold": SERIES[1], "flip": SERIES[0], "grazing": SERIES[2]}
+_MARKS = {
+    "cusp": "v",
+    "resonant grazing": "D",
+    "double grazing": "s",
+    "degenerate grazing": "^",
+    "touch": "o",
+    "1:2": "o",
+    "degenerate flip": "X",
+    "loss of contact": "P",
+    "whole periods": "P",
+    "speeds without bound": "P",
+}
+
 
 class CurveEvent(NamedTuple):
-    """A point of codimension two on a curve, or its end."""
+    """A point of codimension two on a curve, or an end of the curve."""
 
     #: "cusp", "resonant grazing", "double grazing", "degenerate grazing", "touch", "1:2", "end of box" ...
     kind: str
-    #: Of both parameters.
+    #: Values of both parameters.
     values: tuple[float, float]
-    #: Place among the points.
+    #: Index among the points of the curve.
     point: int
 
 
@@ -35,29 +52,29 @@ class Curve:
     Attributes
     ----------
     osc : Oscillator
-        The system the orbit was looked for at.
+        The system at which the orbit was searched.
     label, kind : str
-        m/n of the orbit; "fold", "flip" or "grazing".
+        The label m/n of the orbit; "fold", "flip" or "grazing".
     parameters : (str, str)
         The two parameters.
     ranges : ((float, float), (float, float))
-        The box that was looked at.
+        The ranges of the two parameters.
     values : ndarray, shape (points, 2)
         Values of the two parameters.
     physical : ndarray of bool
-        Whether the orbit is a possible motion.
+        Whether the orbit is admissible.
     cycles : sequence of Cycle
-        The impacts at each point, on a grazing curve with the one of speed zero.
+        The impacts at each point; on a grazing curve including the one of speed zero.
     events : list of CurveEvent
-        In order along the curve.
+        The events, in order along the curve.
     found_at : list of float
-        Values of the first parameter at the events of that kind on the branch of the orbit.
+        Values of the first parameter at the events of this kind on the branch of the orbit.
     through : (int, int)
-        Which of these the curve goes through, counted from 1, and its place among the points.
+        The number, counted from 1, of the event through which the curve passes, and its index among the points.
     orbit : (int, int)
-        The number of the orbit, and how many there are.
+        The number of the orbit, and the number of orbits with its label.
     plan : str
-        The question as JSON.
+        The plan as JSON.
     """
 
     osc: Oscillator
@@ -87,13 +104,11 @@ class Curve:
         return self.cycles.multipliers
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """The curve in its plane, dotted where the orbit is inadmissible, with its points of codimension two."""
-        from vibroimpact import _plane
-
-        return _plane.curve(self, ax)
+        """Draw the curve in its plane, dotted where the orbit is inadmissible, and its points of codimension two."""
+        return _draw(self, ax)
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON, a number that is not finite as None."""
+        """The fields of the JSON of the command; numbers that are not finite are None."""
         points = zip(self.values.tolist(), self.physical.tolist(), self.cycles, self.multipliers)
         return {
             "label": self.label,
@@ -110,6 +125,27 @@ class Curve:
         }
 
 
+def _draw(of: Curve, ax: "Axes | None") -> "Axes":
+    """Draw the curve, dotted where the orbit is inadmissible, and its points of codimension two."""
+    ax = new_axes(ax, (7.2, 4.8))
+    colour, events = _KINDS[of.kind], {event.point for event in of.events}
+    # an event separates two parts, so a step takes its look from the end that is no event
+    steps = [k if k + 1 in events and k not in events else k + 1 for k in range(len(of) - 1)]
+    for physical, dash, words in ((True, "-", ""), (False, ":", ", inadmissible")):
+        xs, ys = (np.array(column, dtype=float) for column in broken(of.values, of.physical[steps] == physical))
+        if len(xs):
+            ax.plot(xs, ys, dash, color=colour, linewidth=1.8, label=f"{of.kind} of {named(of.label)}{words}")
+    for kind, mark in _MARKS.items():
+        places = [event.values for event in of.events if event.kind == kind]
+        if places:
+            xs, ys = np.array(places).T
+            ax.plot(xs, ys, mark, color="white", markeredgecolor="black", markersize=8, label=kind, zorder=4, clip_on=False)
+    begin = of.values[of.through[1]]
+    ax.plot(*begin, "o", color="black", markersize=5, label="found on the branch", zorder=5)
+    frame(ax, of.osc, of.parameters, of.ranges)
+    return ax
+
+
 def curve(
     osc: Oscillator,
     label: str,
@@ -119,26 +155,26 @@ def curve(
     orbit: int | None = None,
     event: int | None = None,
 ) -> Curve:
-    """Follow an event of an orbit over a plane of two parameters: where it folds, flips or grazes.
+    """Follow a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
-    The orbit is looked for at `osc` and followed in the first parameter to both ends of its range, while it keeps its
-    label; from an event of that kind the curve is followed both ways to the edge of the plane.
+    The orbit is searched at `osc` and followed in the first parameter to both ends of its range, as long as it keeps its
+    label. From an event of the given kind the curve is followed in both directions to the edge of the plane.
 
     Parameters
     ----------
     osc : Oscillator
-        The system the orbit is looked for at; it lies in the plane.
+        The system at which the orbit is searched; it must lie in the plane.
     label : str
         "m/n" of the orbit there.
     kind : str
         "fold", "flip" or "grazing".
     over : mapping
-        Two parameters and their ranges, the one in which the orbit is followed first:
+        Two parameters and their ranges; the orbit is followed in the first one:
         {"gap": (0, 5), "inverse_beta": (0.45, 0.9)}.
     orbit : int
-        Which of several orbits, as for `branch`.
+        Number of the orbit, as for `branch`.
     event : int
-        Which of several events, counted from 1 from small values to large; the nearest unless given.
+        Number of the event, counted from 1 in order of rising values. Default: the event nearest to `osc`.
 
     Examples
     --------

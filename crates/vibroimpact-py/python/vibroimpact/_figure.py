@@ -1,4 +1,4 @@
-"""What figures share: axes, symbols, units; and those of one motion: waveform, shares, sections."""
+"""Common parts of figures (axes, symbols, units), and the figures of one system: waveform, shares."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.patches import Patch
 
-    from vibroimpact._lyapunov import Impacts, Strobes
-
 SYMBOLS = {
     "beta": r"\beta",
     "inverse_beta": r"1/\beta",
@@ -24,14 +22,14 @@ SYMBOLS = {
     "second_restitution": r"\varepsilon_2",
 }
 
-#: Speed of arrival.
+#: Name of the speed before an impact.
 ARRIVAL = r"arrival velocity $u_-$"
-#: Impacts marked one by one; more would be a band.
+#: Maximum number of impacts with a mark each; more marks would merge into a band.
 _MARKED = 5000
 
 
 class Scale:
-    """One unit of results, and how axes name it."""
+    """The units of a figure, and the names of its axes in these units."""
 
     def __init__(self, osc: Oscillator, si: bool) -> None:
         self.si = si
@@ -43,31 +41,31 @@ class Scale:
             self.velocity = osc.units.velocity_m_per_s
 
     def named(self, name: str, unit: str) -> str:
-        """A name with its unit, where there is one."""
+        """A name with its unit, if the figure has units."""
         return f"{name} ({unit})" if self.si else name
 
     def of(self, parameter: str) -> float:
-        """One unit of a parameter."""
+        """The unit of a parameter in the figure."""
         return self.length if parameter in ("gap", "second_gap") else 1.0
 
     def axis(self, parameter: str) -> str:
-        """A parameter's symbol with its unit."""
+        """The symbol of a parameter with its unit."""
         name = f"${SYMBOLS[parameter]}$"
         return self.named(name, "m") if parameter in ("gap", "second_gap") else name
 
     def line(self, parameter: str, ends: tuple[float, float], also: tuple[str, float, float] | None) -> str:
-        """What an axis along a line shows: its first parameter, and from where to where the second one goes with it."""
+        """The name of an axis along a line: the first parameter, and the range of the second one."""
         if also is None:
             return self.axis(parameter)
         name, *values = also
-        # an axis rises, whichever way the line was drawn
+        # the axis rises, in whichever direction the line was followed
         first, last = values if ends[0] <= ends[1] else reversed(values)
         unit = self.of(name)
         return f"{self.axis(parameter)}, with {self.axis(name)} from {first * unit:.6g} to {last * unit:.6g}"
 
 
 def new_axes(ax: "Axes | None", size: tuple[float, float]) -> "Axes":
-    """The axes given, or those of a new figure."""
+    """The given axes, or those of a new figure."""
     if ax is not None:
         return ax
     import matplotlib.pyplot as plt
@@ -76,7 +74,7 @@ def new_axes(ax: "Axes | None", size: tuple[float, float]) -> "Axes":
 
 
 def legend(ax: "Axes", handles: "list[Patch] | None" = None) -> None:
-    """A legend to the right of the axes, where it hides nothing."""
+    """Add a legend to the right of the axes, where it covers nothing."""
     handles_of_axes = ax.get_legend_handles_labels()[0]
     if handles or handles_of_axes:
         of = handles or handles_of_axes
@@ -84,12 +82,12 @@ def legend(ax: "Axes", handles: "list[Patch] | None" = None) -> None:
 
 
 def equal(symbol: str, value: float) -> str:
-    """A parameter and its value."""
+    """Text for a parameter with one value."""
     return rf"{symbol} $= {_number(value)}$" if not symbol.endswith("$") else f"{symbol[:-1]} = {_number(value)}$"
 
 
 def span(symbol: str, low: float, high: float) -> str:
-    """A parameter that has several values."""
+    """Text for a parameter with a range of values."""
     return f"{symbol} from {low:.6g} to {high:.6g}"
 
 
@@ -100,7 +98,7 @@ def _number(value: float) -> str:
 
 
 def title(osc: Oscillator, without: tuple[str, ...] = ()) -> str:
-    """The parameters, without those that vary in the figure."""
+    """The title: all parameters except those in `without`, which vary in the figure."""
     given = "inverse_beta" if "inverse_beta" in repr(osc) else "beta"
     values: dict[str, float] = {given: getattr(osc, given), "gap": osc.gap, "restitution": osc.restitution}
     if osc.damping > 0:
@@ -116,12 +114,12 @@ def title(osc: Oscillator, without: tuple[str, ...] = ()) -> str:
 
 
 def named(label: str) -> str:
-    """A label as a figure shows it."""
+    """The text of a label in a figure."""
     return "no impact" if label == "0" else label.replace("inf", "∞")
 
 
 def walls(ax: "Axes", osc: Oscillator, unit: float, ys: NDArray[np.float64]) -> None:
-    """The stops that the motion comes near, and a range that shows them."""
+    """Draw the stops near the motion, and set a range of the ordinate that shows them."""
     low, high = float(np.min(ys)), float(np.max(ys))
     size = max(high - low, 1e-12)
     stops = [(osc.gap * unit, 1.0)] + ([] if osc.second_gap is None else [(-osc.second_gap * unit, -1.0)])
@@ -143,7 +141,7 @@ def waveform(
     ax: "Axes | None",
     si: bool,
 ) -> "Axes":
-    """Position over time, with the stops and the impacts."""
+    """Draw the position over time, with the stops and the impacts."""
     scale = Scale(osc, si)
     ax = new_axes(ax, (9.5, 3.6))
     t, x = wave[0] * scale.time, wave[1] * scale.length
@@ -166,7 +164,7 @@ def waveform(
 
 
 def shares(osc: Oscillator, found: list[tuple[str, float]], ax: "Axes | None") -> "Axes":
-    """Shares of starts as bars, the largest on top."""
+    """Draw the shares of starts as bars, with the largest on top."""
     ax = new_axes(ax, (6.4, 0.9 + 0.42 * len(found)))
     places = np.arange(len(found))
     ax.barh(
@@ -182,46 +180,3 @@ def shares(osc: Oscillator, found: list[tuple[str, float]], ax: "Axes | None") -
     ax.set_xlabel("share of starts (%)")
     ax.set_title(title(osc))
     return ax
-
-
-def sections(
-    osc: Oscillator, impacts: "Impacts", strobes: "Strobes", axes: "tuple[Axes, Axes] | None"
-) -> "tuple[Axes, Axes]":
-    """Both sections of an attractor, side by side."""
-    if axes is None:
-        import matplotlib.pyplot as plt
-
-        figure, pair = plt.subplots(1, 2, figsize=(10, 4.4), layout="constrained")
-        figure.suptitle(title(osc))
-        axes = (pair[0], pair[1])
-    left, right = axes
-    for sign, colour, name in ((1, SERIES[0], "stop"), (-1, SERIES[1], "second stop")):
-        at = impacts.side == sign
-        if np.any(at):
-            _dots(left, impacts.phase[at], impacts.velocity_before[at], color=colour, label=name)
-    left.set_xlabel(r"phase $\theta$")
-    left.set_ylabel(ARRIVAL)
-    left.set_title("impacts")
-    if osc.second_gap is not None:
-        left.legend(loc="best")
-    _dots(right, strobes.x, strobes.v, color="black")
-    right.set_xlabel(r"$\xi$")
-    right.set_ylabel("velocity $u$")
-    right.set_title("states at phase 0")
-    _room(left)
-    _room(right)
-    return left, right
-
-
-def _dots(ax: "Axes", xs: NDArray[np.float64], ys: NDArray[np.float64], **look: Any) -> None:
-    """A cloud of small dots, or a few large ones."""
-    few = len(np.unique(np.round(np.stack([xs, ys]), 6), axis=1).T) <= 200
-    ax.plot(xs, ys, "o", markersize=5 if few else 1, markeredgewidth=0, **look)
-
-
-def _room(ax: "Axes") -> None:
-    """A range of its own for what is one value to rounding."""
-    box = ax.dataLim
-    for low, high, limit in ((box.x0, box.x1, ax.set_xlim), (box.y0, box.y1, ax.set_ylim)):
-        if np.isfinite(low) and high - low < 1e-6 * max(abs(low), abs(high), 1.0):
-            limit(low - 0.5, low + 0.5)

@@ -1,4 +1,4 @@
-"""How chaotic a motion is."""
+"""Lyapunov exponents of a motion and the dimension of its attractor."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -10,6 +10,7 @@ from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import finite
 from vibroimpact._motion import Motion, fields_of, horizon_object
+from vibroimpact._sections import Impacts, Strobes, sections
 from vibroimpact._whole import MEASURED, SECTION, TRANSIENT, maybe, whole
 
 if TYPE_CHECKING:
@@ -17,62 +18,47 @@ if TYPE_CHECKING:
 
 
 class Measured(NamedTuple):
-    """A number and three standard errors of it; an error of 0 where it is exact."""
+    """A number and its error bar, which is three standard errors; 0 if the number is exact."""
 
     value: float
     error: float
 
     def to_dict(self) -> dict[str, Any]:
-        """As the command's JSON has it: a number that is none says why."""
+        """The object in the JSON of the command. For a value that is not finite it has the reason "why"."""
         if np.isfinite(self.value):
             return {"value": self.value, "error": finite(self.error)}
         why = "undefined" if np.isnan(self.value) else "infinity" if self.value > 0 else "minus_infinity"
         return {"value": None, "error": None, "why": why}
 
 
-class Impacts(NamedTuple):
-    """The section of the impact map."""
-
-    phase: NDArray[np.float64]
-    velocity_before: NDArray[np.float64]
-    side: NDArray[np.int8]
-
-
-class Strobes(NamedTuple):
-    """The stroboscopic section: states at phase 0 of the force."""
-
-    x: NDArray[np.float64]
-    v: NDArray[np.float64]
-
-
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Lyapunov:
-    """Both exponents of a motion with error bars, and its attractor.
+    """Both Lyapunov exponents of a motion with error bars, and sections of its attractor.
 
     Attributes
     ----------
     osc : Oscillator
         The system.
     motion : Motion
-        What it settles into.
+        The motion after the transient.
     exponents, exponents_per_period : tuple of Measured
-        The larger first, per unit of time and per forcing period.
+        The exponents, the larger one first, per unit of time and per forcing period.
     sum : Measured
-        Of both, measured.
+        The measured sum of both exponents.
     identity : float
-        What the sum must be, 2 ln(eps) times the rate of impacts less 2 zeta.
+        The exact value of the sum: 2 ln(eps) times the rate of impacts, minus 2 zeta.
     impacts_per_period : Measured
-        Rate of impacts.
+        Number of impacts per forcing period.
     dimension : Measured or None
-        Kaplan-Yorke dimension of the stroboscopic section; None where the larger exponent is not known to differ from 0.
+        Kaplan-Yorke dimension of the stroboscopic section; None if the larger exponent is not known to differ from 0.
     flow_dimension : Measured or None
-        The same of the flow in the space of position, velocity and phase.
+        Kaplan-Yorke dimension of the flow in the space of position, velocity and phase.
     grounds : dict
-        Where all this comes from: "kind" is "measured", "no_impact", "sticks", "stuck", "touches" or "undecided".
+        How the exponents were obtained: "kind" is "measured", "no_impact", "sticks", "stuck", "touches" or "undecided".
     impacts, strobes : named tuples of ndarray
-        Points of both sections; empty unless asked for.
+        Points of both sections; empty unless requested.
     plan : str
-        The question as JSON.
+        The plan as JSON.
     """
 
     osc: Oscillator
@@ -94,15 +80,13 @@ class Lyapunov:
         return f"<Lyapunov {one.value:.5g} +- {one.error:.1g}, {two.value:.5g} +- {two.error:.1g}, {self.motion.label}>"
 
     def plot(self, axes: "tuple[Axes, Axes] | None" = None) -> "tuple[Axes, Axes]":
-        """Both sections of the attractor: phase and speed of its impacts, and its states at phase 0."""
-        from vibroimpact import _figure
-
+        """Draw both sections of the attractor: phase and speed of its impacts, and its states at phase 0."""
         if not len(self.impacts.phase) and not len(self.strobes.x):
             raise _core.QuestionError("there are no points of the sections\nhint: lyapunov(..., points=5000)")
-        return _figure.sections(self.osc, self.impacts, self.strobes, axes)
+        return sections(self.osc, self.impacts, self.strobes, axes)
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON, a number that is not finite as None."""
+        """The fields of the JSON of the command; numbers that are not finite are None."""
         motion = self.motion.to_dict()
         motion.pop("lyapunov", None)
         motion.get("tried", {}).pop("lyapunov", None)
@@ -141,13 +125,13 @@ def lyapunov(
     osc : Oscillator
         The system.
     x, v, phase : float
-        Start: position in units of F/k (at rest, or on the stop, unless given), velocity, phase of the force in radians.
+        Start: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
     impacts : int
-        Impacts to measure over, 1000 to 1e7; the error bar shrinks with the square root.
+        Number of impacts of the measurement, 1000 to 1e7; the error bar decreases with its square root.
     transient : int
-        Impacts to pass before; for the stroboscopic section forcing periods.
+        Number of impacts before the measurement, and of forcing periods before the stroboscopic section.
     points : int
-        Points of both sections of the attractor, 1 to 100000; none unless given.
+        Number of points of each section of the attractor, 1 to 100000; by default no sections.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Where in a plane of two parameters a motion exists, and where it is stable."""
+"""The regions of a plane of two parameters in which a motion exists and in which it is stable."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -10,10 +10,22 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact import _core
 from vibroimpact._axis import Interval, numbers, plane
 from vibroimpact._core import Oscillator
+from vibroimpact._figure import named, new_axes
+from vibroimpact._palette import SERIES, class_colour
+from vibroimpact._plane import broken, frame
 from vibroimpact._whole import GRID, THREADS, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+#: Colour, dash and name of each kind of boundary of a region. The frame is the edge of the figure and is not drawn.
+_BOUNDS = {
+    "fold": (SERIES[1], "-", "fold"),
+    "flip": (SERIES[0], "--", "flip"),
+    "no speed": (SERIES[2], "-.", "an impact without speed"),
+    "touch": ("black", "-", "a touch on the way"),
+    "merging": (SERIES[3], ":", "merging"),
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -23,13 +35,13 @@ class Polygon:
     Attributes
     ----------
     vertices : ndarray, shape (n, 2)
-        Values of the two parameters, the region to the left.
+        Values of the two parameters; the region lies to the left of the polygon.
     bounds : list of str
-        What bounds the region from each vertex to the next: "fold", "flip", "merging", "no speed", "touch", "frame".
+        The kind of boundary from each vertex to the next: "fold", "flip", "merging", "no speed", "touch", "frame".
     hole : bool
-        Whether it is the edge of a hole.
+        Whether it is the boundary of a hole.
     sheet : str
-        "below" for orbits whose multipliers stay below +1, "above" for the others.
+        "below" for orbits whose multipliers are below +1, "above" for the others.
     """
 
     vertices: NDArray[np.float64]
@@ -41,20 +53,20 @@ class Polygon:
         return f"<Polygon of {len(self.vertices)} vertices{', a hole' if self.hole else ''}>"
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON."""
+        """The fields of the JSON of the command."""
         return {"hole": self.hole, "sheet": self.sheet, "vertices": self.vertices.tolist(), "bounds": self.bounds}
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Part:
-    """Where a motion exists, or is stable.
+    """The region where a motion exists, or where it is stable.
 
     Attributes
     ----------
     polygons : list of Polygon
-        Its edges; those of different sheets may overlap.
+        Its boundaries; those of different sheets may overlap.
     unresolved : ndarray, shape (n, 2)
-        Points of the grid where the search for orbits and the polygons do not agree.
+        Points of the grid where the search for orbits contradicts the polygons.
     """
 
     polygons: list[Polygon]
@@ -64,37 +76,37 @@ class Part:
         return f"<Part of {len(self.polygons)} polygons>"
 
     def contains(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.bool_]:
-        """Whether points lie in it, in the shape of their values of both parameters."""
+        """Whether points lie in the region. The arguments are the values of the two parameters; the result has their shape."""
         p, q = np.broadcast_arrays(numbers("values", first), numbers("values", second))
         polygons = [(polygon.vertices, polygon.sheet == "below") for polygon in self.polygons]
         inside = _core.contains(polygons, np.ascontiguousarray(p).reshape(-1), np.ascontiguousarray(q).reshape(-1))
         return inside.reshape(p.shape)
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON."""
+        """The fields of the JSON of the command."""
         return {"polygons": [p.to_dict() for p in self.polygons], "unresolved": self.unresolved.tolist()}
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Region:
-    """Both regions of a motion in a plane.
+    """The regions of existence and stability of a motion in a plane.
 
     Attributes
     ----------
     osc : Oscillator
-        The system; what varies counts for nothing.
+        The system; its values of the two parameters are ignored.
     label : str
-        m/n.
+        The label m/n of the motion.
     parameters : (str, str)
         The parameters on the abscissa and the ordinate.
     ranges : ((float, float), (float, float))
-        The frame.
+        The ranges of the two parameters.
     neutrally_stable : bool
-        Whether nothing is lost at impacts or between them: the motion is stable nowhere then, and neutrally stable where it exists.
+        Whether no energy is lost, at impacts or between them. The motion is then neutrally stable wherever it exists.
     existence, stability : Part
-        Where it exists, and where it is stable.
+        The region where it exists, and the region where it is stable.
     plan : str
-        The question as JSON.
+        The plan as JSON.
     """
 
     osc: Oscillator
@@ -111,13 +123,11 @@ class Region:
         return f"<Region of {self.label} over {self.parameters[0]} and {self.parameters[1]}: {parts}>"
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """Both regions, their edges in the colour of what bounds them."""
-        from vibroimpact import _plane
-
-        return _plane.region(self, ax)
+        """Draw both regions. The colour of an edge shows the kind of boundary."""
+        return _draw(self, ax)
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON."""
+        """The fields of the JSON of the command."""
         return {
             "label": self.label,
             "parameters": list(self.parameters),
@@ -127,26 +137,71 @@ class Region:
         }
 
 
+def _draw(of: Region, ax: "Axes | None") -> "Axes":
+    """Draw both regions. The colour of an edge shows its kind; edges of the sheet above are thin."""
+    ax = new_axes(ax, (7.2, 5.2))
+    name = named(of.label)
+    exists = "exists, neutrally stable" if of.neutrally_stable else "exists, unstable"
+    fills = ((of.existence, "#ececec", exists), (of.stability, class_colour(of.label), "stable"))
+    for part, colour, words in fills[: 1 if of.neutrally_stable else 2]:
+        _fill(ax, part, colour)
+        ax.fill([], [], color=colour, label=f"{name} {words}")
+    polygons = of.existence.polygons + of.stability.polygons
+    for bound, (colour, dash, words) in _BOUNDS.items():
+        label: str | None = words
+        for sheet, width in (("above", 0.9), ("below", 2.0)):
+            for polygon in polygons:
+                xs, ys = _edges(polygon, bound) if polygon.sheet == sheet else ([], [])
+                if xs:
+                    ax.plot(xs, ys, dash, color=colour, linewidth=width, zorder=2)
+                    if label is not None:
+                        ax.plot([], [], dash, color=colour, linewidth=2, label=label)
+                        label = None
+    frame(ax, of.osc, of.parameters, of.ranges)
+    return ax
+
+
+def _edges(polygon: Polygon, bound: str) -> tuple[list[float], list[float]]:
+    closed = np.vstack([polygon.vertices, polygon.vertices[:1]])
+    return broken(closed, np.array([of == bound for of in polygon.bounds]))
+
+
+def _fill(ax: "Axes", part: Part, colour: str) -> None:
+    """Fill each outer ring with its holes separately, because the sheets of a surface may overlap."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    for outer in (polygon for polygon in part.polygons if not polygon.hole):
+        alone = Part([outer], part.unresolved[:0])
+        holes = [
+            hole
+            for hole in part.polygons
+            if hole.hole and hole.sheet == outer.sheet and bool(alone.contains(*hole.vertices[0]))
+        ]
+        rings = [Path(np.vstack([ring.vertices, ring.vertices[:1]]), closed=True) for ring in (outer, *holes)]
+        ax.add_patch(PathPatch(Path.make_compound_path(*rings), facecolor=colour, edgecolor="none", zorder=1))
+
+
 def region(
     osc: Oscillator, label: str, over: Mapping[str, Interval], *, grid: int = 24, threads: int = 0
 ) -> Region:
-    """Find where in a plane of two parameters the motion m/n exists, and where it is stable, as closed polygons.
+    """Find the regions of a plane of two parameters in which the motion m/n exists and is stable, as closed polygons.
 
-    Orbits are looked for on a grid, and from each a walk goes round the part of the region it lies in, along the curves
-    that bound it.
+    Orbits are searched on a grid. From each orbit the boundary of its part of the region is followed along the curves of
+    events that form it.
 
     Parameters
     ----------
     osc : Oscillator
-        The system; its values of the two parameters count for nothing.
+        The system; its values of the two parameters are ignored.
     label : str
-        "m/n".
+        The label "m/n" of the motion.
     over : mapping
         Two parameters and their ranges, the abscissa first: {"inverse_beta": (0.4, 2), "gap": (-1, 5)}.
     grid : int
-        Points of the grid in each direction, 2 to 400: smaller parts may be missed.
+        Number of points of the grid in each direction, 2 to 400. Parts of the region between its points may be missed.
     threads : int
-        0 for one per core.
+        Number of threads; 0 for one per core.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Studies in stores: run, resumed, looked at, verified, opened."""
+"""Studies in stores: run, resume, status, verify and open."""
 
 import os
 from dataclasses import dataclass
@@ -16,56 +16,56 @@ if TYPE_CHECKING:
 
 
 class Ran(NamedTuple):
-    """What a run did, in tiles."""
+    """The result of a run, as numbers of tiles."""
 
-    #: Computed now.
+    #: Tiles that this run computed.
     computed: int
-    #: Done before, or by another process meanwhile.
+    #: Tiles that were complete before, or were completed by another process meanwhile.
     found: int
-    #: Finished, damaged, and computed anew.
+    #: Complete tiles that were damaged and have been computed again.
     mended: int
-    #: Of the whole, not done yet.
+    #: Tiles of the whole study that are not complete yet.
     left: int
 
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """How far a store is."""
+    """The progress of a store."""
 
-    #: Tiles in all, and those that are done.
+    #: Total number of tiles, and number of complete tiles.
     tiles: int
     done: int
-    #: Points in all, and those of the tiles that are done.
+    #: Total number of points, and number of points of complete tiles.
     points: int
     points_done: int
-    #: Whether it was concluded.
+    #: Whether the store is complete, including its final tables.
     complete: bool
-    #: How long the rest takes at the rate of the last tiles, or None.
+    #: Estimated time for the remaining tiles, at the rate of the last ones, or None.
     seconds_left: float | None
-    #: Numbers of the tiles that are not done, up to a thousand.
+    #: Numbers of the tiles that are not complete, at most a thousand.
     missing: list[int]
-    #: Tiles that are not done and not among these.
+    #: Number of further tiles that are not complete.
     missing_left_out: int
-    #: Bytes of the store.
+    #: Size of the store in bytes.
     bytes: int
 
 
 @dataclass(frozen=True, slots=True)
 class Verified:
-    """What a verification found."""
+    """The result of a verification."""
 
-    #: Tiles whose check sums were read.
+    #: Number of tiles whose checksums were verified.
     checked: int
-    #: Tiles that were computed again and compared byte by byte.
+    #: Number of tiles that were computed again and compared byte by byte.
     recomputed: int
-    #: Tiles that are not done.
+    #: Number of tiles that are not complete.
     open: int
-    #: Number of a tile, None for what belongs to the whole store, and what is wrong with it.
+    #: Each fault: the number of the tile (None for the whole store) and a description.
     damage: list[tuple[int | None, str]]
 
     @property
     def whole(self) -> bool:
-        """Whether nothing is wrong and nothing open."""
+        """Whether the store is complete and has no faults."""
         return not self.damage and self.open == 0
 
 
@@ -77,23 +77,23 @@ def run(
     threads: int = 0,
     progress: Progress = None,
 ) -> Ran:
-    """Fill the store of a plan: what is there already is not computed again.
+    """Fill the store of a plan. Tiles that it already contains are not computed again.
 
-    Any number of processes may work on one store; it has the same bytes however it came about. Stopped or killed, it
-    is finished by the same call, or by `resume`.
+    Any number of processes may work on one store; the bytes of the result are always the same. If a run is stopped or
+    killed, the same call, or `resume`, completes the store.
 
     Parameters
     ----------
     plan : Plan
         The study.
     store : path
-        A folder of its own, begun where there is none; "s3://BUCKET/PREFIX" where the package was built with the feature `s3`.
+        A folder for this store alone, created if absent; or "s3://BUCKET/PREFIX" if the package was built with the feature `s3`.
     part : (int, int)
-        (i, n): every n-th tile only, i from 1 to n, for job arrays.
+        (i, n): compute only every n-th tile, beginning with tile i; i from 1 to n. For job arrays.
     threads : int
-        0 for one per core.
+        Number of threads; 0 for one per core.
     progress : bool or callable
-        True for a bar, or a function of what is done and what there is to do.
+        True for a progress bar, or a function called with the amounts done and in total.
 
     Examples
     --------
@@ -114,7 +114,7 @@ def run(
 
 
 def resume(store: str | PathLike[str], *, threads: int = 0, progress: Progress = None) -> Ran:
-    """Compute what is missing or damaged in a store.
+    """Compute the missing and damaged tiles of a store.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def resume(store: str | PathLike[str], *, threads: int = 0, progress: Progress =
     Traceback (most recent call last):
         ...
     vibroimpact.StoreError: there is no store at no/such/place
-    hint: `vibro run PLAN --store no/such/place` begins one
+    hint: `run(plan, store)` begins one
     """
     threads = whole("threads", threads, THREADS)
     with watched(progress, "points") as tell:
@@ -131,7 +131,7 @@ def resume(store: str | PathLike[str], *, threads: int = 0, progress: Progress =
 
 
 def status(store: str | PathLike[str]) -> Status:
-    """How far a store is: which tiles are done, how long the rest takes.
+    """The progress of a store: the complete and missing tiles, and the estimated time for the rest.
 
     Examples
     --------
@@ -150,20 +150,20 @@ def status(store: str | PathLike[str]) -> Status:
 def verify(
     store: str | PathLike[str], *, sample: int = 4, seed: int = 1, threads: int = 0, progress: Progress = None
 ) -> Verified:
-    """Compare all that describes a store with its plan, read the check sums of all tiles, and compute a sample of them again.
+    """Compare the metadata of a store with its plan, verify the checksums of all tiles, and compute a sample of tiles again.
 
-    Nothing is changed; `resume` writes anew what is damaged.
+    The store is not changed. `resume` computes damaged tiles again.
 
     Parameters
     ----------
     store : path
         The store.
     sample, seed : int
-        How many tiles to compute again, and which.
+        Number of tiles to compute again, and the seed of their choice.
     threads : int
-        0 for one per core.
+        Number of threads; 0 for one per core.
     progress : bool or callable
-        True for a bar, or a function of what is done and what there is to do.
+        True for a progress bar, or a function called with the amounts done and in total.
 
     Examples
     --------
@@ -183,11 +183,11 @@ def verify(
 
 
 def open(store: str | PathLike[str]) -> "xr.Dataset":
-    """The Dataset of a store, read from it when it is looked at; `ds.vibro` draws it.
+    """Open a store as a Dataset. Values are read when they are used; `ds.vibro` draws figures.
 
-    Parameters that vary over none of its axes are scalar coordinates, so that they stay with the data where Datasets are joined.
-    xarray opens a store without help too: `xarray.open_zarr(store)`, but without these; they are then in the attribute `plan` only,
-    and figures do not state them. One in a bucket is read by s3fs.
+    Parameters that do not vary are scalar coordinates, so that they stay with the data when Datasets are joined.
+    `xarray.open_zarr(store)` opens a store too, but without these coordinates; they are then only in the attribute `plan`,
+    and figures do not state them. Stores in buckets are read by s3fs.
 
     Examples
     --------
@@ -219,7 +219,7 @@ def _bucket() -> dict[str, Any]:
 
 
 def need_readers(place: str) -> None:
-    """Says what is missing where there is no zarr that reads version 3 of the format, or nothing that reads a bucket."""
+    """Raise ImportError if zarr 3 (for version 3 of the format), or s3fs for a bucket, is not installed."""
     from importlib.metadata import PackageNotFoundError, version
 
     try:

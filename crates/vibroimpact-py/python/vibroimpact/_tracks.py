@@ -1,37 +1,77 @@
-"""The bifurcation diagram of a branch: each impact is followed from point to point."""
+"""The bifurcation diagram of a branch: a curve for each impact, followed from point to point."""
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact._core import Oscillator
 from vibroimpact._figure import ARRIVAL, Scale, legend, named, new_axes, title
 from vibroimpact._palette import SERIES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from vibroimpact._branch import Branch
-    from vibroimpact._cycle import Cycle
+    from vibroimpact._cycle import Cycle, Cycles
 
-#: Values of the orbit diagram behind a branch.
+
+class Event(Protocol):
+    """What a figure needs of an event of a branch."""
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def parameter(self) -> float: ...
+    @property
+    def point(self) -> int: ...
+
+
+class Followed(Protocol):
+    """What a figure needs of a branch."""
+
+    def __len__(self) -> int: ...
+    @property
+    def osc(self) -> Oscillator: ...
+    @property
+    def vary(self) -> str: ...
+    @property
+    def ends(self) -> tuple[float, float]: ...
+    @property
+    def also(self) -> tuple[str, float, float] | None: ...
+    @property
+    def parameter(self) -> NDArray[np.float64]: ...
+    @property
+    def label(self) -> list[str]: ...
+    @property
+    def physical(self) -> NDArray[np.bool_]: ...
+    @property
+    def multipliers(self) -> NDArray[np.complex128]: ...
+    @property
+    def cycles(self) -> "Cycles": ...
+    @property
+    def events(self) -> Sequence[Event]: ...
+    @property
+    def followed(self) -> "Sequence[Followed]": ...
+
+
+#: Number of values of the orbit diagram behind a branch.
 _VALUES = 401
-#: Labels with a colour of their own.
+#: Maximum number of labels with a colour of their own.
 _NAMED = 12
 #: Marks of events.
 _MARKS = {"fold": "s", "flip": "D", "branch point": "o", "grazing": "^", "loss of contact": "v", "soft landing": "P"}
 _LOOKS = {"stable": "-", "unstable": "--", "inadmissible": ":"}
 
 
-def plot(branch: "Branch", ax: "Axes | None", diagram: bool, virtual: bool, si: bool) -> "Axes":
-    """Speeds of arrival over the parameter, stable solid, unstable dashed."""
+def plot(branch: Followed, ax: "Axes | None", diagram: bool, virtual: bool, si: bool) -> "Axes":
+    """Draw the speeds before impacts over the parameter: solid if stable, dashed if unstable."""
     scale = Scale(branch.osc, si)
     unit, speed = scale.of(branch.vary), scale.velocity
     ax = new_axes(ax, (7.6, 4.8))
     if diagram:
         _behind(branch, ax, unit, speed)
-    branches = [branch, *branch.followed]
+    branches: list[Followed] = [branch, *branch.followed]
     colours: dict[str, tuple[str, float]] = {}
     looks: list[str] = []
     for one in branches:
@@ -58,12 +98,12 @@ def plot(branch: "Branch", ax: "Axes | None", diagram: bool, virtual: bool, si: 
 
 
 def _colour(k: int) -> tuple[str, float]:
-    # without black, the colour of marks, and yellow, which is too light for a thin line
+    # without black, which is used for marks, and yellow, which is too light for a thin line
     return (SERIES[k % 6], 1.0 if k < 6 else 0.55) if k < _NAMED else ("0.3", 1.0)
 
 
-def _behind(branch: "Branch", ax: "Axes", unit: float, speed: float) -> None:
-    """What simulation finds, in grey."""
+def _behind(branch: Followed, ax: "Axes", unit: float, speed: float) -> None:
+    """Draw the orbit diagram from simulation in grey."""
     from vibroimpact._grid import orbit_diagram
 
     also = {branch.also[0]: branch.also[1:]} if branch.also else None
@@ -73,14 +113,14 @@ def _behind(branch: "Branch", ax: "Axes", unit: float, speed: float) -> None:
         one = ds.isel(sweep=k)
         xs = np.broadcast_to(one[branch.vary].values[:, None], one["velocity"].shape)
         repeats = np.isfinite(one["velocity"].values).sum(axis=1) < ds.sizes["point"]
-        # dots of motions that repeat themselves are wider than a curve
+        # the dots of motions that repeat are wider than a curve
         for rows, size in ((repeats, 4.5), (~repeats, 1.6)):
             ys = one["velocity"].values[rows].ravel()
             ax.plot(xs[rows].ravel() * unit, ys * speed, "o", color="0.72", markersize=size, markeredgewidth=0, zorder=0)
     ax.plot([], [], "o", color="0.72", markersize=4, label="simulation")
 
 
-def _events(branches: "list[Branch]", ax: "Axes", virtual: bool, unit: float, speed: float) -> None:
+def _events(branches: list[Followed], ax: "Axes", virtual: bool, unit: float, speed: float) -> None:
     places: dict[str, list[tuple[float, float]]] = {}
     for one in branches:
         for event in one.events:
@@ -95,8 +135,8 @@ def _events(branches: "list[Branch]", ax: "Axes", virtual: bool, unit: float, sp
                 zorder=4, clip_on=False)
 
 
-def pieces(branch: "Branch") -> Iterator[tuple[str, str, NDArray[np.float64], NDArray[np.float64]]]:
-    """Curves of one impact, one label and one look; neighbours share the point between them."""
+def pieces(branch: Followed) -> Iterator[tuple[str, str, NDArray[np.float64], NDArray[np.float64]]]:
+    """Curves of one impact with one label and one line style. Consecutive curves share a point."""
     begin = 0
     while begin < len(branch):
         label = branch.label[begin]
@@ -107,8 +147,8 @@ def pieces(branch: "Branch") -> Iterator[tuple[str, str, NDArray[np.float64], ND
         begin = end
 
 
-def _runs(branch: "Branch", begin: int, end: int) -> Iterator[tuple[str, slice]]:
-    """Stretches of one look between points; an event lies on the edge of two and counts for neither."""
+def _runs(branch: Followed, begin: int, end: int) -> Iterator[tuple[str, slice]]:
+    """Ranges of points with one line style. A step takes its style from the end that is no event."""
     events = {event.point for event in branch.events}
     before, first = None, begin
     for k in range(begin, end - 1):
@@ -124,7 +164,7 @@ def _runs(branch: "Branch", begin: int, end: int) -> Iterator[tuple[str, slice]]
 
 
 def _tracks(run: "list[Cycle]") -> NDArray[np.float64]:
-    """The speed of each impact at all points of a run with one label, one row an impact."""
+    """The speed of each impact at consecutive points with one label, one row for each impact."""
     count = len(run[0])
     rows = np.zeros((len(run), max(count, 1)))
     before: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
@@ -133,7 +173,7 @@ def _tracks(run: "list[Cycle]") -> NDArray[np.float64]:
             continue
         phases, speeds = cycle.phase, cycle.velocity_before
         if before is not None:
-            # the list begins with the fastest impact, which may have become another one
+            # a list begins with the fastest impact, which may change along the branch: choose the shift closest to the point before
             off = [
                 np.sum(_apart(np.roll(phases, -s), before[0]) ** 2 + (np.roll(speeds, -s) - before[1]) ** 2)
                 for s in range(count)
@@ -147,5 +187,5 @@ def _tracks(run: "list[Cycle]") -> NDArray[np.float64]:
 
 
 def _apart(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Angles from b to a by the shorter way."""
+    """Differences of angles a - b, in [-pi, pi)."""
     return (a - b + np.pi) % (2 * np.pi) - np.pi
