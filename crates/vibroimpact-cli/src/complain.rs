@@ -1,8 +1,8 @@
-//! Remarks and errors on stderr.
+//! Remarks and error messages on stderr.
 
 use std::io::{self, Write};
 
-/// A line on stderr; if stderr is gone there is no one to tell.
+/// Writes a line to stderr. A failure is ignored, because there is no other place to report it.
 pub(crate) fn complain(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{line}");
 }

@@ -1,10 +1,10 @@
-//! How a run ends: 0 done, 1 failed, 2 bad question, 130 stopped.
+//! The exit code: 0 done, 1 failed, 2 invalid question, 130 stopped.
 
 use crate::complain::complain;
 use crate::failure::Failure;
 use std::process::ExitCode;
 
-/// Says what went wrong and turns it into the exit code.
+/// Prints the error, if any, and returns the exit code.
 pub(crate) fn code(end: Result<(), Failure>) -> ExitCode {
     let Err(failure) = end else {
         return ExitCode::SUCCESS;
@@ -22,14 +22,14 @@ pub(crate) fn code(end: Result<(), Failure>) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// Help and version are answers; what does not parse is a bad question.
+/// The exit code when the arguments are not parsed: 0 for help and version, 2 for an invalid command line.
 pub(crate) fn parsed(refusal: &clap::Error) -> ExitCode {
-    // where even this cannot be written there is no one left to tell
+    // a failure to print cannot be reported anywhere
     let _ = refusal.print();
     ExitCode::from(if refusal.use_stderr() { 2 } else { 0 })
 }
 
-/// A defect of ours ends with a sentence someone can report, not with a backtrace.
+/// Makes a panic end with a message that users can report instead of a backtrace.
 pub(crate) fn no_backtraces() {
     std::panic::set_hook(Box::new(|defect| {
         let place = defect.location().map_or_else(String::new, |at| format!(" ({}:{})", at.file(), at.line()));

@@ -1,4 +1,4 @@
-//! Why a command did not finish.
+//! The errors of commands.
 
 use crate::hints;
 use std::fmt::Display;
@@ -8,19 +8,19 @@ use vibroimpact_report::{AnswerError, ReportError};
 use vibroimpact_store::StoreError;
 use vibroimpact_study::{PlanError, RunError, Stopped};
 
-/// Why a command did not finish. The texts may carry a second line, `hint: ...`.
+/// The reason why a command did not finish. The text may have a second line, `hint: ...`.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    /// The question makes no sense, or its answer has nowhere to go.
+    /// The question is invalid, or its output cannot be written to the requested place.
     #[error("{0}")]
     BadQuestion(String),
-    /// It was a good question, but something outside failed.
+    /// The question is valid, but something outside the program failed.
     #[error("{0}")]
     Failed(String),
     /// Stopped by Ctrl-C.
     #[error("{0}")]
     Stopped(String),
-    /// Whoever read the output has enough; that is no failure.
+    /// The reader of the output has closed the pipe. This counts as success.
     #[error("the reader of the output is gone")]
     PipeClosed,
 }
@@ -30,7 +30,7 @@ impl Failure {
         Self::BadQuestion(sentence.to_string())
     }
 
-    /// Writing to `to` went wrong.
+    /// The error for a failed write to `to`.
     pub(crate) fn writing(to: impl Display, error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
             Self::PipeClosed

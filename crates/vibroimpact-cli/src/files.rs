@@ -1,4 +1,4 @@
-//! Output files: refused before anything is computed, written beside their place and renamed into it when complete.
+//! Output files. They are reserved before the computation, written under a temporary name, and renamed when complete.
 
 use crate::failure::Failure;
 use std::fs::{self, File, OpenOptions};
@@ -6,28 +6,28 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Files begun and not yet complete.
+/// Temporary files that are not complete yet.
 static BEGUN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Removes what was begun and will not be completed, before an end that runs no destructors.
+/// Removes incomplete temporary files before an exit that runs no destructors.
 pub(crate) fn sweep() {
     for path in BEGUN.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
         let _ = fs::remove_file(path);
     }
 }
 
-/// A place for a file that is known to be writable. Until it is written, nothing at that place changes.
+/// A place for a file that is known to be writable. The place does not change until the file is complete.
 #[derive(Debug)]
 pub(crate) struct Target {
     path: PathBuf,
-    /// The complete path with symbolic links followed, and the open file beside it; `None` for a pipe or device, which is
-    /// written straight to.
+    /// The final path with symbolic links resolved, the path of the temporary file, and the open temporary file. `None`
+    /// for a pipe or device, which is written directly.
     beside: Option<(PathBuf, PathBuf, File)>,
     force: bool,
 }
 
 impl Target {
-    /// Reserves `path`. An existing file is refused unless `force`.
+    /// Reserves `path`. An existing file is refused unless `force` is set.
     pub(crate) fn reserve(path: &Path, force: bool) -> Result<Self, Failure> {
         let name = path.display();
         if path.as_os_str().is_empty() {
@@ -58,7 +58,7 @@ impl Target {
         if begun.contains(&temporary) {
             return Err(Failure::bad(format!("`{name}` is asked for twice")));
         }
-        // one of the same name is left from a run that was killed
+        // a temporary file of the same name may be left from a run that was killed
         let open = OpenOptions::new().write(true).create(true).truncate(true).open(&temporary);
         match open {
             Ok(file) => {
@@ -66,7 +66,7 @@ impl Target {
                 Ok(Self { path, beside: Some((place.clone(), temporary, file)), force })
             }
             Err(error) => Err(Failure::bad(match error.kind() {
-                // of a file system that holds no files of ours the directory is there, and still none can be made in it
+                // on special file systems such as /proc the directory exists, but no file can be created in it
                 io::ErrorKind::NotFound if directory.is_dir() => {
                     format!("`{name}` cannot be written: the directory `{}` takes no files", directory.display())
                 }
@@ -78,7 +78,7 @@ impl Target {
         }
     }
 
-    /// Writes the whole file; it appears complete or not at all.
+    /// Writes the whole file, which appears complete or not at all.
     pub(crate) fn write(mut self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         let name = format!("`{}`", self.path.display());
         self.put(content).map_err(|error| Failure::writing(name, &error))
@@ -95,7 +95,7 @@ impl Target {
         out.flush()?;
         drop(out);
         file.sync_all()?;
-        // someone may have put a file there in the meantime
+        // another program may have created the file in the meantime
         if !self.force && place.exists() {
             return Err(io::Error::from(io::ErrorKind::AlreadyExists));
         }
@@ -112,7 +112,7 @@ fn forget(path: &Path) {
 }
 
 impl Drop for Target {
-    /// What was not completed leaves no trace.
+    /// Removes the temporary file if it was not completed.
     fn drop(&mut self) {
         if let Some((_, temporary, _)) = &self.beside {
             let _ = fs::remove_file(temporary);

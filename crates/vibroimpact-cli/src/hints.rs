@@ -1,4 +1,4 @@
-//! Hints in the words of the command: its flags and its other commands, for errors of the library, which names parameters only.
+//! Hints with flags and commands, for errors of the library, whose messages name only parameters.
 
 use std::fmt::Display;
 use vibroimpact::SystemError;
@@ -6,7 +6,7 @@ use vibroimpact_report::ReportError;
 use vibroimpact_store::StoreError;
 use vibroimpact_study::PlanError;
 
-/// The text of an error, its hint replaced where the command has one of its own.
+/// The text of an error. Its hint is replaced if the command has one of its own.
 pub(crate) fn worded(error: &impl Display, hint: Option<String>) -> String {
     let text = error.to_string();
     match hint {

@@ -1,7 +1,7 @@
-//! `vibro`: vibro-impact dynamics from the shell.
+//! `vibro`: vibro-impact dynamics on the command line.
 //!
-//! Every command goes the same way: parse (text to arguments), plan (arguments to a checked plan), run (plan to results),
-//! report (results to stdout and files). Data goes to stdout, everything else to stderr.
+//! Every command has the same steps: parse (text to arguments), plan (arguments to a checked plan), run (plan to
+//! results), report (results to stdout and files). Data go to stdout, everything else to stderr.
 
 mod args;
 mod commands;

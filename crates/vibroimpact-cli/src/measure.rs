@@ -1,4 +1,4 @@
-//! The workloads of `vibro bench`: what is done over and over, and how fast.
+//! The workloads of `vibro bench` and the measurement of their rates.
 
 use crate::signal;
 use clap::ValueEnum;
@@ -27,14 +27,14 @@ impl Workload {
     pub(crate) const ALL: [Self; 3] = [Self::Chaos, Self::Regular, Self::Basin];
 }
 
-/// Per second.
+/// Rates per second.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) struct Rates {
     pub(crate) scalar: f64,
     pub(crate) lanes: f64,
 }
 
-/// Measures a workload for about so long.
+/// Measures a workload for about the given duration.
 pub(crate) fn measure(workload: Workload, width: Width, duration: Duration) -> Rates {
     match workload {
         Workload::Chaos => {
@@ -44,7 +44,7 @@ pub(crate) fn measure(workload: Workload, width: Width, duration: Duration) -> R
         }
         Workload::Regular => {
             let osc = scenario::S.oscillator();
-            // 2/1 and 1/1: as many impacts of each, so the times add up
+            // motions 2/1 and 1/1 with equal numbers of impacts, so that the times can be added
             let starts = [Start { x: 0.0, v: 0.0, phase: 0.0 }, Start { x: -2.0, v: 0.0, phase: 0.0 }];
             let both = |rate: &dyn Fn(Start) -> f64| 2.0 / starts.map(|start| 1.0 / rate(start)).iter().sum::<f64>();
             Rates {
@@ -56,12 +56,12 @@ pub(crate) fn measure(workload: Workload, width: Width, duration: Duration) -> R
     }
 }
 
-/// Impacts dropped before anything is counted.
+/// Number of impacts before the measurement.
 const TRANSIENT: usize = 200;
-/// A slice of the measurement.
+/// Duration of a slice of the measurement.
 const SLICE: Duration = Duration::from_millis(50);
 
-/// The median over slices of the rate at which `work` reports things done.
+/// The median of the rates in slices; `work` returns the number of things done.
 fn median_rate(duration: Duration, mut work: impl FnMut() -> usize) -> f64 {
     let begin = Instant::now();
     let mut rates = Vec::new();
@@ -84,18 +84,18 @@ fn alone(osc: &Oscillator, start: Start, duration: Duration) -> f64 {
     median_rate(duration, || impacts.by_ref().take(1000).map(black_box).count())
 }
 
-/// The place of each of the motions side by side among all of them.
+/// The relative place (0 to 1) of each of the simultaneous motions.
 fn parts() -> impl Iterator<Item = f64> {
     #[allow(clippy::cast_precision_loss)] // a thousand
     (0..ABREAST).map(|k| k as f64 / ABREAST as f64)
 }
 
-/// Starts at rest all over the room and all phases.
+/// Starts at rest, spread over all positions and phases.
 fn spread(osc: &Oscillator) -> Vec<Start> {
     parts().map(|part| Start { x: osc.gap() - 4.0 * part, v: 0.0, phase: 6.0 * ((7.0 * part) % 1.0) }).collect()
 }
 
-/// Starts along a flight of the motion it settles into: the same motion, out of step.
+/// Starts along a flight of the settled motion, so that the motions are the same at different phases.
 fn along(osc: &Oscillator, start: Start) -> Vec<Start> {
     let mut motion = Motion::new(osc, start);
     let settled = motion.by_ref().nth(TRANSIENT).is_some();
@@ -103,7 +103,7 @@ fn along(osc: &Oscillator, start: Start) -> Vec<Start> {
     parts().map(|part| leg.start(osc, part * leg.duration)).collect()
 }
 
-/// Impacts per second of many motions side by side.
+/// Impacts per second of many simultaneous motions.
 fn abreast(osc: &Oscillator, width: Width, starts: Vec<Start>, duration: Duration) -> f64 {
     let Some(mut batch) = Batch::new(osc, ABREAST, width) else { return 0.0 };
     let count = starts.len();
@@ -129,7 +129,7 @@ fn abreast(osc: &Oscillator, width: Width, starts: Vec<Start>, duration: Duratio
     median_rate(duration, || black_box(round()))
 }
 
-/// Starts per second to a confirmed motion, the survey of the basin included.
+/// Starts per second to a confirmed motion, including the survey of the basin.
 fn basin(width: Width, duration: Duration) -> f64 {
     let (osc, options) = (scenario::S.oscillator(), SettleOptions::default());
     let start = |k: u64| {

@@ -1,11 +1,11 @@
-//! The files of figures.
+//! Output files of figures.
 
 use crate::failure::Failure;
 use crate::files::Target;
 use std::path::Path;
 use vibroimpact_plot::{DPI_300, Figure};
 
-/// A place for a figure, known to be writable and of a known format.
+/// A place for a figure that is known to be writable and has a supported format.
 #[derive(Debug)]
 pub(crate) struct Picture {
     target: Target,

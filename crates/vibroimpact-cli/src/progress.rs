@@ -1,4 +1,4 @@
-//! A progress bar with rate and remaining time: on stderr, if that is a terminal and the work lasts.
+//! A progress bar with rate and remaining time. It is shown on stderr if that is a terminal and the work takes long.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -16,7 +16,7 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// `unit` is what is counted: "starts".
+    /// A bar for `total` units, such as "starts".
     pub(crate) fn new(total: u64, unit: &str, quiet: bool) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
         let style = format!(
@@ -33,7 +33,7 @@ impl Progress {
         }
     }
 
-    /// So much is done.
+    /// Sets the amount done.
     pub(crate) fn at(&self, done: u64) {
         if self.wanted
             && !self.shown.load(Ordering::Relaxed)
@@ -45,7 +45,7 @@ impl Progress {
         self.bar.set_position(done);
     }
 
-    /// A new stage of `total` points begins.
+    /// Begins a new stage of `total` points.
     pub(crate) fn stage(&self, name: &str, total: u64) {
         self.bar.set_length(total);
         self.bar.set_position(0);

@@ -1,4 +1,4 @@
-//! What all commands share: the global options and the two output streams.
+//! The data common to all commands: the global options and the two output streams.
 
 use crate::args::Globals;
 use crate::complain::complain;
@@ -20,17 +20,17 @@ impl Session {
         Self { quiet: globals.quiet, force: globals.force, threads: usize::from(globals.threads) }
     }
 
-    /// The threads asked for; 0 for one per processor.
+    /// The requested number of threads; 0 for one per processor.
     pub(crate) const fn threads(&self) -> usize {
         self.threads
     }
 
-    /// Text for stdout.
+    /// Prints text to stdout.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
         self.to_stdout(|out| out.write_all(text.as_bytes()))
     }
 
-    /// One JSON object for stdout, on one line.
+    /// Prints a JSON object to stdout on one line.
     pub(crate) fn print_json(&self, value: &impl Serialize) -> Result<(), Failure> {
         self.to_stdout(|out| {
             serde_json::to_writer(&mut *out, value)?;
@@ -41,21 +41,21 @@ impl Session {
     pub(crate) fn to_stdout(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
         let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
         write(&mut out).and_then(|()| out.flush()).map_err(|error| {
-            // what is left in the buffer has nowhere to go
+            // the rest of the buffer cannot be written either
             let failure = Failure::writing("stdout", &error);
             drop(out.into_parts());
             failure
         })
     }
 
-    /// A remark for stderr, unless --quiet.
+    /// Prints a remark to stderr, unless --quiet is set.
     pub(crate) fn note(&self, line: &str) {
         if !self.quiet {
             complain(line);
         }
     }
 
-    /// Runs work with threads and stop flag, and a progress bar where there is something to count.
+    /// Runs work with threads and stop flag, and with a progress bar if progress can be counted.
     pub(crate) fn watched<T>(&self, work: Option<(u64, &str)>, run: impl FnOnce(&Control<'_>) -> T) -> T {
         match work {
             Some((total, unit)) => self.tiled(total, unit, |control, _| run(control)),

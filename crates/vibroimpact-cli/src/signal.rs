@@ -1,7 +1,7 @@
-//! Ctrl-C: the first asks for a clean stop, the second ends at once.
+//! Ctrl-C: the first one requests a clean stop, the second one ends the program at once.
 //!
-//! Work that checks the flag stops within milliseconds. A single motion that takes longer cannot hold the program: a
-//! little later it ends anyhow, just as cleanly, because files appear only when they are complete.
+//! Work that reads the stop flag ends within milliseconds. If other work takes longer, the program ends after a few
+//! seconds without waiting for it. This is safe, because output files appear only when they are complete.
 
 use crate::complain::complain;
 use crate::files;
@@ -10,12 +10,12 @@ use std::time::Duration;
 
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// Set once someone asked to stop.
+/// The stop flag, which is set by Ctrl-C.
 pub(crate) fn flag() -> &'static AtomicBool {
     &STOP
 }
 
-/// Listens from now on. Where no handler can be installed, Ctrl-C simply ends the program.
+/// Installs the handler. If this fails, Ctrl-C ends the program at once.
 pub(crate) fn listen() {
     let _ = ctrlc::set_handler(|| {
         if STOP.swap(true, Ordering::Relaxed) {
@@ -29,7 +29,7 @@ pub(crate) fn listen() {
     });
 }
 
-/// How long a clean stop may take.
+/// Time limit for a clean stop.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 fn end() -> ! {

@@ -1,4 +1,4 @@
-//! The README, typed as it stands: every `vibro` line runs, and what it shows is what comes out.
+//! Runs every `vibro` line of the README and compares its output with the README.
 
 use assert_cmd::Command;
 use std::fs;
@@ -68,7 +68,7 @@ fn every_command_line_runs() {
     }
 }
 
-/// The page on studies: its plan, then every command line, in one folder.
+/// Runs the page on studies: its plan, then every command line, in one folder.
 #[test]
 fn the_page_on_studies_runs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -1,4 +1,4 @@
-//! One case: drawn from its number, checked, and made smaller where it has a fault.
+//! A case: drawn from its number, checked, and reduced if it has a fault.
 
 use proptest::prelude::BoxedStrategy;
 use proptest::strategy::{Strategy, ValueTree};
@@ -8,40 +8,40 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A family of cases and what must hold of each.
+/// A family of cases, and the property that each case must have.
 pub trait Property {
-    /// What is asked.
+    /// The question.
     type Case: Clone + core::fmt::Debug;
 
-    /// How cases are drawn.
+    /// The strategy by which cases are drawn.
     fn strategy(&self) -> BoxedStrategy<Self::Case>;
 
-    /// The case in the form in which a person can repeat it.
+    /// The case in a form in which a user can repeat it.
     fn describe(&self, case: &Self::Case) -> String;
 
-    /// Asks, and looks at the answer.
+    /// Asks the question and checks the answer.
     ///
     /// # Errors
-    /// The sentence that says what does not hold.
+    /// A message that names the property that does not hold.
     fn check(&mut self, case: &Self::Case) -> Result<(), String>;
 }
 
 /// A case with a fault.
 #[derive(Clone, Debug)]
 pub struct Fault {
-    /// What does not hold.
+    /// The property that does not hold.
     pub why: String,
-    /// The smallest case found with a fault.
+    /// The smallest case with a fault that was found.
     pub case: String,
 }
 
-/// The kind of a fault: the same with other numbers in it is the same.
+/// The kind of a fault. Messages that differ only in numbers are of the same kind.
 #[must_use]
 pub fn kind(why: &str) -> String {
     why.chars().filter(|c| !c.is_ascii_digit()).take(60).collect()
 }
 
-/// Trials of smaller cases for one fault, and how long they may take.
+/// Maximum number of trials to reduce one case, and their time limit.
 const TRIALS: u32 = 300;
 const PATIENCE: Duration = Duration::from_secs(8);
 
@@ -58,8 +58,8 @@ pub fn runner(seed: u64, family: &str, k: u64) -> TestRunner {
     TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
 }
 
-/// Draws a case and checks it. `begun` is called with the case before it is checked; a kind of fault that is `known` is not made
-/// smaller again.
+/// Draws a case and checks it. `begun` is called with the case before the check. A case with a `known` kind of fault is
+/// not reduced.
 ///
 /// # Errors
 /// The [`Fault`] that was found.
@@ -96,10 +96,10 @@ pub fn run<P: Property>(
     Err(Fault { why, case: property.describe(&smallest) })
 }
 
-/// What the first panic of a case said; `None` outside of cases.
+/// The message of the first panic of a case; `None` outside of cases.
 static PANIC: Mutex<Option<String>> = Mutex::new(None);
 
-/// Keeps what panics within cases say for [`run`], of any thread, instead of printing it.
+/// Stores the messages of panics within cases, on any thread, for [`run`] instead of printing them.
 pub fn keep_panics() {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| match PANIC.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
@@ -124,7 +124,7 @@ fn guarded<P: Property>(property: &mut P, case: &P::Case) -> Result<(), String> 
 mod tests {
     use super::*;
 
-    /// Holds of numbers below a hundred, panics from a thousand on.
+    /// Holds for numbers below a hundred, and panics from a thousand on.
     struct Small;
 
     impl Property for Small {

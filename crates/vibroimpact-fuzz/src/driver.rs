@@ -1,4 +1,4 @@
-//! The driver: shares the time among the families, watches their workers, and says what was found.
+//! The driver: divides the time among the families, watches their workers, and reports the faults.
 
 use crate::case::kind;
 use crate::limits::{self, Limits};
@@ -13,26 +13,26 @@ use std::sync::Mutex;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant, SystemTime};
 
-/// What came of a family.
+/// The result of a family.
 #[derive(Clone, Debug, Default)]
 pub struct FaultReport {
-    /// Cases that were asked.
+    /// Number of cases.
     pub cases: u64,
-    /// Faults, each kind once: what does not hold, the number of its case, the case.
+    /// The faults, one for each kind: the message, the number of the case, and the case.
     pub faults: BTreeMap<String, (String, u64, String)>,
 }
 
-/// Processor time of a case in a worker, and wall time of one that waits.
+/// Limits of a case in a worker: processor time, and wall time for one that waits.
 const CASE: (f64, Duration) = (120.0, Duration::from_secs(900));
-/// Memory of a worker.
+/// Memory limit of a worker.
 const MEMORY: u64 = 6 << 30;
-/// Kinds of faults of one family after which it is left.
+/// Number of kinds of faults after which a family is ended.
 const ENOUGH: usize = 30;
 
-/// Runs everything; `say` gets the lines to print. True if no fault was found.
+/// Runs all families. `say` is called with the lines to print. Returns true if no fault was found.
 ///
 /// # Errors
-/// Where no worker can be started.
+/// If no worker can be started.
 pub fn run(options: &FuzzOptions, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io::Result<bool> {
     let seed = options.seed.unwrap_or_else(drawn);
     let vibro = options.vibro.clone().unwrap_or_else(|| worker::beside(program));
@@ -84,7 +84,7 @@ fn drawn() -> u64 {
     since.as_secs() ^ u64::from(since.subsec_nanos())
 }
 
-/// Runs a family to the end of its time, in one worker after another.
+/// Runs a family until its time is over, in one worker after another.
 fn family(task: &Job, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io::Result<FaultReport> {
     let end = Instant::now() + Duration::from_secs_f64(task.seconds);
     let mut found = FaultReport::default();
@@ -111,10 +111,10 @@ fn family(task: &Job, program: &Path, say: &(dyn Fn(&str) + Sync)) -> io::Result
     }
 }
 
-/// How a worker ended.
+/// The end of a worker.
 struct Ended {
     cases: u64,
-    /// The case it died at.
+    /// The case during which it died.
     died_at: Option<u64>,
 }
 
@@ -160,7 +160,7 @@ fn watch(task: &Job, program: &Path, fault: &mut dyn FnMut(u64, &str, &str)) -> 
     Ok(Ended { cases, died_at: now.map(|(k, _)| k) })
 }
 
-/// The next line of a worker; `None` when it is at its end, or takes too long over a case.
+/// The next line of a worker; `None` if it has ended, or takes too long for a case.
 fn next(lines: &Receiver<String>, child: &mut Child, within: bool) -> io::Result<Option<String>> {
     let begun = Instant::now();
     let taken = limits::processor_time(child.id());

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// What is asked, and how.
+/// A family of cases: the kind of its questions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     /// Command lines.
@@ -13,12 +13,12 @@ pub enum Family {
     Stores,
     /// Requests to the explorer.
     Page,
-    /// Starts alone and among others.
+    /// Starts, settled alone and in batches.
     Verdicts,
 }
 
 impl Family {
-    /// All of them.
+    /// All families.
     pub const ALL: [Self; 5] = [Self::Commands, Self::Plans, Self::Stores, Self::Page, Self::Verdicts];
 
     /// Its name on the command line.
@@ -33,13 +33,13 @@ impl Family {
         }
     }
 
-    /// The family of that name.
+    /// The family with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|family| family.name() == name)
     }
 
-    /// Its part of the time, out of [`Self::TOTAL`].
+    /// Its share of the time, relative to [`Self::TOTAL`].
     #[must_use]
     pub const fn weight(self) -> u32 {
         match self {

@@ -1,16 +1,17 @@
-//! Random and adversarial questions, and what must hold of every answer.
+//! Random and adversarial questions, with checks of every answer.
 //!
-//! | family | what is asked | file |
+//! | family | questions | file |
 //! |---|---|---|
 //! | commands | command lines of `vibro`, each run as a process | [`command`] |
 //! | plans | plans in TOML and JSON, valid and mutated, run in memory | [`plan`] |
-//! | stores | stores with damaged bytes, read and mended by `vibro` | [`store`] |
+//! | stores | stores with damaged bytes, read and repaired by `vibro` | [`store`] |
 //! | page | requests to the explorer, without a socket | [`page`] |
-//! | verdicts | starts settled alone and among others | [`verdicts`] |
+//! | verdicts | starts settled alone and in batches | [`verdicts`] |
 //!
-//! Case number `k` of a family follows from the seed, the family and `k` alone, so a case can be run again by its number. Each
-//! family runs in a worker, a process of its own with a limit of memory: a worker that aborts or hangs is a fault of the
-//! case it was at, and another worker goes on behind it. A case with a fault is made smaller before it is printed.
+//! Case number `k` of a family depends only on the seed, the family and `k`, so a case can be run again by its number.
+//! Each family runs in a worker, a process of its own with a memory limit. If a worker aborts or hangs, this is a fault
+//! of its current case, and another worker continues with the next case. A case with a fault is reduced before it is
+//! printed.
 
 pub mod case;
 pub mod command;

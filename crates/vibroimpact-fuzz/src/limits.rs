@@ -1,5 +1,5 @@
-//! Processes with limits: of processor time, which a busy machine does not shorten, of memory, and of wall time for those that
-//! wait for ever.
+//! Processes with limits: processor time, which does not depend on the load of the machine, memory, and wall time for
+//! processes that wait.
 
 use std::fs::File;
 use std::io;
@@ -7,46 +7,46 @@ use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// What a process may take.
+/// The limits of a process.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Seconds of processor time.
+    /// Processor time in seconds.
     pub cpu: u64,
-    /// Bytes of memory.
+    /// Memory in bytes.
     pub memory: u64,
     /// Wall time.
     pub wall: Duration,
-    /// When to ask it to stop, as Ctrl-C does.
+    /// Time after which it is interrupted, as by Ctrl-C.
     pub interrupt: Option<Duration>,
 }
 
 impl Default for Limits {
-    /// Half a minute of processor time for a question of a small budget, and 4 GiB.
+    /// Half a minute of processor time, for a question with a small budget, and 4 GiB of memory.
     fn default() -> Self {
         Self { cpu: 30, memory: 4 << 30, wall: Duration::from_secs(300), interrupt: None }
     }
 }
 
-/// What a process did.
+/// The end of a process and its output.
 #[derive(Debug)]
 pub struct ProcessEnd {
-    /// Its exit code; `None` where it was killed.
+    /// Its exit code; `None` if it was killed.
     pub code: Option<i32>,
-    /// What it wrote.
+    /// Its output.
     pub stdout: Vec<u8>,
-    /// What it complained of.
+    /// Its messages.
     pub stderr: String,
-    /// Whether it ended by itself.
+    /// Whether it ended without being killed for its time.
     pub ended: bool,
-    /// Wall time it took.
+    /// Its wall time.
     pub took: Duration,
 }
 
 impl ProcessEnd {
-    /// How it ended where it ended badly: killed, or with a code that is none of `codes`.
+    /// The exit code, if it is one of `codes`.
     ///
     /// # Errors
-    /// The sentence that says how.
+    /// A message if the process was killed or ended with another code.
     pub fn ended_with(&self, codes: &[i32]) -> Result<i32, String> {
         match self.code {
             Some(code) if codes.contains(&code) => Ok(code),
@@ -59,13 +59,13 @@ impl ProcessEnd {
     }
 }
 
-/// The command that starts `program` under the limits that a shell can set; they are left out where there is no such shell.
+/// The command that starts `program` under the limits that a shell can set; without such a shell there are no limits.
 #[must_use]
 pub fn limited(program: &Path, limits: &Limits) -> Command {
     if !cfg!(unix) {
         return Command::new(program);
     }
-    // what a system does not limit it refuses to, and the program runs without
+    // limits that the system does not support are ignored
     const SCRIPT: &str =
         r#"ulimit -c 0 2>/dev/null; ulimit -t "$1" 2>/dev/null; ulimit -v "$2" 2>/dev/null; shift 2; exec "$@""#;
     let mut command = Command::new("sh");
@@ -73,10 +73,10 @@ pub fn limited(program: &Path, limits: &Limits) -> Command {
     command
 }
 
-/// Runs a program in a folder; `scratch` is another one, for what it writes.
+/// Runs a program in a folder. `scratch` is another folder for its output.
 ///
 /// # Errors
-/// Where it cannot be started, or its output not be kept.
+/// If it cannot be started, or its output cannot be stored.
 pub fn run(
     program: &Path,
     args: &[String],
@@ -102,7 +102,7 @@ pub fn run(
     })
 }
 
-/// Its status; `None` where it had to be killed.
+/// The status of a process; `None` if it had to be killed.
 fn wait(child: &mut Child, begun: Instant, limits: &Limits) -> io::Result<Option<ExitStatus>> {
     let mut pause = Duration::from_micros(500);
     let mut asked = false;
@@ -118,7 +118,7 @@ fn wait(child: &mut Child, begun: Instant, limits: &Limits) -> io::Result<Option
         }
         if !asked && limits.interrupt.is_some_and(|after| now > after) {
             asked = true;
-            // where there is no such program the limit of time ends it
+            // without this program, the time limit ends the process
             let _ = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
         }
         std::thread::sleep(pause);
@@ -126,13 +126,13 @@ fn wait(child: &mut Child, begun: Instant, limits: &Limits) -> io::Result<Option
     }
 }
 
-/// Seconds of processor time a process has taken; `None` where the system does not tell.
+/// Processor time of a process in seconds; `None` if the system does not provide it.
 #[must_use]
 #[allow(clippy::cast_precision_loss)] // of seconds
 pub fn processor_time(id: u32) -> Option<f64> {
     const TICKS: f64 = 100.0;
     let text = std::fs::read_to_string(format!("/proc/{id}/stat")).ok()?;
-    // the name of the program, in brackets, may have blanks in it
+    // the name of the program, in brackets, may contain blanks
     let mut fields = text.rsplit_once(')')?.1.split_whitespace().skip(11);
     let (user, system) = (fields.next()?.parse::<u64>().ok()?, fields.next()?.parse::<u64>().ok()?);
     Some((user + system) as f64 / TICKS)

@@ -1,4 +1,4 @@
-//! The program behind `cargo xtask fuzz`: the driver, and with the word `worker` one of its workers.
+//! The program behind `cargo xtask fuzz`: the driver, or with the word `worker` one of its workers.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal: printing is what it is for")]
 
 use std::io;

@@ -1,9 +1,9 @@
-//! What the driver is asked: `--seconds N --seed S`, and how to run one case again.
+//! The options of the driver: `--seconds N --seed S`, and how to run one case again.
 
 use crate::Family;
 use std::path::PathBuf;
 
-/// How the program is used.
+/// The usage text of the program.
 pub const USAGE: &str = "\
 usage: cargo xtask fuzz [--seconds N] [--seed S] [--only FAMILY] [--cases N] [--case K]
 
@@ -19,17 +19,17 @@ usage: cargo xtask fuzz [--seconds N] [--seed S] [--only FAMILY] [--cases N] [--
 /// The options, checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FuzzOptions {
-    /// Seconds of wall time.
+    /// Wall time in seconds.
     pub seconds: f64,
-    /// Which cases; `None` to draw one from the clock.
+    /// Seed of the cases; `None` to take one from the clock.
     pub seed: Option<u64>,
-    /// One family alone.
+    /// The only family to run; `None` for all.
     pub only: Option<Family>,
-    /// Most cases of each family.
+    /// Maximum number of cases of each family.
     pub cases: Option<u64>,
-    /// One case alone.
+    /// The only case to run.
     pub case: Option<u64>,
-    /// Workers at a time; 0 for one per processor.
+    /// Number of simultaneous workers; 0 for one per processor.
     pub jobs: usize,
     /// The command to test.
     pub vibro: Option<PathBuf>,
@@ -42,10 +42,10 @@ impl Default for FuzzOptions {
 }
 
 impl FuzzOptions {
-    /// Reads the words after `fuzz`.
+    /// Parses the words after `fuzz`.
     ///
     /// # Errors
-    /// The sentence that names the word that makes no sense.
+    /// A message that names the invalid word.
     pub fn parse(words: &[String]) -> Result<Self, String> {
         let mut options = Self::default();
         let mut words = words.iter();
@@ -78,7 +78,7 @@ impl FuzzOptions {
         Ok(options)
     }
 
-    /// The families asked for.
+    /// The families to run.
     #[must_use]
     pub fn families(&self) -> Vec<Family> {
         self.only.map_or_else(|| Family::ALL.to_vec(), |family| vec![family])

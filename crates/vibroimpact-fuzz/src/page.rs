@@ -27,29 +27,29 @@ pub struct PageRequest {
     plan: Written,
 }
 
-/// The family.
+/// The family of requests to the explorer.
 #[derive(Debug)]
 pub struct Page {
     runtime: Runtime,
 }
 
 impl Page {
-    /// A runtime for the requests.
+    /// Creates a runtime for the requests.
     ///
     /// # Errors
-    /// Where it cannot be started.
+    /// If it cannot be started.
     pub fn new() -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         Ok(Self { runtime })
     }
 
-    /// The status, the kind and the bytes of an answer; an explorer of its own, which remembers nothing.
+    /// The status, content type and bytes of an answer. A new explorer without a cache is used.
     fn ask(&self, case: &PageRequest) -> Result<Option<(u16, String, Vec<u8>)>, String> {
         let mut request = Request::builder().method(case.method).uri(&case.path);
         for (name, value) in &case.headers {
             request = request.header(*name, value);
         }
-        // what is no request at all never reaches the explorer
+        // a malformed request never reaches the explorer
         let Ok(request) = request.body(Body::from(case.plan.json())) else { return Ok(None) };
         self.runtime.block_on(async {
             let asked = async {
@@ -65,19 +65,19 @@ impl Page {
             let small = case.small();
             let patience = if small { PATIENCE } else { GLANCE };
             let over = || if small { Err(format!("no answer within {} s", PATIENCE.as_secs())) } else { Ok(None) };
-            // a request whose client has gone is dropped, and its work stops
+            // when the client closes the connection, the request is dropped and its work stops
             tokio::time::timeout(patience, asked).await.unwrap_or_else(|_| over())
         })
     }
 }
 
-/// The explorer itself gives up after two minutes.
+/// The explorer itself has a limit of two minutes.
 const PATIENCE: Duration = Duration::from_secs(180);
-/// How long the answer to a question of a large budget is waited for.
+/// Time to wait for the answer to a question with a large budget.
 const GLANCE: Duration = Duration::from_secs(5);
 
 impl PageRequest {
-    /// Whether the answer is worth waiting for: layers and bifurcation diagrams ask for many orbits, whatever the plan.
+    /// Whether to wait for the answer. Layers and bifurcation diagrams need many orbits, whatever the plan.
     fn small(&self) -> bool {
         let many = ["/api/layer", "/api/bifurcation"].iter().any(|route| self.path.starts_with(route));
         !many && Plan::from_text(&self.plan.json()).map_or(true, |plan| small(&plan))
@@ -191,7 +191,7 @@ impl Property for Page {
         match status {
             200 | 304 => {}
             400 | 403 | 404 | 405 | 408 | 413 | 415 | 422 => {
-                // a HEAD has no body
+                // the answer to HEAD has no body
                 if case.method != "HEAD" {
                     let refusal = rules::object(&body).map_err(|why| format!("{status}: {why}"))?;
                     return rules::sentence(refusal["error"].as_str().unwrap_or_default());

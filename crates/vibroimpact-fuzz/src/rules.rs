@@ -1,8 +1,8 @@
-//! What must hold of every text: sentences for people, JSON for programs.
+//! Checks of every output: messages for users, JSON for programs.
 
 use serde_json::Value;
 
-/// Words that belong to the language this program is written in, and to no sentence for its users.
+/// Terms of the programming language, which must not occur in a message for users.
 const INSIDE: [&str; 18] = [
     "called `",
     "unwrap",
@@ -24,10 +24,10 @@ const INSIDE: [&str; 18] = [
     "tuple variant",
 ];
 
-/// A sentence that a person may read.
+/// Checks a message for users.
 ///
 /// # Errors
-/// What is wrong with it.
+/// A description of the fault.
 pub fn sentence(text: &str) -> Result<(), String> {
     if text.trim().is_empty() {
         return Err("no sentence says why".to_owned());
@@ -38,10 +38,10 @@ pub fn sentence(text: &str) -> Result<(), String> {
     }
 }
 
-/// One JSON object, which also means no `NaN` and no `Infinity` in it.
+/// Checks that the bytes are one JSON object, which also excludes `NaN` and `Infinity`.
 ///
 /// # Errors
-/// Where it does not read.
+/// The position at which it cannot be parsed.
 pub fn object(bytes: &[u8]) -> Result<Value, String> {
     match serde_json::from_slice::<Value>(bytes) {
         Ok(value) if value.is_object() => Ok(value),
@@ -50,10 +50,10 @@ pub fn object(bytes: &[u8]) -> Result<Value, String> {
     }
 }
 
-/// What programs outside rely on in the answer to a task.
+/// Checks the fields that programs need in the answer to a task.
 ///
 /// # Errors
-/// What is missing.
+/// The name of a missing field.
 pub fn answer(task: &str, answer: &Value) -> Result<(), String> {
     let fields: &[&str] = match task {
         "settle" => &["system", "start", "motion", "plan"],
@@ -81,10 +81,10 @@ pub fn answer(task: &str, answer: &Value) -> Result<(), String> {
     }
 }
 
-/// A table has as many cells in every row, and no `NaN` in any.
+/// Checks that all rows of a table have the same number of cells, and no cell is `NaN`.
 ///
 /// # Errors
-/// The row that has not.
+/// The first row with a fault.
 pub fn table(bytes: &[u8]) -> Result<(), String> {
     let text = core::str::from_utf8(bytes).map_err(|_| "the table is no text".to_owned())?;
     let columns = text.lines().next().map_or(0, |head| head.split(',').count());
@@ -97,10 +97,10 @@ pub fn table(bytes: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// A figure is whole, and no place in it is no number.
+/// Checks that a figure is complete, and that all its coordinates are numbers.
 ///
 /// # Errors
-/// What is wrong with it.
+/// A description of the fault.
 pub fn figure(svg: &str) -> Result<(), String> {
     if svg.is_empty() {
         return Ok(());
@@ -119,7 +119,7 @@ fn motion(motion: &Value) -> Result<(), String> {
     let agrees = match kind {
         "periodic" => {
             let cycle = motion["cycle"].as_array();
-            // the steady motion without impacts has none in its cycle
+            // a motion without impacts has none in its cycle
             (label.contains('/') || label == "0")
                 && cycle.is_some_and(|cycle| cycle.is_empty() == (label == "0") || label.starts_with("inf"))
         }

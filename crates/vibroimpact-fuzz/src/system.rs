@@ -3,10 +3,10 @@
 use crate::values::{damping, gap, odd, plain, ratio, restitution, typed};
 use proptest::prelude::*;
 
-/// Parameters and their values as they are typed.
+/// Parameters and their values as text.
 pub type SystemValues = Vec<(&'static str, String)>;
 
-/// An oscillator. One in a dozen lacks something or has a value that is none.
+/// An oscillator. One of twelve lacks a parameter or has an invalid value.
 pub fn system() -> BoxedStrategy<SystemValues> {
     let second = prop::option::weighted(0.15, (second_gap(), prop::option::weighted(0.4, restitution())));
     let fault = prop::option::weighted(0.08, (0..4_usize, prop::option::of(odd())));
@@ -40,7 +40,7 @@ fn second_gap() -> crate::values::ProptestText {
     prop_oneof![6 => (0.0..4.0_f64).prop_map(typed), 1 => plain()].boxed()
 }
 
-/// Where a motion begins: `x`, `v`, `phase`, each perhaps.
+/// A start: `x`, `v` and `phase`, each of them optional.
 pub fn start() -> BoxedStrategy<SystemValues> {
     let x = prop_oneof![6 => (-6.0..1.0_f64).prop_map(typed), 1 => plain()];
     let phase = prop_oneof![
@@ -57,7 +57,7 @@ pub fn start() -> BoxedStrategy<SystemValues> {
         .boxed()
 }
 
-/// A parameter and where values of it make sense.
+/// A parameter with a range of valid values.
 pub fn parameter() -> BoxedStrategy<(&'static str, f64, f64)> {
     prop::sample::select(vec![
         ("inverse_beta", 0.4, 2.0),
@@ -71,14 +71,14 @@ pub fn parameter() -> BoxedStrategy<(&'static str, f64, f64)> {
     .boxed()
 }
 
-/// The system without what varies, so that nothing is given twice.
+/// The system without the parameters that vary, so that none is given twice.
 #[must_use]
 pub fn without(values: SystemValues, varied: &[&str]) -> SystemValues {
     let frequency = |name: &str| matches!(name, "beta" | "inverse_beta");
     let same = |a: &str, b: &str| a == b || frequency(a) && frequency(b);
     let mut left: SystemValues =
         values.into_iter().filter(|(name, _)| !varied.iter().any(|other| same(name, other))).collect();
-    // the restitution of a second stop means nothing without one
+    // the restitution of a second stop is invalid without a second stop
     let second =
         |values: &SystemValues| values.iter().any(|(name, _)| *name == "second_gap") || varied.contains(&"second_gap");
     if varied.contains(&"second_restitution") && !second(&left) {

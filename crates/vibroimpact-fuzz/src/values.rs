@@ -1,21 +1,21 @@
-//! Numbers, ranges, labels and names as one would type them, aimed at the places where they are hard.
+//! Numbers, ranges, labels and names as text, with many difficult values.
 
 use proptest::prelude::*;
 
-/// A text that is drawn.
+/// A strategy for texts.
 pub type ProptestText = BoxedStrategy<String>;
 
 fn one_of(texts: &'static [&'static str]) -> ProptestText {
     prop::sample::select(texts).prop_map(str::to_owned).boxed()
 }
 
-/// A number as it is typed.
+/// A number as a user types it.
 #[must_use]
 pub fn typed(x: f64) -> String {
     format!("{x}")
 }
 
-/// What is no number here, or an extreme one.
+/// A text that is no valid number, or an extreme number.
 pub fn odd() -> ProptestText {
     one_of(&[
         "nan",
@@ -76,7 +76,7 @@ pub fn plain() -> ProptestText {
     .boxed()
 }
 
-/// Any number, sometimes none.
+/// Any number, sometimes an invalid one.
 pub fn number() -> ProptestText {
     prop_oneof![12 => plain(), 1 => odd()].boxed()
 }
@@ -99,7 +99,7 @@ pub fn ratio() -> ProptestText {
     .boxed()
 }
 
-/// A gap for a frequency ratio, near the amplitude of the motion without stops among others.
+/// A gap for a frequency ratio, in some cases near the amplitude of the motion without impacts.
 pub fn gap(beta: f64) -> ProptestText {
     let amplitude = 1.0 / (1.0 - beta * beta).abs();
     let amplitude = if amplitude.is_finite() { amplitude } else { 1.0 };
@@ -118,7 +118,7 @@ pub fn gap(beta: f64) -> ProptestText {
     .boxed()
 }
 
-/// A restitution, near its ends among others.
+/// A restitution, in some cases near the ends of its range.
 pub fn restitution() -> ProptestText {
     prop_oneof![
         8 => (0.0..=1.0_f64).prop_map(typed),
@@ -131,7 +131,7 @@ pub fn restitution() -> ProptestText {
     .boxed()
 }
 
-/// A damping ratio from none to critical and beyond.
+/// A damping ratio from 0 to above critical damping.
 pub fn damping() -> ProptestText {
     prop_oneof![
         4 => (0.0..2.0_f64).prop_map(typed),
@@ -141,7 +141,7 @@ pub fn damping() -> ProptestText {
     .boxed()
 }
 
-/// How many: few, or none that makes sense.
+/// A small count, or an invalid one.
 pub fn count() -> ProptestText {
     prop_oneof![
         12 => (1..6_u32).prop_map(|n| n.to_string()),
@@ -150,7 +150,7 @@ pub fn count() -> ProptestText {
     .boxed()
 }
 
-/// `A:B:N`, most often between the ends given.
+/// `A:B:N`, in most cases between the given ends.
 pub fn range(low: f64, high: f64) -> ProptestText {
     prop_oneof![
         9 => (0.0..1.0_f64, 0.0..1.0_f64, 2..5_u32).prop_map(move |(a, b, n)| {
@@ -165,7 +165,7 @@ pub fn range(low: f64, high: f64) -> ProptestText {
     .boxed()
 }
 
-/// `A:B`, most often between the ends given.
+/// `A:B`, in most cases between the given ends.
 pub fn interval(low: f64, high: f64) -> ProptestText {
     prop_oneof![
         12 => (0.0..0.9_f64, 0.02..1.0_f64).prop_map(move |(a, w)| {
@@ -178,7 +178,7 @@ pub fn interval(low: f64, high: f64) -> ProptestText {
     .boxed()
 }
 
-/// `m/n`, and what is none.
+/// `m/n`, or an invalid label.
 pub fn label() -> ProptestText {
     prop_oneof![
         10 => (1..5_u32, 1..4_u32).prop_map(|(m, n)| format!("{m}/{n}")),
@@ -188,7 +188,7 @@ pub fn label() -> ProptestText {
     .boxed()
 }
 
-/// A name of a file in the current folder, or one that cannot be.
+/// The name of a file in the current folder, or an impossible one.
 pub fn file(ends: &'static [&'static str]) -> ProptestText {
     prop_oneof![
         8 => prop::sample::select(ends).prop_map(|end| format!("out{end}")),

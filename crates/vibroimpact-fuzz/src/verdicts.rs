@@ -1,4 +1,4 @@
-//! The verdict of a start is a function of the system, the start and the budget: the same alone as among others.
+//! The verdict on a start depends only on the system, the start and the budget: it is the same alone and in a batch.
 
 use crate::case::Property;
 use crate::system;
@@ -8,14 +8,14 @@ use vibroimpact::lanes::Width;
 use vibroimpact::verdict::{KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle, settle_many};
 use vibroimpact::{Oscillator, Start};
 
-/// How close two verdicts with a cycle must be to be one.
+/// Two verdicts with cycles closer than this are the same.
 const SAME: f64 = 1e-6;
 
-/// Settles each start alone, then all of them in batches that end at `cuts`, with an survey surveyed from the starts numbered in
-/// `survey`, and compares.
+/// Settles each start alone, then all of them in batches that end at `cuts`, with the cycles of a survey from the
+/// starts numbered in `survey`, and compares the verdicts.
 ///
 /// # Errors
-/// The first start whose verdict differs.
+/// A message that names the first start whose verdicts differ.
 pub fn alone_as_among(
     osc: &Oscillator,
     starts: &[Start],
@@ -27,7 +27,7 @@ pub fn alone_as_among(
     let mut ends: Vec<usize> = cuts.iter().map(|cut| cut % (starts.len() + 1)).chain([0, starts.len()]).collect();
     ends.sort_unstable();
     ends.dedup();
-    // a list of starts is shorter than any number
+    // a list of starts is short enough for any index type
     let start = |k: u64| starts[usize::try_from(k).unwrap_or(0)];
     for part in ends.windows(2) {
         let range = part[0] as u64..part[1] as u64;
@@ -68,7 +68,7 @@ fn told(verdict: &Verdict) -> String {
     }
 }
 
-/// A system, a few dozen starts of it, and how they are divided.
+/// A system, a few dozen starts, and their division into batches.
 #[derive(Clone, Debug)]
 pub struct StartBatch {
     system: system::SystemValues,
@@ -80,11 +80,11 @@ pub struct StartBatch {
     width: usize,
 }
 
-/// The family.
+/// The family of batches of starts.
 #[derive(Clone, Copy, Debug)]
 pub struct Verdicts;
 
-/// A point of the plane of the 1971 paper, where motions differ most from start to start.
+/// A system in the plane of the 1971 paper, where the motion depends most on the start.
 fn plane() -> BoxedStrategy<system::SystemValues> {
     let ratio =
         prop_oneof![3 => (0.4..2.0_f64).prop_map(typed), 1 => (8..40_u32).prop_map(|n| typed(f64::from(n) * 0.05))];

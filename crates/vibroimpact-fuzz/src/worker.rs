@@ -1,4 +1,4 @@
-//! A worker: runs the cases of one family one after another and reports each to the driver on a line.
+//! A worker: runs the cases of one family one after another, and reports each to the driver on a line.
 
 use crate::case::{self, Fault, Property};
 use crate::{Family, command, page, plan, store, verdicts};
@@ -8,25 +8,25 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// What a worker is to do.
+/// The task of a worker.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Job {
-    /// Which cases.
+    /// The family of the cases.
     pub family: Family,
-    /// Of which seed.
+    /// The seed of the cases.
     pub seed: u64,
-    /// The first of them.
+    /// Number of the first case.
     pub from: u64,
-    /// Up to here.
+    /// Number after the last case.
     pub until: u64,
-    /// And this number of seconds.
+    /// Time limit in seconds.
     pub seconds: f64,
     /// The command to test.
     pub vibro: PathBuf,
 }
 
 impl Job {
-    /// As words for [`Self::parse`].
+    /// The words from which [`Self::parse`] restores the task.
     #[must_use]
     pub fn words(&self) -> Vec<String> {
         let Self { family, seed, from, until, seconds, vibro } = self;
@@ -34,7 +34,7 @@ impl Job {
         [family.to_string()].into_iter().chain(numbers).chain([vibro.display().to_string()]).collect()
     }
 
-    /// Reads the words of [`Self::words`].
+    /// Parses the words of [`Self::words`].
     #[must_use]
     pub fn parse(words: &[String]) -> Option<Self> {
         let [family, seed, from, until, seconds, vibro] = words else { return None };
@@ -49,10 +49,11 @@ impl Job {
     }
 }
 
-/// Does it. Each line is `{"begin": K, "case": ...}`, `{"end": K}` or `{"fault": K, "why": ..., "case": ...}`.
+/// Runs the task. Each line of output is `{"begin": K, "case": ...}`, `{"end": K}` or `{"fault": K, "why": ..., "case":
+/// ...}`.
 ///
 /// # Errors
-/// When temporary files cannot be made, or the output is closed.
+/// If temporary files cannot be created, or the output is closed.
 pub fn work(task: &Job, out: &mut impl Write) -> io::Result<()> {
     case::keep_panics();
     let vibro = task.vibro.as_path();
@@ -90,7 +91,7 @@ fn tell(out: &mut impl Write, line: &Value) -> io::Result<()> {
     out.flush()
 }
 
-/// The command beside a program: `vibro` in its folder.
+/// The path of `vibro` in the folder of a program.
 #[must_use]
 pub fn beside(program: &Path) -> PathBuf {
     program.with_file_name(format!("vibro{}", std::env::consts::EXE_SUFFIX))

@@ -1,4 +1,4 @@
-//! The driver finds faults where there are some, and draws the same cases from the same seed.
+//! Tests that the driver finds faults where there are some, and draws the same cases from the same seed.
 #![cfg(unix)]
 
 use std::fs;
@@ -11,7 +11,7 @@ fn fuzz(vibro: &Path, line: &str) -> Output {
     command.args(line.split(' ')).arg("--vibro").arg(vibro).output().expect("the driver runs")
 }
 
-/// A program in place of `vibro`.
+/// A program that replaces `vibro`.
 fn instead(folder: &Path, script: &str) -> PathBuf {
     let path = folder.join("vibro");
     fs::write(&path, format!("#!/bin/sh\n{script}\n")).expect("a script is written");

@@ -1,8 +1,8 @@
-//! Five figures of the kinds the project needs, written to the directory given as argument.
+//! Draws five typical figures into the directory given as argument.
 //!
 //! `cargo run -p vibroimpact-plot --example gallery -- /tmp/gallery`
 //!
-//! The curves are made up: the gallery shows looks, not dynamics.
+//! The curves are invented: the gallery shows the appearance of figures, and no results.
 
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A motion that strikes a stop at ξ = 0.6 twice in a period, sampled far too finely.
+/// A motion that hits a stop at ξ = 0.6 twice in a period, sampled much more finely than necessary.
 fn motion(to: f64) -> (Vec<f64>, Vec<f64>) {
     let n = 100_000;
     let xs: Vec<f64> = (0..=n).map(|i| to * f64::from(i) / f64::from(n)).collect();
@@ -94,7 +94,7 @@ fn basin() -> Result<Figure, Box<dyn Error>> {
     let fixed = Points::new([0.12], [-0.35], Colour::BLACK).size(13.0).rim(Colour::WHITE);
     let mut legend = Legend::below();
     for label in labels {
-        // a raster shows fills without hatches, and so must its legend
+        // a raster shows fills without hatches, so its legend has none either
         let style = vibroimpact_plot::ClassStyle { hatch: None, ..class_style(label) };
         legend = legend.patch(style, legend_text(label));
     }

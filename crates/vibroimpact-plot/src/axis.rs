@@ -6,16 +6,16 @@ use crate::ticks::{Tick, ticks};
 /// One axis of a panel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FigureAxis {
-    /// What it shows, in the markup of [labels](crate::plain): `"1/*β*"`.
+    /// Its name, in the markup of [labels](crate::plain): `"1/*β*"`.
     pub label: String,
-    /// First and last value, left to right or bottom to top; `first > last` turns the axis round.
-    /// `None` fits the marks.
+    /// First and last value, from left to right or bottom to top; `first > last` reverses the axis. `None` fits the
+    /// range to the marks.
     pub range: Option<(f64, f64)>,
     /// Linear or logarithmic.
     pub scale: Scale,
-    /// Ticks of your own; `None` computes them.
+    /// Explicit ticks; `None` computes them.
     pub ticks: Option<Vec<Tick>>,
-    /// Whether ticks carry their numbers (off for the upper one of two stacked panels).
+    /// Whether ticks have numbers (not for the upper one of two stacked panels).
     pub numbers: bool,
     /// Whether thin grey lines cross the panel at the labelled ticks.
     pub grid: bool,
@@ -33,13 +33,13 @@ impl FigureAxis {
         Self { range: Some((first, last)), ..self }
     }
 
-    /// Spreads values by decimal logarithm.
+    /// Uses a decimal logarithmic scale.
     #[must_use]
     pub fn log10(self) -> Self {
         Self { scale: Scale::Log10, ..self }
     }
 
-    /// Labelled ticks at these places and nowhere else.
+    /// Places labelled ticks at these values only.
     #[must_use]
     pub fn ticks(self, ticks: impl IntoIterator<Item = Tick>) -> Self {
         Self { ticks: Some(ticks.into_iter().collect()), ..self }
@@ -57,8 +57,8 @@ impl FigureAxis {
         Self { grid: true, ..self }
     }
 
-    /// The range to draw, whatever was asked: finite, not empty, positive where it is logarithmic.
-    /// `data` are the extremes of the marks.
+    /// The range to draw: finite, not empty, and positive on a logarithmic axis, whatever range was given. `data` are
+    /// the extremes of the marks.
     pub(crate) fn resolve(&self, data: Option<(f64, f64)>) -> (f64, f64) {
         let finite = |(lo, hi): &(f64, f64)| lo.is_finite() && hi.is_finite();
         let given = self.range.filter(finite);
@@ -69,9 +69,9 @@ impl FigureAxis {
             Scale::Linear => {
                 let (lo, hi) = (lo.clamp(-1e300, 1e300), hi.clamp(-1e300, 1e300));
                 let size = lo.abs().max(hi.abs());
-                // a range within rounding of one value has no room for a second tick
+                // a range that is one value within rounding has no room for a second tick
                 let pad = if (hi - lo).abs() <= (1e-14 * size).max(1e-300) {
-                    // one value alone stands in the middle of a range of its own size
+                    // a single value is placed in the middle of a range of its own size
                     if size < 1e-290 { 1.0 } else { size / 2.0 }
                 } else {
                     (hi - lo) * air
@@ -81,7 +81,7 @@ impl FigureAxis {
             Scale::Log10 => {
                 let (turn, lo, hi) = (lo > hi, lo.min(hi), lo.max(hi));
                 let hi = if hi > 1e-300 { hi.min(1e300) } else { 1.0 };
-                // no positive lower end: three decades say more than an arbitrary tiny number
+                // without a positive lower end, three decades are shown
                 let lo = if lo > 1e-303 { lo } else { hi / 1e3 };
                 let factor = if lo >= hi { 10f64.sqrt() } else { (hi / lo).powf(air) };
                 let (lo, hi) = (lo.min(hi) / factor, hi * factor);
@@ -99,7 +99,7 @@ impl FigureAxis {
         let slack = 1e-9 * (hi - lo).abs();
         list.retain(|t| t.value >= lo.min(hi) - slack && t.value <= lo.max(hi) + slack);
         if !self.numbers {
-            // the long mark stays: a blank is a label without ink
+            // the long marks stay: a blank is a label without visible text
             for tick in list.iter_mut().filter(|t| !t.label.is_empty()) {
                 tick.label = " ".into();
             }
@@ -108,7 +108,7 @@ impl FigureAxis {
     }
 }
 
-/// Air at each end of an axis that fits its data, in parts of its length.
+/// Margin at each end of an axis that fits its data, relative to its length.
 const PADDING: f64 = 0.04;
 
 /// A resolved axis: data value to page coordinate.
@@ -121,7 +121,7 @@ pub(crate) struct Mapping {
 }
 
 impl Mapping {
-    /// The page coordinate; `NaN` where the value has none.
+    /// The page coordinate of a value; `NaN` if it has none.
     pub(crate) fn at(&self, value: f64) -> f64 {
         let (lo, hi) = self.range;
         let t = match self.scale {
@@ -129,11 +129,11 @@ impl Mapping {
             Scale::Log10 if value > 0.0 => (value / lo).log10() / (hi / lo).log10(),
             Scale::Log10 => f64::NAN,
         };
-        // far beyond the page nothing is seen; f32 renderers must not overflow on it
+        // limit positions far beyond the page, which could overflow in renderers with f32
         (self.page.0 + t * (self.page.1 - self.page.0)).clamp(-1e6, 1e6)
     }
 
-    /// Where an end of an interval falls: at or below zero a logarithmic axis means "its low end".
+    /// The position of an end of an interval. On a logarithmic axis, an end at or below zero is placed at the low end.
     pub(crate) fn edge(&self, value: f64) -> f64 {
         if self.scale == Scale::Log10 && value <= 0.0 {
             if self.range.0 < self.range.1 { self.page.0 } else { self.page.1 }

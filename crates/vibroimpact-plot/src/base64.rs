@@ -1,4 +1,4 @@
-//! Base64 with padding (RFC 4648, section 4): the one encoding a data URI needs.
+//! Base64 with padding (RFC 4648, section 4), for data URIs.
 
 const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 

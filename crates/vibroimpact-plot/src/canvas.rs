@@ -1,4 +1,4 @@
-//! The sheet that marks draw on: SVG text so far, and the definitions it refers to.
+//! The canvas that marks draw on: SVG text and the definitions to which it refers.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use crate::axis::Mapping;
 use crate::hatch::Hatch;
 use crate::number::N;
 
-/// SVG text in the making.
+/// SVG text under construction.
 #[derive(Debug, Default)]
 pub(crate) struct Canvas {
     pub(crate) body: String,
@@ -25,7 +25,7 @@ impl Canvas {
         self.body.push_str(svg);
     }
 
-    /// The paint of a hatch, which is defined once.
+    /// The paint of a hatch, whose definition is added once.
     pub(crate) fn hatch(&mut self, hatch: Hatch) -> String {
         self.hatches.insert(hatch);
         format!("url(#{}{})", self.prefix, hatch.id())
@@ -35,7 +35,7 @@ impl Canvas {
         self.clips.push_str(&format!("<clipPath id=\"{}{}\">{}</clipPath>\n", self.prefix, frame.clip, frame.rect("")));
     }
 
-    /// The attribute that cuts a mark off at the axes.
+    /// The attribute that clips a mark at the axes.
     pub(crate) fn clip(&self, frame: &Frame) -> String {
         format!(" clip-path=\"url(#{}{})\"", self.prefix, frame.clip)
     }
@@ -68,12 +68,12 @@ impl Frame {
         self.top + self.height
     }
 
-    /// A data point on the page.
+    /// The page coordinates of a data point.
     pub(crate) fn at(&self, x: f64, y: f64) -> (f64, f64) {
         (self.x.at(x), self.y.at(y))
     }
 
-    /// Whether a point of the page lies inside, with a little slack for points on the edge.
+    /// Whether a point of the page lies inside, with a small tolerance for points on the edge.
     pub(crate) fn holds(&self, (x, y): (f64, f64)) -> bool {
         let slack = 0.5;
         x >= self.left - slack && x <= self.right() + slack && y >= self.top - slack && y <= self.bottom() + slack
@@ -86,7 +86,7 @@ impl Frame {
         format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"{attributes}/>")
     }
 
-    /// The part of a data rectangle inside, as left, top, right, bottom on the page.
+    /// The part of a data rectangle inside the frame, as left, top, right, bottom on the page.
     pub(crate) fn cut(&self, x: (f64, f64), y: (f64, f64)) -> Option<[f64; 4]> {
         let (a, b) = (self.x.edge(x.0), self.x.edge(x.1));
         let (c, d) = (self.y.edge(y.0), self.y.edge(y.1));

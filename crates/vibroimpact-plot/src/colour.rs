@@ -1,8 +1,7 @@
-//! Colours: 8-bit sRGB with opacity, and their distance as the eye sees it.
+//! Colours: 8-bit sRGB with opacity, and their perceived difference.
 //!
-//! The distance is the CIE 1976 one, the Euclidean length in CIE L\*a\*b\* under white point D65
-//! (CIE 15:2004). About 2.3 is just noticeable side by side; patches that must be distinguished by
-//! a legend need ten or more.
+//! The difference is that of CIE 1976, the Euclidean distance in CIE L\*a\*b\* with white point D65 (CIE 15:2004). A
+//! difference of about 2.3 is just noticeable side by side; patches in a legend need ten or more.
 
 /// An sRGB colour with opacity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -32,7 +31,7 @@ impl Colour {
         Self { r, g, b, a: 255 }
     }
 
-    /// The same colour with opacity `alpha` in 0..=1 (values outside are cut off).
+    /// The same colour with opacity `alpha`, limited to 0..=1.
     #[must_use]
     pub fn alpha(self, alpha: f64) -> Self {
         #[expect(clippy::cast_possible_truncation, reason = "cut to 0..=255 just before; NaN gives 0")]
@@ -55,7 +54,7 @@ impl Colour {
         })
     }
 
-    /// The opaque colour with these linear-light components (cut to 0..=1).
+    /// The opaque colour with these linear-light components, limited to 0..=1.
     #[must_use]
     pub fn from_linear(rgb: [f64; 3]) -> Self {
         let [r, g, b] = rgb.map(|v| {
@@ -87,7 +86,7 @@ impl Colour {
         (0..3).map(|i| (p[i] - q[i]).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// SVG attributes: `fill="#rrggbb"`, with `fill-opacity` where it is not opaque.
+    /// SVG attributes: `fill="#rrggbb"`, and `fill-opacity` if it is not opaque.
     pub(crate) fn paint(self, property: &str) -> String {
         let mut text = format!(" {property}=\"{}\"", self.to_hex());
         if self.a < 255 {

@@ -1,4 +1,4 @@
-//! What can go wrong on the way from slices to a picture, as data; the sentence is made in `Display`.
+//! The errors of figures, as data; `Display` makes the message.
 
 use std::fmt;
 
@@ -8,21 +8,21 @@ use std::fmt;
 pub enum PlotError {
     /// The number of class indices is not `nx * ny`.
     RasterSize {
-        /// Class indices given.
+        /// Number of class indices given.
         given: usize,
-        /// Columns asked for.
+        /// Number of columns.
         nx: usize,
-        /// Rows asked for.
+        /// Number of rows.
         ny: usize,
     },
-    /// The picture would have no pixels, or more than a PNG of ours may have.
+    /// The image would have no pixels, or more than the allowed number.
     ImageSize {
-        /// Width in pixels, as asked.
+        /// Width in pixels.
         width: f64,
-        /// Height in pixels, as asked.
+        /// Height in pixels.
         height: f64,
     },
-    /// The renderer refused our own SVG text: a defect of this crate.
+    /// The renderer refused the SVG text: a defect of this crate.
     Svg(String),
     /// The PNG encoder failed: a defect of this crate.
     Png(String),

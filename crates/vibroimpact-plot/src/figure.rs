@@ -4,22 +4,22 @@ use crate::legend::Legend;
 use crate::panel::Panel;
 use crate::theme;
 
-/// A picture to be.
+/// A figure: panels, a title and a legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Width in figure units; see [`COLUMN`](crate::COLUMN).
     pub width: f64,
-    /// Height of title and panels in figure units; a legend below adds its own.
+    /// Height of title and panels in figure units; a legend below adds to it.
     pub height: f64,
-    /// A line above everything.
+    /// A line of text above everything.
     pub title: Option<String>,
     /// Panels, row by row.
     pub panels: Vec<Panel>,
-    /// Panels in a row.
+    /// Number of panels in a row.
     pub columns: usize,
     /// The legend.
     pub legend: Option<Legend>,
-    /// Prefix of the ids inside the SVG text: give each figure of one web page its own.
+    /// Prefix of the ids in the SVG text; it must differ between figures on one web page.
     pub id: String,
 }
 
@@ -43,25 +43,25 @@ impl Figure {
         Self { width, height, title: None, panels, columns, legend: None, id: "vp-".into() }
     }
 
-    /// With another size in figure units (1/8 mm in print).
+    /// Sets the size in figure units (1/8 mm in print).
     #[must_use]
     pub fn size(self, width: f64, height: f64) -> Self {
         Self { width, height, ..self }
     }
 
-    /// With a title.
+    /// Sets the title.
     #[must_use]
     pub fn title(self, markup: impl Into<String>) -> Self {
         Self { title: Some(markup.into()), ..self }
     }
 
-    /// With a legend.
+    /// Sets the legend.
     #[must_use]
     pub fn legend(self, legend: Legend) -> Self {
         Self { legend: Some(legend), ..self }
     }
 
-    /// With another prefix for ids.
+    /// Sets the prefix of ids.
     #[must_use]
     pub fn id(self, prefix: impl Into<String>) -> Self {
         Self { id: prefix.into(), ..self }

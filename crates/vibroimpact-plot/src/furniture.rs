@@ -1,4 +1,4 @@
-//! What surrounds a panel's data: grid, ticks, numbers, labels, caption.
+//! The parts around the data of a panel: grid, ticks, numbers, labels, caption.
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
@@ -25,7 +25,7 @@ impl Panel {
         }
     }
 
-    /// Ticks point outwards, where they neither cover data nor vanish in a raster.
+    /// Draws the ticks. They point outwards, so they neither cover data nor disappear in a raster.
     pub(crate) fn draw_ticks(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
         let (left, bottom, size) = (frame.left, frame.bottom(), theme::TICK_TEXT);
         let length = |t: &Tick| {
@@ -61,7 +61,7 @@ impl Panel {
         canvas.push(&Placed::new(&self.x.label, mid_x, below, size).anchor(Anchor::Middle).svg());
         let numbers = prepared.y_ticks.iter().map(|t| markup::width(&t.label, theme::TICK_TEXT));
         let numbers = numbers.fold(0.0, f64::max);
-        // 0.6 of a size keeps subscripts of the turned label off the numbers
+        // a distance of 0.6 of the font size keeps subscripts of the rotated label off the numbers
         let beside = frame.left - theme::TICK - theme::TICK_GAP - numbers - 0.6 * size;
         let upright =
             Placed { upright: true, ..Placed::new(&self.y.label, beside, mid_y, size).anchor(Anchor::Middle) };

@@ -1,4 +1,4 @@
-//! Hatches: a second sign beside colour, for readers and printers without it.
+//! Hatches: a second distinction in addition to colour, for colour-blind readers and grey print.
 
 use crate::colour::Colour;
 use crate::number::N;
@@ -12,25 +12,25 @@ pub enum Pattern {
     Falling,
     /// Both.
     Cross,
-    /// Level lines.
+    /// Horizontal lines.
     Horizontal,
-    /// Upright lines.
+    /// Vertical lines.
     Vertical,
     /// Dots.
     Dots,
 }
 
-/// A hatch: lines in a colour over whatever lies below.
+/// A hatch: lines in a colour, drawn over the fill.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Hatch {
-    /// Which lines.
+    /// The pattern of the lines.
     pub pattern: Pattern,
-    /// In which colour.
+    /// The colour of the lines.
     pub colour: Colour,
 }
 
-/// Side of the repeated tile. Eight units are 1 mm in print: three lines fit a legend patch, and
-/// one or two a cell of a 40-column map.
+/// Side of the repeated tile. Eight units are 1 mm in print: a patch in a legend has three lines, and a cell of a map
+/// with 40 columns has one or two.
 const TILE: f64 = 8.0;
 
 impl Hatch {
@@ -40,16 +40,16 @@ impl Hatch {
         Self { pattern, colour }
     }
 
-    /// A name that is the same for the same hatch.
+    /// An id that is equal for equal hatches.
     pub(crate) fn id(self) -> String {
         let Colour { r, g, b, a } = self.colour;
         format!("hatch-{:?}-{r:02x}{g:02x}{b:02x}{a:02x}", self.pattern).to_lowercase()
     }
 
-    /// The `<pattern>` for `<defs>`; `prefix` keeps figures on one page apart.
+    /// The `<pattern>` for `<defs>`; `prefix` distinguishes the figures on a page.
     pub(crate) fn definition(self, prefix: &str) -> String {
         let (t, h) = (TILE, TILE / 2.0);
-        // strokes overshoot the tile by a corner so that they meet their continuation
+        // lines extend beyond the corners of the tile, so that they join their continuation
         let rising = format!("M-1 1L1 -1M0 {t}L{t} 0M{} {}L{} {}", N(t - 1.0), N(t + 1.0), N(t + 1.0), N(t - 1.0));
         let falling = format!("M{} -1L{} 1M0 0L{t} {t}M-1 {}L1 {}", N(t - 1.0), N(t + 1.0), N(t - 1.0), N(t + 1.0));
         let lines = match self.pattern {

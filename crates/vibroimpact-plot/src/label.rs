@@ -1,17 +1,16 @@
 //! A label on the page: runs of markup as SVG text.
 //!
-//! Sub- and superscripts are shifted with `dy`, because `baseline-shift` is missing from some
-//! browsers.
+//! Sub- and superscripts are shifted with `dy`, because some browsers do not support `baseline-shift`.
 
 use crate::colour::Colour;
 use crate::markup::{Level, SCRIPT, escape, parse};
 use crate::number::N;
 
-/// How far a script is shifted, in sizes of the surrounding text (down is positive).
+/// Shift of a script, relative to the size of the surrounding text (positive is down).
 const SHIFT_DOWN: f64 = 0.20;
 const SHIFT_UP: f64 = -0.36;
 
-/// Where the reference point of a text lies.
+/// The position of the reference point of a text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Anchor {
     /// At its left end.
@@ -31,9 +30,9 @@ pub(crate) struct Placed<'a> {
     pub(crate) size: f64,
     pub(crate) anchor: Anchor,
     pub(crate) colour: Colour,
-    /// Turned by a quarter to the left about its reference point.
+    /// Whether it is rotated by 90 degrees to the left about its reference point.
     pub(crate) upright: bool,
-    /// Width of a white rim, or 0.
+    /// Width of a white outline, or 0.
     pub(crate) halo: f64,
 }
 
@@ -63,7 +62,7 @@ impl<'a> Placed<'a> {
             format!("<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"{anchor}{turn} xml:space=\"preserve\"", N(self.size));
         let mut out = String::new();
         if self.halo > 0.0 {
-            // the rim is a text of its own: painted per run it would eat its left neighbour
+            // the outline is a separate text: drawn with each run, it would cover the run to its left
             out.push_str(&format!(
                 "{head} fill=\"#ffffff\" stroke=\"#ffffff\" stroke-width=\"{}\" stroke-linejoin=\"round\">{spans}</text>\n",
                 N(2.0 * self.halo)

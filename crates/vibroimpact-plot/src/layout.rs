@@ -1,4 +1,4 @@
-//! Where everything on a figure goes.
+//! The positions of all parts of a figure.
 
 use crate::axis::Mapping;
 use crate::canvas::Frame;
@@ -7,16 +7,16 @@ use crate::legend::{Arranged, Legend, Place};
 use crate::panel::{Margins, Prepared};
 use crate::theme;
 
-/// Where everything goes.
+/// The positions of all parts of a figure.
 pub(crate) struct Layout {
     pub(crate) width: f64,
     pub(crate) height: f64,
     pub(crate) panels: Vec<(Frame, Prepared)>,
-    /// Left, top, and the columns.
+    /// Left, top, and the columns of the legend.
     pub(crate) legend: Option<(f64, f64, Arranged)>,
 }
 
-/// Frames never become smaller than this, however little room there is.
+/// Minimum size of a frame.
 const SMALLEST: f64 = 20.0;
 
 impl Layout {
@@ -54,7 +54,7 @@ impl Layout {
     }
 }
 
-/// The legend where it was wanted; one too wide to stand beside the panels goes below them.
+/// Arranges the legend at the requested place. One that is too wide to stand beside the panels is placed below them.
 fn arrange(legend: &Legend, width: f64, height: f64) -> (Place, Arranged) {
     let wanted = legend.arrange(legend.place, width, height);
     if legend.place == Place::Right && wanted.width > WIDEST * width {
@@ -64,15 +64,15 @@ fn arrange(legend: &Legend, width: f64, height: f64) -> (Place, Arranged) {
     }
 }
 
-/// The part of a figure's width that a legend beside the panels may take.
+/// Maximum width of a legend beside the panels, relative to the width of the figure.
 const WIDEST: f64 = 0.5;
 
-/// Frames of equal size in a grid; rows and columns share their margins, so that axes line up.
+/// Frames of equal size in a grid. Rows and columns have common margins, so that axes are aligned.
 fn frames(figure: &Figure, (left, top): (f64, f64), (width, height): (f64, f64)) -> Vec<(Frame, Prepared)> {
     let columns = figure.columns.clamp(1, figure.panels.len().max(1));
     let rows = figure.panels.len().div_ceil(columns);
     let (nx, ny) = (columns as f64, rows as f64);
-    // ticks depend on the frame and the frame on the ticks' numbers: the second round settles it
+    // ticks depend on the frame, and the frame on the numbers at the ticks: two rounds are enough
     let mut each = (width / nx - 90.0, height / ny - 70.0);
     let mut prepared = Vec::new();
     let mut across = vec![Margins::default(); columns];

@@ -1,4 +1,4 @@
-//! The legend: what the signs of a figure mean, beside or below the panels, never over them.
+//! The legend: the meaning of the signs of a figure, placed beside or below the panels and never over them.
 
 use crate::canvas::Canvas;
 use crate::colour::Colour;
@@ -10,11 +10,10 @@ use crate::palette::ClassStyle;
 use crate::stroke::Stroke;
 use crate::theme;
 
-/// Where the legend stands.
+/// The place of the legend.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Place {
-    /// To the right of the panels, which become narrower; below after all where it would take
-    /// more than half of the width.
+    /// To the right of the panels, which become narrower; or below them if it would take more than half of the width.
     Right,
     /// Below the panels; the figure becomes higher.
     #[default]
@@ -24,7 +23,7 @@ pub enum Place {
 /// The sign of an entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Key {
-    /// A piece of line.
+    /// A short line.
     Line(Stroke),
     /// A point.
     Point(PointStyle),
@@ -46,11 +45,11 @@ pub struct Entry {
 /// The legend of a figure.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Legend {
-    /// The entries, read column by column.
+    /// The entries, in columns from top to bottom.
     pub entries: Vec<Entry>,
-    /// Where it stands.
+    /// Its place.
     pub place: Place,
-    /// A line above the entries.
+    /// A line of text above the entries.
     pub title: Option<String>,
 }
 
@@ -73,45 +72,45 @@ impl Legend {
         Self { place: Place::Right, ..Self::default() }
     }
 
-    /// With a line above.
+    /// Sets the line above the entries.
     #[must_use]
     pub fn title(self, markup: impl Into<String>) -> Self {
         Self { title: Some(markup.into()), ..self }
     }
 
-    /// One more entry.
+    /// Adds an entry.
     #[must_use]
     pub fn entry(mut self, key: Key, label: impl Into<String>) -> Self {
         self.entries.push(Entry { key, label: label.into() });
         self
     }
 
-    /// One more entry: a line.
+    /// Adds an entry for a line.
     #[must_use]
     pub fn line(self, stroke: Stroke, label: impl Into<String>) -> Self {
         self.entry(Key::Line(stroke), label)
     }
 
-    /// One more entry: the look of these points.
+    /// Adds an entry for points.
     #[must_use]
     pub fn points(self, points: &Points, label: impl Into<String>) -> Self {
         self.entry(Key::Point(points.style), label)
     }
 
-    /// One more entry: a class.
+    /// Adds an entry for a class.
     #[must_use]
     pub fn patch(self, style: ClassStyle, label: impl Into<String>) -> Self {
         self.entry(Key::Patch(style), label)
     }
 
-    /// Where every entry goes, for this much room.
+    /// The positions of all entries in the given room.
     pub(crate) fn arrange(&self, place: Place, width: f64, height: f64) -> Arranged {
         let head = if self.title.is_some() { ROW } else { 0.0 };
         let n = self.entries.len();
         let rows = match place {
             #[expect(clippy::cast_possible_truncation, reason = "at least 1, and far below 2^31")]
             Place::Right => (((height - head) / ROW).floor().clamp(1.0, 1e4) as usize).min(n.max(1)),
-            // as few rows as fit the width
+            // the smallest number of rows that fits the width
             Place::Below => (1..=n).find(|&rows| self.total(&self.widths(rows)) <= width).unwrap_or(n),
         };
         let widths = self.widths(rows);
@@ -149,7 +148,7 @@ impl Legend {
     }
 }
 
-/// The legend's size and columns.
+/// The size and the columns of the legend.
 #[derive(Clone, Debug)]
 pub(crate) struct Arranged {
     rows: usize,
@@ -172,7 +171,7 @@ fn key(canvas: &mut Canvas, key: Key, x: f64, middle: f64) {
             stroke.attributes()
         )),
         Key::Point(style) => {
-            // a sign of half a millimetre says nothing: small points are shown larger
+            // very small points are drawn larger in the legend, so that they are visible
             let size = if style.size.is_finite() { style.size.clamp(7.0, 20.0) } else { 9.0 };
             canvas.push(&style.paint(&style.shape.path(x + KEY / 2.0, middle, size)));
         }
@@ -182,7 +181,7 @@ fn key(canvas: &mut Canvas, key: Key, x: f64, middle: f64) {
                 let paint = canvas.hatch(hatch);
                 canvas.push(&rect(&format!(" fill=\"{paint}\"")));
             }
-            // light classes need an edge to be seen on white paper
+            // light classes need an outline to be visible on white paper
             let edge = Stroke::new(Colour::GREY).width(1.0).attributes();
             canvas.push(&rect(&format!(" fill=\"none\"{edge}")));
             canvas.push("\n");

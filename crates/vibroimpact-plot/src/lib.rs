@@ -1,9 +1,8 @@
-//! Figures of vibro-impact dynamics: slices in, SVG text or PNG bytes out.
+//! Figures of vibro-impact dynamics: from slices to SVG text or PNG bytes.
 //!
-//! A [`Figure`] is plain data: [`Panel`]s with two [`FigureAxis`] each, marks between them drawn in the
-//! order given, and a [`Legend`] beside or below that never covers data. [`Figure::to_svg`] and
-//! [`Figure::to_png`] read no file, start no thread, use no font of the machine, and give the same
-//! bytes for the same figure.
+//! A [`Figure`] is plain data: [`Panel`]s with two [`FigureAxis`] each, marks drawn in the given order, and a
+//! [`Legend`] beside or below the panels that never covers data. [`Figure::to_svg`] and [`Figure::to_png`] read no
+//! files, start no threads, use no fonts of the machine, and give the same bytes for the same figure.
 //!
 //! ```
 //! use vibroimpact_plot::{FigureAxis, Figure, Legend, Line, Panel, SERIES, TextSide, Wall};
@@ -19,13 +18,13 @@
 //! assert!(svg.starts_with("<svg"));
 //! ```
 //!
-//! Lengths are figure units of 1/8 mm at the nominal print width: [`COLUMN`] is 85 mm,
-//! [`DOUBLE_COLUMN`] 170 mm, and the smallest text prints at 7 pt. Values that cannot be shown
-//! (`NaN`, infinities, non-positive values on a logarithmic axis) are left out; a range that is
-//! empty is widened. Labels are written in a [tiny markup](plain): `"1/*β*"`, `"*ξ*_0"`.
+//! Lengths are in figure units of 1/8 mm at the nominal print width: [`COLUMN`] is 85 mm, [`DOUBLE_COLUMN`] 170 mm, and
+//! the smallest text prints at 7 pt. Values that cannot be shown (`NaN`, infinities, non-positive values on a
+//! logarithmic axis) are left out; an empty range is widened. Labels are written in a [small markup](plain): `"1/*β*"`,
+//! `"*ξ*_0"`.
 //!
-//! [`class_style`] gives every kind of motion one colour and hatch in all figures, chosen for
-//! colour-blind readers and grey print.
+//! [`class_style`] gives each group of motions one colour and hatch in all figures. They are suitable for colour-blind
+//! readers and grey print.
 
 mod axis;
 mod base64;

@@ -1,6 +1,6 @@
-//! Labels in a tiny markup, and their SVG text.
+//! The markup of labels, and their SVG text.
 //!
-//! | written | means |
+//! | text | meaning |
 //! |---|---|
 //! | `*β*` | italic (oblique) |
 //! | `**T**` | bold |
@@ -8,14 +8,14 @@
 //! | `^2`, `^{−3}` | superscript |
 //! | `\*`, `\_` … | the character itself |
 //!
-//! Any text is accepted: an unclosed star or brace simply reaches to the end.
+//! Any text is accepted: an unclosed star or brace extends to the end.
 
 use crate::metrics;
 
-/// Sub- and superscripts are drawn at this part of the size: 5 pt beside 7 pt is still legible.
+/// Size of sub- and superscripts relative to the text: 5 pt for text of 7 pt is still legible.
 pub(crate) const SCRIPT: f64 = 0.72;
 
-/// One stretch of text in one style.
+/// A run of text in one style.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Run {
     pub(crate) text: String,
@@ -24,7 +24,7 @@ pub(crate) struct Run {
     pub(crate) level: Level,
 }
 
-/// Where a run sits.
+/// The vertical position of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Level {
     Base,
@@ -32,7 +32,7 @@ pub(crate) enum Level {
     Sup,
 }
 
-/// The text with every markup character escaped, so that it prints as it is.
+/// The text with every markup character escaped, so that it is printed unchanged.
 #[must_use]
 pub fn plain(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -102,7 +102,7 @@ pub(crate) fn width(markup: &str, size: f64) -> f64 {
         .sum()
 }
 
-/// Replaces what XML reserves, and drops the control characters it forbids.
+/// Replaces the characters that XML reserves, and removes the control characters that it forbids.
 pub(crate) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,11 +1,11 @@
-//! How wide a text is: the advance widths of `DejaVu` Sans, read from the font itself.
+//! The width of a text: the advance widths of `DejaVu` Sans, read from the font.
 //!
-//! Only three tables of the TrueType file are needed (OpenType 1.9: `cmap` format 4, `hhea`,
-//! `hmtx`). Kerning is left out; it shortens a label by a per cent or two, which margins absorb.
+//! Only three tables of the TrueType file are needed (OpenType 1.9: `cmap` format 4, `hhea`, `hmtx`). Kerning is
+//! ignored; it would shorten a label by one or two per cent, which the margins allow for.
 
 use std::sync::OnceLock;
 
-/// Width of a character the font does not have, in sizes.
+/// Width of a character that the font does not have, relative to the font size.
 const MISSING: f64 = 0.6;
 
 /// Width of a text in units of the font size.
@@ -21,7 +21,7 @@ pub(crate) fn width(text: &str, italic: bool, bold: bool) -> f64 {
     text.chars().map(|c| face.as_ref().and_then(|f| f.advance(c)).unwrap_or(MISSING)).sum()
 }
 
-/// One font file and where its tables lie.
+/// A font file and the positions of its tables.
 struct Face {
     data: &'static [u8],
     /// Start of the format 4 subtable of `cmap`.

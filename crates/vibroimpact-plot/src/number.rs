@@ -1,12 +1,11 @@
 //! Coordinates as text: at most two decimals, never `-0`, never `NaN`.
 //!
-//! A figure unit is 1/8 mm, so two decimals are 1.25 micrometres: far below any printer, and short
-//! enough that a path of a thousand points stays a few kilobytes. Fixed precision is also what
-//! makes the same figure the same bytes.
+//! A figure unit is 1/8 mm, so two decimals are 1.25 micrometres, far below the resolution of printers, and a path of a
+//! thousand points has only a few kilobytes. With a fixed number of decimals the same figure always has the same bytes.
 
 use std::fmt;
 
-/// A coordinate that prints shortly.
+/// A coordinate that is printed with few digits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct N(pub(crate) f64);
 

@@ -1,18 +1,18 @@
-//! Colours for series, and one fixed style per kind of motion.
+//! Colours for series, and one fixed style for each group of motions.
 //!
 //! [`SERIES`] is the eight-colour set of M. Okabe and K. Ito, "Color Universal Design" (2002,
 //! 2008), `https://jfly.uni-koeln.de/color/`.
 //!
-//! Motion classes follow their kin: `m/1` motions go from light to dark blue as m grows, subharmonic
-//! `1/n` motions from yellow to red-brown, other periodic motions are green, complete chatter is
-//! pink. Hues lie on the blue-yellow axis, which red-green blindness leaves alone, and kin differ
-//! in lightness, so that they survive grey print; groups that come close in grey carry a hatch.
-//! The tests hold the main groups apart for trichromats, protanopes and deuteranopes.
+//! Motions of one group have similar colours: `m/1` motions go from light to dark blue as m grows, subharmonic `1/n`
+//! motions from yellow to red-brown, other periodic motions are green, complete chatter is pink. Hues lie on the
+//! blue-yellow axis, which red-green blindness does not affect, and similar colours differ in lightness, so that they
+//! can be distinguished in grey print. Groups that are similar in grey have a hatch. The tests check that trichromats,
+//! protanopes and deuteranopes can distinguish the main groups.
 
 use crate::colour::Colour;
 use crate::hatch::{Hatch, Pattern};
 
-/// Okabe and Ito's colours for lines and points, in an order that keeps neighbours apart.
+/// The colours of Okabe and Ito for lines and points, in an order in which consecutive ones are easy to distinguish.
 pub const SERIES: [Colour; 8] = [
     Colour::hex(0x00_72b2),
     Colour::hex(0xd5_5e00),
@@ -24,12 +24,12 @@ pub const SERIES: [Colour; 8] = [
     Colour::hex(0xf0_e442),
 ];
 
-/// How a class looks on a map and in the legend.
+/// The style of a class on a map and in the legend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ClassStyle {
     /// The fill.
     pub colour: Colour,
-    /// Lines over it. A [`Raster`](crate::Raster) has no room for them and shows the fill alone.
+    /// Hatch over the fill. A [`Raster`](crate::Raster) has no room for it and shows only the fill.
     pub hatch: Option<Hatch>,
 }
 
@@ -46,7 +46,7 @@ impl ClassStyle {
     }
 }
 
-/// Every legend group, in the order of a legend.
+/// All legend groups, in the order of a legend.
 pub const GROUPS: [&str; 17] = [
     "0",
     "1/1",
@@ -67,11 +67,11 @@ pub const GROUPS: [&str; 17] = [
     "other",
 ];
 
-/// The legend group of a motion's label: one of [`GROUPS`].
+/// The legend group of the label of a motion: one of [`GROUPS`].
 ///
-/// `0` and `0/n` are motions without impact; `m/1` gathers m >= 5, `1/n` n >= 4, `k/k` equal
-/// numbers from 2 on, `m/n` all other periodic motions; `inf/n` (also `∞/n`) is complete chatter.
-/// What follows the numbers, as in `2/1'`, is not looked at. Words that are no label are `other`.
+/// `0` and `0/n` are motions without impact. `m/1` contains m >= 5, `1/n` n >= 4, `k/k` equal numbers from 2 on, `m/n`
+/// all other periodic motions; `inf/n` (also `∞/n`) is complete chatter. Characters after the numbers, as in `2/1'`,
+/// are ignored. Texts that are no label are `other`.
 #[must_use]
 pub fn legend_group(label: &str) -> &'static str {
     let label = label.trim();
@@ -98,14 +98,14 @@ pub fn legend_group(label: &str) -> &'static str {
     rule.map_or("other", |rule| rule.group)
 }
 
-/// Which motions m/n a legend group gathers: those with m and n in these ranges.
+/// A rule for the motions m/n of a legend group: m and n must lie in these ranges.
 #[derive(Clone, Copy, Debug)]
 pub struct GroupRule {
-    /// The fewest and the most impacts.
+    /// The smallest and the largest number of impacts.
     pub m: (u64, u64),
-    /// The fewest and the most forcing periods.
+    /// The smallest and the largest number of forcing periods.
     pub n: (u64, u64),
-    /// Whether m = n is asked.
+    /// Whether m = n is required.
     pub equal: bool,
     /// The group.
     pub group: &'static str,
@@ -116,17 +116,18 @@ impl GroupRule {
         Self { m, n, equal: false, group }
     }
 
-    /// Whether it gathers m/n.
+    /// Whether m/n satisfies the rule.
     #[must_use]
     pub const fn holds(&self, m: u64, n: u64) -> bool {
         self.m.0 <= m && m <= self.m.1 && self.n.0 <= n && n <= self.n.1 && (!self.equal || m == n)
     }
 }
 
-/// No bound.
+/// No upper bound.
 const ANY: u64 = u64::MAX;
 
-/// The groups of motions m/n: the first rule that holds names the group. The Python package and the page have them as tables.
+/// The groups of motions m/n: the first rule that is satisfied determines the group. The Python package and the page
+/// contain the same table.
 pub const GROUP_RULES: [GroupRule; 12] = [
     GroupRule::new((0, 0), (1, ANY), "0"),
     GroupRule::new((1, 1), (1, 1), "1/1"),
@@ -142,7 +143,7 @@ pub const GROUP_RULES: [GroupRule; 12] = [
     GroupRule::new((2, ANY), (2, ANY), "m/n"),
 ];
 
-/// The style of a motion's label, the same in every figure. The label of a group gives its style.
+/// The style of the label of a motion, the same in every figure. The label of a group has the style of the group.
 #[must_use]
 pub fn class_style(label: &str) -> ClassStyle {
     let plain = |rgb| ClassStyle::plain(Colour::hex(rgb));
@@ -167,7 +168,7 @@ pub fn class_style(label: &str) -> ClassStyle {
     }
 }
 
-/// The text of a label's group for a legend, in the markup of [labels](crate::plain).
+/// The text of the group of a label for a legend, in the markup of [labels](crate::plain).
 #[must_use]
 pub fn legend_text(label: &str) -> &'static str {
     match group_of(label) {

@@ -10,16 +10,16 @@ use crate::stroke::Stroke;
 use crate::theme;
 use crate::ticks::Tick;
 
-/// A pair of axes and what is drawn between them.
+/// A pair of axes and the marks between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// The horizontal axis.
     pub x: FigureAxis,
     /// The vertical axis.
     pub y: FigureAxis,
-    /// A line above the frame at its left end: `"(a)"`, `"**(a)** *δ* = 0"`.
+    /// A line of text above the frame at its left end: `"(a)"`, `"**(a)** *δ* = 0"`.
     pub caption: Option<String>,
-    /// What is shown, the first lowest.
+    /// The marks; the first one is lowest.
     pub marks: Vec<Mark>,
 }
 
@@ -30,25 +30,25 @@ impl Panel {
         Self { x, y, caption: None, marks: Vec::new() }
     }
 
-    /// With a caption.
+    /// Sets the caption.
     #[must_use]
     pub fn caption(self, markup: impl Into<String>) -> Self {
         Self { caption: Some(markup.into()), ..self }
     }
 
-    /// One more mark, on top of the others.
+    /// Adds a mark on top of the others.
     #[must_use]
     pub fn with(mut self, mark: impl Into<Mark>) -> Self {
         self.marks.push(mark.into());
         self
     }
 
-    /// One more mark, on top of the others.
+    /// Adds a mark on top of the others.
     pub fn add(&mut self, mark: impl Into<Mark>) {
         self.marks.push(mark.into());
     }
 
-    /// Ranges and ticks for a frame of about this size.
+    /// Ranges and ticks for a frame of approximately this size.
     pub(crate) fn prepare(&self, width: f64, height: f64) -> Prepared {
         use crate::scale::Scale::Log10;
         let (mut x, mut y) = (Extent::new(self.x.scale == Log10), Extent::new(self.y.scale == Log10));
@@ -59,7 +59,7 @@ impl Panel {
         let room = |length: f64, each: f64| (length / each).clamp(2.0, 10.0);
         #[expect(clippy::cast_possible_truncation, reason = "between 2 and 10")]
         let y_ticks = self.y.resolve_ticks(y_range, room(height, 48.0) as usize);
-        // as many numbers as stand side by side with air between them
+        // as many numbers as fit side by side with space between them
         #[expect(clippy::cast_possible_truncation, reason = "between 2 and 10")]
         let mut most = room(width, 50.0) as usize;
         let mapping = Mapping { scale: self.x.scale, range: x_range, page: (0.0, width) };
@@ -81,7 +81,7 @@ impl Panel {
             if axis.label.is_empty() { 0.0 } else { 1.4 * theme::LABEL_TEXT }
         };
         let beside = theme::TICK + theme::TICK_GAP;
-        // half of the last number overhangs, if it stands at the end
+        // half of the last number extends beyond the frame if it is at the end
         let end = prepared.x_ticks.iter().filter(|_| self.x.numbers).map(width).fold(0.0, f64::max);
         Margins {
             left: (beside + numbers + label(&self.y)).max(end / 2.0),
@@ -108,7 +108,7 @@ impl Panel {
     }
 }
 
-/// A panel's ranges and ticks.
+/// The ranges and ticks of a panel.
 #[derive(Clone, Debug)]
 pub(crate) struct Prepared {
     pub(crate) x_range: (f64, f64),
@@ -117,7 +117,7 @@ pub(crate) struct Prepared {
     pub(crate) y_ticks: Vec<Tick>,
 }
 
-/// Room around a frame.
+/// The margins around a frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Margins {
     pub(crate) left: f64,
@@ -126,7 +126,7 @@ pub(crate) struct Margins {
     pub(crate) bottom: f64,
 }
 
-/// Whether two numbers would touch.
+/// Whether two numbers are too close to each other.
 fn crowded(ticks: &[Tick], mapping: &Mapping) -> bool {
     let mut spans: Vec<(f64, f64)> = ticks
         .iter()

@@ -1,4 +1,4 @@
-//! SVG text to PNG bytes by `resvg`, with `DejaVu` Sans and no other font of the machine.
+//! Rendering of SVG text to PNG bytes by `resvg`, with `DejaVu` Sans and no other font of the machine.
 
 use std::sync::{Arc, OnceLock};
 
@@ -7,7 +7,7 @@ use resvg::usvg::{Options, Tree, fontdb};
 
 use crate::error::{MAX_SIDE, PlotError};
 
-/// The four faces a label can use, loaded once.
+/// The four font faces of labels, loaded once.
 fn fonts() -> Arc<fontdb::Database> {
     static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
     let load = || {
@@ -35,7 +35,7 @@ pub(crate) fn png(svg: &str, scale: f64) -> Result<Vec<u8>, PlotError> {
     }
     #[expect(clippy::cast_possible_truncation, reason = "between 1 and 16384")]
     let mut pixels = Pixmap::new(width as u32, height as u32).ok_or_else(refuse)?;
-    // the page is stretched by a fraction of a pixel so that it fills the last row and column
+    // the page is stretched by a fraction of a pixel, so that it fills the last row and column
     #[expect(clippy::cast_possible_truncation, reason = "the renderer works in f32")]
     let zoom = |pixels: f64, units: f32| (pixels / f64::from(units)) as f32;
     let transform = Transform::from_scale(zoom(width, tree.size().width()), zoom(height, tree.size().height()));

@@ -1,9 +1,9 @@
 //! Linear and logarithmic axes.
 
-/// How values are spread along an axis.
+/// The distribution of values along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly.
+    /// Linear.
     #[default]
     Linear,
     /// By decimal logarithm; values at or below zero are not shown.

@@ -3,10 +3,10 @@
 use crate::colour::Colour;
 use crate::number::N;
 
-/// How a line is broken up.
+/// The dashes of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dash {
-    /// Not at all.
+    /// A solid line.
     #[default]
     Solid,
     /// Long dashes.
@@ -17,7 +17,7 @@ pub enum Dash {
     DashDot,
 }
 
-/// The look of a line.
+/// The style of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// Its colour.
@@ -35,19 +35,19 @@ impl Stroke {
         Self { colour, width: 2.5, dash: Dash::Solid }
     }
 
-    /// With another width.
+    /// Sets the width.
     #[must_use]
     pub fn width(self, width: f64) -> Self {
         Self { width, ..self }
     }
 
-    /// With dashes.
+    /// Sets the dashes.
     #[must_use]
     pub fn dash(self, dash: Dash) -> Self {
         Self { dash, ..self }
     }
 
-    /// The width, whatever was asked: positive and not absurd.
+    /// The width, limited to positive and reasonable values.
     pub(crate) fn safe_width(self) -> f64 {
         if self.width.is_finite() { self.width.clamp(0.1, 100.0) } else { 1.0 }
     }
@@ -58,7 +58,7 @@ impl Stroke {
         let parts: &[f64] = match self.dash {
             Dash::Solid => &[],
             Dash::Dashed => &[4.0, 2.4],
-            // a dot of zero length under round caps vanishes in some renderers
+            // dots of length zero with round caps disappear in some renderers
             Dash::Dotted => &[1.0, 1.6],
             Dash::DashDot => &[4.5, 2.0, 1.0, 2.0],
         };

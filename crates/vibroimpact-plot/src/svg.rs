@@ -1,4 +1,4 @@
-//! A figure laid out and written as SVG or PNG.
+//! The layout of a figure, and its output as SVG or PNG.
 
 use crate::canvas::Canvas;
 use crate::error::PlotError;
@@ -10,14 +10,14 @@ use crate::number::N;
 use crate::{render, theme};
 
 impl Figure {
-    /// Width and height with everything, in figure units: PNG pixels at scale 1.
+    /// Width and height including the legend, in figure units: the number of PNG pixels at scale 1.
     #[must_use]
     pub fn outer_size(&self) -> (f64, f64) {
         let layout = Layout::of(self);
         (layout.width, layout.height)
     }
 
-    /// The figure as SVG text. It never fails: what cannot be shown is left out.
+    /// The figure as SVG text. Values that cannot be shown are left out, so this never fails.
     #[must_use]
     pub fn to_svg(&self) -> String {
         let layout = Layout::of(self);
@@ -48,11 +48,11 @@ impl Figure {
         )
     }
 
-    /// The figure as a PNG picture with `scale` pixels per figure unit; [`DPI_300`](crate::DPI_300)
-    /// suits print.
+    /// The figure as a PNG image with `scale` pixels per figure unit; [`DPI_300`](crate::DPI_300) is suitable for
+    /// print.
     ///
     /// # Errors
-    /// When the picture would have no pixel or more than 16384 on a side.
+    /// If the image would have no pixels, or more than 16384 on a side.
     pub fn to_png(&self, scale: f64) -> Result<Vec<u8>, PlotError> {
         render::png(&self.to_svg(), scale)
     }

@@ -1,18 +1,16 @@
-//! Where the ticks of an axis stand and what they say.
+//! The positions and labels of the ticks of an axis.
 //!
-//! Linear axes step by 1, 2 or 5 times a power of ten (P. S. Heckbert, "Nice numbers for graph
-//! labels", Graphics Gems, 1990); logarithmic ones mark decades, and fall back to linear steps
-//! when they show less than one.
+//! Linear axes have steps of 1, 2 or 5 times a power of ten (P. S. Heckbert, "Nice numbers for graph labels", Graphics
+//! Gems, 1990). Logarithmic axes mark decades, or have linear steps if they show less than one decade.
 
 use crate::scale::Scale;
 
-/// One mark on an axis.
+/// A tick of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
-    /// Where.
+    /// Its position.
     pub value: f64,
-    /// What it says, in the markup of [labels](crate::plain); a blank for a long
-    /// mark without text, empty for a short one.
+    /// Its text, in the markup of [labels](crate::plain); a blank for a long tick without text, empty for a short one.
     pub label: String,
 }
 
@@ -31,18 +29,18 @@ struct Step {
 }
 
 impl Step {
-    /// The finest step with at most `most` intervals' worth of ticks in `span`.
+    /// The smallest step with at most `most` intervals in `span`.
     fn finest(span: f64, most: usize) -> Self {
         let rough = span / most.max(1) as f64;
         #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent of an f64 is below 400")]
         let exponent = rough.log10().floor() as i32;
         let rest = rough / 10f64.powi(exponent);
-        // the slack keeps a span of exactly five steps from being cut to coarser ones by rounding
+        // the tolerance keeps rounding from choosing a coarser step for a span of exactly five steps
         let mantissa = [1.0, 2.0, 5.0].into_iter().find(|m| *m >= rest - 1e-9);
         mantissa.map_or(Self { mantissa: 1.0, exponent: exponent + 1 }, |mantissa| Self { mantissa, exponent })
     }
 
-    /// The `i`th multiple; dividing by a power of ten gives 0.3, where multiplying by 0.1 would not.
+    /// The `i`th multiple. Division by a power of ten gives exactly 0.3; multiplication by 0.1 would not.
     fn times(self, i: f64) -> f64 {
         if self.exponent < 0 {
             i * self.mantissa / 10f64.powi(-self.exponent)
@@ -54,7 +52,7 @@ impl Step {
     fn multiples(self, lo: f64, hi: f64) -> Vec<f64> {
         let unit = self.times(1.0);
         let (first, last) = ((lo / unit - 1e-9).ceil(), (hi / unit + 1e-9).floor());
-        // beyond 2^53 multiples are no longer distinct numbers: such an axis has no room for ticks
+        // above 2^53 multiples are no longer distinct numbers, so such an axis has no room for ticks
         if !(first.abs() < 9e15 && last.abs() < 9e15 && last - first < 1e4) {
             return Vec::new();
         }
@@ -68,8 +66,8 @@ impl Step {
     }
 }
 
-/// Values a reader expects on a linear axis from `lo` to `hi`: at most about `most` of them, at
-/// multiples of 1, 2 or 5 times a power of ten. Empty when the range is empty or not finite.
+/// Tick values for a linear axis from `lo` to `hi`: at most about `most`, at multiples of 1, 2 or 5 times a power of
+/// ten. Empty if the range is empty or not finite.
 #[must_use]
 pub fn nice_ticks(lo: f64, hi: f64, most: usize) -> Vec<f64> {
     let (lo, hi) = (lo.min(hi), lo.max(hi));
@@ -79,7 +77,7 @@ pub fn nice_ticks(lo: f64, hi: f64, most: usize) -> Vec<f64> {
     Step::finest(hi - lo, most).multiples(lo, hi)
 }
 
-/// Labelled ticks, then unlabelled ones between them, for an axis with room for `most` labels.
+/// Labelled ticks, and unlabelled ones between them, for an axis with room for `most` labels.
 pub(crate) fn ticks(scale: Scale, lo: f64, hi: f64, most: usize) -> Vec<Tick> {
     let (lo, hi) = (lo.min(hi), lo.max(hi));
     if (hi - lo).is_nan() || hi <= lo || (hi - lo).is_infinite() {
@@ -96,13 +94,13 @@ fn linear(lo: f64, hi: f64, most: usize) -> Vec<Tick> {
     let values = step.multiples(lo, hi);
     let largest = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
     let ten = largest.log10().floor();
-    // 12000 reads well, 0.0002 does not
+    // 12000 is legible as it is, 0.0002 is not
     let scientific = largest > 0.0 && !(-3.0..5.0).contains(&ten);
     let mut ticks: Vec<Tick> = values
         .iter()
         .map(|&v| Tick::new(v, if scientific { power(v, ten, step) } else { number(v, decimals(step.exponent)) }))
         .collect();
-    // many numbers already: one short mark between two is enough
+    // with many numbers, one short tick between two is enough
     let parts = match (values.len(), step.mantissa == 2.0) {
         (6.., _) => 2.0,
         (_, true) => 4.0,
@@ -120,11 +118,11 @@ fn decimals(exponent: i32) -> usize {
 }
 
 fn number(value: f64, decimals: usize) -> String {
-    // the true minus sign is as wide as a plus; the hyphen vanishes in print
+    // the true minus sign is as wide as a plus; a hyphen is hardly visible in print
     format!("{value:.decimals$}").replace('-', "−")
 }
 
-/// `value` as a mantissa times a power of ten that all labels of the axis share.
+/// The text of `value` as a mantissa times a power of ten that is common to all labels of the axis.
 fn power(value: f64, ten: f64, step: Step) -> String {
     if value == 0.0 {
         return "0".into();
@@ -146,17 +144,17 @@ fn decades(lo: f64, hi: f64, most: usize) -> Vec<Tick> {
         if plain { number(10f64.powi(k), decimals(k)) } else { format!("10^{{{}}}", number(f64::from(k), 0)) }
     };
     let mut ticks: Vec<Tick> = (first..=last)
-        // so many decades that their own marks would merge
+        // with more than 40 decades only some have a tick, because their ticks would merge
         .filter(|k| count <= 40 || k % every == 0)
         .map(|k| Tick::new(10f64.powi(k), if k % every == 0 { label(k) } else { " ".into() }))
         .collect();
-    // many decades: the marks within them would merge into a grey band
+    // with many decades, the ticks within them would merge into a grey band
     if count <= 8 {
         for k in first - 1..=last {
             for m in 2..10 {
                 let v = f64::from(m) * 10f64.powi(k);
                 if v >= lo && v <= hi {
-                    // one decade alone would leave the axis with a single number or two
+                    // an axis with one decade or less would otherwise have only one or two numbers
                     let say = count <= 2 && matches!(m, 2 | 5) && most >= 4;
                     let text = if say && plain { number(v, decimals(k)) } else { String::new() };
                     ticks.push(Tick::new(v, text));

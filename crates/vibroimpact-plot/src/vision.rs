@@ -1,16 +1,16 @@
-//! How a colour looks to a colour-blind reader or on a grey printer.
+//! Simulation of colours for colour-blind readers and grey printers.
 //!
-//! Dichromacy follows G. M. Machado, M. M. Oliveira and L. A. F. Fernandes, "A physiologically-based
-//! model for simulation of color vision deficiency", IEEE Trans. Vis. Comput. Graph. 15 (2009)
-//! 1291-1298, doi:10.1109/TVCG.2009.113: their matrices for severity 1.0, applied to linear light.
-//! Grey keeps the luminance of ITU-R BT.709.
+//! Dichromacy follows G. M. Machado, M. M. Oliveira and L. A. F. Fernandes, "A physiologically-based model for
+//! simulation of color vision deficiency", IEEE Trans. Vis. Comput. Graph. 15 (2009) 1291-1298,
+//! doi:10.1109/TVCG.2009.113: their matrices for severity 1.0 are applied to linear light. Grey is the luminance of
+//! ITU-R BT.709.
 
 use crate::colour::Colour;
 
-/// An eye, or a printer.
+/// A kind of colour vision, or a grey printer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Vision {
-    /// Usual trichromatic vision: nothing changes.
+    /// Normal trichromatic vision.
     Normal,
     /// No long-wave (red) cones.
     Protanopia,
@@ -21,7 +21,7 @@ pub enum Vision {
 }
 
 impl Vision {
-    /// The colour as this eye sees it.
+    /// The colour as it appears in this kind of vision.
     #[must_use]
     pub fn see(self, colour: Colour) -> Colour {
         let matrix = match self {

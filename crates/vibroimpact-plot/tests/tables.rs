@@ -1,6 +1,6 @@
-//! The tables that other languages need are written from those of this crate, and checked in.
+//! Writes the tables for Python and JavaScript from those of this crate, and checks that the files are up to date.
 //!
-//! `VIBROIMPACT_WRITE_TABLES=1 cargo test -p vibroimpact-plot --test tables` writes them anew.
+//! `VIBROIMPACT_WRITE_TABLES=1 cargo test -p vibroimpact-plot --test tables` writes the files again.
 
 #![allow(clippy::expect_used)]
 
@@ -11,7 +11,7 @@ const PYTHON: &str = "../vibroimpact-py/python/vibroimpact/_tables.py";
 const PAGE: &str = "../vibroimpact-web/page/tables.js";
 const WRITTEN: &str = "Written by crates/vibroimpact-plot/tests/tables.rs; do not edit.";
 
-/// The rules of groups, each a line between these brackets; `no_limit` stands for no upper bound.
+/// The rules of groups, one for each line, between the given brackets; `no_limit` is the text for no upper bound.
 fn rules([open, close]: [char; 2], [no, yes]: [&str; 2], no_limit: &str) -> String {
     let range = |(from, to): (u64, u64)| {
         let to = if to == u64::MAX { no_limit.to_owned() } else { to.to_string() };
@@ -24,7 +24,7 @@ fn rules([open, close]: [char; 2], [no, yes]: [&str; 2], no_limit: &str) -> Stri
     GROUP_RULES.iter().map(rule).collect()
 }
 
-/// Markup of this crate, `*m*` for an italic m, as mathtext of matplotlib.
+/// Converts markup of this crate, such as `*m*` for an italic m, to mathtext of matplotlib.
 fn mathtext(markup: &str) -> String {
     markup
         .split('*')

@@ -1,4 +1,4 @@
-//! The steady motions of a system and the share of starts that lead to each.
+//! The attractors of a system, and the share of starts that lead to each.
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
@@ -12,7 +12,7 @@ use vibroimpact_study::{Plan, Results, Task};
 /// The fields of `Attractors`.
 #[derive(IntoPyObject)]
 pub(crate) struct Found<'py> {
-    /// Each motion with its share and the number of starts that led to it.
+    /// Each motion, its share, and the number of starts that lead to it.
     motions: Vec<(Fields<'py>, f64, u64)>,
     x: (f64, f64),
     v: (f64, f64),

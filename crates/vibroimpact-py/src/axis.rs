@@ -1,9 +1,9 @@
-//! What names a parameter, alone or with a range of it.
+//! Conversion of the names of parameters and their ranges.
 
 use crate::error::Trouble;
 use vibroimpact_study::{Parameter, Stretch};
 
-/// A parameter by its name.
+/// The parameter with this name.
 pub(crate) fn parameter(name: &str) -> Result<Parameter, Trouble> {
     Parameter::ALL.into_iter().find(|parameter| parameter.name() == name).ok_or_else(|| {
         let known = Parameter::ALL.map(Parameter::name).join(", ");

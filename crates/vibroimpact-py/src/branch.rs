@@ -1,4 +1,4 @@
-//! A branch of periodic orbits in one parameter or along a line through two, and those that begin on it.
+//! A branch of periodic orbits in one parameter or along a line through two, and the branches that begin on it.
 
 use crate::axis::parameter;
 use crate::columns::{Impacts, column, complex, named, pairs};
@@ -13,14 +13,14 @@ use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact::orbit::Cycle;
 use vibroimpact_study::{BranchPlan, Cut, EventRecord, Followed, Plan, Results, Target, Task};
 
-/// Cycles one after another, and where each begins.
+/// Several cycles in one set of columns, with the index at which each begins.
 #[derive(IntoPyObject)]
 pub(crate) struct Cycles<'py> {
-    /// One more than there are cycles.
+    /// The index of the first impact of each cycle, and the total number of impacts at the end.
     offsets: Bound<'py, PyArray1<i64>>,
     impacts: Impacts<'py>,
     multipliers: Bound<'py, PyArray2<Complex64>>,
-    /// Of each cycle, where any of them has one.
+    /// The phases of sticking of each cycle; `None` if no cycle has any.
     rests: Option<Vec<Vec<Rest>>>,
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Fields<'py> {
     physical: Bound<'py, PyArray1<bool>>,
     cycles: Cycles<'py>,
     events: Vec<Event>,
-    /// Kind, value and branch it leaves, counted from 1.
+    /// The kind and the value of the event at which it begins, and the number (from 1) of the branch of that event.
     origin: Option<(&'static str, f64, usize)>,
 }
 
@@ -59,7 +59,7 @@ pub(crate) struct Fields<'py> {
 struct Event {
     kind: &'static str,
     parameter: f64,
-    /// Of both parameters of a line.
+    /// Values of both parameters of a line.
     values: Option<(f64, f64)>,
     point: usize,
     ends: bool,
@@ -70,7 +70,7 @@ struct Event {
     side: Option<&'static str>,
     phase: Option<f64>,
     turns: Option<bool>,
-    /// Impact, side and phase of a touch together with that of the event.
+    /// Impact, side and phase of a second contact simultaneous with that of the event.
     also: Option<(Option<usize>, &'static str, f64)>,
 }
 
@@ -118,7 +118,7 @@ impl<'py> Fields<'py> {
     }
 }
 
-/// The value of the second parameter of a line.
+/// The value of the second parameter of a line at a point.
 fn second(cut: &Cut, point: &SolutionPoint) -> Option<f64> {
     cut.values(point.value).nth(1).map(|(_, value)| value)
 }
@@ -127,16 +127,16 @@ fn second(cut: &Cut, point: &SolutionPoint) -> Option<f64> {
 #[derive(IntoPyObject)]
 pub(crate) struct Found<'py> {
     branches: Vec<Fields<'py>>,
-    /// Number of the orbit it began with, and how many there are.
+    /// Number of the chosen orbit, and number of orbits.
     orbit: (u32, u32),
     from: f64,
-    /// The second parameter of a line, and its values at the ends.
+    /// The second parameter of a line, and its values at the two ends.
     also: Option<(&'static str, f64, f64)>,
     label: String,
     plan: String,
 }
 
-/// Follows an orbit, and the branches that begin on its way.
+/// Follows an orbit and the branches that begin on its branch.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // keywords
 pub(crate) fn branch<'py>(

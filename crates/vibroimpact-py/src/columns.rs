@@ -1,4 +1,4 @@
-//! Lists of Rust as columns of numpy, handed over without a copy.
+//! Lists of Rust as columns of numpy, passed without a copy.
 
 use numpy::{Complex64, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -22,7 +22,7 @@ pub(crate) const fn named(side: Side) -> &'static str {
     }
 }
 
-/// The impacts of a cycle, or of many, one after another.
+/// The impacts of one cycle, or of several cycles one after another.
 #[derive(IntoPyObject)]
 pub(crate) struct Impacts<'py> {
     phase: Bound<'py, PyArray1<f64>>,

@@ -17,12 +17,12 @@ pub(crate) struct Fields<'py> {
     values: Bound<'py, PyArray2<f64>>,
     physical: Bound<'py, PyArray1<bool>>,
     cycles: Cycles<'py>,
-    /// Kind and place among the points.
+    /// Kind of each event, and its index among the points.
     events: Vec<(&'static str, usize)>,
-    /// Number of the orbit it began with, and how many there are.
+    /// Number of the chosen orbit, and number of orbits.
     orbit: (u32, u32),
     found_at: Vec<f64>,
-    /// Which of these, counted from 1, and its place among the points.
+    /// Number (from 1) of the event through which the curve passes, and its index among the points.
     through: (usize, usize),
     plan: String,
 }
@@ -34,7 +34,7 @@ fn kind(name: &str) -> Result<FollowedEvent, Trouble> {
         .ok_or_else(|| Trouble::question(format!("`{name}` is no kind of curve; there are fold, flip, grazing")))
 }
 
-/// Follows an orbit to an event, and the event over the plane.
+/// Follows an orbit to an event, and then the event in the plane.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // keywords
 pub(crate) fn curve<'py>(

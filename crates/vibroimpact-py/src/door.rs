@@ -1,8 +1,7 @@
-//! Runs work that takes time: without the interpreter's lock, on a thread of its own, with a stop flag.
+//! Runs work that takes time: without the lock of the interpreter, on a thread of its own, with a stop flag.
 //!
-//! Every 50 ms the calling thread checks whether Ctrl-C was pressed and calls the progress callback.
-//! Work that reads its stop flag has ended when the exception is raised; other work is abandoned
-//! after half a second.
+//! Every 50 ms the calling thread checks whether Ctrl-C was pressed and calls the progress callback. Work that reads
+//! the stop flag has ended when the exception is raised. Other work is abandoned after half a second.
 
 use crate::error::Trouble;
 use pyo3::prelude::*;
@@ -13,28 +12,28 @@ use std::thread;
 use std::time::Duration;
 use vibroimpact_study::{Control, Plan, Results, Stopped};
 
-/// How long to wait for work that was asked to stop; after it the work is abandoned.
+/// Time to wait for stopped work before it is abandoned.
 const PATIENCE: Duration = Duration::from_millis(500);
-/// Between two looks.
+/// Time between two checks.
 const BEAT: Duration = Duration::from_millis(50);
 
-/// How a question is watched: what it is, how much there is to do, who wants to know, and over how many threads.
+/// How work is watched: its name, its size, its progress callback, and its number of threads.
 pub(crate) struct Watch {
     pub(crate) what: &'static str,
     pub(crate) total: u64,
-    /// Called with what is done and what there is to do; `False` stops the work.
+    /// Called with the amounts done and in total. The work stops if it returns `False`.
     pub(crate) progress: Option<Py<PyAny>>,
     pub(crate) threads: usize,
 }
 
 impl Watch {
-    /// Of a question that is answered in one piece.
+    /// For work without progress reports.
     pub(crate) const fn alone(what: &'static str) -> Self {
         Self { what, total: 1, progress: None, threads: 1 }
     }
 }
 
-/// What worker and watcher share.
+/// The data shared by the working thread and the calling thread.
 #[derive(Default)]
 struct Shared {
     stop: AtomicBool,
@@ -50,7 +49,7 @@ impl Shared {
     }
 }
 
-/// Does work that owns all it needs. Stopped, it is left behind.
+/// Runs work that owns all its data. If it is stopped and does not end in time, it is abandoned.
 pub(crate) fn run<T: Send + 'static>(
     py: Python<'_>,
     watch: Watch,
@@ -60,14 +59,14 @@ pub(crate) fn run<T: Send + 'static>(
         let shared = Arc::new(Shared::default());
         let (sender, receiver) = channel();
         let (theirs, threads) = (Arc::clone(&shared), watch.threads);
-        // if the receiver is gone, so is the wish for the result
+        // sending fails if the receiver is gone; then nobody needs the result
         let worker = move || drop(sender.send(theirs.working(threads, work)));
         thread::Builder::new().spawn(worker).map_err(|_| Trouble::Defect("starting a thread"))?;
         wait(&receiver, &shared, &watch)
     })
 }
 
-/// Checks a plan, computes its result, and takes out of it what the task of the plan gives.
+/// Checks a plan, computes its result, and extracts the variant that belongs to its task.
 pub(crate) fn result<T: Send + 'static>(
     py: Python<'_>,
     watch: Watch,
@@ -79,7 +78,7 @@ pub(crate) fn result<T: Send + 'static>(
     run(py, watch, move |control| take(vibroimpact_study::run(&plan, control)?).ok_or(Trouble::Defect(what)))
 }
 
-/// Does work on borrowed arrays, which looks at its stop flag: it has ended when this returns.
+/// Runs work on borrowed arrays. The work must read the stop flag, because this function waits for its end.
 pub(crate) fn run_borrowing<T: Send>(
     py: Python<'_>,
     watch: Watch,
@@ -96,7 +95,7 @@ pub(crate) fn run_borrowing<T: Send>(
     })
 }
 
-/// Waits for the result, detached from the interpreter but for its looks.
+/// Waits for the result, detached from the interpreter except during the checks.
 fn wait<T>(receiver: &Receiver<Result<T, Trouble>>, shared: &Shared, watch: &Watch) -> Result<T, Trouble> {
     loop {
         match receiver.recv_timeout(BEAT) {
@@ -109,7 +108,7 @@ fn wait<T>(receiver: &Receiver<Result<T, Trouble>>, shared: &Shared, watch: &Wat
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(trouble) = look(watch, shared.done.load(Ordering::Relaxed)) {
                     shared.stop.store(true, Ordering::Relaxed);
-                    // the result is not needed any more
+                    // wait so that work that reads the stop flag can end; its result is not needed any more
                     let _ = receiver.recv_timeout(PATIENCE);
                     return Err(trouble);
                 }
@@ -118,7 +117,7 @@ fn wait<T>(receiver: &Receiver<Result<T, Trouble>>, shared: &Shared, watch: &Wat
     }
 }
 
-/// Checks for Ctrl-C and reports how much is done.
+/// Checks for Ctrl-C and reports progress.
 fn look(watch: &Watch, done: u64) -> Result<(), Trouble> {
     Python::attach(|py| {
         py.check_signals()?;

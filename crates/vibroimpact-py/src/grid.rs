@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use vibroimpact_study::study::{Cells, Sheet, StudyTable, in_memory, label_of};
 use vibroimpact_study::{Column, Field, Study};
 
-/// An array with what it means: flat, in row-major order.
+/// An array with its description, flat and in row-major order.
 #[derive(IntoPyObject)]
 pub(crate) struct Variable<'py> {
     name: String,
@@ -33,7 +33,7 @@ fn array(py: Python<'_>, values: Column) -> Bound<'_, PyAny> {
     }
 }
 
-/// The meanings of a field's numbers, with the labels m/n that occur.
+/// The special values of a field and their meanings, and the labels m/n that occur.
 fn flags(field: &Field, values: &Column) -> Vec<(i32, String)> {
     let own = field.flags.iter().map(|(value, meaning)| (*value, (*meaning).to_owned()));
     let labels: BTreeSet<i32> = if field.name == "label" {
@@ -105,14 +105,14 @@ pub(crate) fn fill<'py>(
     Ok(variables(py, sheet)?)
 }
 
-/// The labels behind codes: m/n, "0", "chaotic", "stuck", "undecided", and nothing where there is no motion.
+/// The labels of codes: m/n, "0", "chaotic", "stuck" or "undecided"; an empty text where there is no motion.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // what Python hands over
+#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn labels_of(codes: Vec<i32>) -> Vec<String> {
     codes.into_iter().map(|code| label_of(code).unwrap_or_default()).collect()
 }
 
-/// The values of a span, the very numbers that are computed with.
+/// The values of a span, exactly the numbers that are used in the computation.
 #[pyfunction]
 pub(crate) fn span_values<'py>(py: Python<'py>, over: &str) -> Result<Bound<'py, PyArray1<f64>>, Trouble> {
     let span: vibroimpact_study::Span = over.parse()?;

@@ -1,7 +1,8 @@
-//! The compiled part of the Python package `vibroimpact`: parse (Python to a plan), run (in [`door`]), report (arrays).
+//! The compiled module of the Python package `vibroimpact`: parse (Python to a plan), run (in [`door`]), report
+//! (arrays).
 //!
-//! One function family in one file. What has methods, figures and documentation is Python, in `python/vibroimpact`; here
-//! are the checked parameters, the plans and columns of numbers.
+//! Each file has one family of functions. Checked parameters, plans and columns of numbers are here; results with
+//! methods, figures and documentation are written in Python, in `python/vibroimpact`.
 
 mod attractors;
 mod axis;
@@ -51,7 +52,7 @@ mod _core {
     #[pymodule_export]
     use crate::store::Store;
 
-    /// Whether this build reaches buckets.
+    /// Whether this build supports buckets.
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "its name in Python")]
     const reaches_buckets: bool = crate::store::BUCKETS;

@@ -35,7 +35,7 @@ pub(crate) struct Fields<'py> {
     plan: String,
 }
 
-/// Phases, speeds of arrival, sides.
+/// Phases, speeds before impacts, and sides.
 type Impacts<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i8>>);
 
 #[derive(Default, IntoPyObject)]

@@ -1,4 +1,4 @@
-//! A verdict as the fields of `Motion`: those of the command's JSON, its lists as arrays.
+//! A verdict as the fields of `Motion`. They are the fields of the JSON of the command, with arrays for lists.
 
 use crate::columns::{Impacts, column, complex, named};
 use numpy::{Complex64, PyArray1};
@@ -25,14 +25,14 @@ pub(crate) struct Fields<'py> {
     /// Value and error.
     lyapunov: Option<(f64, f64)>,
     seen_impacts: Option<u64>,
-    /// Impacts, and the value and error of the exponent.
+    /// Number of impacts; value and error of the exponent.
     chaotic_transient: Option<(u64, (f64, f64))>,
     horizon: Option<HorizonFields>,
     side: Option<&'static str>,
     tried: Option<Tried>,
 }
 
-/// A rest on a stop.
+/// One phase of sticking.
 #[derive(IntoPyObject)]
 pub(crate) struct Rest {
     side: &'static str,
@@ -48,13 +48,13 @@ struct Tried {
     lyapunov: Option<(f64, f64)>,
 }
 
-/// How far "no more impacts" reaches and why.
+/// Why there are no more impacts, and for how many periods.
 #[derive(IntoPyObject)]
 pub(crate) struct HorizonFields {
     kind: &'static str,
     periods: Option<f64>,
     why: &'static str,
-    /// In forcing and in natural periods.
+    /// Number of forcing periods and of natural periods.
     common_period: Option<(u32, u32)>,
 }
 
@@ -74,7 +74,7 @@ impl HorizonFields {
     }
 }
 
-/// The rests of a cycle.
+/// The phases of sticking of a cycle.
 pub(crate) fn rests(cycle: &Cycle) -> Vec<Rest> {
     let rests = cycle.rests.iter();
     rests
@@ -133,7 +133,7 @@ impl<'py> Fields<'py> {
         }
     }
 
-    /// With the chaos that was seen before.
+    /// The same fields with the chaos that preceded the motion.
     pub(crate) fn after(self, transient: Option<Chaos>) -> Self {
         let chaotic_transient = transient.map(|chaos| (chaos.impacts, pair(chaos.spectrum.exponents[0])));
         Self { chaotic_transient, ..self }

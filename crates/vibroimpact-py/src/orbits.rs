@@ -1,4 +1,4 @@
-//! The periodic orbits of a label, stable or not.
+//! The periodic orbits with a label, stable or not.
 
 use crate::columns::named;
 use crate::door::{self, Watch};
@@ -9,10 +9,11 @@ use pyo3::prelude::*;
 use vibroimpact::verdict::Verdict;
 use vibroimpact_study::{Plan, Results, Task};
 
-/// After which impact, counted from 1, it meets which stop, and how long after.
+/// The first contact of an inadmissible solution: the number (from 1) of the impact before it, the stop, and the time
+/// since that impact.
 type Earlier = (Option<usize>, &'static str, f64);
 
-/// Each orbit, whether it is a possible motion, and where it meets a stop too early.
+/// Each orbit, whether it is admissible, and if not, its first contact with a stop.
 #[pyfunction]
 pub(crate) fn orbits<'py>(
     py: Python<'py>,

@@ -1,4 +1,4 @@
-//! `Oscillator` and `Units`: checked when they are made, never changed.
+//! `Oscillator` and `Units`, which are checked at construction and immutable.
 
 use crate::error::Trouble;
 use pyo3::prelude::*;
@@ -9,16 +9,17 @@ use std::hash::{Hash, Hasher};
 use vibroimpact::{Frequency, Machine, Scales, Side};
 use vibroimpact_study::{SecondStop, SystemPlan};
 
-/// A hash of numbers that is the same for equal ones: 0 has no sign.
+/// A hash of numbers that is equal for equal numbers (0 and -0 are equal).
 fn hash_of(numbers: impl Iterator<Item = f64>) -> u64 {
     let mut hasher = DefaultHasher::new();
     numbers.for_each(|number| (number + 0.0).to_bits().hash(&mut hasher));
     hasher.finish()
 }
 
-/// What one nondimensional unit is in a machine.
+/// The physical units of length and time of an oscillator.
 ///
-/// Multiply a nondimensional result by it, divide a physical start by it.
+/// Multiply a nondimensional result by a unit to get a physical value; divide a physical start by it to get a
+/// nondimensional one.
 ///
 /// >>> from vibroimpact import Oscillator
 /// >>> osc = Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.010, restitution=0.5)
@@ -81,27 +82,27 @@ impl Units {
     }
 }
 
-/// An oscillator that strikes a stop: x'' + 2 zeta x' + x = sin(beta t + phase), x <= gap, u+ = -eps u-.
+/// An oscillator that hits a stop: x'' + 2 zeta x' + x = sin(beta t + phase), x <= gap, u+ = -eps u-.
 ///
-/// Everything is nondimensional: lengths in units of F/k, times in units of 1/omega_n, phases in radians.
-/// Its parameters are checked once, here, and never change.
+/// All values are nondimensional: lengths in units of F/k, times in units of 1/omega_n, phases in radians. The
+/// parameters are checked at construction and cannot be changed.
 ///
 /// Parameters
 /// ----------
 /// beta : float
 ///     Frequency ratio omega/omega_n, positive. Give exactly one of `beta` and `inverse_beta`.
 /// inverse_beta : float
-///     Its inverse omega_n/omega, the abscissa of the 1971 paper.
+///     Inverse frequency ratio omega_n/omega, the abscissa of the 1971 paper.
 /// gap : float
-///     Distance of the stop from the rest position; negative presses the mass against it.
+///     Distance of the stop from the rest position; if it is negative, the spring presses the mass against the stop.
 /// restitution : float
-///     Rebound speed over arrival speed, 0 to 1.
+///     Coefficient of restitution: speed after an impact over speed before it, 0 to 1.
 /// damping : float
 ///     Damping ratio c / (2 sqrt(k m)), 0 or more.
 /// second_gap, second_restitution : float
-///     A second stop at x = -second_gap; its restitution is that of the first unless given.
+///     Gap and restitution of a second stop at x = -second_gap. Default restitution: that of the first stop.
 /// units : Units
-///     What one unit of length and time is, where the oscillator describes a machine.
+///     The physical units of length and time, if the oscillator has any.
 ///
 /// Examples
 /// --------
@@ -136,8 +137,8 @@ impl Oscillator {
             .chain(second.into_iter().flat_map(|stop| [stop.gap, stop.restitution]))
     }
 
-    /// Changes by the keywords of `Oscillator`: gaps in metres in units of F/k. Of a machine, numbers that may be meant in other
-    /// units are refused.
+    /// Converts changes given by the keywords of `Oscillator` to nondimensional ones; gaps in metres are divided by
+    /// F/k. For an oscillator with physical units, numbers whose unit is ambiguous are refused.
     fn nondimensional<'py>(&self, changes: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
         let own = changes.copy()?;
         for (name, metres) in [("gap", "gap_m"), ("second_gap", "second_gap_m")] {
@@ -174,7 +175,7 @@ impl Oscillator {
         Ok(own)
     }
 
-    /// The call that makes it again.
+    /// The keyword arguments that construct an equal oscillator.
     fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let keywords = PyDict::new(py);
         for (name, value) in self.given() {
@@ -186,7 +187,7 @@ impl Oscillator {
         Ok(keywords)
     }
 
-    /// The numbers of that call.
+    /// The numbers among these arguments.
     fn given(&self) -> impl Iterator<Item = (&'static str, f64)> {
         let plan = self.plan;
         let second = plan.second_stop;
@@ -232,28 +233,28 @@ impl Oscillator {
         Self::checked(SystemPlan { beta, inverse_beta, gap, restitution, damping, second_stop }, units)
     }
 
-    /// The oscillator of a machine in physical units.
+    /// Create an oscillator from physical units.
     ///
     /// Parameters
     /// ----------
     /// mass : float
-    ///     In kg.
+    ///     Mass in kg.
     /// stiffness : float
-    ///     In N/m.
+    ///     Stiffness in N/m.
     /// force : float
     ///     Amplitude of the force in N.
     /// gap : float
     ///     Distance of the stop from the rest position in m.
     /// restitution : float
-    ///     Rebound speed over arrival speed, 0 to 1.
+    ///     Coefficient of restitution: speed after an impact over speed before it, 0 to 1.
     /// frequency : float
-    ///     Of the force, in Hz. Give exactly one of `frequency` and `omega`.
+    ///     Frequency of the force in Hz. Give exactly one of `frequency` and `omega`.
     /// omega : float
-    ///     Of the force, in rad/s.
+    ///     Angular frequency of the force in rad/s.
     /// damping : float
     ///     Viscous damping in N s/m.
     /// second_gap, second_restitution : float
-    ///     A second stop on the other side, its distance in m.
+    ///     Distance in m and restitution of a second stop on the other side.
     ///
     /// Examples
     /// --------
@@ -309,11 +310,12 @@ impl Oscillator {
         Self::checked(plan, Some(Units(scales)))
     }
 
-    /// The same oscillator with other values of some parameters, by the keywords of `Oscillator`.
+    /// Return the same oscillator with other values of some parameters, given by the keywords of `Oscillator`.
     ///
-    /// A new `beta` or `inverse_beta` takes the place of whichever was given; `second_gap=None` takes the second stop away.
-    /// Of a machine in physical units a gap is given in metres, as `gap_m` or `second_gap_m`. Numbers that would be read in two
-    /// ways, `gap`, `second_gap` and `damping`, are refused there unless `units` is given with them: then they are nondimensional.
+    /// A new `beta` or `inverse_beta` replaces whichever was given. `second_gap=None` removes the second stop. For an
+    /// oscillator with physical units, gaps are given in metres as `gap_m` or `second_gap_m`. The keywords `gap`,
+    /// `second_gap` and `damping` are ambiguous there and are refused, unless `units` is given too; then they are
+    /// nondimensional.
     ///
     /// >>> from vibroimpact import Oscillator
     /// >>> osc = Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.010, restitution=0.5)
@@ -340,7 +342,7 @@ impl Oscillator {
         self.osc.beta()
     }
 
-    /// Its inverse, as it was given where it was.
+    /// Inverse frequency ratio omega_n/omega, exactly as given if it was given.
     #[getter]
     fn inverse_beta(&self) -> f64 {
         self.plan.inverse_beta.unwrap_or(1.0 / self.osc.beta())
@@ -352,7 +354,7 @@ impl Oscillator {
         self.osc.gap()
     }
 
-    /// Rebound speed over arrival speed.
+    /// Coefficient of restitution: speed after an impact over speed before it.
     #[getter]
     const fn restitution(&self) -> f64 {
         self.osc.restitution()
@@ -376,7 +378,7 @@ impl Oscillator {
         self.osc.stop(Side::Lower).map(|stop| stop.restitution)
     }
 
-    /// What one unit of length and time is, where it describes a machine; else None.
+    /// The physical units of length and time, or None.
     #[getter]
     const fn units(&self) -> Option<Units> {
         self.units
@@ -388,7 +390,7 @@ impl Oscillator {
         self.osc.period()
     }
 
-    /// Amplitude of the steady motion without stops, in units of F/k; infinite at undamped resonance.
+    /// Amplitude of the motion without impacts, in units of F/k; infinite at undamped resonance.
     #[getter]
     fn free_amplitude(&self) -> f64 {
         self.osc.free_amplitude()
@@ -406,7 +408,7 @@ impl Oscillator {
         text + ")"
     }
 
-    /// Whether both do the same: the same numbers, however the frequency was given, and the same units.
+    /// Whether both are equivalent: the same numbers, in whichever form the frequency was given, and the same units.
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
         other.cast::<Self>().is_ok_and(|other| {
             let other = other.get();

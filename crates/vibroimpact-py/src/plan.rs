@@ -1,4 +1,4 @@
-//! A plan as text, JSON or TOML, checked and in the form in which it is stored.
+//! A plan from text in JSON or TOML: checked, and converted to the form in which it is stored.
 
 use crate::error::Trouble;
 use crate::oscillator::Oscillator;
@@ -8,7 +8,7 @@ use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan,
 /// The plan of a text.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
     let plan = Plan::from_text(text).map_err(|error| match error {
-        // JSON is written by this package, and a place in it is of no use to its user
+        // JSON is written by this package, so a position in it does not help the user
         PlanError::Text(sentence) if text.trim_start().starts_with('{') => {
             Trouble::question(sentence.rsplit_once(" at line ").map_or(sentence.as_str(), |(before, _)| before))
         }
@@ -19,7 +19,7 @@ pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
     Ok(plan)
 }
 
-/// Points of the grid that a plan fills; 0 for one that fills none.
+/// Number of points of the grid of a plan; 0 for a plan without a grid.
 pub(crate) fn points(plan: &Plan) -> u64 {
     match &plan.task {
         Task::Lyapunov(lyapunov) => lyapunov.axes.iter().map(|axis| axis.over.count() as u64).product(),
@@ -28,14 +28,14 @@ pub(crate) fn points(plan: &Plan) -> u64 {
     }
 }
 
-/// The plan as it is stored, its hash, what it asks in words, and the points it fills.
+/// The plan in the form in which it is stored, its hash, its title, and the number of points of its grid.
 #[pyfunction]
 pub(crate) fn checked_plan(text: &str) -> Result<(String, String, String, u64), Trouble> {
     let plan = read(text)?;
     Ok((crate::simulate::text(&plan)?, plan.hash(), plan.title(), points(&plan)))
 }
 
-/// The fields of an oscillator's system in a plan as JSON, the frequency as it was given.
+/// The fields of the system of a plan as JSON, with the frequency in the form in which it was given.
 #[pyfunction]
 pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
     serde_json::to_string(&osc.plan).map_err(|_| Trouble::Defect("writing the system"))
@@ -44,9 +44,9 @@ pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
 /// Name, value, long name and unit of a coordinate.
 type Fixed = (&'static str, f64, &'static str, &'static str);
 
-/// The parameters that a plan leaves as they are, and of a start that is the same everywhere its coordinates: always the same names,
-/// so that Datasets of several plans can be joined. The parameters of a second stop that is not there, and the position of a start
-/// at rest, are not a number.
+/// The parameters, and the coordinates of a start, that do not vary in a plan. The names are always the same, so that
+/// Datasets of several plans can be joined. The parameters of an absent second stop, and the position of a start at
+/// rest, are not-a-number.
 #[pyfunction]
 pub(crate) fn fixed_coordinates(text: &str) -> Result<Vec<Fixed>, Trouble> {
     let plan = read(text)?;

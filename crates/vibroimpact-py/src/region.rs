@@ -1,4 +1,4 @@
-//! Where in a plane of two parameters a motion exists, and where it is stable, as polygons.
+//! The regions of a plane of two parameters in which a motion exists and in which it is stable, as polygons.
 
 use crate::axis::stretch;
 use crate::columns::{column, pairs};
@@ -11,10 +11,11 @@ use pyo3::prelude::*;
 use vibroimpact::continuation::{Bound as Edge, Polygon, Region, Vertex};
 use vibroimpact_study::{Plan, RegionPlan, Results, Task};
 
-/// Vertices, what bounds the region from each to the next, whether it is a hole, whether multipliers are below +1.
+/// The vertices, the kind of boundary from each vertex to the next, whether it is a hole, and whether multipliers are
+/// below +1.
 type PolygonFields<'py> = (Bound<'py, PyArray2<f64>>, Vec<&'static str>, bool, bool);
 
-/// Polygons, and points where they do not agree with the search for orbits.
+/// The polygons, and the points of the grid where the search for orbits contradicts them.
 type Part<'py> = (Vec<PolygonFields<'py>>, Bound<'py, PyArray2<f64>>);
 
 fn part<'py>(py: Python<'py>, region: &Region) -> PyResult<Part<'py>> {
@@ -47,9 +48,10 @@ pub(crate) fn region<'py>(
     Ok((part(py, &found.existence)?, part(py, &found.stability)?, neutral, text(&plan)?))
 }
 
-/// Which points lie in a region, its polygons given by their vertices and whether multipliers are below +1.
+/// Whether each of some points lies in a region. Each polygon is given by its vertices and whether multipliers are
+/// below +1.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // what Python hands over
+#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn contains<'py>(
     py: Python<'py>,
     polygons: Vec<(PyReadonlyArray2<'py, f64>, bool)>,

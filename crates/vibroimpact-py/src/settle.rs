@@ -1,4 +1,4 @@
-//! What a motion settles into; what many do, their starts given as arrays.
+//! Settling of motions: from one start, and from starts given as arrays.
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
@@ -13,7 +13,7 @@ use vibroimpact::system::phase;
 use vibroimpact::verdict::{Census, KnownAttractors, SettleOptions, settle_many as settle_range};
 use vibroimpact_study::{Control, Plan, Results, Task, tiles};
 
-/// The fields of the motion, and the plan.
+/// Settles the motion from a start. Returns the fields of the motion, and the plan.
 #[pyfunction]
 pub(crate) fn settle<'py>(
     py: Python<'py>,
@@ -27,12 +27,12 @@ pub(crate) fn settle<'py>(
     Ok((Fields::new(py, &settled.verdict, &osc.osc).after(settled.transient), text(&plan)?))
 }
 
-/// Starts of a tile.
+/// Number of starts of a tile.
 const TILE: u64 = 4096;
-/// Starts settled beforehand, spread over all, to know the cycles and their traps.
+/// Number of starts of the survey, which finds the cycles and their trapping regions.
 const SURVEY: u64 = 24;
 
-/// Starts as columns; one of length 1 is the same for all.
+/// Starts as columns. A column of length 1 applies to all starts.
 struct Starts<'a> {
     x: &'a [f64],
     v: &'a [f64],
@@ -40,7 +40,7 @@ struct Starts<'a> {
 }
 
 impl Starts<'_> {
-    /// Start number `k`, its phase as it was given.
+    /// Start number `k`, with its phase as given.
     fn given(&self, k: u64) -> Start {
         let of = |column: &[f64]| {
             let k = usize::try_from(k).unwrap_or(usize::MAX);
@@ -49,13 +49,13 @@ impl Starts<'_> {
         Start { x: of(self.x), v: of(self.v), phase: of(self.phase) }
     }
 
-    /// Start number `k`, its phase wrapped.
+    /// Start number `k`, with its phase reduced to one period.
     fn at(&self, k: u64) -> Start {
         let given = self.given(k);
         Start { phase: phase::wrap(given.phase), ..given }
     }
 
-    /// The first that is not allowed, in the words of a single one.
+    /// Checks all starts. The error for the first invalid one is that of a single start.
     fn check(&self, osc: &vibroimpact::Oscillator, total: u64) -> Result<(), Trouble> {
         (0..total).try_for_each(|k| {
             let Start { x, v, phase } = self.given(k);
@@ -87,12 +87,12 @@ fn settle_all(
     Ok((merged, cells))
 }
 
-/// Motions in order of first appearance with the number of starts that led to each, and the motion of each start.
+/// The motions in the order of their first start, each with its number of starts, and the motion of each start.
 pub(crate) type Many<'py> = (Vec<(Fields<'py>, u64)>, Bound<'py, PyArray1<u32>>);
 
-/// Settles starts given as columns, each as long as the longest or of length 1.
+/// Settles starts given as columns. Each column has the length of the longest one or length 1.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)] // what Python hands over
+#[allow(clippy::needless_pass_by_value)] // called from Python
 pub(crate) fn settle_many<'py>(
     py: Python<'py>,
     osc: Oscillator,

@@ -30,7 +30,7 @@ pub(crate) struct Fields<'py> {
     plan: String,
 }
 
-/// Position, velocity, phase.
+/// Position, velocity and phase.
 pub(crate) type StartArgument = (Option<f64>, f64, f64);
 
 pub(crate) const fn start_plan((x, v, phase): StartArgument) -> StartPlan {
@@ -96,7 +96,7 @@ pub(crate) fn simulate<'py>(
     })
 }
 
-/// Points of a waveform at most.
+/// Maximum number of points of a waveform.
 const MOST_POINTS: f64 = 1e7;
 
 /// Times, positions and velocities.

@@ -1,4 +1,4 @@
-//! A study on disk, filled tile by tile.
+//! A study in a store, filled tile by tile.
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 use vibroimpact_store::{Part, Ran, Shelf, shelf};
 
-/// Whether this build reaches buckets.
+/// Whether this build supports buckets.
 pub(crate) const BUCKETS: bool = cfg!(feature = "s3");
 
-/// The place of a store; where it is a bucket, only in a build for that.
+/// The shelf at a place; a bucket is an error in a build without the feature `s3`.
 fn place_of(name: &str) -> Result<Arc<dyn Shelf>, Trouble> {
     if !BUCKETS && name.starts_with("s3://") {
         return Err(Trouble::Store(format!(
@@ -21,11 +21,11 @@ fn place_of(name: &str) -> Result<Arc<dyn Shelf>, Trouble> {
     Ok(shelf(name)?)
 }
 
-/// A store that is open: cheap to hold, so that one process opens it once.
+/// An open store. It uses few resources, so a process opens each store only once.
 #[pyclass(frozen, module = "vibroimpact._core")]
 pub(crate) struct Store(Arc<vibroimpact_store::Store>);
 
-/// Tiles computed, found done, mended, and left.
+/// Numbers of tiles: computed, already complete, computed again after damage, and left.
 type Counts = (u64, u64, u64, u64);
 
 const fn counts(ran: Ran) -> Counts {
@@ -52,13 +52,13 @@ pub(crate) struct Verified {
     checked: u64,
     recomputed: u64,
     open: u64,
-    /// Tile, none for the whole store, and what is wrong with it.
+    /// The tile (`None` for the whole store) and a description of the fault.
     damage: Vec<(Option<u64>, String)>,
 }
 
 #[pymethods]
 impl Store {
-    /// The store of a plan, begun where there is none; without a plan one that is there.
+    /// Opens the store of a plan, and creates it if absent; without a plan, opens an existing store.
     #[new]
     #[pyo3(signature = (place, plan=None))]
     fn new(py: Python<'_>, place: String, plan: Option<&str>) -> Result<Self, Trouble> {
@@ -79,7 +79,7 @@ impl Store {
         text(self.0.plan())
     }
 
-    /// Computes the tiles of part (i, n) that are not done, and concludes when all are.
+    /// Computes the missing tiles of part (i, n), and concludes the store when all tiles are complete.
     fn run(
         &self,
         py: Python<'_>,
@@ -92,7 +92,7 @@ impl Store {
         door::run(py, watch, move |control| Ok(counts(store.run(part, control)?)))
     }
 
-    /// Computes those of these tiles that are not done; does not conclude.
+    /// Computes those of the given tiles that are not complete; does not conclude the store.
     fn run_tiles(&self, py: Python<'_>, mut tiles: Vec<u64>, threads: usize) -> Result<Counts, Trouble> {
         let (store, all) = (Arc::clone(&self.0), self.0.study().grid().tiles());
         tiles.sort_unstable();
@@ -104,13 +104,13 @@ impl Store {
         door::run(py, watch, move |control| Ok(counts(store.run_tiles(&tiles, control)?)))
     }
 
-    /// Concludes if all tiles are done; says whether they are.
+    /// Concludes the store if all tiles are complete. Returns whether they are.
     fn conclude(&self, py: Python<'_>) -> Result<bool, Trouble> {
         let store = Arc::clone(&self.0);
         door::run(py, Watch::alone("concluding a store"), move |_| Ok(store.conclude_if_done()?))
     }
 
-    /// How far it is.
+    /// The progress of the store.
     fn status(&self, py: Python<'_>) -> Result<Status, Trouble> {
         let store = Arc::clone(&self.0);
         let found = door::run(py, Watch::alone("looking at a store"), move |_| Ok(store.progress()?))?;
@@ -127,7 +127,7 @@ impl Store {
         })
     }
 
-    /// Reads all check sums and computes some tiles again.
+    /// Verifies all checksums and computes some tiles again.
     fn verify(
         &self,
         py: Python<'_>,

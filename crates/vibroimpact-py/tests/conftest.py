@@ -1,4 +1,4 @@
-"""What the tests share: points of the 1971 paper, the command, figures that are closed."""
+"""Common fixtures of the tests: points of the 1971 paper, the command, and closing of figures."""
 
 import os
 import subprocess
@@ -41,7 +41,7 @@ def u() -> vi.Oscillator:
 
 @pytest.fixture(scope="session")
 def vibro() -> Callable[..., subprocess.CompletedProcess[str]]:
-    """The command, as cargo built it last."""
+    """The command from the latest build of cargo."""
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     built = [path for path in (target / "debug/vibro", target / "release/vibro") if path.is_file()]
     if "VIBRO" in os.environ:

@@ -1,4 +1,4 @@
-"""Branches: events confirmed by closed forms and by simulation just beside them."""
+"""Branches: events are compared with closed forms and with simulation just below and above them."""
 
 import math
 import pickle
@@ -9,7 +9,7 @@ import vibroimpact as vi
 
 
 def flip_of_1_1(inverse: float, eps: float) -> float:
-    """The gap at which 1/1 doubles, without damping: trace = -(1 + eps^2)."""
+    """The gap at the flip of 1/1, without damping: trace = -(1 + eps^2)."""
     beta = 1 / inverse
     t = 2 * math.pi * inverse
     c, m12 = math.cos(t), math.sin(t)
@@ -26,7 +26,7 @@ def test_the_flip_is_where_the_closed_form_has_it() -> None:
     flip = next(event for event in found.events if event.kind == "flip")
     assert abs(flip.parameter - flip_of_1_1(1.11, 0.5)) < 1e-11
     assert abs(found.multipliers[flip.point] + 1).min() < 1e-9
-    # every point is an orbit, found independently at its value
+    # every point is an orbit that is found independently at its value
     for k in (0, len(found) // 2, len(found) - 1):
         orbits = vi.orbits(osc.replace(gap=found.parameter[k]), "1/1")
         assert min(abs(orbit.cycle.velocity_before[0] - found.speed[k]) for orbit in orbits) < 1e-10
@@ -34,7 +34,7 @@ def test_the_flip_is_where_the_closed_form_has_it() -> None:
     doubled = found.followed[0]
     assert doubled.origin is not None and doubled.origin.kind == "flip" and doubled.label[1] == "2/2"
     assert doubled.origin.parameter == flip.parameter and doubled.origin.branch == 1
-    # just beyond the flip simulation settles into the doubled motion
+    # just beyond the flip, simulation settles into the motion of twice the period
     beside = vi.settle(osc.replace(gap=flip.parameter + 1e-3), x=0.5)
     assert beside.label in ("2/2", "1/2")
 
@@ -58,7 +58,7 @@ def test_a_branch_may_reach_the_motion_without_impacts() -> None:
     found = vi.branch(osc, "1/1", "gap", 12)
     graze = [event for event in found.events if event.kind == "grazing"]
     assert graze and graze[-1].label_after == "0" and found.label[-1] == "0" and found.speed[-1] == 0
-    # the steady motion just reaches the stop: gap = |f| = 1/(2 zeta)
+    # the motion without impacts grazes the stop: gap = |f| = 1/(2 zeta)
     assert abs(graze[-1].parameter - 10) < 1e-9
 
 

@@ -1,4 +1,4 @@
-"""The same numbers, to the last bit, as the command prints."""
+"""The results have the same numbers as the output of the command, to the last bit."""
 
 import json
 from collections.abc import Callable

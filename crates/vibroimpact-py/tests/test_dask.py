@@ -1,4 +1,4 @@
-"""Tiles on real workers, any number of them, and some of them killed."""
+"""Tiles computed by real workers: any number of them, with some killed."""
 
 import os
 import signal
@@ -20,8 +20,8 @@ pytestmark = pytest.mark.filterwarnings("ignore")
 
 @pytest.fixture(scope="module")
 def cluster() -> Iterator["distributed.LocalCluster"]:
-    # so long after a death the cluster gives up a worker of that name that is dead just then: a later victim
-    # and a dead worker is asked again and again for a result that it had
+    # after this time the cluster gives up a dead worker of this name, which may be a later victim,
+    # and a dead worker is repeatedly asked for a result that it had
     settings = {"distributed.deploy.lost-worker-timeout": "1 hour", "distributed.comm.timeouts.connect": "2 s"}
     with dask.config.set(settings), distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
         yield cluster
@@ -59,10 +59,10 @@ def test_workers_make_the_same_bytes(
     )
     assert contents(tmp_path / "two.zarr") == contents(tmp_path / "one.zarr")
     assert dict(ds["label"].sizes) == {"gap": 9, "inverse_beta": 11, "motion": 8} and seen[-1] == (99, 99)
-    # all of them had a part in it
+    # all workers have computed tiles
     opened = client.run(lambda: vi.dask._opened.cache_info().currsize)
     assert len(opened) == workers and all(opened.values())
-    # nothing is left to do, and nothing is done
+    # nothing is left to compute, and nothing is computed
     assert vi.dask.run(plan, tmp_path / "two.zarr", client) == vi.Ran(0, 99, 0, 0)
 
 
@@ -75,7 +75,7 @@ A_RUN = 5
 def test_a_worker_may_be_killed_at_any_moment(
     cluster: "distributed.LocalCluster", client: "distributed.Client", u: vi.Oscillator, tmp_path: Path
 ) -> None:
-    """Twenty kills -9 of a worker that has a tile in hand, at moments spread by a seed over the whole of a run."""
+    """Twenty times `kill -9` of a worker that is computing a tile, at random moments over a whole run."""
     plan = vi.Plan.map(u, {"inverse_beta": "1.1:1.2:10", "gap": "2.5:3:10"}, starts=8, tile=1)
     vi.run(plan, tmp_path / "one.zarr")
     want = contents(tmp_path / "one.zarr")
@@ -108,13 +108,13 @@ def murder(
     over: threading.Event,
     killed: list[int],
 ) -> None:
-    """Kills a worker at each of these moments, given in tiles done; those that come too late are left out."""
+    """Kill a worker at each of these moments, given as numbers of complete tiles. Late moments are left out."""
     gone: set[str] = set()
     for moment in moments:
         while not (place / "zarr.json").exists() or vi.status(place).done < int(moment):
             if over.wait(0.002):
                 return
-        # somewhere within the next tile
+        # at some time within the next tile
         time.sleep(0.02 * (moment % 1))
         while not (victims := busy(cluster, gone)):
             if over.wait(0.002):
@@ -128,7 +128,7 @@ def murder(
 
 
 def busy(cluster: "distributed.LocalCluster", gone: set[str]) -> list[tuple[str, int]]:
-    """Addresses and processes of the workers that have tiles in hand; the scheduler hears of a death some time later."""
+    """Addresses and processes of the workers that compute tiles. The scheduler learns of a death some time later."""
     working = {address for address, of in list(cluster.scheduler.workers.items()) if of.processing} - gone
     nannies = [nanny for nanny in cluster.workers.values() if nanny.worker_address in working]
     return [(nanny.worker_address, nanny.pid) for nanny in nannies if nanny.pid]

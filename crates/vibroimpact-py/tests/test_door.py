@@ -1,4 +1,4 @@
-"""Long work: the interpreter's lock is released, Ctrl-C is heard, progress is told."""
+"""Long work: the lock of the interpreter is released, Ctrl-C stops it, progress is reported."""
 
 import signal
 import subprocess
@@ -31,7 +31,7 @@ def test_other_threads_go_on(u: vi.Oscillator) -> None:
     finally:
         over.set()
         thread.join()
-    # a question that takes no time proves nothing; held, the lock would leave no tick at all
+    # the work must take some time; if the lock were held, there would be no tick at all
     assert seconds > 0.1 and during > 20 * seconds
 
 

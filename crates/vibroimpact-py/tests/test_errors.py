@@ -1,4 +1,4 @@
-"""What makes no sense is refused: a QuestionError with the command's sentence, or a TypeError."""
+"""Invalid questions are refused with a QuestionError with the message of the command, or with a TypeError."""
 
 import math
 from collections.abc import Callable
@@ -34,7 +34,7 @@ def test_oscillators_in_the_words_of_the_command(
     given = {**{f"--{name.replace('_', '-')}": value for name, value in {**GOOD, **change}.items()}}
     words = [word for flag, value in given.items() if value is not None and flag not in flags for word in (flag, value)]
     said = vibro("settle", *words, *flags)
-    # the sentence is the same; a hint names the flags there and the arguments here
+    # the message is the same; a hint names flags in the command and arguments in Python
     sentence, _, hint = str(refusal.value).partition("\nhint: ")
     assert said.returncode == 2 and said.stderr.strip().partition("\nhint: ")[0] == f"error: {sentence}"
     assert "--" not in hint

@@ -1,4 +1,4 @@
-"""Stores in other formats: what is read back is what was in the store."""
+"""Stores in other formats: the values read back are those of the store."""
 
 import csv
 import subprocess
@@ -87,7 +87,7 @@ def test_parquet_holds_the_table(store: Path, tmp_path: Path) -> None:
 
 
 def rows(path: Path) -> list[list[float | str]]:
-    """The cells, numbers as such: 1 and 1.0 are the same."""
+    """The cells, with numbers compared as numbers: 1 and 1.0 are equal."""
 
     def cell(text: str) -> float | str:
         try:

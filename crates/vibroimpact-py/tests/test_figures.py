@@ -1,4 +1,4 @@
-"""Figures: drawn without a complaint, with what they must show."""
+"""Figures: drawn without warnings, with the required contents."""
 
 import re
 from collections.abc import Callable
@@ -34,7 +34,7 @@ def test_waveforms_stay_below_the_stop(n: vi.Oscillator) -> None:
     motion = vi.settle(n).plot(plt.subplots()[1])
     drawn(motion)
     assert motion.get_title().endswith(": 4/1") and r"\delta = 0.25" in motion.get_title()
-    # six turns of four impacts, from the first one to the first one
+    # six periods of four impacts, from the first impact to the first impact
     assert len(motion.lines[1].get_xdata()) == 25
 
 

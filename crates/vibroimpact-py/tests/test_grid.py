@@ -117,7 +117,7 @@ def test_the_command_says_the_same(vibro: Callable[..., Any], tmp_path: Path, s:
 
 
 def test_python_adds_next_to_nothing(s: vi.Oscillator) -> None:
-    """What comes before and after the work of the core on a basin of a million starts, in time of the processor."""
+    """Processor time before and after the work of the core, for a basin of a million starts."""
     over = {"x": "-6:0.75:1000", "v": "-6:6:1000"}
     vi.basin(s, x="-6:0.75:10")
     clock = [time.process_time()]

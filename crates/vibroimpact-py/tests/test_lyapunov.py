@@ -1,4 +1,4 @@
-"""Exponents against what they must be."""
+"""Exponents compared with exact values."""
 
 import math
 import pickle

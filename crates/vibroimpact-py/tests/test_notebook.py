@@ -1,4 +1,4 @@
-"""The notebook of the examples runs as it is, and stores no outputs."""
+"""The example notebook runs without changes, and contains no outputs."""
 
 import sys
 import time
@@ -13,7 +13,7 @@ nbformat = pytest.importorskip("nbformat", reason="the notebook needs nbformat")
 
 @pytest.mark.filterwarnings("ignore")
 def test_the_notebook_runs(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    # a kernel of this Python, whatever others are registered here
+    # a kernel of this Python, whichever kernels are registered
     monkeypatch.setenv("JUPYTER_PATH", str(tmp_path))
     monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
     monkeypatch.delenv("MPLBACKEND", raising=False)
@@ -31,6 +31,6 @@ def test_the_notebook_runs(root: Path, tmp_path: Path, monkeypatch: pytest.Monke
     assert time.monotonic() - begin < 60
     told = "".join(out.text for cell in cells for out in cell.outputs if out.output_type == "stream" and out.name == "stdout")
     figures = [out for cell in cells for out in cell.outputs if "image/png" in out.get("data", {})]
-    # what the sentences of the notebook say
+    # the statements in the text of the notebook
     assert "one length is 5 mm" in told and "<Motion 2/1, stable>" in told and "flip at a gap of" in told
     assert len(figures) == 5 and all(len(out.data["image/png"]) > 10_000 for out in figures)

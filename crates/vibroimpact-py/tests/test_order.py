@@ -1,4 +1,4 @@
-"""No circle of files: what the modules of the package import, for types as well."""
+"""No modules of the package import each other in a circle. Imports for types count too."""
 
 import ast
 from pathlib import Path
@@ -15,19 +15,19 @@ def imports(folder: Path) -> dict[str, set[str]]:
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "vibroimpact":
                 module = (node.module or "").removeprefix("vibroimpact").lstrip(".")
-                # `from vibroimpact import _core` takes a module, `from vibroimpact import Plan` the whole package
+                # `from vibroimpact import _core` imports a module, `from vibroimpact import Plan` the whole package
                 modules = {name if name[0] == "_" or name in names else "__init__" for name in (a.name for a in node.names)}
                 taken |= {module} if module else modules
     return {name: taken & names - {name} for name, taken in found.items()}
 
 
 def circle(of: dict[str, set[str]]) -> list[str]:
-    """Modules that are left when those that import none of the others are taken away, again and again."""
+    """The modules that remain when modules without imports of remaining ones are repeatedly removed."""
     left = dict(of)
     while ends := [name for name, taken in left.items() if not taken & left.keys()]:
         for name in ends:
             del left[name]
-    # modules that only import a circle are not in one
+    # modules that only import from a circle are not part of it
     while starts := [name for name in left if not any(name in taken for taken in left.values())]:
         for name in starts:
             del left[name]

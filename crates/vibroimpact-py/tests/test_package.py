@@ -1,4 +1,4 @@
-"""The package as a whole: quick to import, typed, its examples true."""
+"""The package as a whole: time of import, types, and examples in the documentation."""
 
 import doctest
 import importlib
@@ -23,7 +23,7 @@ print(time.process_time() - begin)
 print(*sorted({"xarray", "matplotlib", "pandas", "zarr", "tqdm", "dask"} & set(sys.modules)))
 """
     runs = [subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True) for _ in range(5)]
-    # time of the processor: what else keeps the machine busy does not count
+    # processor time, which does not depend on the load of the machine
     seconds = statistics.median(float(run.stdout.splitlines()[0]) for run in runs)
     assert seconds < 0.3, f"{seconds} s"
     assert {run.stdout.splitlines()[1] for run in runs} == {""}
@@ -61,7 +61,7 @@ def test_listings_run_as_typed(root: Path, tmp_path: Path, monkeypatch: pytest.M
     found = {page.name: listings(page) for page in pages}
     assert all(found.values()), found.keys()
     for page, texts in found.items():
-        # a page is one session
+        # the listings of a page run in one session
         names: dict[str, object] = {}
         for text in texts:
             if ">>> " in text:

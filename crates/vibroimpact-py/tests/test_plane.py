@@ -1,4 +1,4 @@
-"""Curves and regions against closed forms and against each other."""
+"""Curves and regions compared with closed forms and with each other."""
 
 import math
 import pickle

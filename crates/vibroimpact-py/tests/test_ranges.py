@@ -21,19 +21,19 @@ def test_f07_one_formula(over: tuple[float, float, int], vibro: Callable[..., An
     assert (values[0], values[-1], len(values)) == (first, last, count)
     assert np.all(np.diff(values) > 0) or np.all(np.diff(values) < 0)
     assert np.allclose(values, np.linspace(first, last, count), rtol=0, atol=1e-15)
-    # as text, and as the array of these values; a tuple of three numbers is refused
+    # as text and as an array of these values; a tuple of three numbers is refused
     for given in (text, values):
         ds = vi.orbit_diagram(OSC, "gap", given, direction="up", keep=1, transient=10)
         assert ds["gap"].values.tolist() == values.tolist()
         plan = vi.Plan.map(OSC, {"gap": given}, starts=1)
         assert plan.to_dict()["task"]["map"]["axes"][0]["over"] == text.replace(".0:", ":").replace(" ", "")
-    # an array of other values is taken as it is, to the last bit
+    # an array of other values is used unchanged, to the last bit
     other = np.linspace(first, last, count) * (1 + 3e-16)
     assert vi.region_map(OSC, {"gap": other}, starts=1, impacts=10)["gap"].values.tolist() == other.tolist()
     words = ("--inverse-beta", 1.3, "--restitution", 0.5, "--vary", "gap", f"--over={text}", "--direction", "up", "--keep", 1)
     done = vibro("diagram", *words, "--transient", 10, "--csv", "-")
     assert done.returncode == 0, done.stderr
-    # a sweep up rises, whichever way the range is written
+    # a sweep up has rising values, in whichever order the range is written
     assert [float(row.split(",")[0]) for row in done.stdout.splitlines()[1:]] == sorted(values.tolist())
 
 
@@ -69,5 +69,5 @@ def test_f10c_missing_tiles_are_counted(tmp_path: Any) -> None:
     vi.run(plan, tmp_path / "s.zarr", part=(1, 100), progress=lambda *of: told.append(of))
     far = vi.status(tmp_path / "s.zarr")
     assert (len(far.missing), far.missing_left_out, far.done) == (1000, 485, 15)
-    # of a part only its own points count
+    # only the points of the part are counted
     assert told[-1] == (15, 15)

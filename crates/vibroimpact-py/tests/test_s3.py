@@ -1,4 +1,4 @@
-"""Studies in buckets: as in folders, on a server of this machine; `cargo xtask s3` runs these with a build that reaches buckets."""
+"""Studies in buckets, on a server of this machine. `cargo xtask s3` runs these tests with a build that supports buckets."""
 
 import os
 import shlex
@@ -89,7 +89,7 @@ def test_a_bucket_that_cannot_be_used(bucket: str, s: vi.Oscillator, monkeypatch
     with pytest.raises(vi.StoreError, match="refuses: NoSuchBucket: .*\nhint: make the bucket first"):
         vi.run(plan, "s3://nobody/x")
     monkeypatch.setattr(_store, "find_spec", lambda name: None)
-    # before anything is computed
+    # refused before the computation
     with pytest.raises(ImportError, match="needs s3fs, which is not installed\nhint: pip install s3fs"):
         vi.basin(s, x="-4:0.75:9", store=f"{bucket}/basin")
     with pytest.raises(vi.StoreError, match="there is no store"):

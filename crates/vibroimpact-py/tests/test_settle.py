@@ -1,4 +1,4 @@
-"""Verdicts of one motion and of many."""
+"""Verdicts on one motion and on many."""
 
 import pickle
 
@@ -40,7 +40,7 @@ def test_a_motion_closes_on_itself(n: vi.Oscillator) -> None:
     motion = vi.settle(n)
     x, v, phase = motion.start()
     sim = vi.simulate(n, x=x, v=v, phase=phase, impacts=4)
-    # 4/1: the fourth impact from just after the first is the first again
+    # 4/1: the fourth impact after the first one is the first one again
     assert abs(sim.phase[3] - motion.cycle.phase[0]) < 1e-12
     assert abs(sim.velocity_before[3] - motion.cycle.velocity_before[0]) < 1e-12
     t, xs, vs = motion.waveform()
@@ -86,5 +86,5 @@ def test_doubles_are_read_where_they_are_and_results_are_handed_over(s: vi.Oscil
     x = np.linspace(-4, 0.75, 1000)
     assert np.shares_memory(numbers("x", x), x)
     cells = vi.settle_many(s, x).cells
-    # the memory belongs to the list of Rust behind it
+    # the memory is owned by a Rust list
     assert not cells.flags.owndata and cells.flags.writeable

@@ -1,4 +1,4 @@
-"""Events against an integrator that knows nothing of closed forms."""
+"""Events compared with a numerical integrator."""
 
 import math
 import pickle
@@ -36,7 +36,7 @@ def integrated(osc: vi.Oscillator, x: float, v: float, phase: float, impacts: in
         at, sign, restitution = stops[which]
         t, speed = float(run.t_events[which][0]), sign * float(run.y_events[which][0][1])
         found.append((t, speed, sign))
-        # a hair off the stop, or the event would fire again
+        # slightly off the stop, so that the event is not detected again
         y = [at - sign * 1e-15, -sign * restitution * speed]
     return found
 
@@ -66,9 +66,9 @@ def test_impacts_as_an_integrator_finds_them(osc: vi.Oscillator, start: tuple[fl
 def test_waveform_obeys_the_equation_and_the_stop(n: vi.Oscillator) -> None:
     sim = vi.simulate(n, periods=6)
     t, x, v = sim.waveform(400)
-    # each leg begins at its own sum of times: an ulp may lie between two of them
+    # the time of each leg is a sum, so two legs may differ by a rounding error
     assert t[0] == 0 and t[-1] == sim.end_time and np.all(np.diff(t) > -1e-13) and x.max() <= n.gap + 1e-14
-    # central differences where it flies and no event lies between
+    # central differences in free flight, between events
     h = np.diff(t)
     flies = (x[:-2] < n.gap) | (x[1:-1] < n.gap) | (x[2:] < n.gap)
     smooth = (h[:-1] > 1e-6) & (np.abs(h[:-1] - h[1:]) < 1e-9) & flies
@@ -83,11 +83,11 @@ def test_chatter_sticking_and_release_are_events() -> None:
     sim = vi.simulate(osc, periods=3)
     kinds = sim.kind.tolist()
     assert {"impact", "stick", "release"} == set(kinds) and sim.end == "time_limit" and sim.end_time == 3 * osc.period
-    # at rest on the stop from the start, later after a chatter
+    # it rests on the stop at the start, and later after a chatter
     assert kinds[0] == "stick" and not sim.chatter[0] and sim.error[0] == 0
     stick = kinds.index("stick", 1)
     assert sim.chatter[stick] and 0 < sim.error[stick] < 1e-9 and math.isnan(sim.velocity_before[stick])
-    # released where the force lets go: sin theta = gap, falling in magnitude
+    # released where the force no longer presses the mass: sin theta = gap, with falling magnitude
     release = kinds.index("release")
     assert math.isclose(math.sin(sim.phase[release]), osc.gap, abs_tol=1e-14)
 
@@ -107,7 +107,7 @@ def test_it_can_be_pickled(n: vi.Oscillator) -> None:
 
 
 def test_f12_the_events_as_dicts_take_time_in_proportion(u: vi.Oscillator) -> None:
-    """Of ten times as many events at most some thirty times as long; it was a hundred times."""
+    """Ten times as many events take at most thirty times as long. (An earlier version took a hundred times as long.)"""
     took = []
     for impacts in (3_000, 30_000):
         sim = vi.simulate(u, impacts=impacts)

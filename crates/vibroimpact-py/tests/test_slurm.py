@@ -1,4 +1,4 @@
-"""Job scripts and Dask workers on a real Slurm: a cluster of one node, begun here and ended here."""
+"""Job scripts and Dask workers on a real Slurm: a cluster of one node, which the tests start and stop."""
 
 import os
 import shutil
@@ -69,7 +69,7 @@ def wait(what: str, reached: Callable[[], object], log: Path) -> None:
 
 @dataclass(frozen=True)
 class Slurm:
-    """The cluster, by its commands."""
+    """The cluster, used through its commands."""
 
     home: Path
 
@@ -77,14 +77,14 @@ class Slurm:
         return subprocess.run([str(word) for word in words], check=True, capture_output=True, text=True).stdout
 
     def submit(self, script: str) -> str:
-        """The number of the job, of a script as it was printed."""
+        """Submit a script as printed. Returns the number of the job."""
         file = self.home / "job.sh"
         file.write_text(script)
         done = subprocess.run(["sbatch", "--parsable", file], cwd=self.home, check=True, capture_output=True, text=True)
         return done.stdout.strip()
 
     def states(self, job: str) -> dict[int, str]:
-        """The state of each task of an array; those that wait together have one entry, which is left out."""
+        """The state of each task of an array. Waiting tasks have a common entry, which is left out."""
         lines = self.ask("scontrol", "--oneliner", "show", "job", job).splitlines()
         told = [dict(word.partition("=")[::2] for word in line.split()) for line in lines]
         return {int(of["ArrayTaskId"]): of["JobState"] for of in told if of.get("ArrayTaskId", "").isdigit()}
@@ -103,7 +103,7 @@ def slurm() -> Iterator[Slurm]:
     if os.geteuid() != 0:
         pytest.skip("a Slurm of one's own needs root")
     with ExitStack() as ends, pytest.MonkeyPatch.context() as patch:
-        # a short name: the path of a socket has some hundred bytes at most
+        # a short name, because the path of a socket is limited to about a hundred bytes
         home = Path(ends.enter_context(tempfile.TemporaryDirectory(prefix="slurm-", ignore_cleanup_errors=True)))
         for name in ("state", "spool"):
             (home / name).mkdir()
@@ -143,7 +143,7 @@ def slurm() -> Iterator[Slurm]:
 
         wait("an idle node", idle, home)
         yield cluster
-        # nothing that was submitted outlives the cluster
+        # jobs must not outlive the cluster
         subprocess.run(["scancel", "--user=root"], check=False)
         wait("no job is left", lambda: not cluster.ask("squeue", "--noheader").strip(), home)
 
@@ -171,7 +171,7 @@ def test_the_script_runs_as_it_stands(slurm: Slurm, vibro: Callable[..., Any], s
     job = slurm.submit(script(vibro, tmp_path / "study.toml", place))
     assert slurm.wait_for(job, 3) == {1: "COMPLETED", 2: "COMPLETED", 3: "COMPLETED"}, logs(slurm, job)
     assert vi.status(place).complete and contents(place) == contents(tmp_path / "here.zarr")
-    # each task has its own log; the one that concluded the store says what is in it
+    # each task has its own log; that of the task that concluded the store has its summary
     said = [file.read_text() for file in slurm.home.glob(f"vibro-{job}_*.log")]
     assert len(said) == 3 and sum("99 points: 11 inverse_beta x 9 gap" in text for text in said) >= 1, said
 

@@ -1,4 +1,4 @@
-"""What figures of Datasets state is true of what they show, whatever was done to the Dataset before."""
+"""The titles of figures of Datasets are correct, whatever operations were applied to the Dataset before."""
 
 import re
 from pathlib import Path
@@ -58,13 +58,13 @@ def basins() -> dict[float, xr.Dataset]:
 
 @pytest.fixture(scope="module")
 def truth() -> dict[tuple[float, float], vi.Settlement]:
-    """Motions from each start, computed one system at a time."""
+    """The motion from each start, computed for one system at a time."""
     x, v = np.meshgrid(X, V)
     return {(eps, gap): vi.settle_many(osc_of(eps).replace(gap=gap), x, v) for eps in EPSILONS for gap in GAPS}
 
 
 def check(ax: Axes, ds: xr.Dataset, truth: dict[tuple[float, float], vi.Settlement]) -> None:
-    """Every stated value against the cells, at the starts that were computed."""
+    """Compare every stated value with the cells, at the starts that were computed."""
     said = stated(ax)
     assert said["inverse_beta"] == 1.3
     settled = truth[said["restitution"], said["gap"]].labels
@@ -83,7 +83,7 @@ def check(ax: Axes, ds: xr.Dataset, truth: dict[tuple[float, float], vi.Settleme
 
 
 def changed(ds: xr.Dataset, rng: np.random.Generator) -> xr.Dataset:
-    """Something that keeps the values with their coordinates."""
+    """An operation that keeps the values with their coordinates."""
     match int(rng.integers(7)):
         case 0:
             return ds.transpose(*rng.permutation(list(ds.dims)).tolist())
@@ -132,10 +132,10 @@ def test_f09_figures_of_basins_state_what_they_show(
 def test_f09_one_value_of_an_axis_is_stated(basins: dict[float, xr.Dataset]) -> None:
     for k, gap in enumerate(GAPS):
         assert stated(basins[0.5].isel(gap=k).vibro.plot(plt.subplots()[1]))["gap"] == gap
-    # what was dropped is not stated
+    # a dropped coordinate is not stated
     lost = basins[0.5].isel(gap=2, drop=True).vibro.plot()
     assert "gap" not in stated(lost) and r"$\delta$ not known" in lost.get_title()
-    # over the parameter itself it is on an axis
+    # a parameter that is an axis is not stated
     over = basins[0.5].isel(x=1).vibro.plot(plt.subplots()[1])
     assert over.get_xlabel() == "$u_0$" and over.get_ylabel() == r"$\delta$"
     assert "gap" not in stated(over) and stated(over)["x"] == pytest.approx(-2.9)
@@ -235,7 +235,7 @@ def test_f09_what_no_figure_can_show_is_refused(basins: dict[float, xr.Dataset],
     for ask, sentence in asks:
         with pytest.raises(vi.QuestionError, match=sentence):
             ask()
-    # a gap in what was joined is left white
+    # missing cells of joined Datasets are white
     apart = xr.concat([ds.isel(x=[0, 1]), ds.isel(x=[2, 3], v=[0, 1])], "x", data_vars="minimal", join="outer")
     assert np.ma.count_masked(apart.vibro.plot().collections[0].get_array()) == 4
 
@@ -254,7 +254,7 @@ def test_f09_fixed_parameters_are_coordinates(s: vi.Oscillator, tmp_path: Path) 
     }, title
     alone = vi.region_map(s, {"inverse_beta": [1.0, 1.1]}, starts=1)
     assert "beta" not in alone.coords and np.isnan(alone["second_gap"].item())
-    # read by xarray alone, a store has these in its plan only, and no figure says what may belong to another one
+    # read by xarray alone, these parameters are only in the plan, and a figure does not state the plan
     with xr.open_zarr(tmp_path / "basin.zarr") as raw:
         assert raw.vibro.plot(plt.subplots()[1]).get_title() == ""
 

@@ -1,4 +1,4 @@
-"""Studies in stores: the same bytes however they came about."""
+"""Studies in stores: the bytes do not depend on how they were computed."""
 
 import os
 import signal
@@ -33,7 +33,7 @@ def test_a_store_holds_what_memory_would(plan: vi.Plan, s: vi.Oscillator, tmp_pa
         np.testing.assert_array_equal(stored[name].values, of.values)
         assert stored[name].dims == of.dims and stored[name].attrs == of.attrs, name
     assert stored.attrs["plan_hash"] == plan.hash and vi.Plan(stored.attrs["plan"]) == plan
-    # xarray needs no help; what is the same at all points is in the plan
+    # xarray can open it directly; parameters that do not vary are only in the plan
     fixed = [name for name, of in stored.coords.items() if of.ndim == 0]
     xr.testing.assert_identical(xr.open_zarr(place).load(), stored.drop_vars(fixed))
     assert {"gap", "restitution", "phase"} < set(fixed)
@@ -77,7 +77,7 @@ def test_damage_is_found_and_mended(plan: vi.Plan, tmp_path: Path) -> None:
 def test_a_complete_store_is_not_written_to(plan: vi.Plan, tmp_path: Path) -> None:
     place = tmp_path / "basin.zarr"
     vi.run(plan, place)
-    # the time of a folder tells of every file that was begun in it
+    # the modification time of a folder changes when a file is created in it
     times = {of: of.stat().st_mtime_ns for of in (place, *place.rglob("*"))}
     assert vi.run(plan, place).computed == vi.resume(place).computed == 0 and vi.open(place).load().attrs["complete"] == 1
     assert {of: of.stat().st_mtime_ns for of in (place, *place.rglob("*"))} == times

@@ -1,4 +1,4 @@
-"""Machines in physical units: their units are kept or refused, and never lost on the way."""
+"""Oscillators with physical units: the units are kept or refused, and never lost."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -43,7 +43,7 @@ DATASETS: list[tuple[str, Callable[..., "object"]]] = [
 @pytest.mark.parametrize(("name", "ask"), DATASETS, ids=[name for name, _ in DATASETS])
 def test_f08b_datasets_keep_the_units_of_a_machine(name: str, ask: Callable[..., "object"], tmp_path: Path) -> None:
     machine, plain = ask(MACHINE), ask(PLAIN)
-    # the same numbers in the same units, and what one unit is beside them
+    # the same nondimensional numbers, and in addition the physical units
     assert (machine.attrs.pop("unit_length_m"), machine.attrs.pop("unit_time_s")) == (0.005, 0.05)  # type: ignore[attr-defined]
     assert machine.identical(plain) and "unit_length_m" not in plain.attrs  # type: ignore[attr-defined]
     si = ask(MACHINE).vibro.si()  # type: ignore[attr-defined]
@@ -66,7 +66,7 @@ def test_f08b_datasets_keep_the_units_of_a_machine(name: str, ask: Callable[...,
         si.vibro.plot()
     with pytest.raises(vi.QuestionError, match="no units of a machine"):
         plain.vibro.si()  # type: ignore[attr-defined]
-    # a store has no place for them
+    # a store cannot contain units
     with pytest.raises(vi.QuestionError, match="a store keeps no units of a machine\nhint: osc.replace"):
         ask(MACHINE, store=tmp_path / "s.zarr")
     assert not (tmp_path / "s.zarr").exists()

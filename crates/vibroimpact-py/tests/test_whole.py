@@ -1,4 +1,4 @@
-"""Whole numbers that no count can be: the sentence of the command, with name, value and range."""
+"""Integers out of range: the message of the command, with name, value and range."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -65,7 +65,7 @@ def test_f11_whole_numbers_are_refused_by_name(
         assert str(refusal.value) == f"{name} = {value} lies outside {least} <= {name}{upper}"
     with pytest.raises(TypeError, match=f"{name} = 2.5 is not a whole number"):
         ask(s, **{name: 2.5})
-    # what the compiled part refuses names the same range
+    # errors of the compiled module name the same range
     for value in (least - 1, None if most is None else most + 1):
         if value is None or value < 0 or (value == 0 and name in ("orbit", "event")):
             continue

@@ -1,4 +1,4 @@
-//! Draws every scene into a folder, to look at.
+//! Draws every scene into a folder, for visual inspection.
 //!
 //! `cargo run -p vibroimpact-report --example scenes -- FOLDER`
 

@@ -1,4 +1,4 @@
-//! A plan, its result, and everything that is reported of it: the JSON object, the table, the figure.
+//! A plan, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
 use crate::figure::{self, title};
 use crate::scene::{View, Viewed, phase_portrait};
@@ -10,31 +10,31 @@ use vibroimpact::verdict::{PaperRule, PaperVerdict};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{Control, Plan, PlanError, Results, RunError, Stopped, Task, run};
 
-/// A plan and its result, in memory. As JSON (it is [`Serialize`]) it is the object that the command prints with `--json`.
+/// A plan and its result, in memory. Its [`Serialize`] form is the JSON object that the command prints with `--json`.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// The plan, [complete](Plan::complete).
     pub plan: Plan,
-    /// The system, and the units of everything reported.
+    /// The system, and the units of all reported values.
     pub asked: Asked,
-    /// The oscillator; of a plane, that at its first corner.
+    /// The oscillator; for a plane, that of the first corner.
     pub osc: Oscillator,
-    /// What was found.
+    /// The result.
     pub results: Results,
-    /// What the 1971 paper's rule says of a settled motion, where it was asked.
+    /// The verdict of the rule of the 1971 paper on a settled motion, if requested.
     pub paper_rule: Option<(PaperRule, PaperVerdict)>,
 }
 
-/// What the figure and the table of an answer show, where there is a choice.
+/// Options for the figure and the table of an answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown {
-    /// The view of a settled motion, of a simulated one, or of an attractor.
+    /// The view of a settled motion, a simulated motion or an attractor.
     pub view: Option<View>,
-    /// Time between the points of a simulated waveform; a hundredth of the forcing period if absent.
+    /// Time between the points of a simulated waveform. Default: a hundredth of the forcing period.
     pub step: Option<f64>,
-    /// Whether the orbit diagram is simulated and drawn behind a branch.
+    /// Whether to simulate the orbit diagram and to draw it behind a branch.
     pub diagram: bool,
-    /// Whether the inadmissible solutions of a branch are drawn.
+    /// Whether to draw the inadmissible solutions of a branch.
     pub inadmissible: bool,
 }
 
@@ -44,16 +44,16 @@ impl Default for Shown {
     }
 }
 
-/// Why there is no answer, or no figure or table of it.
+/// The reason why there is no answer, or no figure or table of it.
 #[derive(Debug, thiserror::Error)]
 pub enum AnswerError {
-    /// The question makes no sense.
+    /// The question is invalid.
     #[error(transparent)]
     Plan(PlanError),
-    /// It was stopped from outside.
+    /// The run was stopped by its caller.
     #[error(transparent)]
     Stopped(#[from] Stopped),
-    /// It cannot be drawn, or not be tabulated.
+    /// The result cannot be drawn or tabulated.
     #[error(transparent)]
     Report(ReportError),
 }
@@ -82,10 +82,10 @@ impl From<ReportError> for AnswerError {
     }
 }
 
-/// Runs a plan in memory, as [`run`] does. A map is nondimensional whatever the units.
+/// Runs a plan in memory, like [`run`]. A map is nondimensional in all units.
 ///
 /// # Errors
-/// [`AnswerError`] for a plan that makes no sense, or when stopped.
+/// [`AnswerError`] for an invalid plan, or when stopped.
 pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer, AnswerError> {
     let plan = plan.complete()?;
     let results = run(&plan, control)?;
@@ -123,26 +123,26 @@ impl Serialize for Answer {
             (Task::Region(task), Results::Region(found)) => {
                 json::region::document(asked, plan, (task, found)).serialize(to)
             }
-            // `answer` puts each plan beside its own results
+            // `answer` combines each plan with its own results, so this does not occur
             _ => Err(S::Error::custom("the results belong to another task than the plan's")),
         }
     }
 }
 
 impl Answer {
-    /// The line that the command prints with `--json`, without its end.
+    /// The line that the command prints with `--json`, without the line break.
     #[must_use]
     pub fn json(&self) -> String {
-        // texts and numbers always become JSON
+        // texts and numbers can always be written as JSON
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// The figure that the command draws with `--plot`: of a settled motion the steady one, of exponents both sections, where points
-    /// of them were asked for. `None` for attractors and orbits, and for a view that the answer does not have. The orbit diagram
-    /// behind a branch is computed here.
+    /// The figure that the command draws with `--plot`. For a settled motion it shows the motion after the transient;
+    /// for exponents it shows both sections, if points of them were requested. `None` for attractors and orbits, and
+    /// for a view that the answer does not have. The orbit diagram behind a branch is computed here.
     ///
     /// # Errors
-    /// [`AnswerError`] for what cannot be drawn, or when stopped.
+    /// [`AnswerError`] for a result that cannot be drawn, or when stopped.
     pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
         let Self { asked, osc, plan, .. } = self;
         let default = shown.view.is_none_or(|view| view == View::Waveform);
@@ -180,11 +180,11 @@ impl Answer {
         }))
     }
 
-    /// The table that the command writes with `--csv`; of a simulation the waveform. `None` for orbits, and for exponents without
-    /// points of their sections.
+    /// The table that the command writes with `--csv`; for a simulation the waveform. `None` for orbits, and for
+    /// exponents without points of their sections.
     ///
     /// # Errors
-    /// [`AnswerError`] for what cannot be tabulated.
+    /// [`AnswerError`] for a result that cannot be tabulated.
     pub fn table(&self, shown: &Shown) -> Result<Option<Table<'_>>, AnswerError> {
         let Self { asked, osc, plan, .. } = self;
         let units = &asked.units;
@@ -248,7 +248,8 @@ mod tests {
         }
     }
 
-    /// Minutes of work each, were it not for the flag: exponents and sections of a motion that chatters, and a search for long orbits.
+    /// Without the stop flag each of these takes minutes: exponents and sections of a motion with chatter, and a search
+    /// for long orbits.
     #[test]
     fn stopped_on_the_way() {
         let two = r#""system":{"inverse_beta":7.3,"gap":0.05,"restitution":0.5,"damping":1e-4,"second_stop":{"gap":0.065,"restitution":0.55}}"#;
@@ -271,7 +272,7 @@ mod tests {
         }
     }
 
-    /// A figure of three axes cannot be drawn, which is no fault of the question.
+    /// A figure over three axes is an error of the report, not of the plan.
     #[test]
     fn what_is_refused() {
         let ask = |text: &str| answer(&serde_json::from_str(text).unwrap(), Units::default(), &Control::default());

@@ -1,19 +1,19 @@
-//! What a result says: as JSON, as a table, as a figure. The command and the local server tell it with the same functions,
-//! so that both say the same, to the byte.
+//! Reports of results: as JSON, as a table and as a figure. The command and the local server use the same functions, so
+//! their output is equal to the byte.
 //!
-//! Values in, values out: no files, no terminal, no threads of its own.
+//! All functions map values to values. They use no files, no terminal and no threads of their own.
 //!
 //! | idea | file |
 //! |---|---|
 //! | a plan, its result, and everything that is reported of it | [`answer()`], [`Answer`], [`Shown`] |
-//! | the system asked about, and the units of results | [`Asked`], [`Units`] |
+//! | the system of a question, and the units of results | [`Asked`], [`Units`] |
 //! | the JSON objects of the commands, one file for each | [`json`] |
-//! | the rows of their tables | [`Table`], [`table`] |
-//! | their figures | [`figure`] |
+//! | the tables | [`Table`], [`table`] |
+//! | the figures | [`figure`] |
 //! | the views of a settled motion: waveform, phase portrait, multipliers, sections; a diagram with branches over it | [`scene`] |
 //! | the same question as a command line and in Python | [`question`] |
 //! | numbers as text | [`number`] |
-//! | what cannot be drawn or tabulated | [`ReportError`] |
+//! | the errors of figures and tables | [`ReportError`] |
 
 pub mod answer;
 mod error;
@@ -30,5 +30,5 @@ pub use error::ReportError;
 pub use table::Table;
 pub use units::{Asked, Units};
 
-/// Which program made a result.
+/// The name and version of the program that made a result.
 pub const PROGRAM: &str = concat!("vibro ", env!("CARGO_PKG_VERSION"));

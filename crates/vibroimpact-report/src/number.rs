@@ -1,4 +1,5 @@
-//! Numbers as text: for tables in the shortest form that reads back as the same double, for people with few digits.
+//! Numbers as text: for tables in the shortest form that reads back as the same double, for human readers with few
+//! digits.
 
 use core::fmt::{self, Display};
 
@@ -8,7 +9,7 @@ pub struct Number(pub f64);
 
 impl Display for Number {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // minus zero is zero
+        // minus zero becomes zero
         let x = self.0 + 0.0;
         if x == 0.0 || (1e-5..1e16).contains(&x.abs()) { write!(f, "{x}") } else { write!(f, "{x:e}") }
     }
@@ -34,7 +35,7 @@ pub fn short(x: f64) -> String {
     }
 }
 
-/// Twelve digits: what the value of an event is good for.
+/// Twelve digits, the accuracy of the value of an event.
 #[must_use]
 pub fn precise(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
@@ -50,7 +51,7 @@ pub fn precise(x: f64) -> String {
     }
 }
 
-/// A share in per cent: small ones do not read as nothing.
+/// A share in per cent. Small shares are not rounded to 0.
 #[must_use]
 pub fn percent(share: f64) -> String {
     let p = 100.0 * share;

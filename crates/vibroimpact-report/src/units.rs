@@ -1,21 +1,21 @@
-//! What lengths, velocities and times of results are measured in.
+//! The units of lengths, velocities and times in results.
 
 use vibroimpact::Scales;
 use vibroimpact_study::{Parameter, PlanError, Span, SystemPlan, Values, is_length};
 
-/// The system as it goes into a plan, and the units its results are wanted in.
+/// The system of a plan, and the units of its results.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
-    /// The system, nondimensional.
+    /// The nondimensional system.
     pub system: SystemPlan,
     /// The units of results.
     pub units: Units,
 }
 
-/// One unit of the results, in nondimensional units: those themselves, or metres and seconds of a machine.
+/// The units of results: nondimensional, or metres and seconds.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Units {
-    /// Of the machine, where one was given.
+    /// The physical units of the system, if it has any.
     pub scales: Option<Scales>,
     /// Whether results are in metres and seconds.
     pub si: bool,
@@ -26,31 +26,31 @@ impl Units {
         self.scales.as_ref().filter(|_| self.si).map_or(1.0, of)
     }
 
-    /// Of a length.
+    /// The unit of length, as a factor for nondimensional lengths.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.factor(|s| s.length_m)
     }
 
-    /// Of a time.
+    /// The unit of time.
     #[must_use]
     pub fn time(&self) -> f64 {
         self.factor(|s| s.time_s)
     }
 
-    /// Of a velocity.
+    /// The unit of velocity.
     #[must_use]
     pub fn velocity(&self) -> f64 {
         self.factor(Scales::velocity_m_per_s)
     }
 
-    /// Of a parameter.
+    /// The unit of a parameter.
     #[must_use]
     pub fn of(&self, parameter: Parameter) -> f64 {
         if is_length(parameter) { self.length() } else { 1.0 }
     }
 
-    /// `name`, followed by its unit where there is one: `time (s)`.
+    /// `name` followed by its unit in brackets, if there is one, such as `time (s)`.
     #[must_use]
     pub fn named(&self, name: &str, unit: &str) -> String {
         if self.si { format!("{name} ({unit})") } else { name.to_owned() }
@@ -63,8 +63,8 @@ impl Units {
     }
 }
 
-/// The number that was divided by `unit` to give `value`: of all that do, the one with the fewest digits. So what was given in
-/// metres as `0.005` is printed as `0.005`, and not as `0.0050000000000000001`.
+/// The number that gives `value` when divided by `unit`. Of all such doubles, it is the one with the fewest digits. So
+/// `0.005` given in metres is printed as `0.005`, and not as `0.0050000000000000001`.
 pub(crate) fn given(value: f64, unit: f64) -> f64 {
     let product = value * unit;
     if unit == 1.0 {
@@ -77,7 +77,7 @@ pub(crate) fn given(value: f64, unit: f64) -> f64 {
 /// The values of a range or list in another unit, as they were [given].
 ///
 /// # Errors
-/// [`PlanError`] where that leaves the range of numbers.
+/// [`PlanError`] if a value overflows.
 pub(crate) fn shown(values: &Values, unit: f64) -> Result<Values, PlanError> {
     Ok(match values {
         Values::Span(span) => Values::Span(shown_span(span, unit)?),
@@ -85,7 +85,7 @@ pub(crate) fn shown(values: &Values, unit: f64) -> Result<Values, PlanError> {
     })
 }
 
-/// The same of a range.
+/// A range in another unit, as for [`shown`].
 ///
 /// # Errors
 /// As [`shown`].
@@ -99,7 +99,7 @@ pub(crate) fn shown_span(span: &Span, unit: f64) -> Result<Span, PlanError> {
 mod tests {
     use super::*;
 
-    /// What was divided by a unit comes back, for thousands of numbers and units.
+    /// The original numbers are recovered, for thousands of numbers and units.
     #[test]
     fn what_was_given_comes_back() {
         for k in 1..200_u32 {

@@ -1,6 +1,6 @@
-//! What a store costs beside the computing: a tile of a map computed, written, and read back.
+//! The cost of a store compared with the computation: a tile of a map is computed, written and read.
 //!
-//! `cargo bench -p vibroimpact-store`. The share of the store is the second time over the first.
+//! Run it with `cargo bench -p vibroimpact-store`. The share of the store is the second time over the first.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
@@ -10,7 +10,7 @@ use std::sync::Arc;
 use vibroimpact_store::{Folder, Part, Store};
 use vibroimpact_study::{BasinPlan, Control, MapPlan, Plan, Study, SystemPlan, Task};
 
-/// A map like that of the 1971 paper, with few starts: the dearest case for a store.
+/// A map like that of the 1971 paper, with few starts: the case in which the share of the store is largest.
 fn map(points: u32) -> Plan {
     let over = |from: f64, to: f64| vibroimpact_study::Span::new(from, to, points).unwrap();
     let task = MapPlan::plane(over(0.4, 2.0), over(0.0, 5.0), 2, 1);

@@ -1,6 +1,7 @@
 //! Buckets of S3-compatible object stores as places for studies.
 //!
-//! An object there appears whole or not at all, and listings know of it at once, which is all that a store asks of a place.
+//! An object in a bucket appears complete or not at all, and listings include it at once. A store requires nothing else
+//! of a place.
 
 use crate::StoreError;
 use crate::shelf::{Item, Shelf};
@@ -14,26 +15,27 @@ use std::time::Duration;
 use std::{fmt, io, iter};
 use tokio::runtime::{Builder, Runtime};
 
-/// How long a connection may take to come about.
+/// Time limit for a connection.
 const CONNECT: Duration = Duration::from_secs(3);
-/// How long a request may take; chunks are small.
+/// Time limit for a request; chunks are small.
 const REQUEST: Duration = Duration::from_secs(30);
-/// How long a failing request is tried again before the server has answered once: a wrong word in the environment is the
-/// likely reason.
+/// Time for which a failing request is repeated if the server has never answered. A wrong environment variable is then
+/// the likely reason.
 const FIRST: Duration = Duration::from_secs(3);
-/// How long later on: a run of days outlives a network that is away for a minute.
+/// The same time after the server has answered once: a run of several days should survive a network failure of a
+/// minute.
 const LATER: Duration = Duration::from_secs(90);
-/// The longest wait between two tries.
+/// Maximum wait between two attempts.
 const PAUSE: Duration = Duration::from_secs(5);
-/// Tries in all; the times above end them long before.
+/// Maximum number of attempts; the times above end them long before.
 const TRIES: usize = 1000;
-/// Threads that wait for the network.
+/// Number of threads that wait for the network.
 const WORKERS: usize = 2;
 
-/// Objects of a bucket whose names begin with a prefix.
+/// The objects of a bucket whose names begin with a prefix.
 ///
-/// It has threads of its own that wait for the network, and blocks until they have an answer; where there is a `tokio`
-/// runtime already, use it by `spawn_blocking`.
+/// It has its own threads for the network, and its functions block until they have an answer. In a program with a
+/// `tokio` runtime, call it from `spawn_blocking`.
 pub struct Bucket {
     runtime: Runtime,
     first: AmazonS3,
@@ -46,12 +48,13 @@ pub struct Bucket {
 }
 
 impl Bucket {
-    /// The bucket and prefix at `s3://bucket/prefix`, reached by the variables of the environment whose names begin with
-    /// `AWS_`: `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_SESSION_TOKEN`, `AWS_REGION`, `AWS_ENDPOINT_URL`,
-    /// `AWS_ALLOW_HTTP` and the others that [`AmazonS3Builder::from_env`] knows. Nothing is asked of the server yet.
+    /// The bucket and prefix at `s3://bucket/prefix`. Access is configured by the environment variables whose names
+    /// begin with `AWS_`: `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_SESSION_TOKEN`, `AWS_REGION`,
+    /// `AWS_ENDPOINT_URL`, `AWS_ALLOW_HTTP` and the others of [`AmazonS3Builder::from_env`]. No request is sent to the
+    /// server yet.
     ///
     /// # Errors
-    /// [`StoreError::Unreachable`] when the place or a variable makes no sense.
+    /// [`StoreError::Unreachable`] if the place or a variable is invalid.
     pub fn new(place: &str) -> Result<Self, StoreError> {
         let words = |(key, value): (std::ffi::OsString, std::ffi::OsString)| {
             Some((key.into_string().ok()?, value.into_string().ok()?))
@@ -59,7 +62,7 @@ impl Bucket {
         Self::with(place, std::env::vars_os().filter_map(words))
     }
 
-    /// As [`Bucket::new`], with variables that are given.
+    /// As [`Bucket::new`], but with the given variables instead of the environment.
     ///
     /// # Errors
     /// As [`Bucket::new`].
@@ -95,7 +98,7 @@ impl Bucket {
         }
         let server = server.unwrap_or_else(|| "of Amazon".to_owned());
 
-        // one crate for all cryptography; if the program has chosen another already, that one serves as well
+        // use one cryptography crate; if the program has already installed another one, keep that
         let _ = rustls::crypto::ring::default_provider().install_default();
         let client = |patience: Duration| {
             let backoff = BackoffConfig { max_backoff: PAUSE.min(patience / 4), ..BackoffConfig::default() };
@@ -114,7 +117,7 @@ impl Bucket {
         key.split('/').fold(self.prefix.clone(), |path, part| path.join(part))
     }
 
-    /// The answer; `None` where there is no such object.
+    /// Sends a request and waits for its answer; `None` if there is no such object.
     fn ask<T>(&self, question: impl AsyncFnOnce(&AmazonS3) -> object_store::Result<T>) -> io::Result<Option<T>> {
         let client = if self.answered.load(Ordering::Relaxed) { &self.later } else { &self.first };
         let answer = match self.runtime.block_on(question(client)) {
@@ -128,7 +131,7 @@ impl Bucket {
         Ok(answer)
     }
 
-    /// What went wrong, and what to do.
+    /// An error message that states the cause and the remedy.
     fn sentence(&self, error: &object_store::Error) -> String {
         let (text, server) = (error.to_string(), &self.server);
         let within = |tag: &str| {
@@ -142,7 +145,7 @@ impl Bucket {
                 within("Message").unwrap_or_default()
             );
         }
-        // the machine was asked for the key of its role, by its metadata service
+        // without a key, the credentials of the role of the machine were requested from its metadata service
         if self.keyless && text.contains("/latest/") {
             return format!("there is no key to ask the server {server} with\nhint: {KEYS}");
         }
@@ -154,15 +157,15 @@ impl Bucket {
     }
 }
 
-/// What most refusals come down to.
+/// A hint that fits most refused requests.
 const KEYS: &str = "AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY say who asks, AWS_REGION and AWS_ENDPOINT_URL where";
 
-/// An error, what caused it, and so on.
+/// An error followed by its chain of causes.
 fn chain<'a>(error: &'a (dyn Error + 'static)) -> impl Iterator<Item = &'a (dyn Error + 'static)> {
     iter::successors(Some(error), |&error| error.source())
 }
 
-/// The cause of all.
+/// The message of the last cause of the chain.
 fn root_of(error: &(dyn Error + 'static)) -> String {
     let words = chain(error).last().map(ToString::to_string).unwrap_or_default();
     words.trim_end_matches([':', ' ']).to_owned()
@@ -187,12 +190,12 @@ impl Shelf for Bucket {
     }
 
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
-        // the server lists what lies below a name, up to its last slash
+        // the server lists objects below a name that ends at a slash
         let below = prefix.rfind('/').map_or(self.prefix.clone(), |end| self.path(&prefix[..end]));
         let found: Vec<_> = self.ask(async |client| client.list(Some(&below)).try_collect().await)?.unwrap_or_default();
         let start = if self.prefix.as_ref().is_empty() { 0 } else { self.prefix.as_ref().len() + 1 };
         let item = |object: object_store::ObjectMeta| {
-            // an object with the name of the prefix alone is how some programs make a folder
+            // some programs create an object with the name of the prefix to represent a folder; it is skipped
             let key = object.location.as_ref().get(start..).filter(|key| !key.is_empty() && key.starts_with(prefix))?;
             Some(Item { key: key.to_owned(), size: object.size, modified: object.last_modified.into() })
         };
@@ -202,7 +205,7 @@ impl Shelf for Bucket {
     }
 
     fn sweep(&self) -> io::Result<()> {
-        // an object that was not written to its end never was there
+        // an upload that was not completed leaves no object, so there is nothing to remove
         Ok(())
     }
 

@@ -1,4 +1,4 @@
-//! How far a store is, and whether what is in it is what its plan gives.
+//! The progress of a store, and the verification of its contents against its plan.
 
 use crate::run::State;
 use crate::shelf::Memory;
@@ -9,65 +9,65 @@ use std::time::{Duration, SystemTime};
 use vibroimpact_study::Column;
 use vibroimpact_study::{Control, Meter};
 
-/// How far a store is.
+/// The progress of a store.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
-    /// Tiles in all.
+    /// Total number of tiles.
     pub tiles: u64,
-    /// Tiles that are done.
+    /// Number of complete tiles.
     pub done: u64,
-    /// Points in all.
+    /// Total number of points.
     pub points: u64,
-    /// Points of the tiles that are done.
+    /// Number of points of complete tiles.
     pub points_done: u64,
-    /// Whether it was concluded.
+    /// Whether the store was concluded.
     pub complete: bool,
-    /// When the first tile was done, if the place records it.
+    /// Time at which the first tile was completed, if the place records it.
     pub first: Option<SystemTime>,
-    /// When the last one was.
+    /// Time at which the last tile was completed.
     pub last: Option<SystemTime>,
-    /// How long the rest will take at the rate of the last tiles; `None` where that is unknown.
+    /// Estimated time for the remaining tiles at the rate of the last ones; `None` if unknown.
     pub left: Option<Duration>,
-    /// Numbers of the tiles that are not done, up to a thousand of them.
+    /// Numbers of the tiles that are not complete, at most a thousand.
     pub missing: Vec<u64>,
-    /// Tiles that are not done and not among these.
+    /// Number of further tiles that are not complete.
     pub missing_left_out: u64,
-    /// Bytes of the store.
+    /// Size of the store in bytes.
     pub bytes: u64,
 }
 
-/// What is wrong with a tile, or with what describes the store.
+/// A fault of a tile or of the metadata of the store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damage {
-    /// The tile; `None` for what belongs to the whole store.
+    /// The tile; `None` for a fault of the whole store.
     pub tile: Option<u64>,
-    /// What is wrong.
+    /// Description of the fault.
     pub what: String,
 }
 
 /// What a verification found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Verified {
-    /// Tiles whose check sums were read.
+    /// Number of tiles whose checksums were verified.
     pub checked: u64,
-    /// Tiles that were computed again and compared byte by byte.
+    /// Number of tiles that were computed again and compared byte by byte.
     pub recomputed: u64,
-    /// Tiles that are not done.
+    /// Number of tiles that are not complete.
     pub open: u64,
-    /// What is wrong.
+    /// All faults that were found.
     pub damage: Vec<Damage>,
 }
 
-/// Tiles whose times are looked at to tell how long the rest will take.
+/// Number of recent tiles from whose times the remaining time is estimated.
 const RECENT: usize = 64;
-/// Tiles that are named.
+/// Maximum number of missing tiles that are listed.
 const NAMED: usize = 1000;
 
 impl Store {
-    /// How far it is.
+    /// The progress of the store.
     ///
     /// # Errors
-    /// [`StoreError`] when the place cannot be read.
+    /// [`StoreError`] if the place cannot be read.
     pub fn progress(&self) -> Result<Progress, StoreError> {
         let items = self.shelf.list("").map_err(|error| self.unread("", error))?;
         let grid = self.study.grid();
@@ -108,16 +108,16 @@ impl Store {
         })
     }
 
-    /// Whether its root says that it was concluded.
+    /// Whether the root states that the store was concluded.
     pub(crate) fn concluded(&self) -> Result<bool, StoreError> {
         Ok(self.root()?.pointer("/attributes/complete").and_then(serde_json::Value::as_i64) == Some(1))
     }
 
-    /// Compares all that describes the store with its plan, reads the check sums of all finished tiles, computes `sample` of them again, chosen by `seed`, and compares the
-    /// bytes. Changes nothing.
+    /// Compares the metadata of the store with its plan, verifies the checksums of all complete tiles, computes
+    /// `sample` tiles (chosen by `seed`) again and compares their bytes. Changes nothing.
     ///
     /// # Errors
-    /// [`StoreError`] when the place cannot be read.
+    /// [`StoreError`] if the place cannot be read.
     pub fn verify(&self, sample: u64, seed: u64, control: &Control<'_>) -> Result<Verified, StoreError> {
         let grid = self.study.grid();
         let tiles: Vec<u64> = (0..grid.tiles()).collect();
@@ -162,10 +162,10 @@ impl Store {
         })
     }
 
-    /// Refuses a store with a tile that is done and damaged: all check sums are read, nothing is changed.
+    /// Refuses a store with a damaged tile. All checksums are verified; nothing is changed.
     ///
     /// # Errors
-    /// [`StoreError::DamagedTile`] for the first such tile, and where the place cannot be read.
+    /// [`StoreError::DamagedTile`] for the first damaged tile; other errors if the place cannot be read.
     pub fn whole(&self, control: &Control<'_>) -> Result<(), StoreError> {
         let grid = self.study.grid();
         let meter = Meter::new(control, 0, grid.points());
@@ -177,25 +177,25 @@ impl Store {
             self.tile(tile).map(drop)
         };
         let tiles: Vec<_> = control.pool()?.install(|| (0..grid.tiles()).into_par_iter().map(read).collect());
-        // the first one, whatever the threads did
+        // the first error in the order of the tiles, independent of the threads
         tiles.into_iter().collect()
     }
 
-    /// The points that [`Store::verify`] computes again at most, for a count of what it has done.
+    /// Maximum number of points that [`Store::verify`] computes again, for progress reports.
     #[must_use]
     pub fn sample_points(&self, sample: u64) -> u64 {
         let grid = self.study.grid();
         sample.min(grid.tiles()).saturating_mul(grid.tile(0).points() as u64).min(grid.points())
     }
 
-    /// How a tile here differs from the same tile there.
+    /// Describes how a tile of this store differs from the same tile of `twin`, if it does.
     fn differs(&self, twin: &Self, tile: u64, concluded: bool) -> Result<Option<String>, StoreError> {
         for (field, array) in self.layout.arrays.iter().enumerate() {
             let key = array.key(&self.layout.place(tile, field));
             if self.get(&key)? == twin.get(&key)? {
                 continue;
             }
-            // cycles that only this tile has met are numbered when all are there
+            // preliminary numbers of cycles become final ones when the store is concluded
             let (here, there) = (self.read(tile, field)?, twin.read(tile, field)?);
             let renumbered = match (&here, &there) {
                 (Some(Column::I32(here)), Some(Column::I32(there))) => {
@@ -204,7 +204,7 @@ impl Store {
                 }
                 _ => false,
             };
-            // with these numbers the chunk has to be the same bytes too, beyond the edge of the grid as well
+            // with the final numbers, the bytes of the chunk must be equal, also beyond the edge of the grid
             let same = if let (true, Some(here)) = (renumbered, &here) {
                 twin.write(tile, field, here)?;
                 self.get(&key)? == twin.get(&key)?
@@ -219,7 +219,7 @@ impl Store {
     }
 }
 
-/// Some of the tiles, spread at random by a seed.
+/// A random choice of tiles, determined by a seed.
 fn choose(whole: &[u64], sample: u64, seed: u64) -> Vec<u64> {
     let key = |tile: u64| {
         // SplitMix64

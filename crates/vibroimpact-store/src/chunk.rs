@@ -1,7 +1,7 @@
-//! One array of a store: its description, and its chunks between numbers and bytes.
+//! One array of a store: its metadata, and the conversion of its chunks between numbers and bytes.
 //!
-//! Little-endian numbers, Zstandard, and a CRC-32C last, so that a chunk that was cut short or has a flipped bit is
-//! recognised. Not-a-number has one bit pattern.
+//! A chunk contains little-endian numbers compressed by Zstandard and ends with a CRC-32C, so that a truncated chunk or
+//! a flipped bit is detected. Not-a-number always has the same bit pattern.
 
 use serde_json::{Map, Value};
 use std::sync::Arc;
@@ -14,35 +14,35 @@ use zarrs::array::{
 };
 use zarrs::storage::store::MemoryStore;
 
-/// Compression level: higher ones cost more and gain little on these data.
+/// Compression level; higher levels take more time and save little on these data.
 const LEVEL: i32 = 3;
 
-/// What an array holds.
+/// The type of the values of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Holds {
     /// Numbers.
     Numbers(NumberType),
-    /// Words.
+    /// Texts.
     Text,
 }
 
-/// An array: name, shape, chunks, and how to encode them.
+/// An array: its name, shape, chunks and encoding.
 pub(crate) struct Chunked {
     pub(crate) name: String,
     array: Array<MemoryStore>,
     kind: Holds,
 }
 
-/// Something that should not go wrong, in words.
+/// The description of an internal error that should not occur.
 pub(crate) type Defect = String;
 
-/// What describes an array.
+/// The metadata of an array.
 pub(crate) struct Description<'a> {
     pub(crate) name: &'a str,
     pub(crate) kind: Holds,
-    /// What stands where nothing was computed; for real numbers always not-a-number.
+    /// The value of points that have not been computed; not-a-number for real numbers.
     pub(crate) fill: i32,
-    /// Name, length and length of a chunk of each dimension.
+    /// Name, length and chunk length of each dimension.
     pub(crate) dimensions: Vec<(String, usize, usize)>,
     pub(crate) attributes: Map<String, Value>,
 }
@@ -71,12 +71,12 @@ impl Chunked {
         Ok(Self { name: name.to_owned(), array, kind })
     }
 
-    /// The key of its description.
+    /// The key of its metadata.
     pub(crate) fn description_key(&self) -> String {
         format!("{}/zarr.json", self.name)
     }
 
-    /// Its description, as it stands in `zarr.json`.
+    /// Its metadata, the content of its `zarr.json`.
     pub(crate) fn description(&self) -> Result<Value, Defect> {
         let text = serde_json::to_value(self.array.metadata()).map_err(|error| error.to_string())?;
         Ok(plain(text))
@@ -87,12 +87,12 @@ impl Chunked {
         self.array.chunk_key(place).as_str().to_owned()
     }
 
-    /// The place of the first chunk.
+    /// The indices of the first chunk.
     pub(crate) fn first(&self) -> Vec<u64> {
         vec![0; self.array.dimensionality()]
     }
 
-    /// Whether a key is that of a chunk.
+    /// The prefix of the keys of its chunks.
     pub(crate) fn chunk_prefix(&self) -> String {
         format!("{}/c/", self.name)
     }
@@ -101,7 +101,7 @@ impl Chunked {
         CodecOptions::default().with_concurrent_target(1)
     }
 
-    /// The bytes of a chunk.
+    /// The bytes of a chunk from its values.
     pub(crate) fn encode(&self, place: &[u64], values: &Cells) -> Result<Vec<u8>, Defect> {
         let data = self.array.data_type();
         let bytes = match values {
@@ -120,7 +120,7 @@ impl Chunked {
         encoded.map(std::borrow::Cow::into_owned).map_err(|error| error.to_string())
     }
 
-    /// The numbers of a chunk; what is wrong with it, if it is not whole.
+    /// The values of a chunk from its bytes, or a description of the damage.
     pub(crate) fn decode(&self, place: &[u64], bytes: Vec<u8>) -> Result<Cells, Defect> {
         let shape = self.array.chunk_shape(place).map_err(|error| error.to_string())?;
         let data = self.array.data_type();
@@ -146,20 +146,20 @@ impl Chunked {
     }
 }
 
-/// An array as its own description has it.
+/// An array made from its metadata.
 fn described(name: &str, description: &Value) -> Result<Array<MemoryStore>, Defect> {
     let metadata = serde_json::from_value(description.clone()).map_err(|error| error.to_string())?;
     let array = Array::new_with_metadata(Arc::new(MemoryStore::new()), &format!("/{name}"), metadata);
     array.map_err(|error| error.to_string())
 }
 
-/// The key of the first chunk of an array that is known by its description only.
+/// The key of the first chunk of an array, made from its metadata.
 pub(crate) fn first_key(name: &str, description: &Value) -> Result<String, Defect> {
     let array = described(name, description)?;
     Ok(array.chunk_key(&vec![0; array.dimensionality()]).as_str().to_owned())
 }
 
-/// Whether these bytes are the first chunk of such an array, whole to the last bit.
+/// Whether some bytes are an undamaged first chunk of an array, which is known by its metadata.
 pub(crate) fn reads(name: &str, description: &Value, bytes: Vec<u8>) -> bool {
     let Ok(array) = described(name, description) else { return false };
     let Ok(shape) = array.chunk_shape(&vec![0; array.dimensionality()]) else { return false };
@@ -167,7 +167,8 @@ pub(crate) fn reads(name: &str, description: &Value, bytes: Vec<u8>) -> bool {
     array.codecs().decode(bytes.into(), &shape, array.data_type(), array.fill_value(), &options).is_ok()
 }
 
-/// Without the name of the library that wrote it, and every codec as an object: some readers know no other form.
+/// Removes the name of the library that wrote the metadata, and writes every codec as an object, because some readers
+/// support no other form.
 fn plain(mut description: Value) -> Value {
     if let Some(attributes) = description.get_mut("attributes").and_then(Value::as_object_mut) {
         attributes.remove("_zarrs");

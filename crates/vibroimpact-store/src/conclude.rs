@@ -1,4 +1,4 @@
-//! When all tiles are there: what only the whole can say, and the names of all labels that occur.
+//! The conclusion of a store whose tiles are all complete: the final tables, and the texts of all labels that occur.
 
 use crate::layout::{array_of, array_of_table};
 use crate::root::Conclusion;
@@ -21,11 +21,11 @@ impl Tiles for &Store {
 }
 
 impl Store {
-    /// Adds the tables and the dictionary of labels, and marks the store as complete. What stands there already is not
-    /// written again, so that a store that is complete may lie where nothing can be written.
+    /// Adds the tables and the texts of labels, and marks the store as complete. Objects that already have the right
+    /// bytes are not written, so a complete store may be in a place that cannot be written.
     pub(crate) fn conclude(&self) -> Result<(), StoreError> {
         if !self.is_ours() && self.concluded()? {
-            // another version may say the same in other words
+            // another version may use other texts
             return Ok(());
         }
         let mut tiles = self;
@@ -34,7 +34,7 @@ impl Store {
         self.shelf.sweep().map_err(|error| self.unread("", error))
     }
 
-    /// What only the whole can say, from tiles that are all there; they are written anew as [`Study::conclude`] says.
+    /// The final tables, computed from complete tiles. Tiles are written again as described at [`Study::conclude`].
     ///
     /// [`Study::conclude`]: vibroimpact_study::Study::conclude
     pub(crate) fn conclusion(&self, tiles: &mut impl Tiles<Error = StoreError>) -> Result<Conclusion, StoreError> {
@@ -51,7 +51,7 @@ impl Store {
         Ok(Conclusion { labelled, tables: tables.into_iter().map(array).collect::<Result<_, _>>()? })
     }
 
-    /// The labels m/n that occur, with their numbers.
+    /// The labels m/n that occur, with their codes.
     fn labels(&self, field: usize) -> Result<Vec<(i32, String)>, StoreError> {
         let mut codes = BTreeSet::new();
         let mut tiles = self;

@@ -1,5 +1,5 @@
-//! Whether what describes a store is what its plan gives: the description of every array, the root with all of them again, the values
-//! of coordinates and of tables.
+//! Verification of the metadata of a store against its plan: the metadata of every array, the root (which repeats
+//! them), and the values of coordinates and tables.
 
 use crate::check::Damage;
 use crate::root::{Object, ROOT};
@@ -9,14 +9,15 @@ use std::collections::BTreeMap;
 use vibroimpact_study::Column;
 use vibroimpact_study::study::Tiles;
 
-/// The end of the key of a description.
+/// The end of the keys of metadata.
 const DESCRIPTION: &str = "/zarr.json";
 
 impl Store {
-    /// What is wrong with the objects that describe the store, where `whole` says that all tiles are there and whole.
+    /// The faults of the metadata. `whole` states whether all tiles are complete and undamaged.
     ///
-    /// They are compared byte by byte. Another version may have said the same in other words, and what only the whole can say needs all
-    /// tiles: there they are compared with each other, and with the plan in all that readers need to find the numbers.
+    /// The objects are compared byte by byte. There are two exceptions: another version may use other texts, and the
+    /// final tables need all tiles. In these cases the objects are compared with each other, and with the plan in
+    /// everything that readers need to find the numbers.
     pub(crate) fn description_damage(&self, whole: bool) -> Result<Vec<Damage>, StoreError> {
         let concluded = self.concluded()?;
         if !self.is_ours() || (concluded && !whole) {
@@ -31,14 +32,14 @@ impl Store {
         if concluded {
             return self.differing(&concluding, &BTreeMap::new());
         }
-        // a run that was killed while it concluded leaves some as they were from the beginning
+        // a run that was killed while it concluded the store leaves some objects in their initial form
         let before = begun.into_iter().map(|object| (object.key, object.bytes)).collect();
         let mut damage = self.differing(&concluding, &before)?;
         damage.push(of_store(format!("`{ROOT}` does not say that the store is complete, though all tiles are there")));
         Ok(damage)
     }
 
-    /// Objects that are not as they are to be; where `before` is given, as they were from the beginning is right too.
+    /// The objects that differ from `wanted`. If `before` is given, the initial form is allowed too.
     fn differing(&self, wanted: &[Object], before: &BTreeMap<String, Vec<u8>>) -> Result<Vec<Damage>, StoreError> {
         let mut damage = Vec::new();
         for Object { key, bytes } in wanted {
@@ -51,8 +52,8 @@ impl Store {
         Ok(damage)
     }
 
-    /// What keeps readers from the numbers: descriptions that are missing, do not read, or do not fit the plan or each other, and
-    /// coordinates and tables that are damaged.
+    /// Faults that prevent readers from finding the numbers: metadata that are missing, cannot be parsed, or contradict
+    /// the plan or each other; and damaged coordinates or tables.
     pub(crate) fn structural_damage(&self) -> Result<Vec<Damage>, StoreError> {
         let root = self.root()?;
         let mut damage = Vec::new();
@@ -85,7 +86,8 @@ impl Store {
         Ok(damage)
     }
 
-    /// Of a store that was concluded: descriptions that the root has in other words than they have themselves, tables that do not read.
+    /// Faults of a concluded store: metadata that differ between the root and the array itself, and tables that cannot
+    /// be read.
     fn concluded_damage(&self, consolidated: &Map<String, Value>) -> Result<Vec<Damage>, StoreError> {
         let mut damage = Vec::new();
         for (name, description) in consolidated {
@@ -111,7 +113,7 @@ impl Store {
         Ok(damage)
     }
 
-    /// Writes descriptions and coordinates anew where they are damaged.
+    /// Writes damaged metadata and coordinates again.
     pub(crate) fn mend_descriptions(&self) -> Result<(), StoreError> {
         if self.structural_damage()?.is_empty() { Ok(()) } else { self.describe() }
     }
@@ -121,7 +123,7 @@ fn of_store(what: String) -> Damage {
     Damage { tile: None, what }
 }
 
-/// What is wrong with an object that is not as it is to be.
+/// A description of the fault of an object.
 fn wrong(key: &str, there: Option<&[u8]>) -> String {
     let json = key == ROOT || key.ends_with(DESCRIPTION);
     match there {
@@ -131,7 +133,7 @@ fn wrong(key: &str, there: Option<&[u8]>) -> String {
     }
 }
 
-/// A description without the words for people.
+/// Metadata without descriptive texts.
 fn structure(description: &Value) -> Value {
     let mut rest = description.clone();
     if let Some(rest) = rest.as_object_mut() {
@@ -140,7 +142,7 @@ fn structure(description: &Value) -> Value {
     rest
 }
 
-/// The tiles of a store, read only.
+/// Read-only access to the tiles of a store.
 struct Untouched<'a>(&'a Store);
 
 impl Tiles for Untouched<'_> {
@@ -151,7 +153,7 @@ impl Tiles for Untouched<'_> {
         Tiles::read(&mut store, tile, field)
     }
 
-    /// What would be written is not needed: each tile is read once.
+    /// Discards the values: each tile is read only once, so they are not needed.
     fn write(&mut self, _: u64, _: usize, _: &Column) -> Result<(), StoreError> {
         Ok(())
     }

@@ -1,17 +1,17 @@
-//! Why a store cannot be used.
+//! The errors of stores.
 
 use std::io;
 use thiserror::Error;
 use vibroimpact_study::{PlanError, Stopped};
 
-/// Why a store cannot be used. The sentence names the place, and what to do.
+/// The reason why a store cannot be used. The message names the place and the remedy.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StoreError {
-    /// The plan makes no sense.
+    /// The plan is invalid.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// Stopped from outside; what is finished is kept.
+    /// The run was stopped by its caller; complete tiles are kept.
     #[error("stopped after {} of {} points", .0.done, .0.total)]
     Stopped(Stopped),
     /// An object cannot be read.
@@ -21,7 +21,7 @@ pub enum StoreError {
         place: String,
         /// The object.
         key: String,
-        /// Why.
+        /// The cause.
         error: io::Error,
     },
     /// An object cannot be written.
@@ -33,48 +33,48 @@ pub enum StoreError {
         place: String,
         /// The object.
         key: String,
-        /// Why.
+        /// The cause.
         error: io::Error,
     },
-    /// A store cannot be begun.
+    /// The store cannot be created.
     #[error("the store {place} cannot be begun: {error}\nhint: choose a folder that can be written")]
     Begin {
         /// The store.
         place: String,
-        /// Why.
+        /// The cause.
         error: io::Error,
     },
-    /// There is no store.
+    /// There is no store at this place.
     #[error("there is no store at {0}")]
     Absent(String),
-    /// Something else is there.
+    /// The place contains something else.
     #[error("{0} is not empty, and no store of this program\nhint: a store needs a folder of its own")]
     Foreign(String),
-    /// A store that a later program wrote.
+    /// The store was written by a later program with another format.
     #[error(
         "the store {place} has format {found}; this program knows format {known}\nhint: use the version of vibroimpact that wrote it ({program}), or a later one"
     )]
     Newer {
         /// The store.
         place: String,
-        /// Its format.
+        /// The format of the store.
         found: u64,
-        /// That of this program.
+        /// The format of this program.
         known: u64,
         /// The program that wrote it.
         program: String,
     },
-    /// A store of another plan.
+    /// The store belongs to another plan.
     #[error("the store {place} holds another plan ({theirs}, not {ours})\nhint: choose another folder for this one")]
     OtherPlan {
         /// The store.
         place: String,
         /// The hash of its plan.
         theirs: String,
-        /// The hash of the plan given.
+        /// The hash of the given plan.
         ours: String,
     },
-    /// A store that another version began: its tiles might differ in a last bit.
+    /// The store was begun by another version, whose tiles might differ in a last bit.
     #[error(
         "the store {place} was begun by vibroimpact {theirs}; this is {ours}, whose results may differ\nhint: finish it with that version, or begin another store"
     )]
@@ -83,10 +83,10 @@ pub enum StoreError {
         place: String,
         /// The version that began it.
         theirs: String,
-        /// This one.
+        /// The version of this program.
         ours: String,
     },
-    /// A tile that is done has a chunk that is not whole.
+    /// A complete tile has a damaged chunk.
     #[error(
         "`{key}` of tile {tile} in the store {place} is missing, cut short or has a wrong check sum\nhint: resuming the study computes the tile anew"
     )]
@@ -98,7 +98,7 @@ pub enum StoreError {
         /// The chunk.
         key: String,
     },
-    /// What describes the store is damaged.
+    /// The metadata of the store are damaged.
     #[error(
         "`{key}` of the store {place} is damaged: {why}\nhint: running the plan it was made from into it again mends it"
     )]
@@ -107,26 +107,26 @@ pub enum StoreError {
         place: String,
         /// The object.
         key: String,
-        /// How.
+        /// A description of the damage.
         why: String,
     },
-    /// A part of a job array that does not exist.
+    /// The part of a job array does not exist.
     #[error("tiles {index}/{of} is no part of a whole: I/N needs 1 <= I <= N")]
     Part {
-        /// Which part.
+        /// Number of the part.
         index: u64,
-        /// Of how many.
+        /// Number of parts.
         of: u64,
     },
-    /// The operating system starts no threads.
+    /// The operating system cannot start threads.
     #[error("threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    /// A place that this build cannot reach.
+    /// This build cannot access the place.
     #[error("{place}: {why}")]
     Unreachable {
         /// The place.
         place: String,
-        /// Why.
+        /// The cause.
         why: String,
     },
 }

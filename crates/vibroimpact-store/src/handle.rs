@@ -1,4 +1,4 @@
-//! A store that is open.
+//! An open store.
 
 use crate::layout::Layout;
 use crate::shelf::Shelf;
@@ -6,12 +6,12 @@ use std::sync::Arc;
 use vibroimpact_study::Plan;
 use vibroimpact_study::study::Study;
 
-/// The version of the arrangement described here; a store of a later one is refused.
+/// The version of the format of stores. A store with a later format is refused.
 pub const FORMAT: u64 = 1;
-/// This program.
+/// The version of this program.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// A study and where it is stored.
+/// A study and the place where it is stored.
 pub struct Store {
     pub(crate) shelf: Arc<dyn Shelf>,
     pub(crate) plan: Plan,

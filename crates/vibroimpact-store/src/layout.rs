@@ -6,16 +6,16 @@ use vibroimpact_study::Grid;
 use vibroimpact_study::study::{Cells, Study, StudyTable};
 use vibroimpact_study::{Column, Field, NumberType};
 
-/// The field that is written last: its chunk says that the tile is done.
+/// The field that is written last. A tile is complete if its chunk of this field exists.
 pub(crate) const STATUS: &str = "status";
-/// What the status of a finished tile says.
+/// The status of a complete tile.
 pub(crate) const DONE: i8 = 1;
 
 /// The arrays of a study.
 pub(crate) struct Layout {
     pub(crate) grid: Grid,
     pub(crate) fields: Vec<Field>,
-    /// One for each field, in their order.
+    /// The arrays of the fields, in their order.
     pub(crate) arrays: Vec<Chunked>,
     pub(crate) status: Chunked,
     pub(crate) coordinates: Vec<(Chunked, Cells)>,
@@ -25,7 +25,7 @@ fn text(value: &str) -> Value {
     Value::String(value.to_owned())
 }
 
-/// CF's words for a variable: long name, unit, flags.
+/// The attributes of a variable according to the CF conventions: long name, units, flags.
 fn attributes(long_name: &str, units: &str, comment: &str, flags: &[(i32, String)]) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("long_name".into(), text(long_name));
@@ -41,7 +41,7 @@ fn attributes(long_name: &str, units: &str, comment: &str, flags: &[(i32, String
     map
 }
 
-/// The array of a field, with further flags.
+/// The array of a field; `more` are additional flags.
 pub(crate) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Result<Chunked, Defect> {
     let mut dimensions: Vec<_> = grid.dimensions.iter().map(|d| (d.name.clone(), d.count, d.tile)).collect();
     dimensions.extend(field.extra.iter().map(|extra| (extra.name.to_owned(), extra.count, extra.count)));
@@ -101,18 +101,18 @@ impl Layout {
         Ok(Self { grid, fields, arrays, status, coordinates })
     }
 
-    /// The place of a tile's chunk in the array of a field.
+    /// The indices of the chunk of a tile in the array of a field.
     pub(crate) fn place(&self, tile: u64, field: usize) -> Vec<u64> {
         let place = self.grid.place(tile).into_iter().map(|i| i as u64);
         place.chain(self.fields[field].extra.iter().map(|_| 0)).collect()
     }
 
-    /// The place of a tile's status.
+    /// The indices of the chunk of a tile in the array of the status.
     pub(crate) fn status_place(&self, tile: u64) -> Vec<u64> {
         self.grid.place(tile).into_iter().map(|i| i as u64).collect()
     }
 
-    /// The chunk of a tile: its column, filled up where the tile is smaller than a chunk.
+    /// The chunk of a tile: its column, padded to the size of a chunk.
     pub(crate) fn padded(&self, tile: u64, field: usize, column: &Column) -> Column {
         let (full, field) = (self.grid.full_tile(tile), &self.fields[field]);
         let mut chunk = field.empty(full.points());
@@ -120,7 +120,7 @@ impl Layout {
         chunk
     }
 
-    /// The column of a tile, without what fills its chunk up.
+    /// The column of a tile: its chunk without the padding.
     pub(crate) fn unpadded(&self, tile: u64, field: usize, chunk: &Column) -> Column {
         let (full, field, block) = (self.grid.full_tile(tile), &self.fields[field], self.grid.tile(tile));
         let mut column = field.empty(block.points());

@@ -1,38 +1,39 @@
-//! A study on disk: a Zarr v3 group, one array for each field, one chunk for each tile.
+//! A study on disk: a Zarr v3 group with one array for each field and one chunk for each tile.
 //!
-//! Everything that computes fills tiles of the same store with the same bytes. A tile is done exactly when the chunk of
-//! its status, which is written last, is there and whole. Objects appear whole or not at all, so that a process may be
-//! killed at any moment, and several may work on one store without knowing of each other.
+//! All programs that fill a store write the same bytes. A tile is complete exactly if the chunk of its status, which is
+//! written last, exists and is undamaged. Objects appear complete or not at all, so a process may be killed at any
+//! moment, and several processes may work on one store without communication.
 //!
 //! # Places
 //!
-//! A folder, or with the feature `s3` a bucket of any object store that speaks S3, called `s3://BUCKET/PREFIX`; both come to
-//! the same objects with the same bytes. All that is asked of a place is in [`Shelf`]. How a bucket is reached stands in the
-//! environment, by the usual names:
+//! A store is in a folder or, with the feature `s3`, in a bucket of any object store with the S3 protocol, named
+//! `s3://BUCKET/PREFIX`. Both contain the same objects with the same bytes. [`Shelf`] is the interface that a place
+//! must implement. Access to a bucket is configured by the usual environment variables:
 //!
 //! | variable | meaning |
 //! |---|---|
-//! | `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY` | who asks; without them the role of the machine, where it has one |
-//! | `AWS_SESSION_TOKEN` | for a key that is lent |
-//! | `AWS_REGION` | where the bucket is; `us-east-1` unless given |
-//! | `AWS_ENDPOINT_URL` | the server, `https://...`; Amazon's unless given |
-//! | `AWS_ALLOW_HTTP` | `true` allows a server without encryption, as on one's own machine |
+//! | `AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY` | the credentials; by default those of the role of the machine, if it has one |
+//! | `AWS_SESSION_TOKEN` | the session token of temporary credentials |
+//! | `AWS_REGION` | the region of the bucket; default `us-east-1` |
+//! | `AWS_ENDPOINT_URL` | the server, `https://...`; default: that of Amazon |
+//! | `AWS_ALLOW_HTTP` | `true` allows a server without encryption, for example on the same machine |
 //!
-//! The files of `aws configure` are not read. The bucket has to be there. A server that cannot be reached is given up after
-//! some three seconds, one that never says a word after thirty; one that has answered once may be away for a minute and a half.
+//! The files of `aws configure` are not read. The bucket must exist. The attempt to use a server ends after about three
+//! seconds if it cannot be reached, and after thirty seconds if it does not answer. A server that has answered once may
+//! be unreachable for a minute and a half.
 //!
 //! # Files
 //!
 //! | idea | file |
 //! |---|---|
-//! | objects by name: a folder, or a bucket | `shelf.rs`, `bucket.rs` |
-//! | an array: its description, its chunks as bytes | `chunk.rs` |
+//! | objects by name, in a folder or a bucket | `shelf.rs`, `bucket.rs` |
+//! | an array: its metadata, its chunks as bytes | `chunk.rs` |
 //! | the arrays of a study | `layout.rs` |
-//! | what describes the store | `root.rs` |
-//! | filling tiles, over threads, until all are there | `run.rs` |
-//! | what only the whole can say | `conclude.rs` |
-//! | how far it is, and what is damaged | `check.rs` |
-//! | whether what describes it is whole | `described.rs` |
+//! | the metadata of the store | `root.rs` |
+//! | filling tiles by several threads until all are complete | `run.rs` |
+//! | the final tables | `conclude.rs` |
+//! | progress and verification | `check.rs` |
+//! | verification of the metadata | `described.rs` |
 
 #[cfg(feature = "s3")]
 mod bucket;
@@ -66,10 +67,10 @@ use std::sync::Arc;
 use vibroimpact_study::study::{Cells, Study};
 use vibroimpact_study::{Column, Plan};
 
-/// The shelf at a place: a folder, or `s3://bucket/prefix`.
+/// The shelf at a place: a folder or `s3://bucket/prefix`.
 ///
 /// # Errors
-/// [`StoreError::Unreachable`] for a bucket where this build has no access to any.
+/// [`StoreError::Unreachable`] for a bucket if this build does not support buckets.
 pub fn shelf(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
     if place.trim().is_empty() {
         return Err(StoreError::Unreachable { place: "the store".into(), why: "its name is empty".into() });
@@ -97,10 +98,11 @@ pub fn shelf(place: &str) -> Result<Arc<dyn Shelf>, StoreError> {
 }
 
 impl Store {
-    /// Opens the store of a plan, and begins it if there is none.
+    /// Opens the store of a plan, and creates it if it does not exist.
     ///
     /// # Errors
-    /// [`StoreError`] for a plan that makes no sense or fills no grid, a place that cannot be used, or a store of another plan.
+    /// [`StoreError`] for a plan that is invalid or has no grid, a place that cannot be used, or a store of another
+    /// plan.
     pub fn create(shelf: Arc<dyn Shelf>, plan: &Plan) -> Result<Self, StoreError> {
         let plan = &plan.canonical()?;
         let store = Self::over(shelf, plan, VERSION.to_owned())?;
@@ -110,18 +112,18 @@ impl Store {
             Err(StoreError::Absent(_)) => {
                 let there = store.shelf.list("").map_err(|error| store.unread("", error))?;
                 if there.iter().any(|item| item.key == ROOT) {
-                    // another process has begun it since
+                    // another process has created the store in the meantime
                     let root = store.root()?;
                     return store.joined(&root);
                 }
-                // one that another process is beginning just now has arrays, but nothing else
+                // a store that another process is creating at this moment contains only arrays
                 let known = |key: &str| store.described().any(|array| key.starts_with(&format!("{}/", array.name)));
                 if there.iter().any(|item| !known(&item.key)) {
                     return Err(StoreError::Foreign(store.place()));
                 }
                 fresh = true;
             }
-            // the plan is given: what describes it can be written anew
+            // the plan is given, so damaged metadata can be written again
             Err(StoreError::Damaged { .. }) => {}
             Err(other) => return Err(other),
         }
@@ -132,7 +134,7 @@ impl Store {
         Ok(store)
     }
 
-    /// Itself, if what is there is of the same plan.
+    /// This store, if the existing root belongs to the same plan.
     fn joined(self, root: &Value) -> Result<Self, StoreError> {
         let found = self.found(root)?;
         if found.hash != self.plan.hash() {
@@ -141,10 +143,10 @@ impl Store {
         Ok(Self { begun_by: found.version, ..self })
     }
 
-    /// Opens a store that is there.
+    /// Opens an existing store.
     ///
     /// # Errors
-    /// [`StoreError`] where there is none, or none that this program can read.
+    /// [`StoreError`] if there is no store, or none that this program can read.
     pub fn open(shelf: Arc<dyn Shelf>) -> Result<Self, StoreError> {
         let place = shelf.name();
         let root = read_root(shelf.as_ref())?;
@@ -155,7 +157,7 @@ impl Store {
             why: format!("its plan does not read: {error}"),
         })?;
         let store = Self::over(shelf, &plan, found.version)?;
-        // another version may write the same plan in other words
+        // another version may write the same plan as another text
         if store.is_ours() && store.plan.hash() != found.hash {
             let why =
                 format!("its plan has the name {}, not {}: one of them was changed", store.plan.hash(), found.hash);
@@ -170,25 +172,25 @@ impl Store {
         Ok(Self { shelf, plan: plan.clone(), study, layout, begun_by })
     }
 
-    /// The plan.
+    /// The plan of the study.
     #[must_use]
     pub const fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// What is computed.
+    /// The study.
     #[must_use]
     pub const fn study(&self) -> &Study {
         &self.study
     }
 
-    /// Where it is.
+    /// The name of the place.
     #[must_use]
     pub fn place(&self) -> String {
         self.shelf.name()
     }
 
-    /// The version of the program that began it.
+    /// The version of the program that created the store.
     #[must_use]
     pub fn begun_by(&self) -> &str {
         &self.begun_by
@@ -199,7 +201,7 @@ impl Store {
         self.shelf.put(key, bytes).map_err(failed)
     }
 
-    /// Writes an object unless these very bytes are there.
+    /// Writes an object unless it already has these bytes.
     fn settle(&self, key: &str, bytes: &[u8]) -> Result<(), StoreError> {
         if self.get(key)?.as_deref() == Some(bytes) { Ok(()) } else { self.put(key, bytes) }
     }
@@ -216,24 +218,24 @@ impl Store {
         StoreError::Damaged { place: self.place(), key: key.to_owned(), why }
     }
 
-    /// Whether a tile is done: its status is there and whole.
+    /// Whether a tile is complete, that is, its status exists and is undamaged.
     fn done(&self, tile: u64) -> Result<bool, StoreError> {
         let (array, place) = (&self.layout.status, self.layout.status_place(tile));
         let Some(bytes) = self.get(&array.key(&place))? else { return Ok(false) };
         Ok(array.decode(&place, bytes) == Ok(Cells::Numbers(Column::I8(vec![DONE]))))
     }
 
-    /// Computes a tile and writes it, its status last; nothing is written if stopped.
+    /// Computes a tile and writes it, with its status last. Writes nothing if stopped.
     fn fill(&self, tile: u64, tick: &(dyn Fn() -> bool + Sync)) -> Result<bool, StoreError> {
         let Some(columns) = self.study.tile(tile, tick) else { return Ok(false) };
         self.write_tile(tile, &columns)?;
         Ok(true)
     }
 
-    /// Writes the columns of a tile, as [`Study::tile`] gives them, and then its status.
+    /// Writes the columns of a tile, as returned by [`Study::tile`], and then its status.
     ///
     /// # Errors
-    /// [`StoreError`] when the place cannot be written.
+    /// [`StoreError`] if the place cannot be written.
     pub fn write_tile(&self, tile: u64, columns: &[Column]) -> Result<(), StoreError> {
         for (field, column) in columns.iter().enumerate() {
             self.write(tile, field, column)?;
@@ -251,7 +253,7 @@ impl Store {
         self.put(&array.key(&place), &bytes)
     }
 
-    /// The column of a field in a tile, if it is there and whole.
+    /// The column of a field in a tile, if it exists and is undamaged.
     fn read(&self, tile: u64, field: usize) -> Result<Option<Column>, StoreError> {
         let (array, place) = (&self.layout.arrays[field], self.layout.place(tile, field));
         let Some(bytes) = self.get(&array.key(&place))? else { return Ok(None) };
@@ -261,12 +263,12 @@ impl Store {
         })
     }
 
-    /// Whether this version began it.
+    /// Whether this version created the store.
     fn is_ours(&self) -> bool {
         self.begun_by == VERSION
     }
 
-    /// Refuses to add tiles to a store that another version began.
+    /// Refuses to add tiles to a store that another version created.
     fn same_version(&self) -> Result<(), StoreError> {
         if self.is_ours() {
             return Ok(());

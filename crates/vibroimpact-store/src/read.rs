@@ -1,4 +1,4 @@
-//! A store as arrays in memory, for figures and tables.
+//! The contents of a store as arrays in memory, for figures and tables.
 
 use crate::{Store, StoreError};
 use vibroimpact_study::study::StudyArrays;
@@ -21,16 +21,16 @@ impl StudyArrays for Store {
 }
 
 impl Store {
-    /// Number of the field of that name.
+    /// Number of the field with this name.
     #[must_use]
     pub fn field(&self, name: &str) -> Option<usize> {
         self.layout.fields.iter().position(|field| field.name == name)
     }
 
-    /// The columns of a tile, one for each field; of a tile that is not done, what stands for that.
+    /// The columns of a tile, one for each field. A tile that is not complete has fill values.
     ///
     /// # Errors
-    /// [`StoreError`] when the place cannot be read, and for a tile that is done and damaged.
+    /// [`StoreError`] if the place cannot be read, or if the tile is damaged.
     pub fn tile(&self, tile: u64) -> Result<(Block, Vec<Column>), StoreError> {
         let block = self.study.grid().tile(tile);
         let column = |(number, field): (usize, &vibroimpact_study::Field)| {
@@ -43,7 +43,7 @@ impl Store {
     /// The array of a field over the whole grid, in row-major order.
     ///
     /// # Errors
-    /// [`StoreError`] when the place cannot be read, and for a tile that is done and damaged.
+    /// [`StoreError`] if the place cannot be read, or if a tile is damaged.
     pub fn column(&self, field: usize) -> Result<Column, StoreError> {
         let grid = self.study.grid();
         let (all, width) = (grid.whole(), self.layout.fields[field].width());
@@ -56,14 +56,14 @@ impl Store {
         Ok(whole)
     }
 
-    /// The column of a field in a tile; none where the tile is not done.
+    /// The column of a field in a tile; `None` if the tile is not complete.
     fn kept(&self, tile: u64, field: usize) -> Result<Option<Column>, StoreError> {
         let found = self.read(tile, field)?;
         let status = self.layout.status.key(&self.layout.status_place(tile));
         if found.is_some() || self.get(&status)?.is_none() {
             return Ok(found);
         }
-        // what stands for a tile that is not done would be taken for its result
+        // a damaged chunk of a complete tile is an error; fill values would be taken for results
         let key = self.layout.arrays[field].key(&self.layout.place(tile, field));
         Err(StoreError::DamagedTile { place: self.place(), tile, key })
     }

@@ -1,4 +1,4 @@
-//! What describes a store: the arrays that are there from the beginning, and the root, written after them.
+//! The metadata of a store: those of the initial arrays, and the root, which is written after them.
 
 use crate::chunk::{Chunked, Defect};
 use crate::layout::Layout;
@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use std::io;
 use vibroimpact_study::study::Cells;
 
-/// What describes the whole store; written when everything else that is there from the beginning is.
+/// The key of the root, which describes the whole store. It is the last of the initial objects to be written.
 pub(crate) const ROOT: &str = "zarr.json";
 
 impl Store {
@@ -20,24 +20,24 @@ impl Store {
         Found::of(root, &self.place())
     }
 
-    /// The arrays that are there from the beginning.
+    /// The arrays that a store has from the beginning.
     pub(crate) fn described(&self) -> impl Iterator<Item = &Chunked> {
         let Layout { arrays, status, coordinates, .. } = &self.layout;
         arrays.iter().chain([status]).chain(coordinates.iter().map(|(array, _)| array))
     }
 
-    /// Writes what is there from the beginning.
+    /// Writes the initial objects.
     pub(crate) fn describe(&self) -> Result<(), StoreError> {
         self.settle_all(&self.descriptions(None)?)
     }
 
-    /// Writes those of these objects that are not there with these very bytes, the last one last.
+    /// Writes the given objects, in order, except those that already have the right bytes.
     pub(crate) fn settle_all(&self, objects: &[Object]) -> Result<(), StoreError> {
         objects.iter().try_for_each(|object| self.settle(&object.key, &object.bytes))
     }
 
-    /// All objects but the chunks of fields and of the status, the root last: as they are from the beginning, or as they are when all
-    /// tiles are there.
+    /// All objects except the chunks of fields and status, with the root last. Without a conclusion they have their
+    /// initial form, with a conclusion their final form.
     pub(crate) fn descriptions(&self, conclusion: Option<&Conclusion>) -> Result<Vec<Object>, StoreError> {
         let mut written = Described::default();
         let Layout { arrays, status, coordinates, .. } = &self.layout;
@@ -75,7 +75,7 @@ impl Store {
             },
             "consolidated_metadata": { "kind": "inline", "must_understand": false, "metadata": descriptions },
         });
-        // those that are no dimensions are not found by their names (CF 5)
+        // coordinates that are not dimensions must be named in an attribute (CF 5)
         let beside: Vec<String> = self
             .study
             .coordinates()
@@ -90,21 +90,21 @@ impl Store {
     }
 }
 
-/// An object of a store: its key, and its bytes.
+/// An object of a store: its key and its bytes.
 pub(crate) struct Object {
     pub(crate) key: String,
     pub(crate) bytes: Vec<u8>,
 }
 
-/// What only the whole can say.
+/// The results that need all tiles.
 pub(crate) struct Conclusion {
-    /// The arrays of labels with the names of all that occur, by the numbers of their fields.
+    /// The arrays of labels, with the texts of all labels that occur, by the numbers of their fields.
     pub(crate) labelled: Vec<(usize, Chunked)>,
     /// The tables and their values.
     pub(crate) tables: Vec<(Chunked, Cells)>,
 }
 
-/// Descriptions of arrays, gathered for the root too.
+/// Metadata of arrays, collected for the root.
 #[derive(Default)]
 struct Described {
     objects: Vec<Object>,
@@ -112,7 +112,7 @@ struct Described {
 }
 
 impl Described {
-    /// Adds an array, with its values where they are one chunk.
+    /// Adds an array; its values too, if they are one chunk.
     fn add(&mut self, array: &Chunked, values: Option<&Cells>) -> Result<(), Defect> {
         let description = array.description()?;
         self.objects.push(Object { key: array.description_key(), bytes: pretty(&description) });
@@ -125,7 +125,7 @@ impl Described {
     }
 }
 
-/// JSON for people too.
+/// JSON in an indented, human-readable form.
 fn pretty(value: &Value) -> Vec<u8> {
     let mut bytes = serde_json::to_vec_pretty(value).unwrap_or_default();
     bytes.push(b'\n');
@@ -138,13 +138,13 @@ pub(crate) fn read_root(shelf: &dyn Shelf) -> Result<Value, StoreError> {
     match shelf.get(ROOT) {
         Ok(Some(bytes)) => serde_json::from_slice(&bytes).map_err(|error| damaged(error.to_string())),
         Ok(None) => Err(StoreError::Absent(place)),
-        // the folder is a file
+        // the path of the folder is that of a file
         Err(error) if error.kind() == io::ErrorKind::NotADirectory => Err(StoreError::Foreign(place)),
         Err(error) => Err(StoreError::Read { place, key: ROOT.into(), error }),
     }
 }
 
-/// What the description of a store says of it.
+/// The contents of the root of a store.
 pub(crate) struct Found {
     pub(crate) plan: String,
     pub(crate) hash: String,

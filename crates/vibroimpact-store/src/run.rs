@@ -1,4 +1,4 @@
-//! Filling tiles, over threads, until all are there.
+//! Computation of missing tiles by several threads.
 
 use crate::{Store, StoreError};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use vibroimpact_study::{Control, Grid, Meter};
 
-/// Part `index` of `of` of the tiles, counted from 1: every `of`-th of them, so that dear and cheap ones are spread.
+/// Part `index` of `of` of the tiles, counted from 1. It has every `of`-th tile, so that slow and fast tiles are
+/// distributed over the parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Part {
     index: u64,
@@ -29,33 +30,33 @@ impl Part {
         tile % self.of == self.index - 1
     }
 
-    /// Points of this part of a grid.
+    /// Number of points of this part of a grid.
     #[must_use]
     pub fn points(self, grid: &Grid) -> u64 {
         (0..grid.tiles()).filter(|tile| self.has(*tile)).map(|tile| grid.tile(tile).points() as u64).sum()
     }
 }
 
-/// What a run did.
+/// The result of a run, as numbers of tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ran {
-    /// Tiles computed now.
+    /// Tiles that this run computed.
     pub computed: u64,
-    /// Tiles of this part that were done before, or by another process meanwhile.
+    /// Tiles of this part that were complete before, or were completed by another process meanwhile.
     pub found: u64,
-    /// Finished tiles that were damaged, and are computed anew.
+    /// Complete tiles that were damaged and have been computed again.
     pub mended: u64,
-    /// Tiles of the whole that are not done yet; they belong to other parts.
+    /// Tiles of other parts that are not complete yet.
     pub left: u64,
 }
 
 impl Store {
-    /// Computes the tiles of a part that are not done, and concludes when all are.
+    /// Computes the missing tiles of a part, and concludes the store when all tiles are complete.
     ///
-    /// `control.progress` is called with the points done of this part, those that were there included.
+    /// `control.progress` is called with the number of points of this part that are done, including those done before.
     ///
     /// # Errors
-    /// [`StoreError`] when stopped, or when something cannot be read or written; what is finished is kept.
+    /// [`StoreError`] when stopped, or if an object cannot be read or written. Complete tiles are kept.
     pub fn run(&self, part: Part, control: &Control<'_>) -> Result<Ran, StoreError> {
         self.mend_descriptions()?;
         let tiles = self.study.grid().tiles();
@@ -68,10 +69,11 @@ impl Store {
         Ok(Ran { left, ..ran })
     }
 
-    /// Concludes if all tiles are done; says whether they are. For those who hand tiles out one by one.
+    /// Concludes the store if all tiles are complete. Returns whether they are. For callers that distribute tiles
+    /// themselves.
     ///
     /// # Errors
-    /// [`StoreError`] when something cannot be read or written, or a tile is damaged.
+    /// [`StoreError`] if an object cannot be read or written, or a tile is damaged.
     pub fn conclude_if_done(&self) -> Result<bool, StoreError> {
         let done = self.count_done()? == self.study.grid().tiles();
         if done {
@@ -80,7 +82,7 @@ impl Store {
         Ok(done)
     }
 
-    /// Computes those of these tiles, given in rising order, that are not done or damaged; does not conclude.
+    /// Computes those of the given tiles (in rising order) that are missing or damaged. Does not conclude the store.
     ///
     /// # Errors
     /// As for [`Store::run`].
@@ -99,7 +101,7 @@ impl Store {
         let damaged = |tile: u64| mine.binary_search(&tile).is_ok_and(|at| states[at] == State::Damaged);
         if !open.is_empty() {
             self.same_version()?;
-            // two processes that begin at once begin at different ends
+            // processes that start at the same time begin at different tiles
             let turn = std::process::id() as usize * 7919 % open.len();
             open.rotate_left(turn);
         }
@@ -124,7 +126,7 @@ impl Store {
             Ok(())
         };
         pool.install(|| {
-            // by ones, in this order: a run that is stopped leaves no holes larger than its threads
+            // one at a time and in order, so that a stopped run leaves gaps of at most one tile for each thread
             open.par_iter().with_max_len(1).for_each(|tile| {
                 if control.stopping() || failed.load(Ordering::Relaxed) {
                     return;
@@ -147,10 +149,10 @@ impl Store {
         Ok(Ran { computed, found, mended, left: grid.tiles() - mine.len() as u64 })
     }
 
-    /// Whether a tile is there, and whole to its last bit.
+    /// Whether a tile exists and is undamaged.
     pub(crate) fn state(&self, tile: u64) -> Result<State, StoreError> {
         if !self.done(tile)? {
-            // a status that is there but not whole is damage, too
+            // an existing but damaged status is damage too
             let there = self.get(&self.layout.status.key(&self.layout.status_place(tile)))?.is_some();
             return Ok(if there { State::Damaged } else { State::Open });
         }
@@ -162,7 +164,7 @@ impl Store {
         Ok(State::Whole)
     }
 
-    /// Tiles that are done.
+    /// Number of complete tiles.
     pub(crate) fn count_done(&self) -> Result<u64, StoreError> {
         let prefix = self.layout.status.chunk_prefix();
         let items = self.shelf.list(&prefix).map_err(|error| self.unread(&prefix, error))?;
@@ -170,13 +172,13 @@ impl Store {
     }
 }
 
-/// What there is of a tile.
+/// The state of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum State {
-    /// Nothing that counts.
+    /// Not complete.
     Open,
-    /// It was done, but a chunk of it is missing or not whole.
+    /// Complete, but a chunk is missing or damaged.
     Damaged,
-    /// All of it.
+    /// Complete and undamaged.
     Whole,
 }

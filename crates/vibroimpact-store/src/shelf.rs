@@ -1,4 +1,4 @@
-//! Where the objects of a store lie: a name, its bytes, written whole or not at all.
+//! The place of the objects of a store. An object has a name and bytes, and is written completely or not at all.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -6,44 +6,45 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::SystemTime;
 
-/// An object and when it was written.
+/// An object and the time when it was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// Its name, parts separated by `/`.
+    /// Its name, with parts separated by `/`.
     pub key: String,
     /// Its length in bytes.
     pub size: u64,
-    /// When it was written, according to the place.
+    /// Time when it was written, according to the place.
     pub modified: SystemTime,
 }
 
-/// A place for objects. A reader sees an object whole, as it was before or after a write, whatever happens to the writer.
+/// A place for objects. Readers see an object as it was before or after a write, never in between, even if the writer
+/// is killed.
 pub trait Shelf: Send + Sync {
     /// The object, if there is one.
     ///
     /// # Errors
-    /// When the place cannot be read.
+    /// If the place cannot be read.
     fn get(&self, key: &str) -> io::Result<Option<Vec<u8>>>;
 
-    /// Writes an object, in place of the one of that name if there is one.
+    /// Writes an object. Replaces the object with the same name, if there is one.
     ///
     /// # Errors
-    /// When the place cannot be written; what was there before is still there.
+    /// If the place cannot be written; the previous object is then unchanged.
     fn put(&self, key: &str, bytes: &[u8]) -> io::Result<()>;
 
     /// The objects whose names begin with `prefix`, in the order of their names.
     ///
     /// # Errors
-    /// When the place cannot be read.
+    /// If the place cannot be read.
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>>;
 
-    /// Clears away what writers that were killed left unfinished.
+    /// Removes unfinished files of writers that were killed.
     ///
     /// # Errors
-    /// When the place cannot be read.
+    /// If the place cannot be read.
     fn sweep(&self) -> io::Result<()>;
 
-    /// What to call the place.
+    /// The name of the place, for messages.
     fn name(&self) -> String;
 }
 
@@ -53,23 +54,23 @@ pub struct Folder {
     path: PathBuf,
 }
 
-/// Files begun by this process: no two of its writers share the name of an unfinished file.
+/// Number of files begun by this process. It makes the names of unfinished files unique within the process.
 static BEGUN: AtomicU64 = AtomicU64::new(0);
 
-/// The end of the names of files that are being written. They begin with a dot, and no reader of Zarr looks at them.
+/// The end of the names of unfinished files. These names begin with a dot, and readers of Zarr ignore them.
 const UNFINISHED: &str = ".tmp";
 
-/// How often a write is begun again when its unfinished file was cleared away.
+/// Maximum number of attempts to write a file whose unfinished file was removed by another process.
 const ATTEMPTS: u32 = 8;
 
 impl Folder {
-    /// The folder at `path`, which need not exist.
+    /// The folder at `path`, which need not exist yet.
     #[must_use]
     pub fn new(path: &Path) -> Self {
         Self { path: path.to_owned() }
     }
 
-    /// Where the folder is.
+    /// The path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -88,7 +89,7 @@ impl Folder {
         for entry in entries {
             let entry = entry?;
             let path = entry.path();
-            // one that has just been renamed or cleared away by another process is no failure
+            // a file that another process has just renamed or removed is not an error
             match entry.file_type() {
                 Ok(kind) if kind.is_dir() => Self::walk(&path, found)?,
                 Ok(_) => found(&path, &entry)?,
@@ -125,7 +126,8 @@ impl Shelf for Folder {
         let own = format!(".{}.{}.{}{number}{UNFINISHED}", name.to_string_lossy(), std::process::id(), host());
         let beside = folder.join(own);
         let mut outcome = Self::try_put(&beside, &place, bytes);
-        // the folder is not there yet, or another process that was done cleared the unfinished file away, which it does once
+        // the folder does not exist yet, or another process removed the unfinished file when it ended (which it does
+        // only once)
         for _ in 0..ATTEMPTS {
             if !outcome.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::NotFound) {
                 break;
@@ -140,7 +142,7 @@ impl Shelf for Folder {
 
     fn list(&self, prefix: &str) -> io::Result<Vec<Item>> {
         let mut items = Vec::new();
-        // what begins with the prefix lies in the folder the prefix names up to its last slash
+        // objects with this prefix are in the folder named by the prefix up to its last slash
         let from = prefix.rfind('/').map_or(self.path.clone(), |end| self.path.join(&prefix[..end]));
         Self::walk(&from, &mut |path, entry| {
             let Ok(relative) = path.strip_prefix(&self.path) else { return Ok(()) };
@@ -162,7 +164,7 @@ impl Shelf for Folder {
     fn sweep(&self) -> io::Result<()> {
         Self::walk(&self.path, &mut |path, _| {
             if path.file_name().is_some_and(|name| Self::unfinished(&name.to_string_lossy())) {
-                // if another process is still writing it, that one writes it again
+                // if another process is still writing this file, it writes it again
                 let _ = fs::remove_file(path);
             }
             Ok(())
@@ -174,14 +176,14 @@ impl Shelf for Folder {
     }
 }
 
-/// Something that differs between machines that share a file system.
+/// A name that differs between machines that share a file system.
 fn host() -> String {
     let name = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
     let plain: String = name.trim().chars().filter(char::is_ascii_alphanumeric).take(20).collect();
     if plain.is_empty() { plain } else { plain + "." }
 }
 
-/// A shelf in memory: to compute a tile again without touching the store.
+/// A shelf in memory, used to compute a tile again without a change to the store.
 #[derive(Debug, Default)]
 pub(crate) struct Memory(std::sync::Mutex<std::collections::BTreeMap<String, Vec<u8>>>);
 

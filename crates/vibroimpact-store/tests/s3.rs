@@ -1,7 +1,8 @@
-//! Studies in buckets: the same objects as in a folder, whatever happens on the way.
+//! Tests that studies in buckets have the same objects as in a folder, whatever interrupts the run.
 //!
-//! The server is started here: by the shell command in `VIBROIMPACT_S3_SERVER`, which finds a free port in `$PORT` and looks
-//! at no signature, as `moto`; or else from the environment that `cargo xtask s3` has made. Where there is none the tests are skipped.
+//! The tests start a server by the shell command in `VIBROIMPACT_S3_SERVER`. It must use the port in `$PORT` and ignore
+//! signatures, as `moto` does. Without this variable the server from the environment of `cargo xtask s3` is used. If
+//! there is none, the tests are skipped.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
@@ -26,11 +27,11 @@ struct Server {
     port: u16,
 }
 
-/// How long a server may take to start.
+/// Time limit for the start of a server.
 const START: Duration = Duration::from_secs(60);
 
 impl Server {
-    /// `None` where this machine has none.
+    /// `None` if this machine has no server.
     fn start() -> Option<Self> {
         let command = std::env::var("VIBROIMPACT_S3_SERVER").ok().or_else(|| {
             let python = Path::new(env!("CARGO_TARGET_TMPDIR")).parent()?.join("s3-venv/bin/python");
@@ -41,12 +42,12 @@ impl Server {
             return None;
         };
         let log = tempfile::NamedTempFile::new().unwrap();
-        // another program may take the port before the server does
+        // another program may take the port before the server does, so try several times
         for _ in 0..3 {
             let port = free_port();
             let output = || Stdio::from(File::create(log.path()).unwrap());
             let mut shell = Command::new("sh");
-            // listings in pages of 50 objects, so that all of them have several
+            // 50 objects for each page of a listing, so that all listings have several pages
             shell.env("PORT", port.to_string()).env("MOTO_S3_DEFAULT_MAX_KEYS", "50");
             shell.args(["-c", &format!("exec {command}")]).stdin(Stdio::null()).stdout(output()).stderr(output());
             let mut server = Self { process: shell.spawn().unwrap(), port };
@@ -62,7 +63,7 @@ impl Server {
         panic!("the server does not start: {command}\n{}", fs::read_to_string(log.path()).unwrap());
     }
 
-    /// A request whose signature the server does not look at.
+    /// A request without a valid signature, which the server does not check.
     fn ask(&self, method: &str, path: &str) {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
         let key = "AWS4-HMAC-SHA256 Credential=key/20260101/us-east-1/s3/aws4_request, SignedHeaders=host, Signature=0";
@@ -82,7 +83,7 @@ impl Server {
         Arc::new(Bucket::with(place, self.variables()).unwrap())
     }
 
-    /// Another process's view of the store of a plan.
+    /// The store of a plan as opened by another process.
     fn open(&self, place: &str, plan: &Plan) -> Store {
         Store::create(self.shelf(place), plan).unwrap()
     }
@@ -113,7 +114,7 @@ fn objects(shelf: &dyn Shelf) -> BTreeMap<String, Vec<u8>> {
 #[test]
 fn a_bucket_is_a_place_like_a_folder() {
     let Some(server) = Server::start() else { return };
-    // a neighbour whose name begins alike
+    // another prefix that begins with the same letters
     server.shelf("s3://studies/ab").put("a/c/0/0", b"another's").unwrap();
     let shelf = server.shelf("s3://studies/a/");
     assert_eq!(shelf.name(), "s3://studies/a");
@@ -219,7 +220,8 @@ fn two_at_once_do_no_harm() {
     }
 }
 
-/// A run of days outlives a server that is away for a while; one that never answered is given up within seconds.
+/// A run survives a server that is unreachable for some time; a server that has never answered is given up within
+/// seconds.
 #[test]
 fn patience_comes_with_the_first_answer() {
     let port = free_port();
@@ -230,7 +232,7 @@ fn patience_comes_with_the_first_answer() {
         assert!(why.ends_with("\nhint: AWS_ENDPOINT_URL names another server"), "{why}");
     };
     refused();
-    // a server that knows nothing, for one request, if one comes
+    // a server that answers one request, if one comes, and has no objects
     let answer = || {
         let listener = TcpListener::bind(("127.0.0.1", port)).unwrap();
         listener.set_nonblocking(true).unwrap();
@@ -271,12 +273,12 @@ fn refusals() {
     assert!(open.contains("is asked without encryption\nhint: AWS_ALLOW_HTTP=true allows it"), "{open}");
     let half = refused("s3://studies", without("AWS_SECRET_ACCESS_KEY"));
     assert!(half.contains("Missing SecretAccessKey\nhint: AWS_ACCESS_KEY_ID and"), "{half}");
-    // no bucket of that name
+    // a bucket that does not exist
     let none = Store::create(server.shelf("s3://nobody/x"), &map()).err().unwrap().to_string();
     assert!(none.contains("refuses: NoSuchBucket: ") && none.contains("\nhint: make the bucket first"), "{none}");
     let none = Store::open(server.shelf("s3://nobody/x")).err().unwrap().to_string();
     assert!(none.contains("refuses: NoSuchBucket: "), "{none}");
-    // something else in it
+    // a place that contains something else
     server.shelf("s3://studies/mine").put("thesis.tex", b"years of work").unwrap();
     let foreign = Store::create(server.shelf("s3://studies/mine"), &map()).err().unwrap().to_string();
     assert!(foreign.starts_with("s3://studies/mine is not empty, and no store"), "{foreign}");
@@ -284,7 +286,8 @@ fn refusals() {
     assert_eq!(other, "gs://studies/x: a store lies in a folder or at s3://BUCKET/PREFIX");
 }
 
-/// The environment of a process, by a process that has one: this program, for the test below alone.
+/// The environment of a process can only be set by its parent, so this test starts this program again for the test
+/// below.
 #[test]
 fn the_environment_leads_to_the_server() {
     let Some(server) = Server::start() else { return };
@@ -300,7 +303,7 @@ fn the_environment_leads_to_the_server() {
     };
     let found = run(server.variables());
     assert!(found.contains("Ok(Some([102, 111, 117, 110, 100]))"), "{found}");
-    // without a key the machine is asked whose it is: here, something that never answers
+    // without a key, the metadata service of the machine is asked for credentials; here it never answers
     let mut keyless: Vec<_> = server.variables();
     keyless.retain(|(name, _)| !name.contains("KEY"));
     keyless.push(("AWS_METADATA_ENDPOINT".to_owned(), format!("http://127.0.0.1:{}", free_port())));

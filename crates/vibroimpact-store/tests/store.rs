@@ -1,4 +1,5 @@
-//! Stores: the same bytes whatever happens on the way, damage found and mended, and every refusal a sentence.
+//! Tests of stores: equal bytes after any interruption, detection and repair of damage, and an error message for every
+//! refusal.
 
 #![allow(clippy::unwrap_used)]
 
@@ -90,7 +91,8 @@ fn stopped_and_resumed_it_is_the_same() {
     assert!(files(folder.path()) == want);
 }
 
-/// With refinement most points are not computed, and all count: in progress, and when it is stopped those of the tiles that are kept.
+/// With refinement most points are not computed, but all count in the progress. When a run is stopped, the points of
+/// complete tiles count.
 #[test]
 fn f10_points_are_counted_with_refinement() {
     let side = |text: &str| text.parse::<vibroimpact_study::Span>().unwrap();
@@ -137,7 +139,7 @@ fn damage_is_found_and_mended() {
                 _ => fs::remove_file(&path).unwrap(),
             }
             let found = open_again().verify(0, 0, &control(1)).unwrap();
-            // a status that is gone is a tile that was never computed
+            // a tile without a status counts as a tile that was never computed
             assert!(!found.damage.is_empty() || (found.open == 1 && key.starts_with("status")), "{key}");
             open_again().run(Part::ALL, &control(2)).unwrap();
             assert!(files(folder.path()) == want, "{key}");
@@ -150,7 +152,8 @@ fn damage_is_found_and_mended() {
     }
 }
 
-/// Found by `cargo xtask fuzz`: a tile that is done and damaged was read as one that was never computed, and a table of it written.
+/// Found by `cargo xtask fuzz`: a damaged tile was read as one that was never computed, and a table was written with
+/// it.
 #[test]
 fn fz2_a_damaged_tile_is_never_read_as_an_open_one() {
     let (folder, want) = whole(&basin());
@@ -172,12 +175,12 @@ fn fz2_a_damaged_tile_is_never_read_as_an_open_one() {
         }
         assert!(store.tile(1).is_ok());
     }
-    // one that is not done has nothing to be read
+    // an incomplete tile has nothing to be read
     fs::remove_file(folder.path().join("status/c/0/0")).unwrap();
     assert!(open_again().whole(&control(2)).is_ok());
 }
 
-/// Whole by its check sum, but not what the plan gives: only computing it again can tell.
+/// A tile with valid checksums that is not the result of the plan: only a second computation detects it.
 #[test]
 fn a_wrong_tile_is_found_by_computing_it_again() {
     let plan = basin();
@@ -194,7 +197,8 @@ fn a_wrong_tile_is_found_by_computing_it_again() {
     assert!(found.damage[0].what.contains("label/c/0/0"), "{:?}", found.damage);
 }
 
-/// Found by `cargo xtask fuzz`: a chunk at the edge of the grid held other numbers beyond the edge, where nobody reads them.
+/// Found by `cargo xtask fuzz`: a chunk at the edge of the grid contained other numbers beyond the edge, where nobody
+/// reads them.
 #[test]
 fn fz3_a_chunk_that_differs_beyond_the_edge_of_the_grid_is_damaged() {
     let task = MapPlan::plane("0.6:1.4:9".parse().unwrap(), "-0.5:2:5".parse().unwrap(), 2, 1);
@@ -223,7 +227,7 @@ fn two_at_once_do_no_harm() {
     }
 }
 
-/// A folder that can be read, and no more.
+/// A read-only folder.
 struct ReadOnly(Folder);
 
 impl Shelf for ReadOnly {
@@ -255,7 +259,7 @@ fn a_complete_store_is_not_written_to() {
             assert_eq!((ran.computed, ran.found, ran.left), (0, tiles, 0));
             assert!(store.conclude_if_done().unwrap());
         }
-        // what the conclusion has written is written again where it is missing or damaged
+        // the objects written by the conclusion are written again if missing or damaged
         for key in want.keys().filter(|key| key.starts_with("cycle_") || *key == "label/zarr.json") {
             for damage in [Some("{}"), Some("{"), None] {
                 let path = folder.path().join(key);
@@ -275,7 +279,7 @@ fn a_complete_store_is_not_written_to() {
     }
 }
 
-/// A folder in which somebody else begins a store just after it was found empty.
+/// A folder in which another process creates a store just after it was found empty.
 struct Contested(Folder, Plan, AtomicBool);
 
 impl Shelf for Contested {
@@ -319,13 +323,13 @@ fn refusals() {
         Err(error) => error.to_string(),
         Ok(_) => panic!("not refused"),
     };
-    // another plan
+    // a store of another plan
     assert!(refused(&basin(), folder.path()).contains("holds another plan"));
-    // a question without a grid
+    // a plan without a grid
     let settle = Plan::new(S, Task::Settle { start: StartPlan::default() });
     assert!(refused(&settle, folder.path()).contains("fills no grid"));
     assert!(files(folder.path()) == want);
-    // something else
+    // a folder with other files
     let other = tempfile::tempdir().unwrap();
     fs::write(other.path().join("thesis.tex"), "years of work").unwrap();
     assert!(refused(&map(), other.path()).contains("is not empty, and no store"));
@@ -333,7 +337,7 @@ fn refusals() {
     assert!(refused(&map(), other.path()).contains("is not empty, and no store"));
     let file = other.path().join("thesis.tex");
     assert!(refused(&map(), &file).contains("no store"), "{}", refused(&map(), &file));
-    // none
+    // a folder that does not exist
     let none = Store::open(Arc::new(Folder::new(&other.path().join("none")))).err().unwrap().to_string();
     assert!(none.starts_with("there is no store at"), "{none}");
     // a later format, and another version
@@ -345,7 +349,7 @@ fn refusals() {
     let version = format!("\"vibroimpact_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     fs::write(&root, text.replace(&version, "\"vibroimpact_version\": \"0.0.9\"")).unwrap();
     let store = Store::open(Arc::new(Folder::new(folder.path()))).unwrap();
-    // what is whole may be read and concluded; to add to it is refused
+    // a complete store of another version may be read and concluded, but not extended
     store.run(Part::ALL, &control(1)).unwrap();
     fs::remove_file(folder.path().join("status/c/0/0")).unwrap();
     let mixed = store.run(Part::ALL, &control(1)).err().unwrap().to_string();
@@ -353,14 +357,14 @@ fn refusals() {
     assert!(matches!(Part::new(0, 3), Err(StoreError::Part { .. })) && Part::new(4, 3).is_err());
 }
 
-/// What damages an object: cut short, a byte changed, other JSON in its place, or gone.
+/// Damages an object in one of several ways: truncated, one byte changed, other JSON, or removed.
 fn damaged(bytes: &[u8], how: usize) -> Option<Vec<u8>> {
     match how {
         0 => Some(bytes[..bytes.len() / 2].to_vec()),
         1 => Some(Vec::new()),
         2 => {
             let mut changed = bytes.to_vec();
-            // a digit or letter in the middle becomes another one: JSON stays JSON
+            // a digit or letter in the middle is changed, so JSON remains valid JSON
             let at = (0..bytes.len()).map(|k| (bytes.len() / 2 + k) % bytes.len());
             let at = at.into_iter().find(|k| bytes[*k].is_ascii_alphanumeric()).unwrap_or(0);
             changed[at] = if changed[at] == b'7' { b'8' } else { b'7' };
@@ -371,7 +375,8 @@ fn damaged(bytes: &[u8], how: usize) -> Option<Vec<u8>> {
     }
 }
 
-/// Every object but the chunks of fields and status, damaged in every way: no verification says that the store is whole.
+/// Damages every object except the chunks of fields and status in every way. The verification must never report the
+/// store as whole.
 #[test]
 fn f09_damage_of_what_describes_a_store_is_found() {
     for plan in [basin(), map()] {
@@ -392,15 +397,15 @@ fn f09_damage_of_what_describes_a_store_is_found() {
                 match here().map(|store| store.verify(0, 0, &control(1))) {
                     Ok(Ok(found)) => {
                         assert!(!is_whole(found.clone()), "{key} {how}");
-                        // what belongs to the whole store is no fault of a tile
+                        // a fault of the whole store is not reported for a tile
                         let named = found.damage.iter().filter(|damage| damage.tile.is_none());
                         assert!(named.count() > 0, "{key} {how}: {:?}", found.damage);
                     }
-                    // a root that cannot be read is no store that could be verified
+                    // a store with an unreadable root cannot be verified
                     Ok(Err(refused)) | Err(refused) => assert!(key == "zarr.json", "{key} {how}: {refused}"),
                 }
                 if key == "zarr.json" {
-                    // without a root it is no store that could be mended
+                    // a store without a root cannot be repaired
                     fs::write(&path, &want[key]).unwrap();
                 }
                 open(folder.path(), &plan).run(Part::ALL, &control(1)).unwrap();
@@ -410,7 +415,7 @@ fn f09_damage_of_what_describes_a_store_is_found() {
     }
 }
 
-/// The words for people, and what the root says again of each array: edits that leave JSON as it is.
+/// Changes texts, and the copies of metadata in the root, such that the JSON remains valid.
 #[test]
 fn f09_edits_of_metadata_are_found() {
     let plan = basin();
@@ -432,7 +437,7 @@ fn f09_edits_of_metadata_are_found() {
         let before = text(key);
         let edited = before.replacen(from, to, 1);
         if edited == before {
-            // the labels are words in one text
+            // the texts of labels are in one attribute
             assert!(key == "label/zarr.json", "{key} {from}");
             continue;
         }
@@ -442,7 +447,7 @@ fn f09_edits_of_metadata_are_found() {
         fs::write(folder.path().join(key), before).unwrap();
     }
     assert_eq!(verified().unwrap(), vec![]);
-    // a plan that was changed is not the one that has this name
+    // a plan that was changed does not match its hash
     let root = text("zarr.json");
     let edited = root.replacen("\\\"gap\\\":0.75", "\\\"gap\\\":0.85", 1);
     assert!(edited != root);
@@ -451,7 +456,7 @@ fn f09_edits_of_metadata_are_found() {
     assert!(refused.contains("`zarr.json`") && refused.contains("one of them was changed"), "{refused}");
 }
 
-/// A store that is not finished, and one of another version: what can be compared is.
+/// Stores that are incomplete or of another version: everything that can be compared is compared.
 #[test]
 fn f09_metadata_of_unfinished_and_older_stores() {
     let plan = map();
@@ -468,7 +473,7 @@ fn f09_metadata_of_unfinished_and_older_stores() {
         assert!(!verified(folder.path()).damage.is_empty(), "{key}");
         fs::write(folder.path().join(key), &begun[key]).unwrap();
     }
-    // all tiles, but killed before it was concluded
+    // all tiles are complete, but the run was killed before the conclusion
     let (done, want) = whole(&plan);
     fs::write(done.path().join("zarr.json"), &begun["zarr.json"]).unwrap();
     let found = verified(done.path());
@@ -479,7 +484,7 @@ fn f09_metadata_of_unfinished_and_older_stores() {
     open(done.path(), &plan).run(Part::ALL, &control(1)).unwrap();
     assert!(files(done.path()) == want);
 
-    // another version may have other words, but not another shape, and its tables have their check sums
+    // another version may have other texts, but not other shapes; its tables have checksums
     let (older, _) = whole(&basin());
     let version = format!("\"vibroimpact_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
     for (key, bytes) in files(older.path()).iter().filter(|(key, _)| key.ends_with("zarr.json")) {

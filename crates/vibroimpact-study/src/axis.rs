@@ -1,4 +1,4 @@
-//! An axis of a grid: what varies, and over which values.
+//! An axis of a grid: the quantity that varies and the values that it takes.
 
 use crate::limits::MOST_CELLS;
 use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan};
@@ -6,21 +6,21 @@ use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// What an axis varies: a parameter of the system or a coordinate of the start.
+/// The quantity that varies along an axis: a parameter of the system or a coordinate of the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Coordinate {
-    /// A parameter.
+    /// A parameter of the system.
     Parameter(Parameter),
     /// The position of the start.
     X,
-    /// Its velocity.
+    /// The velocity of the start.
     V,
-    /// The phase of the force there.
+    /// The phase of the force at the start.
     Phase,
 }
 
 impl Coordinate {
-    /// Its name in plans, and that of the dimension in a store.
+    /// Its name in plans; also the name of the dimension in a store.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -31,14 +31,14 @@ impl Coordinate {
         }
     }
 
-    /// The coordinate of that name.
+    /// The coordinate with this name, if there is one.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let parameters = Parameter::ALL.into_iter().map(Self::Parameter);
         parameters.chain([Self::X, Self::V, Self::Phase]).find(|coordinate| coordinate.name() == name)
     }
 
-    /// A sentence that says what it is.
+    /// One line of text that describes it.
     #[must_use]
     pub const fn long_name(self) -> &'static str {
         match self {
@@ -66,7 +66,7 @@ impl Coordinate {
         }
     }
 
-    /// Whether it is a coordinate of the start, and no parameter of the system.
+    /// Whether it is a coordinate of the start (as opposed to a parameter of the system).
     #[must_use]
     pub const fn is_start(self) -> bool {
         !matches!(self, Self::Parameter(_))
@@ -105,18 +105,18 @@ impl<'de> Deserialize<'de> for Coordinate {
 pub enum Values {
     /// A range.
     Span(Span),
-    /// These, in this order.
+    /// A list of values, in the given order.
     Listed(Vec<f64>),
 }
 
-/// The most values in a list.
+/// Maximum number of values in a list.
 const MOST_LISTED: u64 = 1_000_000;
 
 impl Values {
     /// Value number `k`, counted from 0.
     ///
     /// # Panics
-    /// When there is no such value.
+    /// If there is no such value.
     #[must_use]
     pub fn at(&self, k: usize) -> f64 {
         match self {
@@ -125,7 +125,7 @@ impl Values {
         }
     }
 
-    /// How many.
+    /// The number of values.
     #[must_use]
     pub fn count(&self) -> usize {
         match self {
@@ -134,13 +134,13 @@ impl Values {
         }
     }
 
-    /// All of them.
+    /// All values, in order.
     #[must_use]
     pub fn all(&self) -> Vec<f64> {
         (0..self.count()).map(|k| self.at(k)).collect()
     }
 
-    /// The smallest and the largest.
+    /// The smallest and the largest value.
     #[must_use]
     pub fn extent(&self) -> (f64, f64) {
         match self {
@@ -151,10 +151,11 @@ impl Values {
         }
     }
 
-    /// Checks a list; a range was checked when it was made.
+    /// Checks a list. A range is checked when it is made.
     ///
     /// # Errors
-    /// [`PlanError::Listed`] for a list that is empty or too long, or has a value in it that is not finite or there twice.
+    /// [`PlanError::Listed`] for a list that is empty or too long, or contains a value that is not finite or occurs
+    /// twice.
     pub fn check(&self) -> Result<(), PlanError> {
         let Self::Listed(values) = self else { return Ok(()) };
         let bad = |wrong| PlanError::Listed { count: values.len(), most: MOST_LISTED, wrong };
@@ -247,16 +248,16 @@ impl Axis {
     }
 }
 
-/// More results than fit any memory, on these axes.
+/// The error for axes with more results than one run keeps in memory.
 pub(crate) fn too_many(what: &'static str, axes: &[Axis]) -> PlanError {
     let (first, others) = axes.split_at(axes.len().min(1));
     PlanError::Size { what, columns: points(first), rows: points(others), most: MOST_CELLS }
 }
 
-/// The system at a point of the axes; what is on no axis is as given.
+/// The system at a point of the axes: values on an axis replace those of `system`. `index(k)` is the place on axis `k`.
 ///
 /// # Errors
-/// [`PlanError::NoSecondStop`] for a parameter of a second stop that is not there.
+/// [`PlanError::NoSecondStop`] if an axis varies a parameter of a second stop and there is none.
 pub fn system_at(system: &SystemPlan, axes: &[Axis], index: impl Fn(usize) -> usize) -> Result<SystemPlan, PlanError> {
     let mut system = *system;
     for (k, axis) in axes.iter().enumerate() {
@@ -267,7 +268,7 @@ pub fn system_at(system: &SystemPlan, axes: &[Axis], index: impl Fn(usize) -> us
     Ok(system)
 }
 
-/// The start at a point of the axes; what is on no axis is as given.
+/// The start at a point of the axes: values on an axis replace those of `start`. `index(k)` is the place on axis `k`.
 pub fn start_at(start: &StartPlan, axes: &[Axis], index: impl Fn(usize) -> usize) -> StartPlan {
     let mut start = *start;
     for (k, axis) in axes.iter().enumerate() {
@@ -282,10 +283,10 @@ pub fn start_at(start: &StartPlan, axes: &[Axis], index: impl Fn(usize) -> usize
     start
 }
 
-/// Checks that the axes are of the right number and kind, none of them there twice.
+/// Checks the number and the kind of the axes, and that none occurs twice.
 ///
 /// # Errors
-/// [`PlanError`] names what is wrong.
+/// [`PlanError`] for the first axis that is invalid.
 pub(crate) fn check(
     task: &'static str,
     axes: &[Axis],
@@ -309,17 +310,17 @@ pub(crate) fn check(
     Ok(())
 }
 
-/// Points of their grid; as many as a count can hold, where there are more.
+/// Number of points of the grid over the axes; `u64::MAX` if it is larger.
 pub(crate) fn points(axes: &[Axis]) -> u64 {
     axes.iter().fold(1, |points, axis| u64::saturating_mul(points, axis.over.count() as u64))
 }
 
-/// All points of the axes; the first axis runs fastest.
+/// All points of the axes as one block; the first axis varies fastest.
 pub(crate) fn whole(axes: &[Axis]) -> Block {
     Block { ranges: axes.iter().rev().map(|axis| 0..axis.over.count()).collect() }
 }
 
-/// Every combination of smallest and largest values on the axes, as indices of the values.
+/// All combinations of the smallest and largest values of the axes, as indices of the values.
 pub(crate) fn corners(axes: &[Axis]) -> impl Iterator<Item = Vec<usize>> + '_ {
     let ends = axes.iter().map(|axis| {
         let by = |a: &usize, b: &usize| axis.over.at(*a).total_cmp(&axis.over.at(*b));

@@ -1,4 +1,5 @@
-//! Branches of periodic orbits in one parameter or along a line through two, and those that begin where one loses its stability.
+//! Branches of periodic orbits in one parameter or along a line through two, and the branches that begin at their flips
+//! and branch points.
 
 use crate::chosen::{Chosen, choose};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
@@ -9,13 +10,13 @@ use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions,
 use vibroimpact::verdict::Count;
 use vibroimpact::{Label, Oscillator, ParameterPath};
 
-/// Points of a branch at most, where no number is given.
+/// Default maximum number of points of a branch.
 pub const DEFAULT_BRANCH_POINTS: u32 = 5_000;
-/// Most points of a branch.
+/// Largest allowed value of the maximum number of points of a branch.
 const MOST_POINTS: u32 = 100_000;
-/// Most further branches.
+/// Maximum number of further branches.
 const MOST_FOLLOWED: u32 = 100;
-/// Values of the orbit diagram behind a branch.
+/// Number of values of the orbit diagram drawn behind a branch.
 const DIAGRAM_VALUES: u32 = 401;
 
 /// An orbit that is followed in one parameter, or along a line through two.
@@ -49,10 +50,10 @@ const fn points() -> u32 {
 }
 
 impl BranchPlan {
-    /// Checks everything that can be checked without running it.
+    /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense.
+    /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let _: Label = self.label.parse()?;
         let cut = self.cut(system)?;
@@ -69,20 +70,20 @@ impl BranchPlan {
         Ok(())
     }
 
-    /// The line along which it is followed.
+    /// The line along which the orbit is followed.
     ///
     /// # Errors
-    /// [`PlanError`] for a system that makes no sense, or a parameter of a second stop that is not there.
+    /// [`PlanError`] for an invalid system, or for a parameter of a second stop if there is none.
     pub fn cut(&self, system: &SystemPlan) -> Result<Cut, PlanError> {
         let from = |Target { parameter, to }| system.value(parameter).map(|from| Stretch { parameter, from, to });
         let also = self.also.map(from).transpose()?;
         Ok(Cut { vary: self.vary, ends: (system.value(self.vary)?, self.to), also })
     }
 
-    /// The orbit diagram over the same range.
+    /// The plan of an orbit diagram over the same range.
     ///
     /// # Errors
-    /// [`PlanError`] for a plan that makes no sense.
+    /// [`PlanError`] for an invalid plan.
     pub fn diagram(&self, system: &SystemPlan) -> Result<DiagramPlan, PlanError> {
         let Cut { vary, ends, also } = self.cut(system)?;
         Ok(DiagramPlan {
@@ -97,16 +98,16 @@ impl BranchPlan {
     }
 }
 
-/// Where a further branch begins.
+/// The event at which a further branch begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Origin {
-    /// The branch that it leaves, as a place in the list of all.
+    /// The branch on which the event lies, as an index into [`Branches::followed`].
     pub branch: usize,
-    /// The point of that.
+    /// The point of that branch.
     pub point: SolutionPoint,
 }
 
-/// A branch that was followed.
+/// One branch that was followed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
     /// Where it begins; `None` for the first branch.
@@ -115,22 +116,22 @@ pub struct Followed {
     pub points: Vec<SolutionPoint>,
 }
 
-/// A branch and those that begin on it, on those, and so on.
+/// A branch, the branches that begin on it, the branches that begin on those, and so on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branches {
-    /// The orbit it began with.
+    /// The orbit at which the first branch begins.
     pub chosen: Chosen,
-    /// The branches, that of the orbit first.
+    /// All branches; the branch of the chosen orbit comes first.
     pub followed: Vec<Followed>,
-    /// Events where a further branch should begin and none could be followed.
+    /// Events at which a further branch was expected but could not be followed.
     pub lost: Vec<Origin>,
 }
 
-/// Follows the orbit of a plan, and the branches that begin on its way.
+/// Follows the orbit of a plan and the branches that begin on its branch.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense or an orbit that is not there, or when stopped, which it heeds at every seed of the
-/// search and every point.
+/// [`RunError`] for an invalid plan, for an orbit that does not exist, or when stopped. The stop flag is read at every
+/// seed of the search and at every point.
 pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
@@ -153,7 +154,7 @@ pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control
     Ok(all)
 }
 
-/// What all branches of a plan have in common.
+/// The data common to all branches of a plan.
 struct Ground<'a, 'c> {
     osc: Oscillator,
     vary: ParameterPath,
@@ -163,7 +164,7 @@ struct Ground<'a, 'c> {
 }
 
 impl Ground<'_, '_> {
-    /// The points of a branch, until the work is stopped.
+    /// The points of a branch; ends early when the run is stopped.
     fn points(&self, branch: Branch) -> Vec<SolutionPoint> {
         branch.take_while(|_| !self.control.stopping()).collect()
     }
@@ -179,11 +180,11 @@ impl Ground<'_, '_> {
     }
 }
 
-/// Values of the parameter closer than this, relative, are the same event.
+/// Two values of the parameter are the same event if they differ by less than this, relative to their size.
 const SAME: f64 = 1e-7;
 
 impl Branches {
-    /// Follows the branches that begin at the events of all branches so far, up to `most`.
+    /// Follows the branches that begin at the events of all branches so far, until there are `most` further branches.
     fn follow(&mut self, ground: &Ground<'_, '_>, most: usize) {
         let mut seen: Vec<(f64, Label)> = Vec::new();
         let mut at = 0;
@@ -217,7 +218,7 @@ impl Branches {
     }
 }
 
-/// The flip at which a branch of twice the period ends: what begins there is that branch.
+/// The flip at which a branch of twice the period ends. The branch that begins at this flip is already known.
 fn other_end(point: &SolutionPoint) -> Option<(f64, Label)> {
     let Count::Finite(impacts) = point.cycle.label.impacts else { return None };
     let half = Label::new(impacts / 2, point.cycle.label.periods / 2);
@@ -267,7 +268,7 @@ mod tests {
             found.followed[0].points.iter().find(|p| p.event == Some(BranchEvent::Flip)).unwrap().value
         };
         let value = flip_on(&system, &line);
-        // the same doubling as in the gap alone, at the frequency the line has there
+        // the same flip as with the gap varied alone, at the frequency of that point of the line
         let there = line.cut(&system).unwrap().system(&system, value).unwrap();
         let below = SystemPlan { gap: value - 0.1, ..there };
         assert!((flip_on(&below, &BranchPlan { also: None, ..line.clone() }) - value).abs() < 1e-11);
@@ -293,7 +294,7 @@ mod tests {
         let last = branch.points.last().unwrap();
         assert!(matches!(last.event, Some(BranchEvent::EndOfRest { .. })) && last.value < -0.36);
         assert!(branch.points.iter().all(|point| point.stable() && point.cycle.rests.len() == 1));
-        // at 0 there is none
+        // at gap 0 there is no such orbit
         let nothing = branches(&SystemPlan { gap: 0.0, ..system }, &plan, &Control::default()).unwrap_err().to_string();
         assert!(nothing.starts_with("no admissible orbit inf/1 was found"), "{nothing}");
     }

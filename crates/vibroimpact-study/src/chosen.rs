@@ -1,4 +1,4 @@
-//! With which orbit of a label a branch begins.
+//! The orbit at which a branch begins.
 
 use crate::PlanError;
 use vibroimpact::continuation::BranchError;
@@ -6,21 +6,21 @@ use vibroimpact::orbit::{FindOptions, Orbit, find_while};
 use vibroimpact::verdict::Count;
 use vibroimpact::{Label, Oscillator};
 
-/// One of the orbits of a label.
+/// One of the orbits with a given label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chosen {
     /// The orbit.
     pub orbit: Orbit,
-    /// Its number among all that were found, counted from 1, the fastest last.
+    /// Its number among all orbits found, counted from 1 in order of rising speed.
     pub number: u32,
-    /// How many were found.
+    /// Number of orbits found.
     pub count: u32,
 }
 
-/// A label with equations that can be followed over a plane: with finitely many impacts.
+/// Parses a label and checks that its orbits can be followed: the number of impacts must be finite.
 ///
 /// # Errors
-/// [`PlanError`] for what is no label, and for `inf/n`.
+/// [`PlanError`] for a text that is no label, and for `inf/n`.
 pub(crate) fn followable(label: &str) -> Result<Label, PlanError> {
     let label: Label = label.parse()?;
     match label.impacts {
@@ -29,11 +29,11 @@ pub(crate) fn followable(label: &str) -> Result<Label, PlanError> {
     }
 }
 
-/// Orbit number `number` of those with this label; where none is named, the stable one, else the fastest that is a motion. `None` once
-/// `go_on`, which is asked at every seed of the search, says no.
+/// The orbit with number `number` among those with this label. Without a number: the stable orbit, or else the fastest
+/// admissible one. Returns `None` when `go_on`, which is called at every seed of the search, returns false.
 ///
 /// # Errors
-/// [`PlanError`] where there is none to choose.
+/// [`PlanError`] if there is no such orbit.
 pub(crate) fn choose(
     osc: &Oscillator,
     label: Label,
@@ -52,7 +52,7 @@ pub(crate) fn choose(
         }
         None => {
             let rank = |orbit: &Orbit| (orbit.physical, orbit.physical && orbit.cycle.stable());
-            // of equals the last, which is the fastest
+            // of several with the same rank, the last one, which is the fastest
             let best = (0..count).max_by_key(|index| rank(&orbits[*index]));
             best.filter(|index| orbits[*index].physical).ok_or(PlanError::NoOrbit { label, others: count })?
         }
@@ -86,7 +86,7 @@ mod tests {
         let far = Oscillator::from_inverse_beta(0.7, 40.0, 0.5).unwrap();
         let error = chosen(&far, Label::new(1, 1), None).unwrap_err().to_string();
         assert!(error.starts_with("no admissible orbit 1/1 was found"), "{error}");
-        // without damping the motion without impacts is one of many
+        // without damping the motion without impacts is one of a continuous family
         let error = chosen(&far, Label::new(0, 1), None).unwrap_err().to_string();
         assert!(error.starts_with("without damping the steady motion without impacts"), "{error}");
         assert!(followable("inf/1").is_err() && followable("1/0").is_err() && followable("2/1").is_ok());

@@ -1,48 +1,50 @@
-//! Tiles over threads. Results come back in tile order, whatever the threads did.
+//! Tiles computed by several threads. The results are returned in tile order, independent of the threads.
 
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use rayon::prelude::*;
 
-/// How a long run is watched and stopped.
+/// The stop flag, the progress callback and the number of threads of a long run.
 pub struct Control<'a> {
-    /// Set from outside (Ctrl-C) to stop; checked between points.
+    /// Set by the caller (for example after Ctrl-C) to stop the run; read between points.
     pub stop: &'a AtomicBool,
-    /// Called now and then, from any thread, with the points done so far.
+    /// Called at intervals, from any thread, with the number of points done so far.
     pub progress: &'a (dyn Fn(u64) + Sync),
-    /// Threads to use; 0 for one per core.
+    /// Number of threads; 0 for one per core.
     pub threads: usize,
 }
 
 impl Control<'_> {
-    /// The threads asked for, up to eight per processor: more would only take memory, as each holds a tile.
+    /// The thread pool with the requested number of threads, limited to eight per processor. More threads would only
+    /// use memory, because each holds a tile.
     ///
     /// # Errors
-    /// When the operating system refuses to start them.
+    /// If the operating system cannot start the threads.
     pub fn pool(&self) -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
         let most = std::thread::available_parallelism().map_or(MOST_THREADS, |count| MOST_THREADS * count.get());
         rayon::ThreadPoolBuilder::new().num_threads(self.threads.min(most)).build()
     }
 
-    /// Whether someone asked to stop.
+    /// Whether the stop flag is set.
     #[must_use]
     pub fn stopping(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 }
 
-/// Threads per processor at most.
+/// Maximum number of threads per processor.
 const MOST_THREADS: usize = 8;
 
-/// Counts the points done and reports them now and then.
+/// Counts the points done and reports their number at intervals.
 pub struct Meter<'a> {
     control: &'a Control<'a>,
     done: AtomicU64,
-    /// Of those, the points of tiles that are finished.
+    /// Of the points done, those of finished tiles.
     finished: AtomicU64,
     total: u64,
 }
 
-/// The points of one tile. With refinement not every point is computed; those that are not count when the tile is finished.
+/// Counts the points of one tile. With refinement not every point is computed; the others are counted when the tile is
+/// finished.
 pub struct TileMeter<'a> {
     meter: &'a Meter<'a>,
     points: u64,
@@ -50,7 +52,7 @@ pub struct TileMeter<'a> {
 }
 
 impl TileMeter<'_> {
-    /// Counts one more point; returns whether to stop.
+    /// Counts one more point. Returns whether to stop.
     pub fn tick(&self) -> bool {
         if self.told.fetch_add(1, Ordering::Relaxed) < self.points {
             self.meter.tick()
@@ -59,7 +61,7 @@ impl TileMeter<'_> {
         }
     }
 
-    /// All of them are known.
+    /// Counts the tile as finished, with all points that were not counted yet.
     pub fn finish(self) {
         let told = self.told.into_inner().min(self.points);
         self.meter.add(self.points - told);
@@ -67,24 +69,24 @@ impl TileMeter<'_> {
     }
 }
 
-/// Points between two tellings, where there are many.
+/// Number of points between two reports, for more than [`FEW`] points.
 const TELL: u64 = 64;
-/// Up to this number each point is reported, because each takes long.
+/// Up to this number of points, each point is reported, because each may take long.
 const FEW: u64 = 512;
 
 impl<'a> Meter<'a> {
-    /// `done` of `total` points are done already, and finished.
+    /// A meter at which `done` of `total` points are already done and belong to finished tiles.
     #[must_use]
     pub const fn new(control: &'a Control<'a>, done: u64, total: u64) -> Self {
         Self { control, done: AtomicU64::new(done), finished: AtomicU64::new(done), total }
     }
 
-    /// For a tile of this number of points.
+    /// A meter for a tile of `points` points.
     pub const fn tile(&'a self, points: u64) -> TileMeter<'a> {
         TileMeter { meter: self, points, told: AtomicU64::new(0) }
     }
 
-    /// One more; says whether to stop.
+    /// Counts one more point. Returns whether to stop.
     pub fn tick(&self) -> bool {
         let now = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         if self.total <= FEW || now.is_multiple_of(TELL) || now == self.total {
@@ -93,7 +95,7 @@ impl<'a> Meter<'a> {
         self.control.stopping()
     }
 
-    /// So many more at once.
+    /// Counts several points at once.
     fn add(&self, points: u64) {
         if points > 0 {
             let now = self.done.fetch_add(points, Ordering::Relaxed) + points;
@@ -101,12 +103,12 @@ impl<'a> Meter<'a> {
         }
     }
 
-    /// How far it is in finished tiles, which are kept, as the answer to a wish to stop.
+    /// The error for a stopped run whose finished tiles are kept: counts only the points of finished tiles.
     pub fn kept(&self) -> Stopped {
         Stopped { done: self.finished.load(Ordering::Relaxed).min(self.total), total: self.total }
     }
 
-    /// How far it is, as the answer to a wish to stop.
+    /// The error for a stopped run: counts all points done.
     pub fn stopped(&self) -> Stopped {
         Stopped { done: self.done.load(Ordering::Relaxed).min(self.total), total: self.total }
     }
@@ -115,28 +117,29 @@ impl<'a> Meter<'a> {
 static NEVER: AtomicBool = AtomicBool::new(false);
 
 impl Default for Control<'_> {
-    /// Never stopped, not watched, one thread per core.
+    /// Never stopped, no progress reports, one thread per core.
     fn default() -> Self {
         Self { stop: &NEVER, progress: &|_| {}, threads: 0 }
     }
 }
 
-/// The run was stopped from outside before it was done.
+/// The run was stopped by its caller before it was complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("stopped after {done} of {total} points")]
 pub struct Stopped {
     /// Points done.
     pub done: u64,
-    /// Points asked for.
+    /// Total number of points.
     pub total: u64,
 }
 
 /// Runs `work` over `total` points in tiles of `tile` points and returns the tiles' results in order.
 ///
-/// `work` gets a range of points and a function to call after each of them, which says whether to stop.
+/// `work` is called with a range of points and a function that it must call after each point. That function returns
+/// whether to stop.
 ///
 /// # Errors
-/// [`Stopped`] when the stop flag was set before all tiles were done.
+/// [`Stopped`] if the stop flag was set before all tiles were done.
 pub fn tiles<T: Send>(
     total: u64,
     tile: u64,
@@ -152,7 +155,7 @@ pub fn tiles<T: Send>(
     };
     let results: Vec<Option<T>> = match control.pool() {
         Ok(pool) => pool.install(|| (0..count).into_par_iter().map(one).collect()),
-        // a system without threads, such as a browser: one tile after another
+        // on a system without threads, such as a browser, the tiles are computed one after another
         Err(_) => (0..count).map(one).collect(),
     };
     let stopped = meter.stopped();

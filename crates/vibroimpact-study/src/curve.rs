@@ -1,4 +1,5 @@
-//! Curves of folds, flips and grazing impacts in a plane of two parameters, from an event on a branch in the first.
+//! Curves of folds, flips and grazing impacts in a plane of two parameters. A curve begins at an event on a branch in
+//! the first parameter.
 
 use crate::chosen::{Chosen, choose, followable};
 use crate::stretch::check_plane;
@@ -62,10 +63,10 @@ pub struct CurvePlan {
 }
 
 impl CurvePlan {
-    /// Checks everything that can be checked without running it.
+    /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense.
+    /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         followable(&self.label)?;
         check_plane(system, &self.vary, &self.and)?;
@@ -80,26 +81,26 @@ impl CurvePlan {
     }
 }
 
-/// A curve, both ways from the event it was begun at.
+/// A curve, followed in both directions from the event at which it begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EventCurve {
-    /// The orbit that led to it.
+    /// The orbit whose branch contains the event.
     pub chosen: Chosen,
-    /// The events of that kind on its branch, from small values to large.
+    /// The events of the requested kind on its branch, in order of rising values.
     pub events: Vec<SolutionPoint>,
-    /// Which of them the curve goes through.
+    /// Index of the event through which the curve passes.
     pub through: usize,
-    /// The points from one end to the other.
+    /// The points of the curve from one end to the other.
     pub points: Vec<CurvePoint>,
-    /// Place of the event among them.
+    /// Index of the event among the points.
     pub begin: usize,
 }
 
-/// Follows an orbit in the first parameter to an event, and the event over the plane.
+/// Follows an orbit in the first parameter to an event, and then follows the event in the plane.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense, an orbit that is not there, or no event of that kind; or when stopped, which it
-/// heeds at every seed of the search and every point.
+/// [`RunError`] for an invalid plan, for an orbit that does not exist, if there is no event of the requested kind, or
+/// when stopped. The stop flag is read at every seed of the search and at every point.
 pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>) -> Result<EventCurve, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
@@ -133,7 +134,7 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
         Curve::through(&osc, &events[through], plan.vary.parameter, &frame, options).map_err(PlanError::from)?;
     let forth: Vec<CurvePoint> = forth.take_while(|_| going()).collect();
     let closed = forth.last().is_some_and(|point| point.event == Some(CurveEvent::Closed));
-    // the event itself is the first point of either
+    // the event itself is the first point of both directions, so one copy is skipped
     let mut points: Vec<CurvePoint> = if closed { Vec::new() } else { back.skip(1).take_while(|_| going()).collect() };
     stopped(1)?;
     points.reverse();
@@ -142,7 +143,8 @@ pub(crate) fn curve(system: &SystemPlan, plan: &CurvePlan, control: &Control<'_>
     Ok(EventCurve { chosen, events, through, points, begin })
 }
 
-/// The events of the plan's kind on the branch of its orbit, to both ends of the range, while it has its label.
+/// The events of the requested kind on the branch of the orbit, up to both ends of the range, as long as the label is
+/// unchanged.
 fn events(
     osc: &Oscillator,
     chosen: &Chosen,
@@ -157,7 +159,7 @@ fn events(
             continue;
         }
         let (cycle, parameter) = (&chosen.orbit.cycle, plan.vary.parameter);
-        // an inverse may be rounded out of its range
+        // the inverse of a value at an end of the range may be rounded to a value outside
         let range = plan.vary.from.min(own)..=plan.vary.to.max(own);
         let branch = Branch::new(osc, cycle, parameter, range, direction, BranchOptions::default())?;
         for point in branch.take_while(|point| point.cycle.label == label && going()) {

@@ -1,10 +1,10 @@
-//! A line through the parameters: one that varies between two values, and where asked a second one with it, in proportion.
+//! A line in the space of parameters: one parameter varies between two values, and a second one may vary in proportion.
 
 use crate::{Parameter, PlanError, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::{Oscillator, ParameterPath};
 
-/// The line of an orbit diagram or branch. The value of the first parameter gives the place on it.
+/// The line of an orbit diagram or a branch. A point on it is given by the value of the first parameter.
 ///
 /// ```
 /// use vibroimpact_study::{Cut, Parameter, Stretch, SystemPlan};
@@ -19,9 +19,9 @@ use vibroimpact::{Oscillator, ParameterPath};
 pub struct Cut {
     /// The parameter that varies.
     pub vary: Parameter,
-    /// Its first and last value.
+    /// Its values at the two ends of the line.
     pub ends: (f64, f64),
-    /// The one that varies with it, with its values at these ends.
+    /// The second parameter, if any, with its values at the same ends.
     pub also: Option<Stretch>,
 }
 
@@ -38,17 +38,17 @@ pub struct Target {
 }
 
 impl Cut {
-    /// What varies, one or two parameters.
+    /// The parameters that vary, one or two.
     pub fn parameters(&self) -> impl Iterator<Item = Parameter> + use<> {
         core::iter::once(self.vary).chain(self.also.map(|also| also.parameter))
     }
 
-    /// The values of what varies, at a value of the first.
+    /// The values of the parameters that vary, where the first has the value `value`.
     pub fn values(&self, value: f64) -> impl Iterator<Item = (Parameter, f64)> + use<> {
         let (first, last) = self.ends;
         let second = move |also: Stretch| {
             let at = match value {
-                // exactly the ends, and what is level stays so
+                // exact at the ends, and exactly constant if both ends are equal
                 _ if value == first || also.from == also.to => also.from,
                 _ if value == last => also.to,
                 _ => ((last - value) * also.from + (value - first) * also.to) / (last - first),
@@ -58,26 +58,26 @@ impl Cut {
         core::iter::once((self.vary, value)).chain(self.also.map(second))
     }
 
-    /// The system at a value of the first parameter; what does not vary is as in `system`.
+    /// The system where the first parameter has the value `value`. Other parameters are those of `system`.
     ///
     /// # Errors
-    /// [`PlanError::NoSecondStop`] for a parameter of a second stop that is not there.
+    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
     pub fn system(&self, system: &SystemPlan, value: f64) -> Result<SystemPlan, PlanError> {
         self.values(value).try_fold(*system, |system, (parameter, value)| system.with(parameter, value))
     }
 
-    /// The checked oscillator there.
+    /// The checked oscillator where the first parameter has the value `value`.
     ///
     /// # Errors
-    /// [`PlanError`] for a value that gives no legal system.
+    /// [`PlanError`] for a value that gives no valid system.
     pub fn oscillator(&self, system: &SystemPlan, value: f64) -> Result<Oscillator, PlanError> {
         self.system(system, value)?.oscillator()
     }
 
-    /// What varies, as branches are followed in it.
+    /// The same line in the form used for branches.
     ///
     /// # Errors
-    /// [`PlanError`] for two parameters that are one, and two ends that are one.
+    /// [`PlanError`] if both parameters are the same one, or both ends of the first parameter are equal.
     pub fn varying(&self) -> Result<ParameterPath, PlanError> {
         let (first, last) = self.ends;
         let alone = ParameterPath::from(self.vary);
@@ -88,10 +88,11 @@ impl Cut {
         Ok(alone.with(also.parameter, (also.to - also.from) / (last - first))?)
     }
 
-    /// Checks both ends, between which all is legal where they are, and that two parameters make a line.
+    /// Checks the systems at both ends and that the two parameters form a line. If both ends are valid, every system
+    /// between them is.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense.
+    /// [`PlanError`] names the first invalid value.
     pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         for end in [self.ends.0, self.ends.1] {
             self.oscillator(system, end)?;
@@ -118,7 +119,7 @@ mod tests {
         let (from, there) = (line.oscillator(&system, 0.3).unwrap(), line.oscillator(&system, 1.9).unwrap());
         let followed = line.varying().unwrap().set(&from, 1.9).unwrap();
         assert!((followed.beta() - there.beta()).abs() < 1e-15 && followed.gap() == there.gap());
-        // the frequency is given in the form that varies, whatever form the system has
+        // the frequency is set in the form that varies (beta or its inverse), whichever form the system has
         let other = SystemPlan { beta: Some(3.0), inverse_beta: None, ..system };
         assert_eq!(line.system(&other, 0.3).unwrap(), line.system(&system, 0.3).unwrap());
         let level = cut(Some((Parameter::Damping, 0.1, 0.1)));

@@ -1,4 +1,4 @@
-//! Why a plan makes no sense.
+//! The errors of plans and runs.
 
 use crate::control::Stopped;
 use crate::counted;
@@ -7,14 +7,14 @@ use vibroimpact::continuation::BranchError;
 use vibroimpact::verdict::LabelError;
 use vibroimpact::{Label, SystemError};
 
-/// A plan that cannot be run. The sentence names the value, the allowed range and often a hint.
+/// An error in a plan. The message names the value, the allowed range and often a hint.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// The system or a start is impossible.
+    /// The system or a start is invalid.
     #[error(transparent)]
     System(#[from] SystemError),
-    /// A text that is no plan.
+    /// A text that cannot be read as a plan.
     #[error("the plan does not read: {0}")]
     Text(String),
     /// A range that is not `A:B:N`.
@@ -22,311 +22,311 @@ pub enum PlanError {
         "range `{given}` is not A:B:N with finite A and B and a whole N >= 1\nhint: 0.4:2:33 is 33 values from 0.4 to 2, both included"
     )]
     Range {
-        /// What was typed.
+        /// The given text.
         given: String,
     },
-    /// Equal ratios from or to what is not positive.
+    /// A logarithmic range with an end that is not positive.
     #[error("range `{given}` is logarithmic, so both ends must be positive")]
     Logarithmic {
-        /// What was typed.
+        /// The given text.
         given: String,
     },
     /// A range with a number of values that is too small or too large.
     #[error("range `{given}` asks for {}; allowed is 1 to {most}, and 1 only when A = B", counted(*count, "value"))]
     Count {
-        /// What was typed.
+        /// The given text.
         given: String,
-        /// The number of values asked for.
+        /// The number of values requested.
         count: u64,
         /// The largest number allowed.
         most: u64,
     },
-    /// A list of values that is empty, too long, or has something in it that is no number.
+    /// A list of values that is empty or too long, or contains a value that is repeated or not finite.
     #[error("a list of {} was given: allowed are 1 to {most} finite numbers, none of them twice{}",
         counted(*count as u64, "value"), wrong.map_or_else(String::new, |value| format!(", not {value}")))]
     Listed {
-        /// Its length.
+        /// The length of the list.
         count: usize,
         /// The largest length allowed.
         most: u64,
-        /// The value that is wrong, if it is one.
+        /// The invalid value; `None` if the length is the error.
         wrong: Option<f64>,
     },
-    /// Too few or too many axes.
+    /// The number of axes is too small or too large for the task.
     #[error("axes given: {given}; a {task} has {least} to {most}")]
     Axes {
-        /// What was asked.
+        /// The number of axes given.
         given: usize,
-        /// The task.
+        /// The name of the task.
         task: &'static str,
-        /// The least.
+        /// The smallest number of axes allowed.
         least: usize,
-        /// The most.
+        /// The largest number of axes allowed.
         most: usize,
     },
-    /// An axis that a task cannot have.
+    /// The task cannot have this axis.
     #[error("a {task} has no axis {name}; it may have {known}")]
     WrongAxis {
-        /// The task.
+        /// The name of the task.
         task: &'static str,
-        /// What varies.
+        /// The quantity that varies on the axis.
         name: &'static str,
-        /// What may vary.
+        /// The quantities that may vary.
         known: &'static str,
     },
-    /// A basin over parameters only.
+    /// A basin whose axes are all parameters.
     #[error(
         "a basin needs an axis over x, v or phase\nhint: which motions there are at points of a plane of parameters is a map"
     )]
     NoStartAxis,
-    /// A question that fills no grid.
+    /// A task without a grid, which cannot be stored as a study.
     #[error(
         "a plan that asks to {0} fills no grid, so there is nothing to store\nhint: tasks for a store are map, basin, attractors, diagram and lyapunov"
     )]
     NoStudy(&'static str),
-    /// A size of tiles that makes no sense.
+    /// The size of a tile is outside its allowed range.
     #[error("tile = {given} lies outside 1 <= tile <= {most}")]
     Tile {
-        /// What was asked.
+        /// The given value.
         given: u32,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u32,
     },
-    /// A coarse step that makes no sense.
+    /// The step of the coarse grid is invalid.
     #[error(
         "refine = {given} lies outside 2 <= refine <= {most}: the distance, in points, of the coarse grid to begin with"
     )]
     Refine {
-        /// What was asked.
+        /// The given value.
         given: u32,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u32,
     },
-    /// Parameters given neither in the system nor on an axis.
+    /// Parameters that are given neither in the system nor on an axis.
     #[error("neither in the system nor on an axis: {}", .0.join(", "))]
     Missing(Vec<&'static str>),
-    /// Neither or both of beta and its inverse.
+    /// The frequency is given twice or not at all (beta and its inverse).
     #[error("the frequency is given {0}: exactly one of beta and inverse beta is needed")]
     Frequency(&'static str),
-    /// A number of starts that makes no sense.
+    /// The number of starts is outside its allowed range.
     #[error("starts = {given} lies outside 1 <= starts <= {most}")]
     Starts {
-        /// What was asked for.
+        /// The given number.
         given: u64,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u64,
     },
-    /// A number of impacts that makes no sense.
+    /// The number of impacts is outside its allowed range.
     #[error("impacts = {0} lies outside 1 <= impacts <= 10000000")]
     Impacts(u64),
-    /// A number of impacts to follow each start for that makes no sense.
+    /// The number of impacts for which each start is followed is outside its allowed range.
     #[error("impacts = {given} lies outside 1 <= impacts <= {most}")]
     Budget {
-        /// What was given.
+        /// The given number.
         given: u32,
-        /// The most there may be.
+        /// The largest allowed number.
         most: u32,
     },
-    /// A number of impacts to measure over that is too small for an error bar, or too large.
+    /// The number of impacts of a measurement is too small for an error bar, or too large.
     #[error(
         "impacts = {given} lies outside {least} <= impacts <= {most}\nhint: the error bar shrinks with the square root of the number; 100000 give two or three digits"
     )]
     Measured {
-        /// What was asked.
+        /// The given value.
         given: u64,
-        /// The least allowed.
+        /// The smallest allowed value.
         least: u64,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u64,
     },
-    /// A number of points of a section that makes no sense.
+    /// The number of points of a section is outside its allowed range.
     #[error("points = {given} lies outside 1 <= points <= {most}")]
     Points {
-        /// What was asked.
+        /// The given value.
         given: u64,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u64,
     },
-    /// A number of forcing periods that makes no sense.
+    /// The number of forcing periods is outside its allowed range.
     #[error("periods = {0} lies outside 0 < periods <= 1e9")]
     Periods(f64),
-    /// A transient that is too long.
+    /// The transient is too long.
     #[error("transient = {given} lies outside 0 <= transient <= {most}")]
     Transient {
-        /// What was asked.
+        /// The given value.
         given: u64,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u64,
     },
-    /// A number of impacts or states to keep that makes no sense.
+    /// The number of impacts or states to keep is outside its allowed range.
     #[error("keep = {given} lies outside 1 <= keep <= {most}")]
     Keep {
-        /// What was asked.
+        /// The given value.
         given: u64,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u64,
     },
-    /// A parameter of a second stop where there is only one.
+    /// A parameter of the second stop is to vary, but there is only one stop.
     #[error("{0} is to vary, but there is no second stop\nhint: a second stop has a gap and a restitution of its own")]
     NoSecondStop(&'static str),
-    /// More results than fit any memory.
+    /// More results than one run keeps in memory.
     #[error(
         "{rows} x {columns} = {total} {what}; at most {most} are allowed\nhint: fewer values, or a store, which holds any number",
         total = u128::from(*rows) * u128::from(*columns)
     )]
     Size {
-        /// What is counted.
+        /// The name of what is counted.
         what: &'static str,
-        /// Values on one axis.
+        /// Number of values on the first axis.
         columns: u64,
-        /// Values on the other.
+        /// Number of values on the other axes.
         rows: u64,
-        /// The most allowed.
+        /// The largest allowed number of results.
         most: u64,
     },
-    /// More numbers than fit any memory.
+    /// More numbers than one run keeps in memory.
     #[error("{numbers} numbers would have to be kept; at most {most} fit\nhint: give a store, which holds any number")]
     Memory {
-        /// Numbers asked for.
+        /// The number of numbers requested.
         numbers: u64,
-        /// The most allowed.
+        /// The largest allowed number.
         most: u64,
     },
-    /// A parameter that is to go where it is already.
+    /// A parameter is to vary from its value to the same value.
     #[error("{name} is to go from {value} to {value}: there is nothing on the way")]
     Nowhere {
-        /// The parameter.
+        /// The name of the parameter.
         name: &'static str,
-        /// Where it is.
+        /// Its value.
         value: f64,
     },
-    /// A number of branches to follow that makes no sense.
+    /// The number of further branches is outside its allowed range.
     #[error("follow = {given} lies outside 0 <= follow <= {most}")]
     Follow {
-        /// What was asked.
+        /// The given value.
         given: u32,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u32,
     },
-    /// A number of points of a branch that makes no sense.
+    /// The number of points of a branch is outside its allowed range.
     #[error("points = {given} lies outside 2 <= points <= {most}")]
     BranchPoints {
-        /// What was asked.
+        /// The given value.
         given: u32,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u32,
     },
-    /// A grid that makes no sense.
+    /// The number of grid points in each direction is outside its allowed range.
     #[error("grid = {given} lies outside 2 <= grid <= {most}")]
     Grid {
-        /// What was asked.
+        /// The given value.
         given: u32,
-        /// The most allowed.
+        /// The largest allowed value.
         most: u32,
     },
-    /// A range of a parameter that is none.
+    /// The ends of a range of a parameter are not finite or not in rising order.
     #[error("{name} from {from} to {to} is no range: two finite numbers in rising order are needed")]
     Stretch {
-        /// The parameter.
+        /// The name of the parameter.
         name: &'static str,
-        /// One end.
+        /// The first end.
         from: f64,
-        /// The other.
+        /// The second end.
         to: f64,
     },
-    /// A range of a parameter that rounding leaves no steps in.
+    /// The range of a parameter is so narrow that rounding leaves too few values in it.
     #[error(
         "{name} from {from:?} to {to:?} is too narrow a range to follow curves through: rounding leaves no steps in it\nhint: a width of at least {least:.1e}"
     )]
     Narrow {
-        /// The parameter.
+        /// The name of the parameter.
         name: &'static str,
-        /// One end.
+        /// The first end.
         from: f64,
-        /// The other.
+        /// The second end.
         to: f64,
-        /// The least width.
+        /// The smallest allowed width.
         least: f64,
     },
-    /// Two parameters that are one.
+    /// The two parameters of a plane are the same parameter.
     #[error("{0} and {1} do not span a plane: they are one parameter")]
     SameParameter(&'static str, &'static str),
-    /// The system lies outside the range of a parameter.
+    /// The value of a parameter in the system lies outside the given range.
     #[error(
         "{name} = {value} lies outside the range from {from} to {to}\nhint: the orbit to begin with is looked for at the system given"
     )]
     Outside {
-        /// The parameter.
+        /// The name of the parameter.
         name: &'static str,
         /// Its value in the system.
         value: f64,
         /// Smallest value of the range.
         from: f64,
-        /// Largest value.
+        /// Largest value of the range.
         to: f64,
     },
-    /// No motion of a label to begin with.
+    /// No admissible orbit of the label exists, so a branch cannot begin.
     #[error(
         "no admissible orbit {label} was found, so there is nothing to follow\nhint: inadmissible solutions ({others} here) are followed only when their number is given"
     )]
     NoOrbit {
         /// The label.
         label: Label,
-        /// Inadmissible solutions of the equations.
+        /// Number of inadmissible solutions of the equations.
         others: usize,
     },
-    /// An orbit by a number that none has.
+    /// No orbit with this number exists.
     #[error(
         "there is no orbit {label} number {given}; found: {count}\nhint: they are numbered from 1, as the search for orbits lists them"
     )]
     NoSuchOrbit {
-        /// What was asked.
+        /// The given number.
         given: u32,
-        /// How many there are.
+        /// The number of orbits.
         count: usize,
         /// The label.
         label: Label,
     },
-    /// No event of a kind on a branch, or none of that number.
+    /// There is no event of this kind on the branch, or none with this number.
     #[error(
         "{} on the branch of {label} with {name} from {from} to {to}{}",
         asked.map_or_else(|| format!("no {kind} was found"), |n| format!("there is no {kind} number {n}")),
         if *count == 0 { String::new() } else { format!(": {count} found") }
     )]
     NoEvent {
-        /// The kind.
+        /// The kind of event.
         kind: &'static str,
-        /// Label of the branch.
+        /// The label of the branch.
         label: Label,
         /// The parameter that varies.
         name: &'static str,
         /// Smallest value of its range.
         from: f64,
-        /// Largest value.
+        /// Largest value of the range.
         to: f64,
-        /// How many there are.
+        /// The number of events of this kind.
         count: usize,
-        /// Which was asked for, if one was.
+        /// The number of the requested event, if one was given.
         asked: Option<u32>,
     },
-    /// A branch or a curve that cannot begin.
+    /// A branch or a curve cannot begin.
     #[error(transparent)]
     Branch(#[from] BranchError),
-    /// Not a label.
+    /// The text is not a label.
     #[error(transparent)]
     Label(#[from] LabelError),
-    /// A plan of a version this program does not know.
+    /// The plan has a version that this program does not support.
     #[error("the plan has version {0}; this program knows version {known}", known = crate::PLAN_VERSION)]
     Version(u32),
 }
 
-/// Why a run was not completed.
+/// The reason why a run was not completed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// The plan makes no sense.
+    /// The plan is invalid.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// It was stopped from outside.
+    /// The run was stopped by its caller.
     #[error(transparent)]
     Stopped(#[from] Stopped),
 }

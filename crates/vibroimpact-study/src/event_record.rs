@@ -1,39 +1,39 @@
-//! An event of a branch in plain words and numbers: what the command's JSON and the Python package tell of it.
+//! An event of a branch as names and numbers, for the JSON of the command and the Python package.
 
 use vibroimpact::Side;
 use vibroimpact::continuation::{BranchEvent, Change, SolutionPoint};
 
-/// An event, with what its kind has to tell; the rest is absent.
+/// An event of a branch. Fields that do not apply to its kind are `None`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EventRecord {
-    /// Its name.
+    /// Name of the kind of event.
     pub kind: &'static str,
-    /// Whether the branch ends there.
+    /// Whether the branch ends at the event.
     pub ends: bool,
-    /// The label before it.
+    /// The label before the event.
     pub label_before: String,
-    /// The label after it, where the branch goes on or leads to a motion with a name.
+    /// The label after the event, if the branch continues or leads to a motion with a label.
     pub label_after: Option<String>,
     /// Whether an impact appears or disappears.
     pub change: Option<&'static str>,
-    /// Which impact of the point's cycle, counted from 1; none where the cycle has none.
+    /// Number of the impact in the cycle of the point, counted from 1; `None` if the cycle has no impacts.
     pub impact: Option<usize>,
-    /// At which stop.
+    /// The stop of the contact.
     pub side: Option<Side>,
-    /// At which phase of the force.
+    /// The phase of the force at the contact.
     pub phase: Option<f64>,
-    /// Whether the parameter turns back.
+    /// Whether the parameter turns back at the event.
     pub turns: Option<bool>,
-    /// Another touch at the same value: its impact, as above, its stop and its phase.
+    /// A second grazing contact at the same value: its impact (as above), its stop and its phase.
     pub also: Option<(Option<usize>, Side, f64)>,
 }
 
 impl EventRecord {
-    /// What there is to tell of an event at a point of a branch.
+    /// The record of the event at a point of a branch.
     #[must_use]
     pub fn of(point: &SolutionPoint, event: &BranchEvent) -> Self {
         let label = point.cycle.label.to_string();
-        // where there are none, none is counted
+        // a cycle without impacts has no impact numbers
         let counted = |impact: usize| (!point.cycle.points.is_empty()).then_some(impact + 1);
         let bare = Self {
             kind: event.name(),

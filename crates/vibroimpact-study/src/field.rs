@@ -1,17 +1,17 @@
-//! What a study says of each point: arrays over its grid, with their types, meanings and units.
+//! The arrays of a study over its grid, with their types, descriptions and units.
 
 /// The type of the numbers of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NumberType {
-    /// Small whole numbers.
+    /// Integers of 8 bits.
     I8,
-    /// Whole numbers.
+    /// Integers of 32 bits.
     I32,
-    /// Real numbers.
+    /// Floating-point numbers of 64 bits.
     F64,
 }
 
-/// A dimension of a field beyond those of the grid.
+/// A dimension of a field in addition to those of the grid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Extra {
     /// Its name.
@@ -20,29 +20,30 @@ pub struct Extra {
     pub count: usize,
 }
 
-/// One array of a study: over the grid, and over extra dimensions that run fastest.
+/// One array of a study. Its dimensions are those of the grid, followed by extra dimensions, which vary fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// Its name.
     pub name: &'static str,
-    /// A sentence that says what it is.
+    /// One line of text that describes it.
     pub long_name: &'static str,
     /// Its unit; `"1"` for pure numbers.
     pub units: &'static str,
     /// The type of its numbers.
     pub kind: NumberType,
-    /// What stands where nothing was computed; for real numbers always not-a-number. No result is ever equal to it.
+    /// The value at points where nothing was computed; real numbers always use not-a-number. No result equals this
+    /// value.
     pub fill: i32,
-    /// Dimensions beyond those of the grid.
+    /// Dimensions in addition to those of the grid.
     pub extra: Vec<Extra>,
-    /// Values that stand for something, and what.
+    /// Values with a special meaning, and the meaning of each.
     pub flags: Vec<(i32, &'static str)>,
-    /// What else there is to say.
+    /// Further remarks.
     pub comment: &'static str,
 }
 
 impl Field {
-    /// Numbers for each point of the grid.
+    /// Number of values for each point of the grid.
     #[must_use]
     pub fn width(&self) -> usize {
         self.extra.iter().map(|extra| extra.count).product()
@@ -63,15 +64,15 @@ impl Field {
 /// The numbers of a field over some points, in row-major order.
 #[derive(Clone, Debug)]
 pub enum Column {
-    /// Small whole numbers.
+    /// Integers of 8 bits.
     I8(Vec<i8>),
-    /// Whole numbers.
+    /// Integers of 32 bits.
     I32(Vec<i32>),
-    /// Real numbers.
+    /// Floating-point numbers of 64 bits.
     F64(Vec<f64>),
 }
 
-/// Bit for bit: not-a-number equals itself.
+/// Compares bits: not-a-number equals itself.
 impl PartialEq for Column {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
@@ -86,7 +87,7 @@ impl PartialEq for Column {
 }
 
 impl Column {
-    /// How many numbers.
+    /// The number of values.
     #[must_use]
     pub const fn len(&self) -> usize {
         match self {
@@ -96,14 +97,14 @@ impl Column {
         }
     }
 
-    /// Whether there is none.
+    /// Whether it has no values.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Copies `len` numbers of `from`, starting at `at`, to `to` here. Columns of another type, which never meet, are
-    /// left alone.
+    /// Copies `len` values of `from`, beginning at index `at`, to index `to` of this column. Does nothing if the
+    /// columns have different types (which does not occur).
     pub fn copy(&mut self, to: usize, from: &Self, at: usize, len: usize) {
         match (self, from) {
             (Self::I8(a), Self::I8(b)) => a[to..to + len].copy_from_slice(&b[at..at + len]),
@@ -113,13 +114,13 @@ impl Column {
         }
     }
 
-    /// The whole numbers; empty for real ones.
+    /// The values of a column of 32-bit integers; empty for other types.
     #[must_use]
     pub fn whole(&self) -> &[i32] {
         if let Self::I32(values) = self { values } else { &[] }
     }
 
-    /// The real numbers; empty for whole ones.
+    /// The values of a column of floating-point numbers; empty for other types.
     #[must_use]
     pub fn real(&self) -> &[f64] {
         if let Self::F64(values) = self { values } else { &[] }

@@ -1,9 +1,9 @@
-//! A grid of points, cut into tiles of equal shape; those at the far edges may be smaller.
+//! A grid of points, divided into tiles of equal shape. Tiles at the upper ends of the dimensions may be smaller.
 
 use crate::field::Column;
 use core::ops::{Deref, Range};
 
-/// Dimensions of a grid at most: as many as a plan has axes.
+/// Maximum number of dimensions of a grid, which is the maximum number of axes of a plan.
 const MOST: usize = 4;
 
 /// One dimension of a grid.
@@ -11,16 +11,16 @@ const MOST: usize = 4;
 pub struct Dimension {
     /// Its name.
     pub name: String,
-    /// Points along it.
+    /// Number of points along it.
     pub count: usize,
-    /// Points of a tile along it.
+    /// Number of points of a tile along it.
     pub tile: usize,
 }
 
-/// Points in row-major order: the last dimension runs fastest.
+/// A grid of points in row-major order: the last dimension varies fastest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grid {
-    /// Its dimensions, the slowest first.
+    /// The dimensions, the slowest first.
     pub dimensions: Vec<Dimension>,
 }
 
@@ -31,8 +31,8 @@ pub struct Block {
     pub ranges: Vec<Range<usize>>,
 }
 
-/// The indices of a point in its grid, the slowest dimension first; a slice of them. Basins ask for millions: it is no list on
-/// the heap.
+/// The indices of a point in its grid, the slowest dimension first. It dereferences to a slice and is stored without
+/// heap allocation, because basins create millions of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Index {
     of: [usize; MOST],
@@ -47,31 +47,31 @@ impl Deref for Index {
     }
 }
 
-/// Of counts; as many as a count can hold, where there are more.
+/// The product of some counts; `u64::MAX` if it is larger.
 fn product(counts: impl IntoIterator<Item = usize>) -> u64 {
     counts.into_iter().fold(1, |product, count| u64::saturating_mul(product, count as u64))
 }
 
 impl Grid {
-    /// Points in all.
+    /// Total number of points.
     #[must_use]
     pub fn points(&self) -> u64 {
         product(self.dimensions.iter().map(|d| d.count))
     }
 
-    /// Tiles along each dimension.
+    /// Number of tiles along each dimension.
     #[must_use]
     pub fn tiles_along(&self) -> Vec<usize> {
         self.dimensions.iter().map(|d| d.count.div_ceil(d.tile)).collect()
     }
 
-    /// Tiles in all.
+    /// Total number of tiles.
     #[must_use]
     pub fn tiles(&self) -> u64 {
         product(self.tiles_along())
     }
 
-    /// Where tile number `k` stands among the tiles, dimension by dimension; tiles are counted in row-major order too.
+    /// The position of tile number `k` among the tiles, for each dimension. Tiles are numbered in row-major order.
     #[must_use]
     #[allow(clippy::cast_possible_truncation)] // less than the tiles along a dimension, a usize
     pub fn place(&self, k: u64) -> Vec<usize> {
@@ -97,7 +97,7 @@ impl Grid {
         Block { ranges: self.dimensions.iter().zip(self.place(k)).map(range).collect() }
     }
 
-    /// Tile number `k` with the shape of a full one, though it may reach beyond the grid.
+    /// Tile number `k` in the shape of a full tile; it may extend beyond the grid.
     #[must_use]
     pub fn full_tile(&self, k: u64) -> Block {
         let range = |(d, i): (&Dimension, usize)| i * d.tile..(i + 1) * d.tile;
@@ -112,13 +112,13 @@ impl Grid {
 }
 
 impl Block {
-    /// Points in it.
+    /// Number of points in the block.
     #[must_use]
     pub fn points(&self) -> usize {
         self.ranges.iter().map(ExactSizeIterator::len).product()
     }
 
-    /// The indices in the grid of its point number `k`, of a grid with four dimensions at most.
+    /// The indices in the grid of point number `k` of the block. The grid has at most four dimensions.
     #[must_use]
     pub fn index(&self, k: usize) -> Index {
         let (mut rest, dimensions) = (k, self.ranges.len());
@@ -130,19 +130,20 @@ impl Block {
         Index { of, dimensions }
     }
 
-    /// The number of its point with these indices in the grid.
+    /// The number in the block of the point with these indices in the grid.
     #[must_use]
     pub fn number(&self, index: &[usize]) -> usize {
         index.iter().zip(&self.ranges).fold(0, |sum, (i, range)| sum * range.len() + (i - range.start))
     }
 
-    /// Copies the column of this block into that of a larger one, with `width` numbers a point.
+    /// Copies the column of this block into the column of a larger block, with `width` values for each point.
     pub fn put(&self, part: &Column, within: &Self, width: usize, whole: &mut Column) {
         self.rows(within, width, |at, from, len| whole.copy(at, part, from, len));
     }
 
-    /// The rows of this block as parts of a larger one that contains it, with `width` numbers a point: where each begins
-    /// there, where it begins here, and its length.
+    /// Calls `row` for each row of this block as a part of a larger block that contains it, with `width` values for
+    /// each point. The arguments are the index where the row begins in the larger block, the index where it begins in
+    /// this block, and its length.
     pub fn rows(&self, within: &Self, width: usize, mut row: impl FnMut(usize, usize, usize)) {
         let Some(len) = self.ranges.last().map(ExactSizeIterator::len).filter(|len| *len > 0) else { return };
         for r in 0..self.points() / len {

@@ -1,26 +1,27 @@
-//! Plans, grids and threaded runs: everything around the core that owns threads and knows files' content.
+//! Plans, grids and multithreaded runs. This crate owns all threads; it writes no files.
 //!
-//! A [`Plan`] says completely what is asked: command line, TOML file, Python call and page build the same one, and it is
-//! kept with the results, so that any result can be run again from itself. Running a plan is deterministic: the work is
-//! cut into tiles whose results are merged in tile order, so the bytes are the same for any number of threads.
+//! A [`Plan`] is a complete description of a question. The command line, a TOML file, a call in Python and the page all
+//! build a plan. The plan is stored with the results, so every result can be computed again. Runs are deterministic:
+//! the work is divided into tiles, and their results are merged in tile order, so the bytes are the same for any number
+//! of threads.
 //!
 //! | idea | file |
 //! |---|---|
 //! | a plan, and the one function that turns it into its result | [`Plan`], [`run`], [`Results`] |
-//! | the question, checked | [`SystemPlan`], [`StartPlan`], [`Task`] |
-//! | `A:B:N`, N values from A to B; what varies over which values | [`Span`], [`Axis`] |
+//! | the parts of a plan: system, start, task | [`SystemPlan`], [`StartPlan`], [`Task`] |
+//! | `A:B:N`, N values from A to B; a quantity and the values it takes | [`Span`], [`Axis`] |
 //! | a grid and its tiles, the arrays over it | [`Grid`], [`Field`] |
-//! | what a tile of a plan holds | [`Study`], [`study`] |
+//! | the arrays that a tile of a plan holds | [`Study`], [`study`] |
 //! | tiles over threads, with a stop flag and progress | [`Control`], [`tiles`] |
 //! | the events of one motion | [`Simulated`] |
-//! | which motion each start of a plane leads to | [`BasinPlan`], [`Basin`] |
-//! | which motions there are at each point of a parameter plane | [`MapPlan`], [`RegionMap`] |
+//! | the motion to which each start of a plane leads | [`BasinPlan`], [`Basin`] |
+//! | the motions at each point of a parameter plane | [`MapPlan`], [`RegionMap`] |
 //! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
-//! | the Lyapunov exponents of a motion: the question | [`LyapunovPlan`] |
-//! | a branch of periodic orbits in one parameter, and those that begin on it | [`BranchPlan`], [`Branches`] |
-//! | which orbit it begins with; what an event on it has to tell | [`Chosen`], [`EventRecord`] |
+//! | the plan for Lyapunov exponents of a motion | [`LyapunovPlan`] |
+//! | a branch of periodic orbits in one parameter, and the branches that begin on it | [`BranchPlan`], [`Branches`] |
+//! | the orbit at which a branch begins; the data of an event on a branch | [`Chosen`], [`EventRecord`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
-//! | where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
+//! | the regions where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 
@@ -78,7 +79,7 @@ pub use study::Study;
 pub use system::{SecondStop, StartPlan, SystemPlan};
 pub use words::counted;
 
-/// The listing of the README of this crate is compiled and run with the documentation.
+/// Compiles and runs the listing of this crate's README as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct CrateReadme;

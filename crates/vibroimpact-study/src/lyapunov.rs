@@ -1,11 +1,12 @@
-//! What is asked of the Lyapunov exponents of a motion: from where, over how long, and whether its sections are shown.
+//! The plan for the Lyapunov exponents of a motion: its start, the length of the measurement, and whether sections are
+//! computed.
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::{PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions};
 
-/// Points shown of each section, where no number is given.
+/// Default number of points of each section.
 pub const DEFAULT_POINTS: u64 = 5_000;
 
 /// The exponents of the motion from a start, or from each start of each system of a grid.
@@ -50,22 +51,22 @@ const fn transient() -> u64 {
     DEFAULT_TRANSIENT
 }
 
-/// Most axes.
+/// Maximum number of axes.
 const MOST_AXES: usize = 4;
-/// Fewer impacts make no error bar.
+/// Minimum number of impacts: with fewer there is no error bar.
 const FEWEST_IMPACTS: u64 = 1_000;
-/// Most impacts to measure over: several seconds.
+/// Maximum number of impacts of a measurement; it takes several seconds.
 const MOST_IMPACTS: u64 = 10_000_000;
-/// Most impacts of a transient.
+/// Maximum number of impacts of a transient.
 const MOST_TRANSIENT: u64 = 1_000_000;
-/// Most points of a section: more than a page can hold.
+/// Maximum number of points of a section, more than a figure can show.
 const MOST_POINTS: u64 = 100_000;
 
 impl LyapunovPlan {
-    /// Checks everything that can be checked without running it.
+    /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense.
+    /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         if !(FEWEST_IMPACTS..=MOST_IMPACTS).contains(&self.impacts) {
             return Err(PlanError::Measured { given: self.impacts, least: FEWEST_IMPACTS, most: MOST_IMPACTS });
@@ -89,7 +90,7 @@ impl LyapunovPlan {
         Ok(())
     }
 
-    /// How long to follow the motion.
+    /// The lengths of the transient and of the measurement.
     #[must_use]
     pub const fn options(&self) -> ExponentOptions {
         ExponentOptions::new(self.impacts, self.transient)

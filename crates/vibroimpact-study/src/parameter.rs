@@ -1,21 +1,21 @@
-//! What can vary: the parameters of the core, in plans.
+//! The parameters of the core, as they are written in plans.
 
 use crate::{PlanError, SecondStop, SystemPlan};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub use vibroimpact::Parameter;
 
-/// Whether a parameter's unit is that of a length.
+/// Whether a parameter is a length (with unit $`F/k`$).
 #[must_use]
 pub const fn is_length(parameter: Parameter) -> bool {
     matches!(parameter, Parameter::Gap | Parameter::SecondGap)
 }
 
-/// A parameter in a plan stands by its name.
+/// In a plan a parameter is written as its name.
 pub(crate) fn serialize<S: Serializer>(parameter: &Parameter, to: S) -> Result<S::Ok, S::Error> {
     parameter.name().serialize(to)
 }
 
-/// Its name, for the schema of plans.
+/// The name of a parameter, for the schema of plans.
 pub(crate) struct Name;
 
 impl schemars::JsonSchema for Name {
@@ -37,10 +37,11 @@ pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Paramete
 }
 
 impl SystemPlan {
-    /// The same with another value of a parameter. Setting $`\beta`$ or $`1/\beta`$ replaces whichever was given.
+    /// The same system with another value of one parameter. A value of $`\beta`$ or $`1/\beta`$ replaces whichever was
+    /// given.
     ///
     /// # Errors
-    /// [`PlanError::NoSecondStop`] for a parameter of a second stop that is not there.
+    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
     pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
         let second = || self.second_stop.ok_or(PlanError::NoSecondStop(parameter.name()));
         Ok(match parameter {
@@ -56,10 +57,10 @@ impl SystemPlan {
         })
     }
 
-    /// The value of a parameter, as it was given where it was.
+    /// The value of a parameter, exactly as given where it was given.
     ///
     /// # Errors
-    /// [`PlanError`] for a system that makes no sense, or a parameter of a second stop that is not there.
+    /// [`PlanError`] for an invalid system, or for a parameter of a second stop if there is none.
     pub fn value(&self, parameter: Parameter) -> Result<f64, PlanError> {
         if let (Parameter::InverseBeta, Some(inverse)) = (parameter, self.inverse_beta) {
             return Ok(inverse);

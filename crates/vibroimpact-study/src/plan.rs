@@ -1,7 +1,7 @@
-//! The question, checked: a plan holds everything a result depends on and nothing else.
+//! A plan: everything on which a result depends, and nothing else.
 //!
-//! Threads, output files and progress bars are no part of it. Absent fields have one meaning each, stated here; unknown
-//! fields are errors, so that a misspelt parameter cannot be ignored.
+//! Threads, output files and progress reports are not part of a plan. Each absent field has one meaning, which is
+//! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
 use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
 use crate::simulate::most_impacts;
@@ -12,11 +12,11 @@ use crate::{
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
 
-/// What is asked, of which system.
+/// A question: a system and a task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, try_from = "crate::plan_text::PlanText")]
 pub struct Plan {
-    /// [`PLAN_VERSION`].
+    /// The version of the fields, [`PLAN_VERSION`].
     pub version: u32,
     /// The oscillator. What varies on an axis has its first value here, and need not be written; for a region, what varies
     /// has its smallest value.
@@ -28,26 +28,26 @@ pub struct Plan {
     pub tile: Option<u32>,
 }
 
-/// Most points of a tile along one axis.
+/// Maximum number of points of a tile along one axis.
 const MOST_TILE: u32 = 4096;
 
 impl Plan {
-    /// A plan of the present version.
+    /// A plan of the current version.
     #[must_use]
     pub const fn new(system: SystemPlan, task: Task) -> Self {
         Self { version: PLAN_VERSION, system, task, tile: None }
     }
 
-    /// A name for the content: the first 16 digits of the SHA-256 of the plan as JSON.
+    /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
     #[must_use]
     pub fn hash(&self) -> String {
         use sha2::{Digest, Sha256};
-        // a plan of finite numbers and texts always becomes JSON
+        // finite numbers and texts can always be written as JSON
         let text = serde_json::to_vec(self).unwrap_or_default();
         Sha256::digest(text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// What is asked, in words.
+    /// A title in words.
     #[must_use]
     pub fn title(&self) -> String {
         let over = |axes: &[crate::Axis]| axes.iter().map(|axis| axis.vary.name()).collect::<Vec<_>>().join(", ");
@@ -64,11 +64,11 @@ impl Plan {
         }
     }
 
-    /// The same question as the command of its task writes it: what varies has its first value in the system, and a number of
-    /// impacts is given.
+    /// The same question as the command of its task writes it: parameters on an axis have their first value in the
+    /// system, and the number of impacts is explicit.
     ///
     /// # Errors
-    /// [`PlanError`] for a parameter of a second stop that is not there.
+    /// [`PlanError`] for a parameter of a second stop if there is none.
     pub fn complete(&self) -> Result<Self, PlanError> {
         let mut plan = self.canonical()?;
         match &mut plan.task {
@@ -82,7 +82,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// How much there is to do and what is counted, where progress is reported: `(40000, "starts")`.
+    /// The amount of work and its unit, for tasks that report progress: `(40000, "starts")`.
     #[must_use]
     pub fn work(&self) -> Option<(u64, &'static str)> {
         match &self.task {
@@ -95,10 +95,10 @@ impl Plan {
         }
     }
 
-    /// Checks everything that can be checked without running it.
+    /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense.
+    /// [`PlanError`] names the first invalid value.
     pub fn check(&self) -> Result<(), PlanError> {
         if self.version != PLAN_VERSION {
             return Err(PlanError::Version(self.version));

@@ -1,4 +1,4 @@
-//! A plan as it is written by hand: what an axis varies need not be given twice.
+//! A plan as it is written by hand: parameters that vary on an axis need not be given in the system.
 
 use crate::plan::{Plan, Task};
 use crate::system::{SecondStop, SystemPlan};
@@ -81,7 +81,7 @@ impl Plan {
     /// ```
     ///
     /// # Errors
-    /// [`PlanError::Text`] says where in the text it goes wrong, and what is expected there.
+    /// [`PlanError::Text`] states the position of the error in the text and what is expected there.
     pub fn from_text(text: &str) -> Result<Self, PlanError> {
         if text.trim_start().starts_with('{') {
             return Self::from_json(text);
@@ -100,7 +100,7 @@ impl Plan {
     /// The plan as TOML.
     #[must_use]
     pub fn to_toml(&self) -> String {
-        // numbers, texts and lists of them are always TOML
+        // numbers, texts and lists of them can always be written as TOML
         toml::to_string_pretty(self).unwrap_or_default()
     }
 
@@ -112,10 +112,10 @@ impl Plan {
         schema
     }
 
-    /// The same question in the form in which it is stored: what varies has its first value in the system.
+    /// The same question in the form in which it is stored: parameters on an axis have their first value in the system.
     ///
     /// # Errors
-    /// [`PlanError::NoSecondStop`] for a parameter of a second stop that is not there.
+    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
     pub fn canonical(&self) -> Result<Self, PlanError> {
         let system =
             self.task.varied().into_iter().try_fold(self.system, |system, (p, value)| system.with(p, value))?;
@@ -123,7 +123,7 @@ impl Plan {
     }
 }
 
-/// What a parser says, without the names of types of this program, and with no line of the text longer than a screen is wide.
+/// The message of a parser, without names of types of this program and with long lines of the text cut.
 fn plain(why: &str) -> String {
     const WORDS: [(&str, &str); 12] = [
         ("floating point `", "number `"),
@@ -145,7 +145,7 @@ fn plain(why: &str) -> String {
     WORDS.into_iter().fold(text, |text, (inside, word)| {
         let mut parts = text.split(inside);
         let first = parts.next().unwrap_or_default().to_owned();
-        // the name of a type goes with its kind
+        // the name of a type is removed together with its kind
         let named = |rest: &str| match rest.strip_prefix(' ') {
             Some(name) if inside.contains("variant") || inside.contains("struct") || inside.contains("enum") => {
                 let kind = name.starts_with(|c: char| c.is_ascii_uppercase());
@@ -180,7 +180,7 @@ impl TryFrom<PlanText> for Plan {
         let system = SystemPlan {
             beta: asked.beta,
             inverse_beta: asked.inverse_beta,
-            // what is not given varies, and is replaced by its first value at once
+            // a parameter that is not given varies; its value is replaced by the first one of the axis
             gap: asked.gap.unwrap_or(0.0),
             restitution: asked.restitution.unwrap_or(0.0),
             damping: asked.damping,
@@ -194,7 +194,7 @@ impl TryFrom<PlanText> for Plan {
 mod tests {
     use super::*;
 
-    /// Found by `cargo xtask fuzz`: type names of this program in error messages.
+    /// Cases found by `cargo xtask fuzz`: error messages contained type names of this program.
     #[test]
     fn fz1_a_text_that_is_no_plan_is_refused_in_plain_words() {
         let long = format!("version = 1\ntask = {}", "[".repeat(5000));
@@ -227,10 +227,10 @@ mod tests {
         let plan: Plan = serde_json::from_str(text).unwrap();
         assert_eq!((plan.system.inverse_beta, plan.system.gap), (Some(0.4), 0.5));
         assert_eq!(plan.check(), Ok(()));
-        // what is written out is complete, and reads as the same plan
+        // the printed plan is complete, and reads as the same plan
         let full = serde_json::to_string(&plan).unwrap();
         assert_eq!(serde_json::from_str::<Plan>(&full).unwrap(), plan);
-        // a value in the system that differs from the first on the axis counts for nothing
+        // a value in the system that differs from the first one on the axis is ignored
         let other = text.replace("\"system\":{", "\"system\":{\"gap\":7.0,\"beta\":3.0,");
         assert_eq!(serde_json::from_str::<Plan>(&other).unwrap(), plan);
         for (gone, sentence) in [

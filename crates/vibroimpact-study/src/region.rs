@@ -1,4 +1,4 @@
-//! The regions of a plane of two parameters in which a motion exists, and in which it is stable.
+//! The regions of a plane of two parameters in which a motion exists and in which it is stable.
 
 use crate::chosen::followable;
 use crate::stretch::check_plane;
@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Frame, Region, RegionKind, RegionOptions, region_while};
 use vibroimpact::{Label, Oscillator};
 
-/// Points of the grid at which orbits are looked for, in each direction, where no number is given.
+/// Default number of grid points, in each direction, at which orbits are searched.
 pub const DEFAULT_GRID: u32 = 24;
-/// Most of them.
+/// Largest allowed number of grid points in each direction.
 const MOST_GRID: u32 = 400;
 
 /// The regions of a motion in a plane.
@@ -32,10 +32,10 @@ const fn grid() -> u32 {
 }
 
 impl RegionPlan {
-    /// Checks everything that can be checked without running it.
+    /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense.
+    /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         followable(&self.label)?;
         if !(2..=MOST_GRID).contains(&self.grid) {
@@ -44,7 +44,8 @@ impl RegionPlan {
         check_plane(system, &self.across, &self.up)
     }
 
-    /// Whether nowhere in the plane the motion loses energy: it is neutrally stable there, and has no region of stability.
+    /// Whether the motion loses no energy anywhere in the plane. It is then neutrally stable and has no region of
+    /// stability.
     #[must_use]
     pub fn neutral(&self, system: &SystemPlan) -> bool {
         let varied = |parameter| [self.across.parameter, self.up.parameter].contains(&parameter);
@@ -62,16 +63,16 @@ impl RegionPlan {
     }
 }
 
-/// Both regions of a motion.
+/// The regions of one motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regions {
-    /// Where it exists.
+    /// The region where it exists.
     pub existence: Region,
-    /// Where it exists and is stable.
+    /// The region where it exists and is stable.
     pub stability: Region,
 }
 
-/// What the regions of several motions in one plane have in common.
+/// The data common to the regions of several motions in one plane.
 struct Plane {
     osc: Oscillator,
     frame: Frame,
@@ -85,10 +86,10 @@ impl Plane {
         Ok(Self { osc, frame: across.frame(up), options })
     }
 
-    /// Several regions side by side, each on a thread of its own.
+    /// Computes several regions, each on a thread of its own.
     fn regions(&self, wanted: &[(Label, RegionKind)], control: &Control<'_>) -> Result<Vec<Region>, RunError> {
         let each = tiles(wanted.len() as u64, 1, control, |range, tick| {
-            // one region a tile
+            // one region for each tile
             let (label, kind) = wanted[usize::try_from(range.start).unwrap_or(0)];
             let region = region_while(&self.osc, label, kind, &self.frame, self.options, || !control.stopping());
             if region.is_some() {
@@ -96,15 +97,17 @@ impl Plane {
             }
             region
         })?;
-        // none is missing, or they would be fewer than asked for
+        // all regions are present: if one were missing, `tiles` would have returned an error
         Ok(each.into_iter().collect::<Option<_>>().unwrap_or_default())
     }
 }
 
-/// Where each of several motions is stable, as lines over a map: no result of a plan, which asks for one motion.
+/// The regions of stability of several motions, as lines over a map. They are not the result of a plan, because a
+/// region plan has only one motion.
 ///
 /// # Errors
-/// [`RunError`] for a label or a plane that makes no sense, or when stopped, which is asked for at every point of the grid and every
+/// [`RunError`] for an invalid label or plane, or when stopped. The stop flag is read at every point of the grid and at
+/// every step.
 /// step.
 pub fn stability_regions(
     system: &SystemPlan,
@@ -119,10 +122,11 @@ pub fn stability_regions(
     Plane::new(system, across, up, grid)?.regions(&wanted, control)
 }
 
-/// Finds both regions.
+/// Computes both regions.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense, or when stopped, which is asked for at every point of the grid and every step.
+/// [`RunError`] for an invalid plan, or when stopped. The stop flag is read at every point of the grid and at every
+/// step.
 pub(crate) fn regions(system: &SystemPlan, plan: &RegionPlan, control: &Control<'_>) -> Result<Regions, RunError> {
     plan.check(system)?;
     let label = followable(&plan.label)?;
@@ -145,7 +149,7 @@ mod tests {
         (system, RegionPlan { label: "1/1".into(), across, up, grid: 5 })
     }
 
-    /// On the line of the flip at 1.829, stable below and unstable above; the same for any threads.
+    /// 1/1 flips at 1.829: stable below, unstable above. The result is the same for any number of threads.
     #[test]
     fn one_impact_a_period_about_its_flip() {
         let (system, plan) = plan();
@@ -161,7 +165,7 @@ mod tests {
         assert!(stable[1].contains((1.11, 2.0)) && !stable[1].contains((1.11, 1.5)));
     }
 
-    /// Item 6: "none found" for the motion without impacts.
+    /// Regression test (item 6): "none found" was reported for the motion without impacts.
     #[test]
     fn f06_without_impacts() {
         let (system, plan) = plan();
@@ -175,7 +179,7 @@ mod tests {
             !found.existence.contains((1.199, 3.1)) && !found.existence.contains((1.06, 6.0)) && !zero.neutral(&damped)
         );
         let undamped = regions(&system, &zero, &Control::default()).unwrap();
-        // 3.29 and 9.1 without damping
+        // without damping |f| is 3.29 and 9.1
         assert!(undamped.existence.contains((1.199, 3.4)) && !undamped.existence.contains((1.06, 7.9)));
         assert!(undamped.stability.polygons.is_empty() && zero.neutral(&system) && !plan.neutral(&system));
         let elastic = SystemPlan { restitution: 1.0, ..system };
@@ -192,7 +196,7 @@ mod tests {
                 std::thread::sleep(std::time::Duration::from_millis(60));
                 stop.store(true, Ordering::Relaxed);
             });
-            // some minutes of work
+            // a plan that takes some minutes
             let plan = RegionPlan { label: "2/3".into(), grid: 300, ..plan };
             let stopped = regions(&system, &plan, &Control { stop: &stop, ..Control::default() });
             assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");

@@ -1,4 +1,4 @@
-//! The one function that turns a plan into its result, in memory. The command, the page and the Python package call it.
+//! The function that computes the result of a plan in memory. The command, the page and the Python package call it.
 
 use crate::branch::branches;
 use crate::curve::curve;
@@ -14,38 +14,38 @@ use vibroimpact::orbit::{FindOptions, Orbit, find_while};
 use vibroimpact::verdict::{Census, SettleOptions, Settled, settle_while};
 use vibroimpact::{Label, Start};
 
-/// The result of each [`Task`].
+/// The result of a [`Task`], one variant for each.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum Results {
-    /// The start, and the events of its motion.
+    /// The start and the events of its motion.
     Simulate(Start, Simulated),
-    /// The start, and what its motion settles into.
+    /// The start and the result of settling its motion.
     Settle(Start, Settled),
-    /// The steady motions that the starts lead to.
+    /// The attractors to which the starts lead.
     Attractors(Census),
     /// The orbits of a label.
     Orbit(Vec<Orbit>),
-    /// The motion of each start.
+    /// The motion to which each start leads.
     Basin(Basin),
     /// The motions at each point.
     Map(RegionMap),
     /// The motions at each value.
     Diagram(Diagram),
-    /// The start, the exponents of its motion, and its sections where points of them were asked for.
+    /// The start, the exponents of its motion, and its sections if points of them were requested.
     Lyapunov(Start, Exponents, Option<Section>),
-    /// A branch, and those that begin on it.
+    /// A branch and the branches that begin on it.
     Branch(Branches),
     /// A curve of events.
     Curve(EventCurve),
-    /// Where a motion exists and where it is stable.
+    /// The regions where a motion exists and where it is stable.
     Region(Regions),
 }
 
 /// Computes the result of a plan: every point of a grid, without refinement.
 ///
-/// `control.stop` is read at every point of a grid, every event of a motion, every seed of a search for orbits, every step round
-/// a region and every point of a branch or curve.
+/// `control.stop` is read at every point of a grid, every event of a motion, every seed of a search for orbits, every
+/// step along the boundary of a region, and every point of a branch or curve.
 ///
 /// ```
 /// use vibroimpact_study::{Control, Plan, Results, run};
@@ -56,8 +56,8 @@ pub enum Results {
 /// ```
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense, or when stopped. Exponents over axes have no single result: they are a
-/// [`Study`](crate::Study).
+/// [`RunError`] for an invalid plan, or when stopped. A plan for exponents over axes is an error too, because it has no
+/// single result; it is computed as a [`Study`](crate::Study).
 pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
     plan.check()?;
     let system = &plan.system;

@@ -1,4 +1,4 @@
-//! The events of one motion, up to a number of impacts or forcing periods, and why there are no more.
+//! The events of one motion, up to a number of impacts or forcing periods, and the reason why the list ends.
 
 use crate::{Control, Stopped};
 use vibroimpact::flight::SearchLimits;
@@ -6,33 +6,34 @@ use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::verdict::NoImpact;
 use vibroimpact::{Oscillator, Start};
 
-/// Impacts where neither a number of them nor of periods is given.
+/// Number of impacts if neither impacts nor periods are given.
 const DEFAULT_IMPACTS: u64 = 100;
-/// Impacts where only a number of periods is given.
+/// Number of impacts if only a number of periods is given.
 const MOST_IMPACTS: u64 = 1_000_000;
-/// Grazes, sticks and releases without an impact in between before nothing new is expected.
+/// Number of consecutive grazing contacts, sticks and releases without an impact after which the motion is not followed
+/// further.
 const IDLE: u32 = 1000;
 
-/// What happened and why it ended there.
+/// The events of a motion and the reason why the list ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulated {
-    /// What happened, in order.
+    /// The events, in order.
     pub events: Vec<Event>,
-    /// Why it ended there: `impact_limit`, `time_limit`, `no_more_impacts`, `stuck` or `search_limit`.
+    /// The reason why the list ends: `impact_limit`, `time_limit`, `no_more_impacts`, `stuck` or `search_limit`.
     pub reason: &'static str,
-    /// When.
+    /// The time at which the list ends.
     pub time: f64,
-    /// On what grounds there are no more impacts.
+    /// Why there are no more impacts, if this is decided.
     pub horizon: Option<NoImpact>,
 }
 
-/// The number of impacts that is meant where none is given.
+/// The number of impacts to follow, with defaults applied.
 #[must_use]
 pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
     impacts.unwrap_or(if periods.is_some() { MOST_IMPACTS } else { DEFAULT_IMPACTS })
 }
 
-/// Follows a motion up to a number of impacts and of forcing periods, where these are given.
+/// Follows a motion up to the given number of impacts and of forcing periods.
 pub(crate) fn simulate(
     osc: &Oscillator,
     start: Start,
@@ -74,7 +75,7 @@ pub(crate) fn simulate(
     Ok(Simulated { events, reason, time, horizon })
 }
 
-/// Why no further event came, `last` being the time of the last one.
+/// The reason why no further event came; `last` is the time of the last event.
 fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> (&'static str, f64, Option<NoImpact>) {
     match end {
         Some(End::Never(why)) => ("no_more_impacts", last, Some(NoImpact::Flight(why))),
@@ -83,7 +84,7 @@ fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> (&'static str,
         Some(End::NoneFor(time)) => {
             let periods = (time / period).floor();
             let horizon = Some(NoImpact::ForPeriods(periods));
-            // a search that reached its horizon, or one that ran out of steps before
+            // 999 or more: the search reached its horizon; otherwise it used up its steps before
             if periods >= 999.0 { ("no_more_impacts", last, horizon) } else { ("search_limit", last, horizon) }
         }
         None => ("search_limit", last, None),
@@ -91,7 +92,7 @@ fn ended(end: Option<End>, last: f64, until: f64, period: f64) -> (&'static str,
 }
 
 impl Simulated {
-    /// How long its waveform is worth looking at: a little beyond the last event when nothing follows it.
+    /// The time up to which a waveform is worth showing: a little beyond the last event if no event follows it.
     #[must_use]
     pub fn shown_until(&self, osc: &Oscillator) -> f64 {
         match self.reason {

@@ -26,23 +26,23 @@ impl Stretch {
         self.from..=self.to
     }
 
-    /// The plane of this and another parameter.
+    /// The plane of this parameter and another one.
     #[must_use]
     pub const fn frame(&self, other: &Self) -> Frame {
         Frame { parameters: (self.parameter, other.parameter), ranges: (self.range(), other.range()) }
     }
 }
 
-/// The least width of the side of a plane, over its values: it holds some 100 000 numbers then, and an edge of a polygon, a 200th of
-/// it, hundreds.
+/// Minimum width of a side of a plane, relative to its values. Such a side holds about 100 000 doubles, and an edge of
+/// a polygon, a 200th of it, holds hundreds.
 const NARROW: f64 = 2e-11;
-/// The least width: squares of its inverse are numbers.
+/// Minimum absolute width. The square of its inverse does not overflow.
 const NARROWEST: f64 = 1e-100;
 
-/// Checks that two stretches span a plane of legal systems.
+/// Checks that the ranges of two parameters span a plane of valid systems.
 ///
 /// # Errors
-/// [`PlanError`] for ends out of order or too close, a parameter that is there twice and a corner that is no legal system.
+/// [`PlanError`] for ends out of order or too close, for equal parameters, and for an invalid system at a corner.
 pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
     for stretch in [one, two] {
         if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {
@@ -52,7 +52,7 @@ pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> 
         let least = (NARROW * stretch.from.abs().max(stretch.to.abs())).max(NARROWEST);
         if stretch.to - stretch.from < least {
             let name = stretch.parameter.name();
-            // a little more, as it is written with two digits
+            // slightly more, because the message prints it with two digits
             return Err(PlanError::Narrow { name, from: stretch.from, to: stretch.to, least: 1.05 * least });
         }
     }

@@ -1,4 +1,4 @@
-//! The oscillator of a plan, and a start.
+//! The oscillator and the start of a plan.
 
 use crate::PlanError;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ impl SystemPlan {
     /// The checked oscillator.
     ///
     /// # Errors
-    /// [`PlanError`] names the parameter that makes no sense.
+    /// [`PlanError`] names the invalid parameter.
     pub fn oscillator(&self) -> Result<Oscillator, PlanError> {
         let osc = match (self.beta, self.inverse_beta) {
             (Some(beta), None) => Oscillator::new(beta, self.gap, self.restitution)?,
@@ -75,7 +75,7 @@ impl StartPlan {
     /// The checked start.
     ///
     /// # Errors
-    /// [`PlanError`] for a start beyond a stop or not finite.
+    /// [`PlanError`] for a start that lies beyond a stop or is not finite.
     pub fn start(&self, osc: &Oscillator) -> Result<Start, PlanError> {
         let x = self.x.unwrap_or_else(|| Start::at_rest(osc).x);
         Ok(Start::new(osc, x, self.v, self.phase)?)

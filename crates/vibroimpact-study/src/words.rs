@@ -1,6 +1,6 @@
-//! Counts in words.
+//! Counts as text.
 
-/// A count with its noun, which takes an `s` where there are several: `1 tile`, `0 tiles`.
+/// A count and its noun, with an `s` unless the count is 1: `1 tile`, `0 tiles`.
 ///
 /// ```
 /// use vibroimpact_study::counted;

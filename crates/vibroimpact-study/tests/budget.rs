@@ -3,7 +3,7 @@
 use vibroimpact::verdict::{SettleOptions, StartBox, scattered_starts, settle};
 use vibroimpact_study::SystemPlan;
 
-/// Systems over the paper's plane, damped or not, one stop or two.
+/// Systems in the plane of the paper, with and without damping, with one stop or two.
 fn systems() -> impl Iterator<Item = SystemPlan> {
     (0..400_u32).map(|k| {
         let part = |p: f64| (f64::from(k) * p).fract();

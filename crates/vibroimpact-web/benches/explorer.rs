@@ -1,7 +1,8 @@
-//! What a page waits for: its first picture, the whole plane at 1000 x 700 sharp, and the answer to a click.
+//! The waiting times of a user of the page: the first picture, the whole plane at 1000 x 700 in full resolution, and
+//! the answer to a click.
 //!
-//! `cargo bench -p vibroimpact-web`. Each time by a server that has answered nothing before, with as many tiles at a time as
-//! the page asks for; the network of a machine to itself is left out.
+//! Run it with `cargo bench -p vibroimpact-web`. Each time is measured with a new server, and with as many simultaneous
+//! requests for tiles as the page makes. Transfer over the network is not included.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
@@ -16,10 +17,10 @@ use vibroimpact_web::{Explorer, app};
 const PORT: u16 = 8411;
 /// The first view of the page.
 const VIEW: [(f64, f64); 2] = [(0.375, 2.025), (0.0, 5.0)];
-/// Points of a tile along each side, and those between two of the coarse picture.
+/// Number of points of a tile along each side, and distance between the points of the coarse picture.
 const SIDE: u32 = 128;
 const COARSE: u32 = 8;
-/// Requests for tiles under way at a time.
+/// Number of simultaneous requests for tiles.
 const ABREAST: usize = 3;
 
 async fn ask(router: axum::Router, path: &str, plan: String) -> usize {
@@ -32,7 +33,7 @@ async fn ask(router: axum::Router, path: &str, plan: String) -> usize {
     axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap().len()
 }
 
-/// A map over part of the plane: `count` points from `from`, `step` apart.
+/// A map over a part of the plane: `count` points from `from` with the distance `step`.
 fn map(from: (f64, f64), step: (f64, f64), count: (u32, u32), refine: &str) -> String {
     let over = |from: f64, step: f64, n: u32| format!("{from}:{}:{n}", from + step * f64::from(n - 1));
     let (x, y) = (over(from.0, step.0, count.0), over(from.1, step.1, count.1));
@@ -41,13 +42,13 @@ fn map(from: (f64, f64), step: (f64, f64), count: (u32, u32), refine: &str) -> S
     )
 }
 
-/// The distance of two pixels.
+/// The distance between two pixels.
 fn pixel() -> (f64, f64) {
     ((VIEW[0].1 - VIEW[0].0) / 1000.0, (VIEW[1].1 - VIEW[1].0) / 700.0)
 }
 
-/// The distance of two points of a tile, as the page has it: no larger than that of pixels, in eighth powers of two to the right, and so
-/// in its ratio upwards.
+/// The distance between two points of a tile, as the page computes it: at most that of pixels; a multiple of an eighth
+/// power of two in the abscissa, and of the same kind in the ratio of ordinate to abscissa.
 fn fine() -> (f64, f64) {
     let eighth = |x: f64| (8.0 * x.log2()).floor() / 8.0;
     let (dx, dy) = pixel();
@@ -64,7 +65,7 @@ async fn first_picture() {
 async fn sharp() {
     let (dx, dy) = fine();
     let router = app(Explorer::new(PORT, 0));
-    // whole tiles of a grid through zero, as far as they are seen
+    // whole tiles of a grid through zero that cover the view
     let seen = |(from, to): (f64, f64), step: f64| {
         let wide = step * f64::from(SIDE);
         let tiles = (from / wide).floor()..(to / wide).ceil();
@@ -72,7 +73,7 @@ async fn sharp() {
             .take_while(move |k| *k < tiles.end)
             .map(move |k| k * wide)
     };
-    // half a step on, so that no point lies where there is no oscillator
+    // shifted by half a step, so that no point lies where there is no oscillator
     let place = |x: f64, y: f64| (x + 0.5 * dx, y + 0.5 * dy);
     let tiles: Vec<String> = seen(VIEW[1], dy)
         .flat_map(|y| seen(VIEW[0], dx).map(move |x| place(x, y)))
@@ -95,7 +96,7 @@ async fn sharp() {
     }
 }
 
-/// A click at S of the 1971 paper: the verdict, and the waveform.
+/// A click at S of the 1971 paper: the verdict and the waveform.
 async fn click() {
     let router = app(Explorer::new(PORT, 0));
     let plan = |task: &str| {

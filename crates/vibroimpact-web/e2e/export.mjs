@@ -1,4 +1,4 @@
-/** Every format of every view. */
+/** Tests of the export: every format of every view. */
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -44,7 +44,7 @@ export async function the_command_line_is_that_of_the_view({ open }) {
   }
 }
 
-/** The command of each panel draws that panel, and its table is of it. */
+/** The command and the table of each panel belong to that panel. */
 export async function f10_panels_export_what_they_show({ open }) {
   const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75", { acceptDownloads: true });
   await until("the panels are drawn", async () =>

@@ -1,4 +1,4 @@
-/** How it looks: sizes, light and dark, and what axe-core finds. */
+/** Tests of the appearance: sizes, light and dark, and accessibility with axe-core. */
 
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";

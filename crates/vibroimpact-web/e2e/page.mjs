@@ -1,8 +1,8 @@
-/** What the tests know about the page. */
+/** Common functions of the tests of the page. */
 
 import assert from "node:assert/strict";
 
-/** Waits until a condition holds, and says what it was otherwise. */
+/** Waits until a condition holds. After `seconds` it fails with the last value of the condition. */
 export async function until(what, condition, seconds = 40) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
@@ -23,10 +23,10 @@ export const legend = async (page) => new Map(await page.$$eval("#legend .legend
 /** Waits for the first picture of the plane. */
 export const drawn = (page) => until("the legend names motions", async () => (await legend(page)).size > 0);
 
-/** Waits until every tile in view is there. */
+/** Waits until every tile in view is drawn. */
 export const sharp = (page) => page.waitForSelector("#plane[data-complete]", { timeout: 120000 });
 
-/** The place of a point of the first view on the screen, by the ticks and frame of the plane as the page lays them out. */
+/** The position on the screen of a point of the first view, computed from the frame of the plane on the page. */
 export async function place(page, x, y, [left, right, bottom, top] = [0.375, 2.025, 0, 5]) {
   const box = await page.locator("#plane").boundingBox();
   const em = await page.evaluate(() => parseFloat(getComputedStyle(document.documentElement).fontSize));
@@ -41,7 +41,7 @@ export async function place(page, x, y, [left, right, bottom, top] = [0.375, 2.0
 /** The verdict in the panel. */
 export const verdict = (page) => page.locator(".verdict .label").textContent();
 
-/** Asks the server itself. */
+/** Sends a question directly to the server. */
 export async function answer(address, task, system) {
   const response = await fetch(`${address}api/answer`, {
     method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify({ version: 1, system, task }),

@@ -1,4 +1,4 @@
-/** The plane: tiles, zoom, hover, settings, address. */
+/** Tests of the plane: tiles, zoom, hover, settings, address. */
 
 import assert from "node:assert/strict";
 import { answer, drawn, hash, legend, place, sharp, until } from "./page.mjs";
@@ -40,7 +40,7 @@ export async function zooms_ten_levels({ open }) {
     return Math.abs(1.65 / (right - left) / 1024 - 1) < 0.01;
   }, 5);
   const [left, right, bottom, top] = await view();
-  // to a pixel of the first view
+  // accurate to a pixel of the first view
   assert.ok(Math.abs((left + right) / 2 - 1.11) < 0.004 && Math.abs((bottom + top) / 2 - 2.4) < 0.01, "the pointer stays where it is");
   await until("a sharp tile of that depth", () => tiles.some((over) => {
     const [from, to, count] = String(over).split(":").map(Number);
@@ -52,7 +52,7 @@ export async function zooms_ten_levels({ open }) {
 export async function one_axis_is_zoomed_alone({ open, folder }) {
   const { page } = await open("", { viewport: { width: 900, height: 700 } });
   await sharp(page);
-  // an entry of the history to go back to
+  // creates an entry in the history to go back to
   await page.mouse.click(...await place(page, 1.3, 1.5));
   await until("a point is chosen", async () => (await hash(page)).has("point"));
   const tiles = [];
@@ -79,7 +79,7 @@ export async function one_axis_is_zoomed_alone({ open, folder }) {
   const many = tiles.length;
   assert.ok(many > 0 && many <= 80, `${many} tiles for one gesture`);
   await page.screenshot({ path: `${folder}/one-axis.png` });
-  // upwards alone, from the keyboard, and back
+  // zooms the ordinate alone, from the keyboard, and back
   await page.locator("#plane canvas").last().focus();
   await page.keyboard.press("y");
   await until("half the height", async () => Math.abs((await view())[3] - (await view())[2] - 2.5) < 0.02, 5);
@@ -136,7 +136,7 @@ export async function hover_names_the_motion_the_server_settles_into({ open, add
 
 export async function at_most_three_tiles_are_under_way_and_those_out_of_view_are_given_up({ open }) {
   const { page } = await open();
-  // counted in the page: the browser tells of what it gave up only later
+  // counted in the page, because the browser reports cancelled requests only later
   await page.evaluate(() => {
     const original = globalThis.fetch;
     globalThis.count = { under: 0, most: 0, given: 0 };
@@ -179,7 +179,7 @@ export async function tiles_have_hardly_more_points_than_pixels({ open }) {
   const [x0, y0] = await place(page, 0, 0, [0, 1, 0, 1]);
   const [x1, y1] = await place(page, 1, 1, [0, 1, 0, 1]);
   const pixels = (x1 - x0) * (y0 - y1);
-  // whole tiles at the edges are some of it
+  // the surplus includes tiles at the edges, which are only partly visible
   assert.ok(points >= pixels && points < 1.6 * pixels, `${points} points for ${pixels} pixels`);
 }
 
@@ -188,7 +188,7 @@ export async function what_was_seen_is_not_asked_again({ open }) {
   await sharp(page);
   await page.locator("#zoom-in").click();
   await until("another level", async () => (await hash(page)).get("view") !== "1.05,1.15,2.2,2.5");
-  // its tiles are asked for a little later
+  // its tiles are requested a little later
   await page.waitForTimeout(1000);
   await sharp(page);
   const asked = [];
@@ -275,7 +275,7 @@ export async function looking_longer_decides_more_and_keeps_what_is_decided({ op
   await sharp(page);
   await until("less is not settled in 1000 impacts", async () => {
     const now = await share(1000)();
-    // false while tiles are on their way, which is less than any number
+    // false while tiles are loading; a comparison treats it as 0
     return now !== false && (now ?? before) < before;
   });
   const after = await share(1000)();

@@ -1,4 +1,4 @@
-/** The chosen point, its starts, and the line. */
+/** Tests of the chosen point, its starts, and the line. */
 
 import assert from "node:assert/strict";
 import { drawn, hash, place, until, verdict } from "./page.mjs";
@@ -88,7 +88,7 @@ export async function a_line_gives_a_bifurcation_diagram({ open, folder }) {
   await image.waitFor({ timeout: 120000 });
   assert.match(await image.getAttribute("alt"), /Bifurcation diagram: δ from .* 1\/β = 1\.11/);
   await page.screenshot({ path: `${folder}/line.png` });
-  // any other direction, and back to the first
+  // an oblique direction, then the first one again
   const oblique = await draw([1.3, 2.5], [1, 1]);
   assert.ok(near(oblique, [1.3, 2.5, 1, 1]), `as it was drawn: ${oblique}`);
   await until("the diagram of the oblique line", async () =>
@@ -118,7 +118,7 @@ export async function with_the_keyboard_alone({ open }) {
   for (let k = 0; k < 4; k++) await page.keyboard.press("ArrowUp");
   await page.keyboard.press("Enter");
   await until("a line was drawn", async () => (await hash(page)).has("line"));
-  // everything that can be operated is reached with Tab, and shows it
+  // every control can be reached with Tab and shows its focus
   const reached = new Set();
   await page.evaluate(() => document.body.focus());
   for (let k = 0; k < 90; k++) {
@@ -133,7 +133,7 @@ export async function with_the_keyboard_alone({ open }) {
 export async function f10_positions_on_a_line_are_positions({ open, folder }) {
   const { page } = await open("#line=1.3,0.7,1.3,1.2&panel=line");
   const image = page.locator("#line .sheet img");
-  // the page may not fetch its own pictures, so the answers are read on their way
+  // the policy of the page forbids it to fetch its own images, so the answers are intercepted
   const answers = [];
   page.on("response", (response) => {
     if (response.url().includes("/api/bifurcation")) response.text().then((text) => answers.push(text)).catch(() => {});

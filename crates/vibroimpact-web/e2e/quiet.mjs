@@ -1,27 +1,27 @@
-/** Nothing runs away: half a minute of zooming and clicking at random, then silence. */
+/** After half a minute of random zooming and clicking the server must become idle, with bounded memory. */
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 
-/** The process of the server, where whoever started it says which it is. */
+/** The process number of the server, if the caller has set it. */
 const PID = process.env.VIBRO_PID;
 /** Clock ticks of /proc in a second, on Linux. */
 const TICKS = 100;
 
-/** Processor seconds the server has used. */
+/** Processor time that the server has used, in seconds. */
 async function used() {
   const text = await readFile(`/proc/${PID}/stat`, "utf8");
   const fields = text.slice(text.lastIndexOf(")") + 2).split(" ");
   return (Number(fields[11]) + Number(fields[12])) / TICKS;
 }
 
-/** Megabytes the server holds. */
+/** Memory of the server in megabytes. */
 async function held() {
   const text = await readFile(`/proc/${PID}/status`, "utf8");
   return Number(/VmRSS:\s+(\d+)/.exec(text)[1]) / 1024;
 }
 
-/** The same numbers every time. */
+/** A generator of pseudorandom numbers that are the same in every run. */
 function dice(seed) {
   let state = seed;
   return () => {
@@ -71,7 +71,7 @@ export async function is_quiet_after_half_a_minute_of_zooming_and_clicking({ ope
     acts++;
   }
   assert.ok(acts > 50, `${acts} acts`);
-  // what is left then is the view that is seen, which becomes sharp
+  // the only remaining work is for the current view, which is drawn in full resolution
   const sharp = await untilIdle(60);
   assert.ok(Number.isFinite(sharp), "the server is busy a minute after the last act");
   for (let k = 0; k < 10; k++) await act();

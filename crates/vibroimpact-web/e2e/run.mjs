@@ -1,7 +1,7 @@
 /**
  * The tests of the page: `node run.mjs http://127.0.0.1:8411/ [folder for screenshots] [part of a name]`.
  *
- * Needs a running `vibro explore` and Chromium, whose path CHROMIUM gives where it is not /usr/bin/chromium.
+ * Needs a running `vibro explore` and Chromium. The variable CHROMIUM has its path if it is not /usr/bin/chromium.
  */
 
 import { chromium } from "playwright-core";
@@ -30,7 +30,7 @@ const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? 
 let passed = 0;
 let failed = 0;
 
-/** Everything that the page complains about; a test that expects complaints empties the list. */
+/** Opens the page and collects its errors. A test that expects errors empties the list. */
 async function open(hash = "", options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   const page = await context.newPage();

@@ -1,9 +1,9 @@
-/** The tour of the paper. */
+/** Tests of the tour of the paper. */
 
 import assert from "node:assert/strict";
 import { drawn, hash, until, verdict } from "./page.mjs";
 
-/** What the paper's points settle into, or null where no point is chosen. */
+/** The verdicts at the points of the paper; null for steps without a chosen point. */
 const VERDICTS = [null, "4/1", null, null, null, "2/1", "1/2", "chaotic"];
 
 export async function the_tour_goes_through_all_steps({ open, folder }) {

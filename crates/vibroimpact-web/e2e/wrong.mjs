@@ -1,15 +1,15 @@
-/** What goes wrong is said. */
+/** Tests of error messages. */
 
 import assert from "node:assert/strict";
 import { drawn, until } from "./page.mjs";
 
 export async function what_the_server_refuses_is_said({ open }) {
-  // the second stop leaves the mass no room at the chosen point
+  // with this second stop there is no room for the mass at the chosen point
   const { page, complaints } = await open("#point=1&gap=0.5&second=1&second_gap=-1");
   await until("the sentence of the server", async () => /leave the mass no room/.test(await page.locator("#strip").textContent()));
   await page.locator("#strip button", { hasText: "Close" }).click();
   assert.ok(await page.locator("#strip").isHidden());
-  // the browser itself notes every answer that is an error
+  // the browser reports every answer with an error status
   complaints.splice(0, complaints.length, ...complaints.filter((one) => !/status of 4\d\d/.test(one)));
 }
 

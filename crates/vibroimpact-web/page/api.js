@@ -1,9 +1,9 @@
-/** Questions to the server, with errors as the sentences it gives. */
+/** Requests to the server. Errors have the messages of the server. */
 
-/** The server refused, and says why. */
+/** The server refused the request; the message states the reason. */
 export class ServerError extends Error {}
 
-/** The server does not answer any more. */
+/** The server does not answer. */
 export class ServerGone extends Error {
   constructor() {
     super("The server has stopped; start `vibro explore` again.");
@@ -27,7 +27,7 @@ async function ask(path, { body, signal, accept } = {}) {
   throw new ServerError(told?.error ?? `The server answered ${response.status} ${response.statusText}.`);
 }
 
-/** What the body of an answer holds; a connection that breaks on the way is a server that is gone. */
+/** The body of an answer. An interrupted connection is reported as `ServerGone`. */
 async function whole(reading) {
   try {
     return await reading;
@@ -44,7 +44,7 @@ const withQuery = (path, query) => {
 export const about = async () => (await ask("/api/about")).json();
 
 /**
- * A tile: its header, and its fields as typed arrays by name.
+ * Requests a tile. Returns its header and its fields as typed arrays by name.
  * @param {object} plan
  * @param {AbortSignal} [signal]
  */
@@ -61,7 +61,7 @@ export async function tile(plan, signal) {
   return { header, fields };
 }
 
-/** Server-sent events of an answer, one after another. */
+/** The server-sent events of an answer, in order. */
 async function* events(response) {
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   let text = "";
@@ -90,7 +90,7 @@ async function told(path, plan, signal, onProgress) {
   throw new ServerGone();
 }
 
-/** @returns {Promise<object>} what `vibro TASK --json` prints */
+/** @returns {Promise<object>} the object that `vibro TASK --json` prints */
 export const answer = (plan, signal, onProgress) => told("/api/answer", plan, signal, onProgress);
 
 /** @returns {Promise<{svg: string}>} the orbit diagram with its branches */
@@ -109,13 +109,13 @@ export const layer = (kind, plan, signal, onProgress) =>
  */
 export const figure = (plan, query, signal) => drawn("/api/figure", plan, query, signal);
 
-/** The same of the orbit diagram with its branches. */
+/** The figure of the orbit diagram with its branches; parameters as for `figure`. */
 export const bifurcationFigure = (plan, query, signal) => drawn("/api/bifurcation", plan, query, signal);
 
 const drawn = async (path, plan, query, signal) =>
   whole((await ask(withQuery(path, query), { body: plan, signal })).blob());
 
-/** @param {string} [kind] the view of a settled motion that the table is of */
+/** @param {string} [kind] the view of a settled motion whose table is requested */
 export const table = async (plan, kind, signal) => whole((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob());
 
 /**

@@ -1,4 +1,4 @@
-/** Puts the page together. */
+/** Creates the parts of the page and connects them. */
 
 import { about } from "./api.js";
 import { learn } from "./colours.js";
@@ -60,7 +60,7 @@ readout();
 line.refresh();
 greet().finally(() => point.refresh(null));
 
-/** The points of the paper and the colours of motions come from the server. */
+/** Gets the points of the paper and the colours of motions from the server. */
 async function greet() {
   try {
     const { points, version, groups } = await about();
@@ -72,7 +72,7 @@ async function greet() {
   }
 }
 
-/** Which panel is beside the plane. */
+/** Shows the chosen panel beside the plane. */
 function panels() {
   const show = () => {
     const { panel, point: chosen } = store.state;
@@ -99,7 +99,7 @@ function toolbar() {
   byId("whole").addEventListener("click", () => store.set({ view: null }));
 }
 
-/** The line below the plane: what is at the pointer, how far the tiles are, the numeric limit. */
+/** The line below the plane: the motion at the pointer, the progress of the tiles, the numeric limit of the zoom. */
 function readout() {
   const said = byId("readout");
   const spoken = debounced((text) => say(text), 400);

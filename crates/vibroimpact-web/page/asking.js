@@ -1,17 +1,17 @@
-/** Tiles and coarse pictures asked of the server: where their points are, cut to what is legal. */
+/** Requests for tiles and coarse pictures: the positions of their points, restricted to legal values. */
 
 import { tile as ask } from "./api.js";
 import { over } from "./plans.js";
 import { SIDE, STRIPE, Tile } from "./tiles.js";
 
-/** Points of the coarse picture, about, and the pixels between them at least. */
+/** Approximate number of points of the coarse picture, and minimum distance between them in pixels. */
 const COARSE_POINTS = 9000;
 const COARSE_PIXELS = 8;
 
-/** Points between which a tile is refined: every so many-th is computed first. */
+/** Step of the refinement of a tile: every point with this distance is computed first. */
 const REFINE = 8;
 
-/** The cells of `count` points from `first` on at a distance `h` whose centres are legal. */
+/** The cells with legal centres, among `count` cells that begin at `first` and have the size `h`. */
 function cut(first, h, count, [least, most], open) {
   const centre = (k) => (first + k + 0.5) * h;
   let [begin, end] = [0, count];
@@ -21,7 +21,7 @@ function cut(first, h, count, [least, most], open) {
 }
 
 /**
- * A tile of a level, the one of that column and row.
+ * Requests the tile of a level with the given column and row.
  * @param {import("./tileview.js").TileView} view
  * @param {string} key
  * @param {number} level
@@ -37,7 +37,7 @@ export function askTile(view, key, level, [column, row], signal) {
   return { key, source, tile: filled({ source, key, level, shape, hx, hy, across, up }, REFINE, signal) };
 }
 
-/** A few points over all that is in view. */
+/** Requests the coarse picture: a few points over the whole view. */
 export function askCoarse(view, key, signal) {
   const { source, viewport: v } = view;
   const pixels = Math.max(COARSE_PIXELS, Math.sqrt((v.width * v.height) / COARSE_POINTS));

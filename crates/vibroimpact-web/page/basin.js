@@ -1,4 +1,4 @@
-/** The basin of the chosen point: which motion each start leads to, with the chosen start to be dragged. */
+/** The basin of the chosen point: the motion to which each start leads. The chosen start can be dragged. */
 
 import { START } from "./parameters.js";
 import { basinPlan, room, startOf, systemOf } from "./plans.js";
@@ -8,10 +8,10 @@ import { TileView } from "./tileview.js";
 import { Viewport } from "./viewport.js";
 import { legendText } from "./words.js";
 
-/** Numbers of cycles begin here, beyond all codes of labels. */
+/** Numbers of cycles begin here, above all codes of labels. */
 const CYCLES = 2_000_000_000;
 
-/** The colour of the k-th cycle of a label: darker and lighter in turn. */
+/** The colour of the k-th cycle of a label: alternately darker and lighter. */
 function shade(colour, k) {
   if (k === 0) return colour;
   const rgb = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
@@ -21,7 +21,7 @@ function shade(colour, k) {
   return `#${rgb.map((v) => Math.round(v + part * (towards - v)).toString(16).padStart(2, "0")).join("")}`;
 }
 
-/** Cycles seen so far, numbered in the order of their appearance. */
+/** The cycles found so far, numbered in the order of their appearance. */
 class Cycles {
   constructor() {
     this.list = [];
@@ -45,7 +45,7 @@ class Cycles {
   }
 }
 
-/** @param {import("./state.js").State} state @returns {number[]} what the basin shows first */
+/** @param {import("./state.js").State} state @returns {number[]} the initial window of the basin */
 export function basinWindow(state) {
   const [lowest, highest] = room(state);
   if (Number.isFinite(lowest) && lowest < highest) {
@@ -76,7 +76,7 @@ export class Basin {
     this.view.addEventListener("home", () => store.set({ basin: null }));
   }
 
-  /** Shows the basin of the state, nothing where no point is chosen. */
+  /** Shows the basin of the chosen point; nothing if no point is chosen. */
   refresh() {
     const { state } = this.store;
     const source = this.source();
@@ -147,7 +147,7 @@ export class Basin {
     this.heard.dropped(this.legal(px));
   }
 
-  /** The start at a pixel, within the stops. */
+  /** The start at a pixel, restricted to positions within the stops. */
   legal(px) {
     const { viewport: v } = this.view;
     const [x, y] = v.toPlane(...px);

@@ -1,4 +1,4 @@
-/** Colours of labels, as the server gives them: by the label itself where a tile had it, else by its group. */
+/** Colours of labels from the server: that of the label if a tile contained it, or else that of its group. */
 
 import { GROUP_RULES } from "./tables.js";
 
@@ -14,7 +14,7 @@ function group(label) {
   return GROUP_RULES.find(holds)?.at(-1) ?? "other";
 }
 
-/** @param {{name: string, colour: string}[]} looks that are known from now on */
+/** @param {{name: string, colour: string}[]} looks names and colours to add */
 export function learn(looks) {
   for (const { name, colour } of looks) byLabel.set(name, colour);
 }

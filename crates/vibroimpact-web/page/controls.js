@@ -1,4 +1,4 @@
-/** Sliders and fields of what is on no axis, axes, starts, budget. */
+/** Sliders and fields for parameters on no axis, and controls for axes, starts and budget. */
 
 import { byId, debounced, element } from "./dom.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
@@ -47,7 +47,7 @@ function choice(store, name, options) {
     ...options.map(([value, text]) => element("option", { value, text })));
 }
 
-/** The slider of the starts per point; the plane is computed when it is let go, as every start costs as much as the first. */
+/** The slider of the starts per point. The plane is computed only when it is released, because every start takes equally long. */
 function startsPerPoint(store) {
   const said = element("output", { for: "starts" });
   const range = element("input", {
@@ -65,7 +65,7 @@ function startsPerPoint(store) {
   return { box, show };
 }
 
-/** The slider and field of a parameter; shown where it is on no axis. */
+/** The slider and field of a parameter; shown only if it is on no axis. */
 function parameter(store, name) {
   const { symbol, words, slider: [from, to, step], least, most } = PARAMETERS[name];
   const live = debounced((value) => store.set(patchOf(name, value), "quiet"), 60);
@@ -78,7 +78,7 @@ function parameter(store, name) {
     },
     onchange: (event) => {
       const value = Number(event.target.value);
-      // after what the slider still has to say
+      // after the last events of the slider
       setTimeout(() => commit(value), 70);
     },
   });
@@ -107,7 +107,7 @@ function showParameter(state, name, { box, range, field }) {
   field.setAttribute("aria-invalid", "false");
 }
 
-/** Which parameter is on which axis. */
+/** The controls that choose the parameter of each axis. */
 function axes(store) {
   const selects = ["x", "y"].map((axis) => element("select", {
     id: `axis-${axis}`, "aria-label": axis === "x" ? "Parameter to the right" : "Parameter upwards",
@@ -125,7 +125,7 @@ function axes(store) {
   show();
 }
 
-/** Puts a parameter on an axis; the other axis gives way where both cannot be. */
+/** Puts a parameter on an axis. The other axis changes if the combination is not possible. */
 function turn(store, axis, name) {
   const { state } = store;
   const [other, had] = axis === "x" ? ["y", state.y] : ["x", state.x];

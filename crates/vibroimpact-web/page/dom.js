@@ -1,5 +1,5 @@
 /**
- * An element with attributes and children; `on...` are listeners, `class`, `text` what they say.
+ * An element with attributes and children. `on...` are listeners; `class` and `text` set the class and the text.
  * @param {string} name
  * @param {Record<string, any>} [attributes]
  * @param {...(Node | string | null | undefined)} children
@@ -20,14 +20,14 @@ export function element(name, attributes = {}, ...children) {
 /** @param {string} id @returns {HTMLElement} */
 export const byId = (id) => document.getElementById(id);
 
-/** @param {string} colour @returns {HTMLElement} a patch of it */
+/** @param {string} colour @returns {HTMLElement} a small area of this colour */
 export function swatch(colour) {
   const patch = element("span", { class: "swatch", "aria-hidden": "true" });
   patch.style.backgroundColor = colour;
   return patch;
 }
 
-/** Calls `work` when nothing was asked for `delay` milliseconds. */
+/** Calls `work` when there was no call for `delay` milliseconds. */
 export function debounced(work, delay) {
   let timer = 0;
   return (...given) => {

@@ -1,4 +1,4 @@
-/** Export of what is shown: figure, table, command line, Python. */
+/** The export dialog: figure, table, command line, Python. */
 
 import * as api from "./api.js";
 import { byId, element } from "./dom.js";
@@ -7,10 +7,10 @@ import {
   attractorsPlan, basinPlan, diagramPlan, lyapunovPlan, mapPlan, over, settlePlan, simulatePlan, within,
 } from "./plans.js";
 
-/** Figures as on a page of a paper, in the units of the server. */
+/** Width of figures for print, in the units of the server. */
 const WIDTH = 1000;
 
-/** Points of a view along each axis. */
+/** Numbers of points along each axis of a view. */
 const POINTS = [100, 200, 400, 800];
 
 export class Export {
@@ -53,7 +53,7 @@ export class Export {
     return { box, code };
   }
 
-  /** What can be exported now: name, plan, kind of figure. */
+  /** The views that can be exported now: name, plan, kind of figure. */
   list() {
     const { state } = this.store;
     const n = Number(this.points.value);
@@ -81,7 +81,7 @@ export class Export {
     return Object.fromEntries(Object.entries(views).filter(([, view]) => !view.needs || view.needs()));
   }
 
-  /** @param {string} view the one chosen first */
+  /** @param {string} view the view selected initially */
   open(view) {
     const views = this.list();
     this.choice.replaceChildren(...Object.entries(views).map(([value, { name }]) => element("option", { value, text: name })));

@@ -1,10 +1,10 @@
-/** A figure drawn by the server, of the size of its place; of several asked for quickly the newest is shown. */
+/** A figure drawn by the server in the size of its place. Of several requests in quick succession, the newest is shown. */
 
 import { ServerError, figure as askFigure } from "./api.js";
 import { element } from "./dom.js";
 import { Latest } from "./latest.js";
 
-/** Height of text in a figure's own units, and on the page in parts of the page's text. */
+/** Height of text in the units of a figure, and on the page relative to the text of the page. */
 const TEXT = 20;
 const SMALLER = 0.77;
 
@@ -33,19 +33,19 @@ export class Figure {
   /**
    * @param {object} plan
    * @param {{kind?: string, alt: string}} about
-   * @param {boolean} [instead] of what is under way
+   * @param {boolean} [instead] whether to cancel the current request
    */
   show(plan, about, instead = false) {
     this.box.hidden = false;
     this.asked.ask({ plan, about }, instead);
   }
 
-  /** Shows an SVG that is here already. */
+  /** Shows an SVG that is already available. */
   async put(svg, alt) {
     await this.place(new Blob([svg], { type: "image/svg+xml" }), alt);
   }
 
-  /** Width and height to ask for, in the figure's units. */
+  /** Width and height to request, in the units of the figure. */
   get size() {
     const css = this.box.getBoundingClientRect().width || 400;
     const text = parseFloat(getComputedStyle(this.box).fontSize) * SMALLER;

@@ -1,4 +1,4 @@
-/** Draws a tile view: the picture, what lies outside the legal range, axes, crosshair. */
+/** Draws a tile view: the picture, the shading outside the legal range, axes, crosshair. */
 
 import { ticks } from "./ticks.js";
 
@@ -11,7 +11,7 @@ export class Frame {
     this.view = view;
   }
 
-  /** Leaves room for the axes, by the size of the text. */
+  /** Computes the margins for the axes from the size of the text. */
   measure() {
     const { view } = this;
     if (!view.size) return;
@@ -51,7 +51,7 @@ export class Frame {
     this.over();
   }
 
-  /** A pixel of the canvas, rounded so that tiles meet without a seam. */
+  /** A position on the canvas, rounded to pixels so that tiles join without a seam. */
   place(x, y) {
     const [px, py] = this.view.viewport.toPixel(x, y);
     return [Math.round((px + this.left) * this.view.density), Math.round((py + this.top) * this.view.density)];
@@ -62,14 +62,14 @@ export class Frame {
     const [x0, y1] = this.place(tile.x0, tile.y0);
     const [x1, y0] = this.place(tile.x0 + tile.columns * tile.hx, tile.y0 + tile.rows * tile.hy);
     if (x1 <= 0 || y1 <= 0 || x0 >= view.picture.width || y0 >= view.picture.height) return;
-    // stripes of coarse cells would look like motions
+    // no stripes in coarse cells, because they would look like regions of motions
     tile.paint(view.highlight, view.stripes && tile.level !== -Infinity);
     context.imageSmoothingEnabled = x1 - x0 < tile.columns;
     context.imageSmoothingQuality = "high";
     context.drawImage(tile.canvas, x0, y0, x1 - x0, y1 - y0);
   }
 
-  /** Shades what no oscillator has, or no start can be. */
+  /** Shades the area with values that are not legal for an oscillator or a start. */
   outside(context) {
     const { view } = this;
     const { x: [x0, x1], y: [y0, y1] } = view.source.legal;

@@ -1,6 +1,6 @@
 /** Pointer, wheel, touch and keyboard on a tile view. */
 
-/** Pixels a press may move and still be a click. */
+/** Maximum movement of a press, in pixels, that still counts as a click. */
 const STILL = 4;
 
 /** @param {import("./tileview.js").TileView} view */
@@ -112,13 +112,13 @@ export function gestures(view) {
   surface.addEventListener("keydown", (event) => keyed(view, event));
 }
 
-/** The axis in the strip of whose numbers a pixel lies; null in the plane and in the corner. */
+/** The axis whose strip of numbers contains a pixel; null in the plane and in the corner. */
 function axisAt(view, [px, py]) {
   const [left, below] = [px < 0, py > view.viewport.height];
   return left === below ? null : left ? "y" : "x";
 }
 
-/** Where two fingers are, and how far apart. */
+/** The midpoint of two fingers and their distance. */
 function spread(fingers) {
   const [[ax, ay], [bx, by]] = [...fingers.values()];
   return { x: (ax + bx) / 2, y: (ay + by) / 2, size: Math.max(10, Math.hypot(ax - bx, ay - by)) };
@@ -130,14 +130,14 @@ function pick(view, px) {
   view.dispatchEvent(new CustomEvent("pick", { detail: px }));
 }
 
-/** Zooms, and tells where the numeric limit is met. Every moment has tiles of its own: they are asked for at the end of the gesture. */
+/** Zooms, and reports if the numeric limit is reached. Tiles are requested only at the end of the gesture. */
 function zoom(view, levels, px, along = null) {
   const limited = view.viewport.zoom(levels, px[0], px[1], view.density, along);
   view.dispatchEvent(new CustomEvent("limit", { detail: limited }));
   view.draw();
 }
 
-/** Zooms in a few frames, at once where motion is unwelcome. */
+/** Zooms in a few frames, or at once if the user prefers reduced motion. */
 export function glide(view, levels, px = [view.viewport.width / 2, view.viewport.height / 2], along = null) {
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
   const frames = still ? 1 : 9;

@@ -1,4 +1,4 @@
-/** Keys of the page, and the dialog that tells them. */
+/** The keys of the page, and the dialog that lists them. */
 
 import { byId, element } from "./dom.js";
 

@@ -1,4 +1,4 @@
-/** One question at a time: of several asked in the meantime only the newest is put. */
+/** Runs one request at a time. Of several requests in the meantime, only the newest is sent. */
 export class Latest {
   /**
    * @param {(argument: any, signal: AbortSignal) => Promise<void>} work
@@ -12,9 +12,9 @@ export class Latest {
   }
 
   /**
-   * Asks after the question that is under way, or instead of it.
+   * Sends a request after the current one, or instead of it.
    * @param {any} argument
-   * @param {boolean} [instead] give up the one under way
+   * @param {boolean} [instead] whether to cancel the current one
    */
   ask(argument, instead = false) {
     if (this.running) {
@@ -36,7 +36,7 @@ export class Latest {
       });
   }
 
-  /** Gives up what is under way and what waits. */
+  /** Cancels the current and the waiting request. */
   stop() {
     this.next = null;
     this.running?.abort();

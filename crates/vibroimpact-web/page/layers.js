@@ -1,4 +1,4 @@
-/** What lies over the plane: boundaries of regions, the amplitude without stops, points of the paper. */
+/** The layers over the plane: boundaries of regions, the amplitude of the motion without impacts, points of the paper. */
 
 import { layer } from "./api.js";
 import { byId, debounced, element } from "./dom.js";
@@ -13,9 +13,9 @@ const NAMES = {
   stripes: "stripes for coexistence",
 };
 
-/** A layer is asked for again when the view is this much smaller than what it was computed for. */
+/** A layer is requested again if the view is smaller than its window by this factor. */
 const SHARPER = 3;
-/** And computed for a window this much larger than the view. */
+/** A layer is computed for a window that extends beyond the view by this fraction on each side. */
 const MARGIN = 0.25;
 
 export class Layers {
@@ -49,7 +49,7 @@ export class Layers {
     this.store.set({ layers: on ? [...others, name] : others });
   }
 
-  /** Why a layer cannot be shown, empty where it can. */
+  /** The reason why a layer cannot be shown; empty if it can. */
   hindered(name) {
     const { x, y } = this.store.state;
     if (name === "amplitude" && x !== "gap" && y !== "gap") return "needs the gap on an axis";
@@ -77,7 +77,7 @@ export class Layers {
     return JSON.stringify([state.x, state.y, systemOf(state, { [state.x]: 0, [state.y]: 0 })]);
   }
 
-  /** The window of the view with a margin, within what is legal. */
+  /** The window of the view with a margin, restricted to legal values. */
   wanted() {
     const [left, right, bottom, top] = this.plane.view.viewport.window();
     const { legal, x, y } = this.plane.view.source;

@@ -1,4 +1,4 @@
-/** The motions in view with their shares; pointing at one lets it alone keep its colour. */
+/** The legend: the motions in view with their shares. While one is pointed at, the others are grey. */
 
 import { element, swatch } from "./dom.js";
 import { shares } from "./shares.js";
@@ -6,7 +6,7 @@ import { longer } from "./state.js";
 import { grouped, percent } from "./ticks.js";
 import { legendText } from "./words.js";
 
-/** Motions told before the others are added up. */
+/** Maximum number of motions listed separately; the others are summed. */
 const SHOWN = 14;
 
 export class Legend {
@@ -41,7 +41,7 @@ export class Legend {
     this.refresh();
   }
 
-  /** Follows what is not settled for more impacts. */
+  /** Follows motions that have not settled for more impacts. */
   lookLonger() {
     this.store.set({ impacts: longer(this.store.state.impacts) });
   }
@@ -70,7 +70,7 @@ export class Legend {
     this.note.textContent = coarse ? "Shares so far; not all of it is computed." : "";
   }
 
-  /** Items are kept while they stay, so that focus is not lost. */
+  /** Updates the items. Items that remain are reused, so that the focus is not lost. */
   fill(shown) {
     const left = new Map(this.items);
     this.items.clear();
@@ -87,7 +87,7 @@ export class Legend {
     this.offer(shown.find(({ name }) => name === "undecided"));
   }
 
-  /** The button that looks longer, beside the item of what is not settled. */
+  /** The button that increases the budget, next to the item of motions that have not settled. */
   offer(open) {
     const next = longer(this.store.state.impacts);
     if (!next || !open) {

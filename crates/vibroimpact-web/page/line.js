@@ -1,4 +1,4 @@
-/** A line in the plane: drawn with the pointer or at the crosshair, and the bifurcation diagram along it. */
+/** A line in the plane, drawn with the pointer or the keyboard, and the bifurcation diagram along it. */
 
 import { bifurcation } from "./api.js";
 import { byId, element } from "./dom.js";
@@ -9,9 +9,9 @@ import { alongLine, diagramPlan } from "./plans.js";
 import { digits } from "./ticks.js";
 import { Viewport } from "./viewport.js";
 
-/** A line shorter than this many pixels is a slip. */
+/** A line shorter than this number of pixels is ignored. */
 const SHORTEST = 12;
-/** A line this close to level or upright, height to length, is meant to be so. */
+/** A line with a smaller slope than this, relative to an axis, is made parallel to that axis. */
 const LEVEL = 0.05;
 
 export class LineTool {
@@ -68,7 +68,7 @@ export class LineTool {
     };
   }
 
-  /** One end, then the other, with the keyboard. */
+  /** Sets one end of the line, then the other, with the keyboard. */
   entered(px) {
     const xy = this.plane.view.viewport.toPlane(...px);
     if (this.draft) {
@@ -80,7 +80,7 @@ export class LineTool {
     this.plane.view.draw();
   }
 
-  /** With values as a pixel needs them, and level or upright where that is meant. */
+  /** The ends rounded to the accuracy of a pixel, and made parallel to an axis if they are nearly so. */
   snapped(from, to) {
     const { viewport: v } = this.plane.view;
     const { state } = this.store;
@@ -151,7 +151,7 @@ export class LineTool {
       const ends = [viewport.toPixel(x0, y0), viewport.toPixel(x1, y1)];
       const [dx, dy] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
       const length = Math.hypot(dx, dy) || 1;
-      // a short stroke across each end
+      // a short mark across each end
       const [sx, sy] = [(-5 * dy) / length, (5 * dx) / length];
       for (const [colour, width] of [["#ffffff", 5], ["#b5221b", 2.4]]) {
         context.strokeStyle = colour;

@@ -1,10 +1,10 @@
-/** The quiet strip for what went wrong, and the live region for what is to be heard. */
+/** The strip for error messages, and the live region for screen readers. */
 
 import { about, ServerGone } from "./api.js";
 import { byId, element } from "./dom.js";
 
 export class Messages {
-  /** @param {() => void} again called when the server answers again, or the reader wants to try once more */
+  /** @param {() => void} again called when the server answers again, or the user wants to retry */
   constructor(again) {
     this.again = again;
     this.strip = byId("strip");
@@ -46,7 +46,7 @@ export class Messages {
     this.strip.replaceChildren();
   }
 
-  /** @param {string} text for those who listen */
+  /** @param {string} text message for screen readers */
   say(text) {
     this.live.textContent = text;
   }

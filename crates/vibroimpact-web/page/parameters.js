@@ -1,10 +1,10 @@
 /**
- * What can be on an axis: symbol, words, legal range, window shown first.
+ * The quantities that can be on an axis: symbol, description, legal range, initial window.
  *
  * @typedef {object} Coordinate
- * @property {string} symbol as it is written on an axis
- * @property {string} words what it is
- * @property {[number, number]} window shown first
+ * @property {string} symbol the symbol on an axis
+ * @property {string} words description
+ * @property {[number, number]} window initial window
  * @property {number} step size of a pixel at zoom level 0, a power of two
  * @property {number} least smallest legal value
  * @property {number} most largest legal value
@@ -69,7 +69,7 @@ export function legal(coordinate, value) {
 export const valueOf = (state, name) => (name === "beta" ? state.beta ?? 1 / state.inverse_beta : state[name]);
 
 /**
- * What changes of the state with a parameter: a frequency is kept as it was given.
+ * The change of the state that sets a parameter. A frequency keeps the form in which it was given.
  * @param {string} name
  * @param {number} value
  */

@@ -1,4 +1,4 @@
-/** The plane of two parameters: its source of tiles, what is pointed at, which point is chosen. */
+/** The plane of two parameters: its source of tiles, the point under the pointer, the chosen point. */
 
 import { learn } from "./colours.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
@@ -12,13 +12,13 @@ import { motionsText } from "./words.js";
 /** Parts of the state on which the tiles depend. */
 const DEPENDS = ["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts"];
 
-/** Pixels within which a click means a point of the paper. */
+/** Maximum distance, in pixels, of a click that selects a point of the paper. */
 const NEAR = 9;
 
-/** @param {import("./state.js").State} state @returns {Record<string, number | null>} values of both axes at a place */
+/** @param {import("./state.js").State} state @returns {Record<string, number | null>} the state values for a point of the plane */
 export const placed = (state, x, y) => ({ ...patchOf(state.x, x), ...patchOf(state.y, y) });
 
-/** @returns {number[]} what the plane shows first */
+/** @returns {number[]} the initial window of the plane */
 export const wholeWindow = (state) => [...PARAMETERS[state.x].window, ...PARAMETERS[state.y].window];
 
 export class Plane {
@@ -62,7 +62,7 @@ export class Plane {
     this.view.show(source, axes ? state.view ?? wholeWindow(state) : null);
   }
 
-  /** The view of the state is another than that on the screen: after back and forward, or a step of the tour. */
+  /** Called when the view of the state differs from that on the screen: after back and forward, or a step of the tour. */
   moved() {
     const { view } = this.store.state;
     const window = view ?? wholeWindow(this.store.state);
@@ -106,7 +106,7 @@ export class Plane {
     this.choose(placed(state, ...values));
   }
 
-  /** @param {Partial<import("./state.js").State>} values of the point chosen */
+  /** @param {Partial<import("./state.js").State>} values of the chosen point */
   choose(values) {
     const state = { ...this.store.state, ...values };
     const [lowest, highest] = room(state);
@@ -115,7 +115,7 @@ export class Plane {
     this.store.set({ ...values, point: true, panel: "point", start, basin });
   }
 
-  /** Points of the paper that lie in the plane that is shown, with their place. */
+  /** The points of the paper that lie in the current plane, with their positions. */
   visiblePoints() {
     const { state } = this.store;
     if (!state.layers.includes("paper") || state.second) return [];
@@ -150,7 +150,7 @@ export class Plane {
   }
 
   /**
-   * What is at a pixel, for the line below the plane.
+   * The motions at a pixel, for the line below the plane.
    * @returns {{place: string, motions: string, colour: string | null}}
    */
   tell(px) {

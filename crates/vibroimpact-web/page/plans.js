@@ -1,4 +1,4 @@
-/** Plans: what the server is asked, made of the state. */
+/** The plans sent to the server, made from the state. */
 
 import { PARAMETERS, START } from "./parameters.js";
 
@@ -52,14 +52,14 @@ export function basinPlan(state, overX, overY, refine) {
   return plan(systemOf(state), { basin });
 }
 
-/** @param {State} state @returns {{x: number, v: number, phase: number}} the chosen start, rest by default */
+/** @param {State} state @returns {{x: number, v: number, phase: number}} the chosen start; by default at rest */
 export function startOf(state) {
   const [lowest, highest] = room(state);
   const [x, v, phase] = state.start ?? [0, 0, 0];
   return { x: Math.min(highest, Math.max(lowest, x)), v, phase };
 }
 
-/** @param {State} state @returns {[number, number]} between which positions the mass can be */
+/** @param {State} state @returns {[number, number]} the range of positions of the mass */
 export const room = (state) => [state.second ? -state.second_gap : -Infinity, state.gap];
 
 export const settlePlan = (state) => plan(systemOf(state), { settle: { start: startOf(state) } });
@@ -73,7 +73,7 @@ export const lyapunovPlan = (state) =>
   plan(systemOf(state), { lyapunov: { start: startOf(state), impacts: 20000, transient: 1000, points: 2000 } });
 
 /**
- * The parameter along which the chosen line is longer, rising, and the other one.
+ * The two parameters along the chosen line. The first is the one in which the line is longer on the screen, with rising values.
  * @param {State} state
  * @returns {{parameter: string, from: number, to: number}[]}
  */
@@ -98,7 +98,7 @@ export function diagramPlan(state, count = 400) {
   return plan(system, { diagram });
 }
 
-/** Whether a value is legal in the plane, the stops leaving room included. */
+/** The legal range of a parameter in the plane, which must leave room between the stops. */
 export function legalRange(state, name) {
   const { least, most } = PARAMETERS[name] ?? START[name];
   if (!state.second) return [least, most];
@@ -108,8 +108,8 @@ export function legalRange(state, name) {
 }
 
 /**
- * The part of a window that is legal along one axis; ends that are not legal themselves are kept away from.
- * @param {[number, number]} range as `legalRange` gives it
+ * The legal part of a window along one axis. Excluded ends of the legal range are avoided.
+ * @param {[number, number]} range the result of `legalRange`
  * @param {import("./parameters.js").Coordinate} coordinate
  * @param {number} low
  * @param {number} high

@@ -19,7 +19,7 @@ export class Point {
    * @param {import("./state.js").Store} store
    * @param {import("./plane.js").Plane} plane
    * @param {{cache: object, queue: object, failed: (error: Error) => void}} parts
-   * @param {(text: string) => void} say to those who listen
+   * @param {(text: string) => void} say sends a message to screen readers
    * @param {(view: string) => void} exported opens the export of a view
    */
   constructor(store, plane, parts, say, exported) {
@@ -136,7 +136,7 @@ export class Point {
       this.wave.show(simulatePlan(state), { alt: "Waveform from the chosen start, with the stop and the impacts" });
       this.heavy.ask(structuredClone(state), true);
     }
-    // the panel may have been hidden until now, and without size
+    // the panel may have been hidden before, and have no size yet
     requestAnimationFrame(() => this.basin.refresh());
     if (changed?.has("start")) this.basin.view.draw();
   }
@@ -167,7 +167,7 @@ export class Point {
     this.say(`${motion.label}: ${meaning(motion)} ${stability(motion)}`);
   }
 
-  /** What takes longer: the motions that coexist, the steady motion, its stability. */
+  /** Loads the parts that take longer: the coexisting motions, the figures of the settled motion, its exponents. */
   async weigh(state, signal) {
     const told = await answer(attractorsPlan(state), signal);
     this.tellCoexisting(told);

@@ -1,12 +1,12 @@
-/** How much of a view each motion has. */
+/** The share of a view that each motion has. */
 
-/** Places of a view at which it is looked up while its tiles are not all there. */
+/** Number of sample positions along each axis while tiles of the view are missing. */
 const ACROSS = 120;
 const UP = 90;
 
 /**
  * @param {import("./tileview.js").TileView} view
- * @returns {{counts: Map<number, number>, coarse: boolean}} points by motion; coarse before all tiles are there
+ * @returns {{counts: Map<number, number>, coarse: boolean}} numbers of points by motion; `coarse` while tiles are missing
  */
 export function shares(view) {
   const level = view.level();
@@ -33,7 +33,7 @@ function ends(viewport) {
   return { left, right, bottom, top };
 }
 
-/** Looks places up in what suits best of what is known. */
+/** Samples the best available tiles at these positions. */
 function sample(view, counts) {
   const { left, right, bottom, top } = ends(view.viewport);
   const [wide, high] = [(right - left) / ACROSS, (top - bottom) / UP];

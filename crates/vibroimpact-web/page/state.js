@@ -1,12 +1,12 @@
 /**
- * The state of the page and its place in the address bar: everything that a link must bring back.
+ * The state of the page, and its form in the address: everything that a link must restore.
  *
  * @typedef {object} State
- * @property {string} x parameter to the right
- * @property {string} y parameter upwards
- * @property {number[] | null} view what is shown: left, right, bottom, top; null for the window shown first
+ * @property {string} x parameter of the abscissa
+ * @property {string} y parameter of the ordinate
+ * @property {number[] | null} view window: left, right, bottom, top; null for the initial window
  * @property {number} inverse_beta of the chosen point
- * @property {number | null} beta where the frequency was given so; its inverse then follows it
+ * @property {number | null} beta set if the frequency was given in this form; `inverse_beta` then follows it
  * @property {number} gap
  * @property {number} restitution
  * @property {number} damping
@@ -14,24 +14,24 @@
  * @property {number} second_gap
  * @property {number} second_restitution
  * @property {number} starts per point
- * @property {number} impacts to follow each start for
+ * @property {number} impacts budget for each start
  * @property {boolean} point whether a point is chosen
  * @property {number[] | null} start position, velocity, phase; null for rest
- * @property {number[] | null} basin what the basin shows
+ * @property {number[] | null} basin window of the basin
  * @property {string[]} layers switched on
  * @property {string} panel `point`, `line` or `none`
- * @property {number[] | null} line across and up where it begins, and where it ends
+ * @property {number[] | null} line x and y of its beginning, x and y of its end
  * @property {string} show of the line: `velocity` or `strobe`
  * @property {number} tour step, 0 for none
- * @property {string | null} theme `light` or `dark` where chosen
+ * @property {string | null} theme `light` or `dark` if chosen
  */
 
 import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
 
-/** Starts per point at most. */
+/** Maximum number of starts per point. */
 export const MOST_STARTS = 16;
 
-/** Impacts to follow each start for, at most; the last is what a verdict in full takes. */
+/** Budgets of impacts for each start; the last one is the full budget of a verdict. */
 export const BUDGETS = [200, 1000, 20000];
 
 /** @returns {number | undefined} the next larger budget */
@@ -68,7 +68,7 @@ const count = (least, most) => (text) => {
 };
 const flag = (text) => text === "1";
 
-/** How each part of the state is read; `undefined` is no value. */
+/** The parser of each part of the state; it returns `undefined` for an invalid value. */
 const READ = {
   x: oneOf(...Object.keys(PARAMETERS)),
   y: oneOf(...Object.keys(PARAMETERS)),
@@ -88,7 +88,7 @@ const READ = {
   theme: oneOf("light", "dark"),
 };
 
-/** @param {string} hash of an address @returns {State} what it says, defaults for the rest */
+/** @param {string} hash of an address @returns {State} its state, with defaults for missing parts */
 export function read(hash) {
   const state = structuredClone(DEFAULTS);
   for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
@@ -103,7 +103,7 @@ export function read(hash) {
   return state;
 }
 
-/** @param {State} state @returns {string} its hash, what is as in the defaults left out */
+/** @param {State} state @returns {string} its hash, without parts that have their default values */
 export function write(state) {
   const search = new URLSearchParams();
   for (const name of Object.keys(DEFAULTS)) {
@@ -115,7 +115,7 @@ export function write(state) {
   return search.size ? `#${search.toString().replaceAll("%2C", ",")}` : "";
 }
 
-/** The state and those who want to know when it changes. */
+/** The state, and the listeners for its changes. */
 export class Store {
   /** @param {Location} location @param {History} history */
   constructor(location, history) {
@@ -127,7 +127,7 @@ export class Store {
     addEventListener("popstate", () => this.replaceBy(read(location.hash)));
   }
 
-  /** @param {string[]} names @param {(state: State, changed: Set<string>) => void} listener called when one changes */
+  /** @param {string[]} names @param {(state: State, changed: Set<string>) => void} listener called when one of them changes */
   on(names, listener) {
     this.listeners.push({ names, listener });
   }
@@ -135,7 +135,7 @@ export class Store {
   /**
    * Changes parts of the state.
    * @param {Partial<State>} patch
-   * @param {"push" | "replace" | "quiet"} how it goes into the history; `quiet` leaves the address alone
+   * @param {"push" | "replace" | "quiet"} how to change the history; `quiet` does not change the address
    */
   set(patch, how = "push") {
     const changed = this.changes({ ...this.state, ...patch });

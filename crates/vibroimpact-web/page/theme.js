@@ -1,4 +1,4 @@
-/** Light or dark: as the system has it until the reader chooses. */
+/** Light or dark: the setting of the system until the user chooses. */
 
 const SYSTEM = matchMedia("(prefers-color-scheme: dark)");
 

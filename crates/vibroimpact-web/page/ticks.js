@@ -1,4 +1,4 @@
-/** Ticks of an axis, at any depth of zoom, and numbers as text. */
+/** Ticks of an axis at any zoom, and numbers as text. */
 
 const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
@@ -9,14 +9,14 @@ const minus = (text) => text.replace("-", "−");
 /**
  * @typedef {object} Ticks
  * @property {{value: number, text: string}[]} ticks
- * @property {string} offset what has to be added to every text, empty for nothing
+ * @property {string} offset number to be added to every text; empty if there is none
  */
 
 /**
  * Ticks at multiples of 1, 2 or 5 times a power of ten.
  * @param {number} low
  * @param {number} high
- * @param {number} most how many there is room for
+ * @param {number} most maximum number of ticks
  * @returns {Ticks}
  */
 export function ticks(low, high, most) {
@@ -26,7 +26,7 @@ export function ticks(low, high, most) {
   const exponent = factor === 10 ? power + 1 : power;
   const digit = factor === 10 ? 1 : factor;
   const decimals = Math.max(0, -exponent);
-  // at great depth labels hold what differs, the rest is told once
+  // at deep zoom the labels contain only the digits that differ; the offset contains the rest
   const deep = decimals > 5;
   const base = deep ? Number(low.toFixed(Math.max(0, decimals - 3))) : 0;
   const unit = deep ? -exponent - 1 : 0;
@@ -41,7 +41,7 @@ export function ticks(low, high, most) {
   return { ticks: found, offset };
 }
 
-/** @param {number} value @param {number} pixel the distance that must show @returns {string} */
+/** @param {number} value @param {number} pixel the difference that must be visible @returns {string} */
 export function digits(value, pixel) {
   return minus(value.toFixed(Math.min(17, Math.max(0, Math.ceil(-Math.log10(pixel))))));
 }

@@ -1,29 +1,29 @@
-/** Tiles of a plane, those that are kept, and the queue of those that are asked for. */
+/** Tiles of a plane, the cache of tiles, and the queue of requests. */
 
 /** Points of a tile along each axis. */
 export const SIDE = 128;
 
-/** Pixels after which the stripes of coexisting motions repeat. */
+/** Period of the stripes of coexisting motions, in pixels. */
 export const STRIPE = 12;
 
-/** @param {string} hex `#rrggbb` @returns {number} as a pixel of a canvas */
+/** @param {string} hex `#rrggbb` @returns {number} the value of a canvas pixel */
 const pixelOf = (hex) => {
   const rgb = parseInt(hex.slice(1), 16);
   return (0xff000000 | ((rgb & 0xff) << 16) | (rgb & 0xff00) | (rgb >> 16)) >>> 0;
 };
 
-/** What fades when another motion is pointed at: three quarters of the way to grey. */
+/** The colour of a motion while another one is pointed at: three quarters of the way to grey. */
 const faded = (pixel) => {
   const mix = (shift) => ((((pixel >>> shift) & 0xff) + 3 * 0xc4) >> 2) << shift;
   return (0xff000000 | mix(0) | mix(8) | mix(16)) >>> 0;
 };
 
 /**
- * Points on a grid, each with the motions found there.
+ * Points on a grid with their motions.
  *
- * `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell; `classes` holds `per` numbers of
- * motions for each point, -1 for none, rows from below; `shares` as many shares, or null. `look` gives a motion's colour;
- * `impacts` is the budget it was computed with.
+ * `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell. `classes` has `per` numbers of
+ * motions for each point (-1 for none), in rows from the bottom; `shares` has as many shares, or is null. `look` returns
+ * the name and colour of a motion; `impacts` is the budget of the computation.
  */
 export class Tile {
   constructor({ source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase }) {
@@ -64,9 +64,9 @@ export class Tile {
   }
 
   /**
-   * Paints the tile where it is not painted so already.
-   * @param {number | null} highlight the motion that alone keeps its colour
-   * @param {boolean} stripes whether coexisting motions share a point's neighbourhood
+   * Paints the tile, unless it is already painted in this way.
+   * @param {number | null} highlight the only motion that keeps its colour; null for all
+   * @param {boolean} stripes whether coexisting motions are drawn as stripes
    */
   paint(highlight, stripes) {
     const how = `${highlight}|${stripes}`;
@@ -95,7 +95,7 @@ export class Tile {
     context.putImageData(image, 0, 0);
   }
 
-  /** Which of the motions of a point its place in the stripes shows: as much of each as its share. */
+  /** The motion of a point that is drawn at a position in the stripes, according to the shares. */
   striped(at, place) {
     let rest = (((place + this.phase) % STRIPE) + 0.5) / STRIPE;
     let shown = at;
@@ -108,7 +108,7 @@ export class Tile {
   }
 }
 
-/** The tiles used last. */
+/** A cache of the most recently used tiles. */
 export class Cache {
   constructor(most = 400) {
     this.most = most;
@@ -136,15 +136,15 @@ export class Cache {
     }
   }
 
-  /** @returns {Tile[]} those of a source */
+  /** @returns {Tile[]} the tiles of a source */
   of(source) {
     return [...this.tiles.values()].filter((tile) => tile.source === source);
   }
 }
 
 /**
- * Questions that wait, the nearest first, a few under way at a time. Each owner says again and again which it wants;
- * what it wants no more is given up.
+ * A queue of requests in the order of their rank, with a few running at a time. Each owner repeatedly declares the
+ * requests it needs; requests that it no longer needs are cancelled.
  */
 export class Queue {
   constructor(most = 3) {
@@ -156,7 +156,7 @@ export class Queue {
 
   /**
    * @param {object} owner
-   * @param {{key: string, rank: number, run: (signal: AbortSignal) => Promise<void>}[]} jobs all that it wants
+   * @param {{key: string, rank: number, run: (signal: AbortSignal) => Promise<void>}[]} jobs all requests that it needs
    */
   want(owner, jobs) {
     const keys = new Set(jobs.map((job) => job.key));

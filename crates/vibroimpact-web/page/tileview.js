@@ -1,11 +1,11 @@
 /**
- * A plane of points on a canvas: tiles where they are known, coarse points where they are not yet, axes round it.
+ * A plane of points on a canvas: tiles where they are available, a coarse picture elsewhere, and axes.
  *
- * A `Source` says what is shown; gestures move the viewport; a painter may draw over it.
+ * A `Source` defines the contents; gestures move the viewport; a painter may draw over it.
  *
  * @typedef {object} Source
- * @property {string} key what the points depend on
- * @property {string[]} shallower keys of the same with smaller budgets: right where settled, and shown until more is known
+ * @property {string} key identifies everything on which the points depend
+ * @property {string[]} shallower keys of the same points with smaller budgets; correct where settled, and shown until better tiles exist
  * @property {number} impacts the budget
  * @property {import("./parameters.js").Coordinate} x
  * @property {import("./parameters.js").Coordinate} y
@@ -21,18 +21,18 @@ import { gestures } from "./gestures.js";
 import { SIDE } from "./tiles.js";
 import { Viewport } from "./viewport.js";
 
-/** Tiles in view at most; beyond, a coarser level does. */
+/** Maximum number of tiles in view; with more, a coarser level is used. */
 const MOST_TILES = 200;
-/** Coarse pictures kept. */
+/** Number of coarse pictures in the cache. */
 const COARSE_KEPT = 6;
-/** Places along each axis of a view at which it is looked whether something sharp is there already. */
+/** Number of positions along each axis at which the availability of sharp tiles is checked. */
 const PLACES = 8;
 
 export class TileView extends EventTarget {
   /**
    * @param {HTMLElement} host
    * @param {{cache: import("./tiles.js").Cache, queue: import("./tiles.js").Queue, label: string,
-   *   failed: (error: Error) => void, rank?: number}} parts the rank of its nearest tile in the queue
+   *   failed: (error: Error) => void, rank?: number}} parts rank: the rank of its nearest tile in the queue
    */
   constructor(host, { cache, queue, label, failed, rank = 10 }) {
     super();
@@ -54,22 +54,22 @@ export class TileView extends EventTarget {
     this.highlight = null;
     this.stripes = true;
     this.painters = [];
-    /** @type {((px: number[], xy: number[], touch: boolean) => object | null) | null} takes hold of something instead of panning */
+    /** @type {((px: number[], xy: number[], touch: boolean) => object | null) | null} returns what to drag instead of panning, or null */
     this.grab = null;
     this.pointer = null;
     this.home = null;
     gestures(this);
     new ResizeObserver(() => this.resize()).observe(host);
-    // another screen may have another density
+    // another screen may have another pixel density
     addEventListener("resize", () => this.resize());
   }
 
-  /** Device pixels a pixel, at most two. */
+  /** Device pixels per CSS pixel, at most two. */
   get density() {
     return Math.min(2, Math.max(1, devicePixelRatio || 1));
   }
 
-  /** @param {Source} source @param {number[] | null} window what to show, null for as before */
+  /** @param {Source} source @param {number[] | null} window the window to show; null for no change */
   show(source, window) {
     const moved = this.source && (this.source.x !== source.x || this.source.y !== source.y);
     if (source.key !== this.source?.key) {
@@ -107,32 +107,32 @@ export class TileView extends EventTarget {
     this.changed();
   }
 
-  /** The view moved, or what is shown is another. */
+  /** Called when the view or its contents have changed. */
   changed() {
     this.draw();
     if (!this.source || !this.sized || this.asking) return;
     this.asking = true;
-    // one question for all that happens in a frame or two
+    // all changes within a frame or two lead to one set of requests
     setTimeout(() => {
       this.asking = false;
       this.ask();
     }, 40);
   }
 
-  /** A gesture has ended. */
+  /** Called when a gesture has ended. */
   settled() {
     this.changed();
     this.dispatchEvent(new Event("view"));
   }
 
-  /** The level of tiles that suits the view. */
+  /** The level of tiles for the resolution of the view. */
   level() {
     let level = this.viewport.levelOf(this.density);
     while (this.grid(level).count > MOST_TILES) level--;
     return level;
   }
 
-  /** Which tiles of a level are in view. */
+  /** The ranges of tiles of a level that are in view. */
   grid(level) {
     const { viewport: v } = this;
     const wide = v.stepX * 2 ** -level * SIDE;
@@ -140,7 +140,7 @@ export class TileView extends EventTarget {
     const [left, top] = v.toPlane(0, 0);
     const [right, bottom] = v.toPlane(v.width, v.height);
     const [{ x: lx, y: ly }, clip] = [this.source.legal, (value, [least, most]) => Math.min(most, Math.max(least, value))];
-    // none where nothing in view is legal
+    // no tiles if the view contains no legal values
     const tiles = (from, to, size) => (from < to ? [Math.floor(from / size), Math.ceil(to / size)] : [0, 0]);
     const i = tiles(clip(left, lx), clip(right, lx), wide);
     const j = tiles(clip(bottom, ly), clip(top, ly), high);
@@ -151,7 +151,7 @@ export class TileView extends EventTarget {
     return `${this.source.key}|${this.viewport.shapeOf(level)}|${level}|${i}|${j}`;
   }
 
-  /** Wants what is in view and not known: coarse points first, then tiles from the pointer or the centre outwards. */
+  /** Requests missing parts of the view: the coarse picture first, then tiles from the pointer or the centre outwards. */
   ask() {
     const { viewport: v } = this;
     const level = this.level();
@@ -177,14 +177,14 @@ export class TileView extends EventTarget {
     this.dispatchEvent(new Event("tiles"));
   }
 
-  /** The coarse picture comes alone, before any tile; null where it is there, or finer than that is. */
+  /** The request for the coarse picture, which precedes all tiles; null if it or something finer is available. */
   coarseJob() {
     const key = `${this.source.key}|coarse|${this.viewport.window().join()}`;
     if (this.refused.has(key) || this.coarse.some((tile) => tile.key === key) || this.seen()) return null;
     return { key, rank: 0, run: (signal) => this.take(askCoarse(this, key, signal), signal) };
   }
 
-  /** The keys of a level's tiles in view. */
+  /** The keys of the tiles of a level that are in view. */
   *keys(level) {
     const { i, j } = this.grid(level);
     for (let b = j[0]; b < j[1]; b++) {
@@ -198,7 +198,7 @@ export class TileView extends EventTarget {
     return true;
   }
 
-  /** Whether tiles of half the resolution or more are all over the view, as far as can be told at a few places. */
+  /** Whether tiles of at least half the resolution cover the view, checked at a few positions. */
   seen() {
     const { viewport: v, source: { legal } } = this;
     const fine = (tile) => tile.hx * this.density < 2.1 * v.hx && tile.hy * this.density < 2.1 * v.hy;
@@ -211,7 +211,7 @@ export class TileView extends EventTarget {
     }));
   }
 
-  /** Takes what was asked for, or notes that it was refused. */
+  /** Stores the answer to a request, or records that it was refused. */
   async take(asked, signal) {
     const { key, source } = asked;
     try {
@@ -226,7 +226,7 @@ export class TileView extends EventTarget {
       this.failed(error);
     }
     if (this.source?.key === source.key) this.arrived();
-    // the next ones, now that the coarse picture is there or was refused
+    // request tiles now that the coarse picture is available or was refused
     if (key.includes("|coarse|")) this.changed();
   }
 
@@ -238,13 +238,13 @@ export class TileView extends EventTarget {
     this.dispatchEvent(new Event("tiles"));
   }
 
-  /** Asks again for what was refused. */
+  /** Repeats refused requests. */
   retry() {
     this.refused.clear();
     this.changed();
   }
 
-  /** @returns {Tile[]} all that is known of what is shown, in the order in which it is drawn: what suits best comes last */
+  /** @returns {Tile[]} all available tiles of the contents, in drawing order: the most suitable come last */
   known() {
     return this.knownOf(...this.source.shallower, this.source.key);
   }
@@ -253,7 +253,7 @@ export class TileView extends EventTarget {
   knownOf(...sources) {
     const level = this.level();
     const shape = this.viewport.shapeOf(level);
-    // what is as fine as wanted by both axes together, the finest of what is coarser, the coarsest of what is finer
+    // by resolution in both axes together: exact matches are best, then the finest of coarser tiles, the coarsest of finer ones
     const [fine, wanted] = [(tile) => tile.level + tile.shape / 2, level + shape / 2];
     const order = (tile) => {
       if (tile.level === level && tile.shape === shape) return Infinity;
@@ -274,7 +274,7 @@ export class TileView extends EventTarget {
     return { x, y, found };
   }
 
-  /** Draws soon. */
+  /** Schedules a drawing. */
   draw() {
     if (this.drawing) return;
     this.drawing = true;

@@ -3,7 +3,7 @@
 import { byId, element } from "./dom.js";
 import { DEFAULTS } from "./state.js";
 
-/** What all figures have in common. */
+/** The state common to all figures. */
 const PAPER = {
   x: "inverse_beta", y: "gap", view: null, beta: null, restitution: 0.5, damping: 0, second: false,
   start: null, basin: null, line: null, layers: ["paper", "stripes"], panel: "point", point: true,

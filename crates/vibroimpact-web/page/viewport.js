@@ -1,23 +1,23 @@
-/** A window on a plane: which coordinates are at which pixel. */
+/** A window of a plane: the mapping between coordinates and pixels. */
 
 /** Smallest distance of neighbouring points, in units in the last place of the coordinate. */
 const LEAST_ULPS = 8;
 /** Smallest zoom of an axis. */
 const LEAST_ZOOM = -5;
 /**
- * Levels of tiles, and shapes of their cells, are this far apart, in powers of two: tiles fit other views too, and have not many
- * more points than the view has pixels.
+ * Step between levels of tiles, and between shapes of their cells, in powers of two. With steps, tiles can be used in
+ * several views; with small steps, they have not many more points than the view has pixels.
  */
 const STEP = 1 / 8;
-/** A window comes with few digits: so little in the zoom or the shape is nothing. */
+/** Tolerance of zoom and shape, because a window in an address has few digits. */
 const SLACK = 1e-3;
 
-/** @param {number} x @returns {number} the distance of neighbouring doubles at `x` */
+/** @param {number} x @returns {number} the distance between neighbouring doubles at `x` */
 export const ulp = (x) => 2 ** (Math.floor(Math.log2(Math.max(Math.abs(x), 2 ** -1000))) - 52);
 
 export class Viewport {
   /**
-   * Its zoom is `z` to the right and `z + shape` upwards.
+   * The zoom of the abscissa is `z`, that of the ordinate `z + shape`.
    * @param {number} stepX size of a pixel at zoom 0
    * @param {number} stepY
    */
@@ -34,7 +34,7 @@ export class Viewport {
   }
 
   /**
-   * @param {number[]} window left, right, bottom, top: what is shown from now on
+   * @param {number[]} window the new window: left, right, bottom, top
    * @param {number} density device pixels a pixel
    */
   fit([left, right, bottom, top], density) {
@@ -70,13 +70,13 @@ export class Viewport {
   }
 
   /**
-   * Zooms by a number of levels, the point under the pixel staying where it is.
+   * Zooms by a number of levels about a pixel, whose coordinates do not change.
    * @param {number} levels
    * @param {number} px
    * @param {number} py
    * @param {number} density device pixels a pixel
-   * @param {"x" | "y" | null} [along] the axis that alone is zoomed; null for both
-   * @returns {boolean} whether the numeric limit was met
+   * @param {"x" | "y" | null} [along] the only axis to zoom; null for both
+   * @returns {boolean} whether the numeric limit was reached
    */
   zoom(levels, px, py, density, along = null) {
     const [x, y] = this.toPlane(px, py);
@@ -92,12 +92,12 @@ export class Viewport {
     return levels > most;
   }
 
-  /** The level of tiles whose cells are pixels of the screen across, or a little finer. */
+  /** The level of tiles whose cells have the width of a device pixel or are slightly finer. */
   levelOf(density) {
     return STEP * Math.ceil((this.z + Math.log2(density) - SLACK) / STEP);
   }
 
-  /** The shape of the cells of tiles of a level: that of the pixels or a little finer upwards, within the numeric limit. */
+  /** The shape of the cells of a level: that of the pixels or slightly finer in the ordinate, within the numeric limit. */
   shapeOf(level) {
     const steps = Math.ceil((this.shape - SLACK) / STEP);
     return STEP * Math.min(steps, Math.floor((this.limits()[1] - level) / STEP));
@@ -111,12 +111,12 @@ export class Viewport {
     ];
   }
 
-  /** The zooms of both axes beyond which neighbouring points of a tile are less than that apart. */
+  /** The zooms of both axes at which the points of tiles reach this limit. */
   deepest(density, zooms) {
     return this.limits(zooms).map((limit) => Math.floor(limit) - Math.log2(density));
   }
 
-  /** A value rounded to as few decimals as tell pixels apart. */
+  /** A value rounded to the fewest decimals that distinguish pixels. */
   static rounded(value, pixel) {
     const decimals = Math.min(17, Math.max(0, Math.ceil(-Math.log10(pixel))));
     const rounded = Number(value.toFixed(decimals));

@@ -1,4 +1,4 @@
-/** Verdicts in words. */
+/** Verdicts as text. */
 
 import { grouped, percent, short } from "./ticks.js";
 
@@ -10,7 +10,7 @@ const every = (n) => (n === 1 ? "every forcing period" : `every ${counted(n, "fo
 
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
-/** @param {string} label @returns {string} as it is written on the page */
+/** @param {string} label @returns {string} its text on the page */
 export const labelText = (label) => label.replace(/^inf\//, "∞/");
 
 /**
@@ -25,7 +25,7 @@ export function legendText(label, impacts) {
   return label;
 }
 
-/** @param {object} motion of an answer @returns {string} what it does, a sentence */
+/** @param {object} motion of an answer @returns {string} its meaning, as a sentence */
 export function meaning(motion) {
   const { kind, label } = motion;
   if (kind === "periodic") {
@@ -51,7 +51,7 @@ export function meaning(motion) {
 
 const complex = ([re, im]) => (im ? `${short(re)} ${im < 0 ? "−" : "+"} ${short(Math.abs(im))} i` : short(re));
 
-/** @param {object} motion @returns {string} its multipliers or exponents, empty where there are none */
+/** @param {object} motion @returns {string} its multipliers or exponents; empty if it has none */
 export function stability(motion) {
   const list = motion.multipliers;
   if (motion.kind === "chaotic") {
@@ -68,7 +68,7 @@ export function stability(motion) {
   return `${word}; multipliers ${told}.`;
 }
 
-/** Which motions a point has, most frequent first. */
+/** The motions of a point as text, the most frequent first. */
 export function motionsText(found) {
   const name = (motion) => legendText(motion.name, motion.impacts);
   if (found.length === 1) return name(found[0]);

@@ -1,18 +1,18 @@
-//! What may be asked at once. A page that is looked at needs no more, and what needs more is a study for `vibro run`.
+//! Limits for a single request. The page never needs more; larger questions are studies for `vibro run`.
 
 use crate::refusal::Refusal;
 use vibroimpact_study::{Plan, Task};
 
-/// Points of one grid: a screen full.
+/// Maximum number of points of one grid, about one for each pixel of a screen.
 pub(crate) const MOST_POINTS: u64 = 800_000;
-/// Starts settled for one answer, at all points together.
+/// Maximum number of starts settled for one answer, at all points together.
 pub(crate) const MOST_STARTS: u64 = 2_000_000;
-/// Impacts followed for one answer, where the plan says how many.
+/// Maximum number of impacts followed for one answer, if the plan sets the number.
 pub(crate) const MOST_IMPACTS: u64 = 2_000_000;
-/// Forcing periods of one waveform.
+/// Maximum number of forcing periods of one waveform.
 const MOST_PERIODS: f64 = 10_000.0;
 
-/// Refuses a plan of more than is computed here at once.
+/// Refuses a plan that exceeds the limits.
 pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
     let within = |what: &str, given: u64, most: u64| {
         if given <= most {
@@ -35,7 +35,7 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
             within("impacts", motions.saturating_mul(diagram.transient + diagram.keep), 20 * MOST_IMPACTS)
         }
         Task::Lyapunov(lyapunov) => {
-            // over axes they are a study, which is refused
+            // exponents over axes are a study, which is refused
             let impacts = lyapunov.impacts.saturating_add(lyapunov.transient);
             within("impacts", impacts.saturating_add(lyapunov.points.unwrap_or(0)), MOST_IMPACTS)
         }

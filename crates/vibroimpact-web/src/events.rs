@@ -10,13 +10,14 @@ use serde_json::{Value, json};
 use std::sync::Arc;
 use tokio::sync::mpsc;
 
-/// Between two tellings.
+/// Time between two events.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Points done, as the work reports them.
+/// Number of points done, as reported by the work.
 pub(crate) type Done = Arc<AtomicU64>;
 
-/// Answers with the events of `work`, which reports how many of `total` points are done. When the page goes away, the work stops.
+/// Answers with the events of `work`, which reports how many of `total` points are done. If the connection ends, the
+/// work stops.
 pub(crate) fn stream(
     total: u64,
     done: Done,
@@ -41,7 +42,7 @@ pub(crate) fn stream(
                 _ = pulse.tick() => {
                     let now = done.load(Ordering::Relaxed).min(total);
                     if told.replace(now) != Some(now) {
-                        // a reader that is slow gets the next one
+                        // if the reader is slow, this event is dropped; it gets a later one
                         let _ = events.try_send(event("progress", &json!({ "done": now, "total": total })));
                     }
                 }

@@ -1,4 +1,4 @@
-//! What all requests share.
+//! The data common to all requests.
 
 use crate::refusal::Refusal;
 use crate::workshop::{Bench, Workshop};
@@ -8,9 +8,9 @@ use quick_cache::sync::Cache;
 use std::sync::Arc;
 use vibroimpact_study::Control;
 
-/// Bytes of finished answers that are kept.
+/// Maximum size of the finished answers in the cache, in bytes.
 const CACHE: u64 = 96 << 20;
-/// What all requests share: finished answers, and the benches at which work is done.
+/// The data common to all requests: the cache of finished answers, and the workshop that limits simultaneous work.
 #[derive(Clone)]
 pub struct Explorer {
     port: u16,
@@ -28,20 +28,21 @@ impl Weighter<String, Bytes> for Weight {
 }
 
 impl Explorer {
-    /// An explorer at this port of the local machine that makes `threads` tiles at a time, as many as there are processors for 0.
+    /// An explorer at this port of the local machine that computes `threads` tiles at a time (0: one for each
+    /// processor).
     #[must_use]
     pub fn new(port: u16, threads: usize) -> Self {
-        // about this number of answers of the size of a tile fit
+        // an estimate of the number of answers of the size of a tile that fit
         let finished = Cache::with_weighter(2000, CACHE, Weight);
         Self { port, workshop: Arc::new(Workshop::with_threads(threads)), finished: Arc::new(finished) }
     }
 
-    /// Its port.
+    /// The port of the explorer.
     pub(crate) const fn port(&self) -> u16 {
         self.port
     }
 
-    /// What is known under a name already, or else the work that makes it, as [`Workshop::run`] does it.
+    /// The cached answer with this key, or else the result of the work that computes it, as by [`Workshop::run`].
     pub(crate) async fn once(
         &self,
         name: String,

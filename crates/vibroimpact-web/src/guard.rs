@@ -1,8 +1,8 @@
-//! Who may ask: this machine, from this page.
+//! Access control: only the page of the explorer on this machine may send requests.
 //!
-//! A page from elsewhere can send requests to a server on this machine. It cannot choose the name under which the browser
-//! asks (`Host`), nor hide where it comes from (`Origin`, `Sec-Fetch-Site`), nor send JSON without asking first; so all of
-//! these are looked at. Answers carry a policy under which the page loads nothing that is not from here.
+//! A foreign page can send requests to a server on this machine. It cannot choose the host name in the request
+//! (`Host`), hide its origin (`Origin`, `Sec-Fetch-Site`), or send JSON without permission. All of these are checked.
+//! Answers carry a policy that lets the page load only parts from this server.
 
 use crate::refusal::Refusal;
 use axum::extract::Request;
@@ -11,7 +11,7 @@ use axum::http::{HeaderMap, Method, StatusCode};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// What the page may do.
+/// The content security policy of the page.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; \
                       connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -34,7 +34,7 @@ pub(crate) async fn guard(port: u16, request: Request, next: Next) -> Response {
     response
 }
 
-/// The names of this machine to itself.
+/// The host names of this machine with the port.
 fn here(port: u16) -> [String; 3] {
     ["127.0.0.1", "localhost", "[::1]"].map(|name| format!("{name}:{port}"))
 }

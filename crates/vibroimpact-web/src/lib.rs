@@ -1,18 +1,18 @@
-//! The explorer: a local page on which the plane of motions is seen, and each of its points understood.
+//! The explorer: a local page that shows the plane of motions and explains each of its points.
 //!
-//! The page asks by plans, as the command and the Python package do, and draws what comes back; every number on it was
-//! computed here, by the same code. The server holds no state but finished answers: what the page shows is in its address.
+//! The page sends plans, like the command and the Python package, and draws the answers. Every number on it is computed
+//! by the same code. The server has no state except a cache of answers; the address of the page contains what it shows.
 //!
-//! | what | where |
+//! | part | file |
 //! |---|---|
-//! | who may ask: this machine, from this page | `guard.rs` |
-//! | what may be asked at once | `bounds.rs` |
-//! | work beside the server: how much at a time, for how long, and not for a page that has moved on | `workshop.rs` |
+//! | access control: requests only from the page on this machine | `guard.rs` |
+//! | limits for a single request | `bounds.rs` |
+//! | simultaneous work, its time limit, and its end when a request is cancelled | `workshop.rs` |
 //! | arrays as bytes | `packed.rs` |
-//! | how far long work is, as server-sent events | `events.rs` |
-//! | what is refused, and how that is said | `refusal.rs` |
-//! | the requests, one kind a file | `routes/` |
-//! | the address, connections and their end | `listen.rs` |
+//! | the progress of long work as server-sent events | `events.rs` |
+//! | refused requests and their messages | `refusal.rs` |
+//! | the requests, one file for each kind | `routes/` |
+//! | the address and the connections | `listen.rs` |
 //!
 //! ```
 //! use vibroimpact_web::{Explorer, app};
@@ -36,7 +36,7 @@ pub use listen::{BoundServer, PORT};
 use axum::extract::DefaultBodyLimit;
 use axum::{Router, middleware};
 
-/// Bytes of a request, far more than any plan takes.
+/// Maximum number of bytes of a request, far more than any plan needs.
 const MOST_BODY: usize = 64 << 10;
 
 /// The whole explorer as a service.

@@ -1,4 +1,4 @@
-//! The address, connections and their end.
+//! The address and the connections of the server.
 
 use crate::{Explorer, app};
 use core::net::{Ipv4Addr, SocketAddr};
@@ -15,18 +15,18 @@ use tower::Service;
 
 /// The default port.
 pub const PORT: u16 = 8411;
-/// Ports tried after a busy one, before any free one is taken.
+/// Number of further ports tried after a busy one, before any free port is taken.
 const NEXT: u16 = 20;
-/// How long a client may take to send its head, and a connection rest between two requests.
+/// Time limit for a client to send the head of a request, and for an idle connection.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// How long a connection lasts, and then how long its last answer may take to be read.
+/// Time limit of a connection, and after that for the reading of its last answer.
 const EXCHANGE: Duration = Duration::from_secs(300);
-/// Between two looks whether it is to end.
+/// Time between two checks of the stop flag.
 const PULSE: Duration = Duration::from_millis(50);
-/// Connections at a time; a browser opens six.
+/// Maximum number of simultaneous connections; a browser opens six.
 const CONNECTIONS: usize = 600;
 
-/// An explorer with its address, not yet answering.
+/// An explorer that has an address but does not answer yet.
 #[derive(Debug)]
 pub struct BoundServer {
     listener: std::net::TcpListener,
@@ -34,10 +34,11 @@ pub struct BoundServer {
 }
 
 impl BoundServer {
-    /// Takes a port of the loopback interface: the one asked for or, if that is busy, one of the next, or any. 0 is any.
+    /// Binds a port of the loopback interface: the requested one or, if it is busy, one of the next, or any free one. 0
+    /// requests any free port.
     ///
     /// # Errors
-    /// When no port can be had.
+    /// If no port is available.
     pub fn new(port: u16) -> io::Result<Self> {
         let ports = if port == 0 { vec![0] } else { (port..=port.saturating_add(NEXT)).chain([0]).collect() };
         let mut result = Err(io::Error::from(io::ErrorKind::AddrInUse));
@@ -52,17 +53,17 @@ impl BoundServer {
         Ok(Self { address: listener.local_addr()?, listener })
     }
 
-    /// Where the page is.
+    /// The address of the page.
     #[must_use]
     pub fn url(&self) -> String {
         format!("http://{}/", self.address)
     }
 
-    /// Answers until `stop` is set; what is under way is then broken off. `threads` tiles are made at a time, as many as there are
-    /// processors for 0.
+    /// Answers requests until `stop` is set; unfinished ones are then aborted. `threads` tiles are computed at a time
+    /// (0: one for each processor).
     ///
     /// # Errors
-    /// When the operating system takes the address or refuses threads.
+    /// If the operating system withdraws the address or cannot start threads.
     pub fn serve(self, threads: usize, stop: &AtomicBool) -> io::Result<()> {
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build()?;
         let result = runtime.block_on(async {
@@ -71,7 +72,7 @@ impl BoundServer {
                 () = set(stop) => Ok(()),
             }
         });
-        // work that was asked to stop ends by itself
+        // work that was asked to stop ends without further action
         runtime.shutdown_timeout(Duration::from_millis(500));
         result
     }
@@ -90,13 +91,13 @@ async fn accept(bound: BoundServer, threads: usize) -> io::Result<()> {
     loop {
         let stream = match listener.accept().await {
             Ok((stream, _)) => stream,
-            // no more files, or a client that is gone already: others are still served
+            // no more file handles, or a client that is already gone: other clients are still served
             Err(_) => {
                 tokio::time::sleep(Duration::from_millis(20)).await;
                 continue;
             }
         };
-        // one too many is hung up on at once
+        // a connection above the maximum is closed at once
         let Ok(place) = places.clone().try_acquire_owned() else { continue };
         let mut service = service.clone();
         tokio::spawn(async move {
@@ -107,10 +108,10 @@ async fn accept(bound: BoundServer, threads: usize) -> io::Result<()> {
             let connection = builder.serve_connection(TokioIo::new(stream), TowerToHyperService::new(answer));
             tokio::pin!(connection);
             tokio::select! {
-                // a client that breaks off is no fault
+                // a client that closes the connection is not an error
                 _ = &mut connection => {}
                 () = tokio::time::sleep(EXCHANGE) => {
-                    // what is under way is still answered, but no reader may take for ever
+                    // the current request is still answered, but with a time limit for the reader
                     connection.as_mut().graceful_shutdown();
                     let _ = tokio::time::timeout(EXCHANGE, connection).await;
                 }

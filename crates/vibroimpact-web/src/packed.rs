@@ -1,7 +1,8 @@
-//! The arrays of a plane as bytes: a header as JSON, then the numbers, little-endian.
+//! The arrays of a plane as bytes: a JSON header, then the numbers in little-endian order.
 //!
-//! Four bytes give the length of the header, which is padded so that the numbers begin at a multiple of eight. It names the
-//! fields with their types and places, every label that occurs with its colour, and for a basin its cycles.
+//! The first four bytes are the length of the header, which is padded so that the numbers begin at a multiple of eight
+//! bytes. The header contains the fields with their types and positions, every label that occurs with its colour, and
+//! for a basin its cycles.
 
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -9,17 +10,17 @@ use vibroimpact_plot::class_style;
 use vibroimpact_study::study::{Cells, NOT_COMPUTED, Sheet, StudyTable, label_of};
 use vibroimpact_study::{Column, Field};
 
-/// Fields that the page draws; the others of a study are for tables.
+/// The fields that the page draws. Other fields of a study are only for tables.
 const DRAWN: [&str; 4] = ["label", "share", "cycle", "computed"];
 
 #[derive(Serialize)]
 struct Header<'a> {
-    /// Rows and columns, the first row at the lowest value.
+    /// Numbers of rows and columns; the first row has the lowest value.
     shape: Vec<usize>,
     fields: Vec<Place<'a>>,
     labels: BTreeMap<i32, Named>,
     cycles: Vec<Cycle>,
-    /// The part of the points that were computed themselves.
+    /// The share of the points that were computed (as opposed to filled by refinement).
     computed: f64,
 }
 
@@ -33,7 +34,7 @@ struct Place<'a> {
     length: usize,
 }
 
-/// A label and its colour, the same as in every figure.
+/// A label and its colour, which is the same in every figure.
 #[derive(Clone, Serialize)]
 pub(crate) struct Named {
     name: String,
@@ -46,7 +47,7 @@ impl Named {
     }
 }
 
-/// What distinguishes cycles of one label: their fastest impact.
+/// The fastest impact of a cycle, which distinguishes cycles with the same label.
 #[derive(Serialize)]
 struct Cycle {
     label: String,
@@ -56,7 +57,7 @@ struct Cycle {
     colour: String,
 }
 
-/// All of it as bytes.
+/// The bytes of a sheet.
 pub(crate) fn pack(sheet: &Sheet) -> Vec<u8> {
     let grid = sheet.study.grid();
     let mut body = Vec::new();
@@ -82,14 +83,14 @@ pub(crate) fn pack(sheet: &Sheet) -> Vec<u8> {
             _ => {}
         }
     }
-    // numbers, texts and lists of them are always JSON
+    // numbers, texts and lists of them can always be written as JSON
     let mut text = serde_json::to_vec(&header).unwrap_or_default();
     text.resize((4 + text.len()).next_multiple_of(8) - 4, b' ');
     let length = u32::try_from(text.len()).unwrap_or(u32::MAX);
     [&length.to_le_bytes(), text.as_slice(), body.as_slice()].concat()
 }
 
-/// Writes a column, at a multiple of eight.
+/// Writes a column, beginning at a multiple of eight bytes.
 fn place<'a>(field: &'a Field, column: &Column, body: &mut Vec<u8>) -> Place<'a> {
     body.resize(body.len().next_multiple_of(8), 0);
     let offset = body.len();
@@ -163,7 +164,7 @@ mod tests {
         body[at..at + 4 * count].chunks(4).map(|four| i32::from_le_bytes(four.try_into().unwrap())).collect()
     }
 
-    /// S of the 1971 paper has two motions; every start leads to one of them.
+    /// S of the 1971 paper has two motions, and every start leads to one of them.
     #[test]
     fn a_basin() {
         let axes = r#"[{"vary":"x","over":"-2:0.75:13"},{"vary":"v","over":"-2:2:9"}]"#;

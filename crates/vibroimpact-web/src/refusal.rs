@@ -1,4 +1,4 @@
-//! What is refused, and how that is said: a status and one sentence, perhaps with a hint, as JSON.
+//! Refused requests: a status, and a message with an optional hint as JSON.
 
 use axum::Json;
 use axum::http::StatusCode;
@@ -6,7 +6,7 @@ use axum::response::{IntoResponse, Response};
 use serde_json::json;
 use vibroimpact_study::{PlanError, RunError};
 
-/// Why a request has no answer.
+/// The reason why a request has no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refusal {
     pub(crate) status: StatusCode,
@@ -18,22 +18,22 @@ impl Refusal {
         Self { status, sentence: sentence.into() }
     }
 
-    /// A question that makes no sense.
+    /// An invalid question.
     pub(crate) fn bad(sentence: impl Into<String>) -> Self {
         Self::new(StatusCode::BAD_REQUEST, sentence)
     }
 
-    /// A question that makes sense and is too much here.
+    /// A valid question that exceeds the limits.
     pub(crate) fn too_much(sentence: impl Into<String>) -> Self {
         Self::new(StatusCode::UNPROCESSABLE_ENTITY, sentence)
     }
 
-    /// A fault of this program.
+    /// An internal error of this program.
     pub(crate) fn fault(what: &str) -> Self {
         Self::new(StatusCode::INTERNAL_SERVER_ERROR, format!("a fault of this program: {what}; please report it"))
     }
 
-    /// The object that goes over the wire.
+    /// The JSON object of the answer.
     pub(crate) fn object(&self) -> serde_json::Value {
         json!({ "error": self.sentence })
     }
@@ -54,7 +54,7 @@ impl From<PlanError> for Refusal {
 impl From<RunError> for Refusal {
     fn from(error: RunError) -> Self {
         match error {
-            // the client has gone
+            // the client has closed the connection
             RunError::Stopped(stopped) => Self::new(StatusCode::REQUEST_TIMEOUT, stopped.to_string()),
             other => Self::bad(other.to_string()),
         }

@@ -1,7 +1,8 @@
-//! Work beside the server: so much at a time, for so long, and not for a page that has moved on.
+//! The computations of the server: limits of their number and time, and their end when a request is cancelled.
 //!
-//! Two kinds of benches, so that a click is answered while tiles are made. Work whose client has gone is stopped, and
-//! its bench is free again when it has; so there is never more of it than benches.
+//! There are two kinds of places (benches) for work, so that a click is answered while tiles are computed. If a client
+//! closes its connection, its work is stopped, and its place becomes free when the work has ended. So the number of
+//! simultaneous computations never exceeds the number of places.
 
 use crate::refusal::Refusal;
 use axum::http::StatusCode;
@@ -11,30 +12,30 @@ use std::sync::Arc;
 use tokio::sync::Semaphore;
 use vibroimpact_study::Control;
 
-/// Which benches.
+/// The kinds of places for work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Bench {
-    /// Tiles of planes, as many at a time as there are processors.
+    /// For tiles of planes; as many at a time as there are processors.
     Tiles,
-    /// Answers about a point or a line.
+    /// For answers about a point or a line.
     Answers,
 }
 
-/// Requests that may wait for a bench, of each kind.
+/// Maximum number of requests that wait for a place, for each kind.
 const MOST_WAITING: usize = 64;
-/// Answers worked on at a time.
+/// Number of simultaneous answers.
 const ANSWERS: usize = 4;
-/// How long one request is worked on.
+/// Time limit for the work on one request.
 const LIMIT: Duration = Duration::from_secs(120);
 
-/// All benches.
+/// All places for work.
 pub(crate) struct Workshop {
     benches: [Arc<Semaphore>; 2],
     waiting: [AtomicUsize; 2],
     limit: Duration,
 }
 
-/// Processors of this machine.
+/// Number of processors of this machine.
 pub(crate) fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
@@ -48,7 +49,7 @@ impl Drop for StopOnDrop {
     }
 }
 
-/// One more that waits.
+/// Counts a waiting request.
 struct Waiting<'a>(&'a AtomicUsize);
 
 impl<'a> Waiting<'a> {
@@ -72,7 +73,7 @@ impl Drop for Waiting<'_> {
 }
 
 impl Workshop {
-    /// Benches for this number of tiles at a time, as many as there are processors for 0.
+    /// Places for this number of simultaneous tiles (0: one for each processor).
     pub(crate) fn with_threads(threads: usize) -> Self {
         Self::new(if threads == 0 { processors() } else { threads }, ANSWERS, LIMIT)
     }
@@ -82,8 +83,8 @@ impl Workshop {
         Self { benches, waiting: [AtomicUsize::new(0), AtomicUsize::new(0)], limit }
     }
 
-    /// Does a piece of work on `threads` threads (0 for one per processor), telling `progress` of points done. Dropping the
-    /// future stops it.
+    /// Runs work on `threads` threads (0 for one per processor), and reports the number of points done in `progress`.
+    /// The work stops when the future is dropped.
     pub(crate) async fn run<T: Send + 'static>(
         &self,
         bench: Bench,
@@ -94,7 +95,7 @@ impl Workshop {
         let place = bench as usize;
         let permit = {
             let _waiting = Waiting::enter(&self.waiting[place])?;
-            // benches are never closed
+            // the semaphores are never closed
             self.benches[place].clone().acquire_owned().await.map_err(|_| Refusal::fault("no bench"))?
         };
         let stop = StopOnDrop(Arc::new(AtomicBool::new(false)));
@@ -119,7 +120,7 @@ impl Workshop {
 mod tests {
     use super::*;
 
-    /// Works until it is stopped.
+    /// Runs until it is stopped.
     fn endless(control: &Control<'_>, ended: &AtomicBool) -> Result<(), Refusal> {
         while !control.stopping() {
             std::thread::sleep(Duration::from_millis(1));

@@ -1,4 +1,4 @@
-//! Every kind of request, asked as the page asks it, gives what it names.
+//! Tests of every kind of request, sent as the page sends it.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use axum::body::{Body, to_bytes};
@@ -70,7 +70,7 @@ async fn figures_of_every_kind() {
     assert_eq!(status, 404, "{}", String::from_utf8_lossy(&body));
 }
 
-/// A diagram with the branches found on its line, and with those that were named.
+/// A diagram with the branches found on its line, and one with the branches of given labels.
 #[tokio::test]
 async fn a_bifurcation_diagram() {
     for query in ["", "?labels=1/1,2/1&width=900&height=500"] {
@@ -116,7 +116,8 @@ async fn tables_commands_and_layers() {
     assert_eq!(ask("/api/layer?kind=regions&labels=1/0", MAP).await.0, 400);
 }
 
-/// Found by `cargo xtask fuzz`: a query or a path that does not read was refused in words of the parser, as no object.
+/// Found by `cargo xtask fuzz`: a query or a path that cannot be parsed was refused with the message of the parser, and
+/// not with an object.
 #[tokio::test]
 async fn fz3_every_refusal_is_an_object() {
     for path in [
@@ -134,7 +135,7 @@ async fn fz3_every_refusal_is_an_object() {
     }
 }
 
-/// The table and the command of a view are of that view; positions on a line are positions.
+/// The table and the command of a view belong to this view. Positions along a line are drawn as positions.
 #[tokio::test]
 async fn f10_a_view_has_its_own_table_and_command() {
     let settle = "vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5";

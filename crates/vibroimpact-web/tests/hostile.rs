@@ -1,4 +1,4 @@
-//! Hostile requests over a real socket: each gets a clear refusal, and the page goes on working.
+//! Hostile requests over a real socket: each is refused with a clear message, and the page continues to work.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use std::io::{Read, Write};
@@ -8,7 +8,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 use vibroimpact_web::BoundServer;
 
-/// A server of its own, on a port of its own.
+/// A server with its own port.
 struct Server {
     host: String,
     stop: &'static AtomicBool,
@@ -30,10 +30,10 @@ impl Server {
         stream
     }
 
-    /// Sends bytes as they are and returns the status and everything else.
+    /// Sends bytes unchanged, and returns the status and the rest of the answer.
     fn raw(&self, request: &[u8]) -> (u16, String) {
         let mut stream = self.connect();
-        // a server that has refused already may hang up in the middle
+        // a server that has already refused the request may close the connection
         let _ = stream.write_all(request);
         let mut answer = Vec::new();
         let _ = stream.read_to_end(&mut answer);
@@ -56,7 +56,7 @@ impl Server {
         )
     }
 
-    /// The page and an answer still come.
+    /// Checks that the page and an answer are still served.
     fn works(&self) {
         assert_eq!(self.get("/", "").0, 200);
         let (status, text) = self.post("/api/answer", &plan(r#""settle":{"start":{}}"#));
@@ -128,7 +128,7 @@ fn bodies_that_are_none() {
         server.raw(format!("POST /api/tile HTTP/1.1\r\nhost: {}\r\n{headers}\r\n{body}", server.host).as_bytes())
     };
     let json = "content-type: application/json\r\nconnection: close\r\n";
-    // a gigabyte announced, and one that is sent without an end in sight
+    // a gigabyte announced, and a body without end
     assert_eq!(post(&format!("{json}content-length: 1000000000\r\n"), &"x".repeat(200_000)).0, 413);
     let chunk = format!("10000\r\n{}\r\n", " ".repeat(0x10000));
     assert_eq!(post(&format!("{json}transfer-encoding: chunked\r\n"), &chunk.repeat(8)).0, 413);
@@ -164,7 +164,7 @@ fn plans_that_make_no_sense_or_are_too_much() {
     ] {
         for path in ["/api/tile", "/api/answer", "/api/figure", "/api/table"] {
             let (got, text) = server.post(path, &body);
-            // a plan that is no plane is refused as a tile for that reason, if it makes sense at all
+            // a plan that is no plane is refused as a tile for this reason, if it is valid
             assert_eq!(got, status, "{path} {body}: {text}");
             assert!(text.contains(sentence), "{path} {body}: {text}");
         }
@@ -176,7 +176,7 @@ fn plans_that_make_no_sense_or_are_too_much() {
     server.works();
 }
 
-/// Clients that send and read nothing, and a crowd of them, leave room for the page.
+/// Many clients that send or read nothing do not block the page.
 #[test]
 fn a_crowd_that_does_nothing() {
     let server = Server::begin();
@@ -186,7 +186,7 @@ fn a_crowd_that_does_nothing() {
             match k % 3 {
                 0 => {}
                 1 => stream.write_all(b"GET / HTTP/1.1\r\nhost: ").unwrap(),
-                // asks for much and never reads it
+                // sends a large request and never reads the answer
                 _ => {
                     let request = format!("GET /assets/style.css HTTP/1.1\r\nhost: {}\r\n\r\n", server.host);
                     for _ in 0..20 {
@@ -202,11 +202,11 @@ fn a_crowd_that_does_nothing() {
     server.works();
 }
 
-/// A page that goes away takes its work with it: the next tile does not wait for the last.
+/// If a page closes its connection, its work stops: the next tile does not wait for it.
 #[test]
 fn work_of_a_page_that_is_gone_ends() {
     let server = Server::begin();
-    // some minutes of work for the two benches there are
+    // some minutes of work for the two places
     let long = map("0.02:0.3:800", "0:0.4:800", "2").replace("\"impacts\":200", "\"impacts\":20000");
     let gone: Vec<TcpStream> = (0..6)
         .map(|_| {
@@ -226,7 +226,7 @@ fn work_of_a_page_that_is_gone_ends() {
     assert_eq!(status, 200, "{text}");
 }
 
-/// Progress, and the same answer at the end.
+/// Progress events, and the same answer at the end.
 #[test]
 fn long_work_is_told() {
     let server = Server::begin();

@@ -1,18 +1,19 @@
-//! Vibro-impact dynamics: oscillators that strike stops.
+//! Vibro-impact dynamics: oscillators with rigid stops.
 //!
 //! A mass on a spring, driven harmonically, strikes a rigid stop:
 //!
 //! $$`\ddot\xi + 2\zeta\dot\xi + \xi = \sin(\beta\tau + \varphi_0), \quad \xi \le \delta, \quad u_+ = -\varepsilon u_-.`$$
 //!
-//! This crate simulates such motions event by event in closed form, says what they settle into and confirms it, and finds
-//! periodic orbits whether stable or not. Three things it does that general solvers do not:
+//! This crate computes such motions event by event in closed form, decides and confirms which motion they settle into,
+//! and finds periodic orbits, stable or not. It differs from general solvers in three ways:
 //!
-//! - **no impact is missed** ([`flight::first_contact`]): the search only advances over times in which contact is proven impossible;
-//! - **chatter and sticking are completed** ([`contact`]): infinitely many impacts in finite time are summed with a bounded error,
-//!   the mass sticks, and is released where the force changes sign;
-//! - **verdicts are confirmed** ([`verdict::settle`]): a motion is called periodic when Newton's method on its impact map has
-//!   converged and the motion is captured by that cycle, chaotic when its Lyapunov exponent exceeds its error bar, free of impacts for a
-//!   stated reason, and else undecided.
+//! - **no impact is missed** ([`flight::first_contact`]): the search only advances over times in which contact is
+//!   proven impossible;
+//! - **chatter and sticking are completed** ([`contact`]): infinitely many impacts in finite time are summed with a
+//!   bounded error, the mass sticks, and it is released when the force changes sign;
+//! - **verdicts are confirmed** ([`verdict::settle`]): a motion is called periodic if Newton's method on its impact map
+//!   has converged and the motion is captured by that cycle, chaotic if its Lyapunov exponent exceeds its error bar,
+//!   free of impacts for a stated reason, and otherwise undecided.
 //!
 //! ```
 //! use vibroimpact::{Oscillator, Start, verdict::{SettleOptions, Verdict, settle}};
@@ -29,32 +30,34 @@
 //! # One direction of data
 //!
 //! [`Oscillator`] → [`Flight`](flight::Flight) → [`Contact`](flight::Contact) → [`Event`](motion::Event) →
-//! [`Motion`](motion::Motion) → [`Cycle`](orbit::Cycle) → [`Verdict`](verdict::Verdict). Each arrow is one function in one
-//! place; each name is a plain value that knows only what stands to its left. The crate is pure: values in, values out,
-//! no files, threads, clocks, randomness or logging, and the same bits on every platform ([`math`]).
+//! [`Motion`](motion::Motion) → [`Cycle`](orbit::Cycle) → [`Verdict`](verdict::Verdict). Each arrow is one function in
+//! one place; each name is a plain value that depends only on those to its left. The crate is pure: its functions
+//! compute values from values, without files, threads, clocks, randomness or logging, and the bits are the same on
+//! every platform ([`math`]).
 //!
-//! | you want | see |
+//! | topic | module |
 //! |---|---|
-//! | parameters, starts, kg and N and m | [`system`] |
-//! | the arc between impacts, the first contact | [`flight`] |
-//! | what happens at a stop | [`contact`] |
-//! | events one after another, impact map, stroboscopic map, waveforms | [`motion`] |
-//! | what a motion settles into, attractors and their shares | [`verdict`] |
+//! | parameters, starts, physical units | [`system`] |
+//! | the motion between impacts, the first contact | [`flight`] |
+//! | impact, chatter and sticking at a stop | [`contact`] |
+//! | events in order, impact map, stroboscopic map, waveforms | [`motion`] |
+//! | the motion after the transient, attractors and their shares | [`verdict`] |
 //! | many motions side by side | [`lanes`], [`verdict::settle_many`] |
 //! | periodic orbits, stable or not | [`orbit`] |
-//! | how they change with a parameter, and what ends or changes them | [`continuation`] |
+//! | how orbits change with a parameter, and the events on the way | [`continuation`] |
 //! | Lyapunov exponents, dimension, sections of an attractor | [`chaos`] |
 //! | the points of the 1971 paper | [`scenario`] |
 //!
 //! # Units
 //!
-//! Everything is nondimensional - lengths in static deflections $`F/k`$, times in $`1/\omega_n`$ - unless a name says
-//! otherwise; [`Machine`] converts from kg, N/m, N and Hz and back. Phases are in radians in $`[0, 2\pi)`$; speeds of
-//! arrival are positive.
+//! All quantities are nondimensional - lengths in static deflections $`F/k`$, times in $`1/\omega_n`$ - unless a name
+//! says otherwise. [`Machine`] converts from kg, N/m, N and Hz and back. Phases are in radians in $`[0, 2\pi)`$;
+//! arrival speeds are positive.
 //!
 //! # Source
 //!
-//! The model, the method and the names m/n are those of K. Fukaya and T. Irie, "On the Transient Oscillation of a Vibro-Impact
+//! The model, the method and the labels m/n are those of K. Fukaya and T. Irie, "On the Transient Oscillation of a
+//! Vibro-Impact
 //! System", Bulletin of the Faculty of Engineering, Hokkaido University 62 (1971) 31-39,
 //! <https://hdl.handle.net/2115/41063>.
 

@@ -1,4 +1,4 @@
-//! Other programs, always started in the root of the repository and never asking anything.
+//! Other programs, which are started in the root of the repository and never prompt.
 
 use std::io::{self, BufRead, BufReader, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -8,26 +8,26 @@ use serde_json::Value;
 
 /// The root of the repository this program was started in.
 pub(crate) fn root() -> PathBuf {
-    // cargo sets the variable at run time; what was compiled in serves a direct start
+    // cargo sets the variable at run time; the compiled value is used when the program is started without cargo
     let here =
         std::env::var_os("CARGO_MANIFEST_DIR").map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
     here.ancestors().nth(2).map_or(here.clone(), Path::to_path_buf)
 }
 
-/// The folder cargo builds in.
+/// The target folder of cargo.
 ///
 /// # Errors
-/// The sentence that says why cargo does not tell.
+/// An error message if cargo does not report it.
 pub(crate) fn target(root: &Path) -> Result<PathBuf, String> {
     let metadata = metadata(root, "--no-deps")?;
     let target = metadata["target_directory"].as_str().ok_or("`cargo metadata` names no target directory")?;
     Ok(PathBuf::from(target))
 }
 
-/// What cargo knows of the packages.
+/// The metadata of the packages from cargo.
 ///
 /// # Errors
-/// The sentence that says why cargo does not tell.
+/// An error message if cargo does not report them.
 pub(crate) fn metadata(root: &Path, switches: &str) -> Result<Value, String> {
     let output = words(root, &format!("cargo metadata --format-version 1 {switches}"))
         .stderr(Stdio::inherit())
@@ -40,12 +40,12 @@ pub(crate) fn metadata(root: &Path, switches: &str) -> Result<Value, String> {
         .map_err(|error| format!("the answer of `cargo metadata` cannot be read: {error}"))
 }
 
-/// A command written as one would type it: words parted by blanks, no quoting.
+/// A command from the line that a user would type: words separated by blanks, without quoting.
 pub(crate) fn words(root: &Path, line: &str) -> Command {
     let mut words = line.split_whitespace();
     let mut command = Command::new(words.next().unwrap_or_default());
     command.args(words).current_dir(root).stdin(Stdio::null());
-    // what cargo says of this program is nothing to another cargo: some build scripts would run again for it
+    // variables that cargo sets for this program are removed, because some build scripts would run again for them
     for (name, _) in std::env::vars_os() {
         let plain = name.to_string_lossy();
         if plain.starts_with("CARGO_PKG_") || plain.starts_with("CARGO_MANIFEST_") {
@@ -55,44 +55,43 @@ pub(crate) fn words(root: &Path, line: &str) -> Command {
     command
 }
 
-/// True where the command exists and succeeds; what it prints is dropped.
+/// Whether the command exists and succeeds. Its output is discarded.
 pub(crate) fn succeeds(root: &Path, line: &str) -> bool {
     words(root, line).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|status| status.success())
 }
 
-/// Runs a command that prints for itself.
+/// Runs a command with its own output.
 ///
 /// # Errors
-/// The sentence that says why it could not be started, or with what status it ended.
+/// An error message if it cannot be started, or with its exit status if it fails.
 pub(crate) fn run(mut command: Command) -> Result<(), String> {
     let outcome = command.status();
     verdict(&command, outcome)
 }
 
-/// Runs a command, passes every line on to the terminal at once, and shows it to `read`
-/// without its colours.
+/// Runs a command, copies every line to the terminal at once, and passes it to `read` without colours.
 ///
 /// # Errors
 /// As [`run`].
 pub(crate) fn run_reading(mut command: Command, mut read: impl FnMut(&str)) -> Result<(), String> {
     if io::stdout().is_terminal() {
-        // behind a pipe the tools would drop their colours
+        // without this, the tools would print no colours into a pipe
         command.env("CARGO_TERM_COLOR", "always");
     }
     let program = command.get_program().to_string_lossy().into_owned();
     let broken = |error: io::Error| format!("the output of `{program}` cannot be read: {error}");
 
-    // one pipe for both streams keeps the lines in the order in which they were written
+    // one pipe for both streams keeps the lines in order
     let (reader, writer) = io::pipe().map_err(broken)?;
     command.stdout(writer.try_clone().map_err(broken)?).stderr(writer);
     let mut child = command.spawn().map_err(|error| not_started(&command, &error))?;
-    // the command holds our writing ends, and the reading ends only when all are closed
+    // the command holds the writing ends of the pipe; reading ends only when they are closed
     drop(command);
 
     let mut reader = BufReader::new(reader);
     let mut line = Vec::new();
     while reader.read_until(b'\n', &mut line).map_err(broken)? > 0 {
-        // a terminal that went away is no reason to stop counting
+        // continue to count even if the terminal is gone
         let _ = io::stdout().write_all(&line);
         let _ = io::stdout().flush();
         read(without_colours(&String::from_utf8_lossy(&line)).trim_end());

@@ -1,4 +1,4 @@
-//! `cargo xtask docs`: the API documentation with typeset formulas; a warning is a failure.
+//! `cargo xtask docs`: the API documentation with typeset formulas. A warning is a failure.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ const HEADER: &str = "docs/katex-header.html";
 /// Builds the documentation of every crate of the workspace.
 ///
 /// # Errors
-/// The sentence that says how cargo ended; rustdoc has printed its reasons by then.
+/// An error message with the exit status of cargo; rustdoc has printed its own messages.
 pub(crate) fn build(root: &Path) -> Result<String, String> {
     let header = root.join(HEADER);
     if !header.is_file() {

@@ -5,15 +5,15 @@ use std::process::Stdio;
 
 use crate::command;
 
-/// Where they are, from the root of the repository.
+/// The folder of the examples, from the root of the repository.
 const FOLDER: &str = "crates/vibroimpact/examples";
-/// What builds them, with the settings of the tests, so that nothing is built anew.
+/// The command that builds them, with the settings of the tests so that nothing is built again.
 const BUILD: &str = "cargo test --workspace --all-features --no-run --examples";
 
-/// Builds and runs all of them.
+/// Builds and runs all examples.
 ///
 /// # Errors
-/// The sentence that names an example that fails, or prints nothing.
+/// A message that names an example that fails or prints nothing.
 pub(crate) fn run(root: &Path) -> Result<String, String> {
     command::run(command::words(root, BUILD))?;
     let programs = command::target(root)?.join("debug/examples");

@@ -1,7 +1,7 @@
-//! `cargo xtask explorer`: the explorer's page in a real browser, against the server itself.
+//! `cargo xtask explorer`: tests of the page of the explorer in a real browser, with a real server.
 //!
-//! What the tests need comes from npm, pinned, into a folder under the target folder. A machine without Node.js or Chromium
-//! skips them, and says so.
+//! The tests need packages from npm, in fixed versions, which are installed under the target folder. Without Node.js or
+//! Chromium the tests are skipped, with a message.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -10,16 +10,17 @@ use std::process::{Child, Stdio};
 use crate::command;
 use crate::totals::skipped;
 
-/// The tests and what they need.
+/// The folder of the tests and of the list of their packages.
 const TESTS: &str = "crates/vibroimpact-web/e2e";
-/// The variable that names the browser where it is none of these.
+/// The variable with the path of the browser, if it is none of these.
 const VARIABLE: &str = "CHROMIUM";
 const BROWSERS: [&str; 2] = ["/usr/bin/chromium", "/usr/bin/chromium-browser"];
 
-/// Builds the command, as the other tests did, serves the page and runs the tests in the browser; their screenshots stay under the target folder.
+/// Builds the command as for the other tests, serves the page and runs the tests in the browser. Screenshots are kept
+/// under the target folder.
 ///
 /// # Errors
-/// The sentence that says what failed.
+/// A message that states the failure.
 pub(crate) fn test(root: &Path) -> Result<String, String> {
     if !command::succeeds(root, "node --version") || !command::succeeds(root, "npm --version") {
         return Ok(skipped("there is no Node.js with npm to drive a browser"));
@@ -33,12 +34,12 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     let mut install = command::words(root, "npm ci --no-audit --no-fund --silent");
     install.current_dir(&folder);
     command::run(install)?;
-    // a build without tests would have other features, and all that depends on them built anew
+    // a build without tests would have other features, and all dependent crates would be built again
     command::run(command::words(root, "cargo test --workspace --all-features --no-run --test cli"))?;
     let (server, url) = serve(root, &target.join("debug/vibro"))?;
     let mut tests = command::words(root, "node run.mjs");
     tests.current_dir(&folder).args([url.as_str(), "screenshots"]).env(VARIABLE, browser);
-    // one test looks whether the server is idle
+    // one test checks whether the server is idle
     tests.env("VIBRO_PID", server.0.id().to_string());
     tests.env("NO_PROXY", "127.0.0.1");
     command::run(tests)?;
@@ -50,7 +51,7 @@ fn browser() -> Option<PathBuf> {
     given.into_iter().chain(BROWSERS.map(PathBuf::from)).find(|path| path.exists())
 }
 
-/// Copies the files of a folder that has no folders.
+/// Copies the files of a folder without subfolders.
 fn copy(from: &Path, to: &Path) -> Result<(), String> {
     let failed = |error: std::io::Error| format!("cannot copy {} to {}: {error}", from.display(), to.display());
     std::fs::create_dir_all(to).map_err(failed)?;
@@ -63,7 +64,7 @@ fn copy(from: &Path, to: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// A server that ends with the tests, however they end.
+/// A server that is stopped when the tests end, in any way.
 struct Server(Child);
 
 impl Drop for Server {

@@ -1,17 +1,17 @@
-//! `cargo xtask figures`: the pictures of the README, drawn anew by the command the README names.
+//! `cargo xtask figures`: draws the figures of the README again, with the command named in the README.
 
 use std::fs;
 use std::path::Path;
 
 use crate::command;
 
-/// Which figure of the reproduction becomes which picture of the documents.
+/// The figures of the reproduction and the files of the documents to which they are copied.
 const PICTURES: [(&str, &str); 1] = [("figure-04.png", "docs/figure-04.png")];
 
-/// Reproduces the paper into a folder under `target` and copies the pictures the documents show.
+/// Reproduces the paper into a folder under `target`, and copies the figures of the documents.
 ///
 /// # Errors
-/// The sentence that says which step failed.
+/// A message that names the step that failed.
 pub(crate) fn draw(root: &Path) -> Result<String, String> {
     let out = root.join("target/figures");
     let mut reproduce = command::words(root, "cargo run --release -- reproduce --quiet --out");

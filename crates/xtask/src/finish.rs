@@ -1,8 +1,8 @@
-//! How a command of xtask ends.
+//! The end of a command of xtask.
 
 use std::process::ExitCode;
 
-/// Prints what a check found, and turns it into an exit status.
+/// Prints the result of a check, and converts it to an exit status.
 pub(crate) fn finish(outcome: Result<String, String>) -> ExitCode {
     match outcome {
         Ok(sentence) => {

@@ -1,6 +1,6 @@
-//! `cargo xtask fuzz`: random and adversarial questions to the command, to plans, stores and the explorer.
+//! `cargo xtask fuzz`: random and adversarial questions to the command, plans, stores and the explorer.
 //!
-//! The driver is a program of its own, built together with the command as the other tests build it.
+//! The driver is a separate program, built together with the command as for the other tests.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -8,12 +8,12 @@ use std::process::ExitCode;
 use crate::command;
 use crate::finish::finish;
 
-/// The command and the driver, as the tests of the workspace need them.
+/// Builds the command and the driver in the form that the tests of the workspace need.
 const BUILD: &str = "cargo test --workspace --all-features --no-run --test cli --test fuzz";
-/// The driver among what is built.
+/// The path of the driver in the target folder.
 const PROGRAM: &str = "debug/vibroimpact-fuzz";
 
-/// Builds both and runs the driver with these words; its exit status is the answer.
+/// Builds both, runs the driver with the given arguments, and returns its exit status.
 pub(crate) fn run(root: &Path, words: &[&str]) -> ExitCode {
     let built = command::run(command::words(root, BUILD)).and_then(|()| command::target(root));
     let driver = built.and_then(|target| {

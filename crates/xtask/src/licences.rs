@@ -1,5 +1,5 @@
-//! `cargo xtask licences`: every package in the lock file, on every platform, may be passed on
-//! together with this program.
+//! `cargo xtask licences`: checks that every package in the lock file, on every platform, may be distributed with this
+//! program.
 
 use std::path::Path;
 
@@ -8,9 +8,9 @@ use spdx::{Expression, LicenseReq};
 
 use crate::command;
 
-/// Licences that ask for no more than to keep a notice; CDLA-Permissive-2.0 is one for data, as for a list of the
-/// authorities that sign the keys of servers. MPL-2.0 and the GPL family are left out:
-/// they would put conditions on those who build on this library.
+/// Licences that require no more than a notice. CDLA-Permissive-2.0 is a licence for data, such as a list of
+/// certificate authorities. MPL-2.0 and the GPL family are excluded, because they would put conditions on users of this
+/// library.
 const ALLOWED: &[&str] = &[
     "0BSD",
     "Apache-2.0",
@@ -31,7 +31,7 @@ const ALLOWED: &[&str] = &[
 /// Checks all packages that `cargo metadata` lists.
 ///
 /// # Errors
-/// A sentence for each package whose licence is not allowed, cannot be read or is not stated.
+/// A message for each package whose licence is not allowed, cannot be read or is not stated.
 pub(crate) fn check(root: &Path) -> Result<String, String> {
     verdict(&command::metadata(root, "--all-features")?)
 }
@@ -51,7 +51,7 @@ fn verdict(metadata: &Value) -> Result<String, String> {
     ))
 }
 
-/// The sentence that names a package and what is wrong with its licence.
+/// A message that names a package and the problem with its licence, if there is one.
 fn fault(package: &Value) -> Option<String> {
     let name = package["name"].as_str().unwrap_or("(unnamed)");
     let version = package["version"].as_str().unwrap_or("?");

@@ -1,7 +1,7 @@
-//! `cargo xtask`: what a developer does to this repository, one command in one file.
+//! `cargo xtask`: the tasks of a developer of this repository, one file for each command.
 //!
-//! The arguments are a few words and switches, so they are read by hand: the
-//! command starts in seconds from a fresh checkout, before anything else is built.
+//! The arguments are a few words and switches, so they are parsed without a library. The command then builds within
+//! seconds in a fresh checkout.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program for the terminal: printing is what it is for")]
 
 mod command;
@@ -48,7 +48,7 @@ usage: cargo xtask COMMAND
   s3                      studies in buckets, against a server that it installs in target/s3-venv
 ";
 
-/// Exit status of a question that makes no sense, as in `vibro`.
+/// Exit status for invalid arguments, as in `vibro`.
 const BAD_QUESTION: u8 = 2;
 
 fn main() -> ExitCode {

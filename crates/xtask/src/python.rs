@@ -1,4 +1,4 @@
-//! The Python package, built and installed into an environment of its own under `target/`, ready for its tests.
+//! Builds the Python package and installs it into its own environment under `target/`, ready for its tests.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -6,19 +6,19 @@ use std::process::{Command, Stdio};
 
 use crate::command;
 
-/// The environment, from the root of the repository.
+/// The folder of the environment, from the root of the repository.
 const ENVIRONMENT: &str = "target/python";
-/// The Python in it.
+/// The Python interpreter of the environment.
 pub(crate) const PYTHON: &str = "target/python/bin/python";
-/// The oldest Python in which all tests run: zarr 3 needs it. The package itself asks for less.
+/// The oldest Python in which all tests run, because zarr 3 needs it. The package itself supports older ones.
 const OLDEST: (u32, u32) = (3, 11);
-/// Why the tests are not run.
+/// The reason why the tests are skipped.
 pub(crate) const SKIPPED: &str = "skipped: there is no Python 3.11 or later here with venv";
 
-/// The command that runs the tests; typed alone it needs what [`install`] has done.
-pub(crate) const TESTS: &str = "target/python/bin/python -m pytest -q";
+/// The command that runs the tests. It needs the environment that [`install`] creates.
+pub(crate) const TESTS: &str = "target/python/bin/python -m pytest -q -n 2 --dist loadfile";
 
-/// A Python that can make environments, by its name.
+/// The name of a Python that can create environments.
 pub(crate) fn found(root: &Path) -> Option<&'static str> {
     let (major, minor) = OLDEST;
     let can = format!("import sys, venv, ensurepip; sys.exit(sys.version_info < ({major}, {minor}))");
@@ -29,17 +29,17 @@ pub(crate) fn found(root: &Path) -> Option<&'static str> {
     })
 }
 
-/// Builds the package and installs it with what its tests need.
+/// Builds the package and installs it with the packages for its tests.
 ///
 /// # Errors
-/// The sentence that says which step failed; pip has printed its reasons by then.
+/// A message that names the step that failed; pip has printed its own messages.
 pub(crate) fn install(root: &Path) -> Result<String, String> {
     let Some(python) = found(root) else { return Ok(SKIPPED.to_owned()) };
     let here = root.join(ENVIRONMENT);
     if !here.join("bin/python").is_file() {
         command::run(command::words(root, &format!("{python} -m venv {ENVIRONMENT}")))?;
     }
-    // an environment for the build alone would be another Python each time, and all that depends on it built anew
+    // an isolated build environment would be another Python each time, and dependent crates would be built again
     pip(root, &["maturin>=1.9.4,<2"])?;
     pip(root, &["--no-build-isolation", ".[test]"])?;
     Ok(format!("vibroimpact is installed in {ENVIRONMENT}"))
@@ -49,12 +49,10 @@ fn pip(root: &Path, words: &[&str]) -> Result<(), String> {
     let mut command = command::words(root, &format!("{ENVIRONMENT}/bin/python -m pip install --quiet"));
     command.args(["--disable-pip-version-check", "--no-input"]).args(words);
     with_programs(&mut command, &root.join(ENVIRONMENT).join("bin"));
-    // tests need no optimisation across crates
-    command.envs([("CARGO_PROFILE_RELEASE_LTO", "off"), ("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16")]);
     command::run(command)
 }
 
-/// Lets a command find the programs of the environment first.
+/// Puts the programs of the environment first in the search path of a command.
 fn with_programs(command: &mut Command, programs: &Path) {
     let old = env::var_os("PATH").unwrap_or_default();
     let all = std::iter::once(PathBuf::from(programs)).chain(env::split_paths(&old));

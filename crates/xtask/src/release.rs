@@ -1,25 +1,26 @@
-//! `cargo xtask release`: what must hold before the crates are published, beside the tests.
+//! `cargo xtask release`: checks before the crates are published, in addition to the tests.
 //!
-//! The workspace compiles with the oldest Rust that it names, and each crate that is published is packed, and built from its archive.
+//! The workspace must compile with the oldest Rust that it names. Each published crate is packed, and built from its
+//! archive.
 
 use std::path::Path;
 
 use crate::command;
 
-/// Packs all crates that are published, and builds each from its archive.
+/// Packs all published crates, and builds each from its archive.
 const PACK: &str = "cargo package --workspace --exclude xtask --exclude vibroimpact-fuzz --exclude vibroimpact-py";
 
-/// Checks both.
+/// Runs both checks.
 ///
 /// # Errors
-/// The sentence that says which one failed; cargo has printed why.
+/// A message that names the failed check; cargo has printed the reason.
 pub(crate) fn check(root: &Path) -> Result<String, String> {
     let oldest = oldest(root)?;
     if !command::succeeds(root, &format!("rustc +{oldest} --version")) {
         command::run(command::words(root, &format!("rustup toolchain install {oldest} --profile minimal")))
             .map_err(|why| format!("Rust {oldest} is not here and cannot be installed: {why}"))?;
     }
-    // in a folder of its own, or all would be built anew for the present Rust
+    // in a separate folder, so that the crates need not be built again for the current Rust
     let folder = command::target(root)?.join("oldest");
     let mut compile = command::words(root, &format!("cargo +{oldest} check --workspace --all-features"));
     compile.env("CARGO_TARGET_DIR", folder);
@@ -28,7 +29,7 @@ pub(crate) fn check(root: &Path) -> Result<String, String> {
     Ok(format!("the workspace compiles with Rust {oldest}, and the crates are packed in target/package"))
 }
 
-/// The oldest Rust that the manifest names.
+/// The oldest Rust named in the manifest.
 fn oldest(root: &Path) -> Result<String, String> {
     let metadata = command::metadata(root, "--no-deps")?;
     let version = metadata["packages"][0]["rust_version"].as_str();

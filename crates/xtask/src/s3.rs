@@ -1,8 +1,10 @@
-//! `cargo xtask s3`: the tests of studies in buckets, which need a server that speaks S3 and a build with the feature.
+//! `cargo xtask s3`: the tests of studies in buckets. They need a server with the S3 protocol and a build with the
+//! feature `s3`.
 //!
-//! The server is a program from PyPI in an environment of its own under the target folder. The tests are built for the whole
-//! workspace with all features, as in the other steps, so that what those have built already serves; so is the compiled part of
-//! the Python package, which is put beside its other part and run in the environment of [`python`].
+//! The server is a program from PyPI in its own environment under the target folder. The tests are built for the whole
+//! workspace with all features, as in the other steps, so that existing builds are used. The compiled module of the
+//! Python package is built in the same way, placed next to a copy of the Python files, and tested in the environment of
+//! [`python`].
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,21 +12,22 @@ use std::path::{Path, PathBuf};
 use crate::totals::skipped;
 use crate::{command, python, tools, venv};
 
-/// How the server is started by a shell.
+/// The arguments with which a shell starts the server.
 const SERVER: &str = "-m moto.server -H 127.0.0.1 -p $PORT";
-/// The variable by which the tests learn of it; they fail where it names a server that does not start.
+/// The variable with the command of the server. If it is set, the tests fail if the server does not start.
 const VARIABLE: &str = "VIBROIMPACT_S3_SERVER";
-/// What is built and run.
+/// The tests to build and run.
 const TESTS: &str = "--workspace --all-features --test s3 --no-fail-fast";
-/// What builds the compiled part of the Python package beside it; the tests are named for the features of what they depend on.
+/// The command that builds the compiled module of the Python package. Tests are included so that dependencies have the
+/// same features.
 const COMPILED: &str = "cargo build --workspace --all-features --profile test --lib --tests";
 /// The tests in Python.
 const PYTHON_TESTS: &str = "-m pytest -q crates/vibroimpact-py/tests/test_s3.py";
 
-/// Installs the server and runs the tests; without Python says so, in a line that counts no test.
+/// Installs the server and runs the tests. Without Python, a line is printed that counts no test.
 ///
 /// # Errors
-/// The sentence that says what failed.
+/// A message that states the failure.
 pub(crate) fn test(root: &Path) -> Result<String, String> {
     if !command::succeeds(root, "python3 --version") {
         return Ok(skipped("there is no python3 to run a server with"));
@@ -36,7 +39,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     let run = |line: &str, packages: Option<PathBuf>| {
         let mut tests = command::words(root, line);
         tests.env(VARIABLE, format!("'{}' {SERVER}", python.display()));
-        // a proxy cannot reach a server on this machine
+        // a proxy could not reach a server on this machine
         tests.env("NO_PROXY", "127.0.0.1");
         tests.envs(packages.map(|folder| ("PYTHONPATH", folder)));
         command::run(tests)
@@ -49,7 +52,7 @@ pub(crate) fn test(root: &Path) -> Result<String, String> {
     Ok("studies in buckets are as those in folders".to_owned())
 }
 
-/// A folder with the Python package as it is with all features, for an environment that has what it needs.
+/// A folder with the Python package built with all features, for an environment with its dependencies.
 fn package(root: &Path) -> Result<PathBuf, String> {
     if !root.join(python::PYTHON).is_file() {
         python::install(root)?;

@@ -1,9 +1,8 @@
-//! `cargo xtask test`: the list of all checks, run one after another.
+//! `cargo xtask test`: all checks, run one after another.
 //!
-//! A failed step does not stop the ones after it: one run shows everything that is wrong. The
-//! last line is `N passed, M failed`, which continuous integration reads. It counts tests; a step
-//! that fails without naming a failed test (a lint, a build, a dead link) counts as one failure,
-//! so that the line can never say `0 failed` of a run that failed.
+//! A failed step does not stop later ones, so one run shows all failures. The last line is `N passed, M failed`, which
+//! continuous integration reads. It counts tests. A step that fails without a failed test (a lint, a build, a dead
+//! link) counts as one failure, so the line never reports `0 failed` for a failed run.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -12,20 +11,20 @@ use std::time::Instant;
 use crate::totals::{self, Totals};
 use crate::{command, docs, examples, licences, python, tools, wasm, words};
 
-/// What was asked for on the command line.
+/// The options from the command line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Options {
-    /// Only the steps marked fast.
+    /// Run only the steps marked fast.
     fast: bool,
-    /// The long-running tests too.
+    /// Run the long tests too.
     long: bool,
 }
 
 impl Options {
-    /// Reads the switches after `test`.
+    /// Parses the switches after `test`.
     ///
     /// # Errors
-    /// The sentence that names the switch that does not exist.
+    /// A message that names an unknown switch.
     pub(crate) fn parse(switches: &[&str]) -> Result<Self, String> {
         let mut options = Self::default();
         for &switch in switches {
@@ -39,7 +38,7 @@ impl Options {
     }
 }
 
-/// The variable by which a test learns that it may take long.
+/// The variable that allows tests to run long.
 const LONG: (&str, &str) = ("VIBROIMPACT_LONG", "1");
 
 enum Work {
@@ -53,7 +52,7 @@ enum Work {
 
 struct Step {
     name: &'static str,
-    /// What one types to run this step alone.
+    /// The command that runs this step alone.
     alone: &'static str,
     work: Work,
     fast: bool,
@@ -77,12 +76,12 @@ impl Step {
     }
 }
 
-/// All steps, the quickest to fail first. A test program of another language is one more line:
-/// what it prints last must be known to [`totals`].
+/// All steps, ordered so that failures show early. A test program in another language is one more line; its last line
+/// of output must be known to [`totals`].
 fn steps(nextest: bool, python: bool) -> Vec<Step> {
-    // with all features in all steps: others would have the crates that derive built anew, and all that depends on them;
-    // the Python package is built without any, as its users build it
-    // the library of the Python package has no tests of Rust, and `--lib` would ask for them
+    // All steps use all features, because with others the derive macros and all dependent crates would be built again.
+    // The Python package is built without features, as its users build it. Its library has no tests in Rust, and
+    // `--lib` would build some.
     let tests = if nextest {
         "cargo nextest run --workspace --all-features --no-fail-fast"
     } else {
@@ -97,7 +96,7 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::tests("tests", tests).fast(),
         Step::tests("doc tests", "cargo test --workspace --all-features --doc --no-fail-fast"),
         Step::check("examples", "cargo xtask examples", examples::run),
-        // the same questions in every run, so that one that fails was made to fail by a change
+        // the same cases in every run, so that a failure is caused by a change of the code
         Step::tests("fuzz", "cargo xtask fuzz --seconds 60 --seed 1"),
         Step::tests("explorer", "cargo xtask explorer"),
         Step::check("documentation", "cargo xtask docs", docs::build),
@@ -111,7 +110,7 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
     steps
 }
 
-/// Runs the steps, prints their outcome and the totals.
+/// Runs the steps, and prints their results and the totals.
 pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
     let mut steps = steps(tools::has_nextest(root), python::found(root).is_some());
     steps.retain(|step| step.fast || !options.fast);
@@ -141,7 +140,7 @@ pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
     if failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// What one types to run the step alone in the same way.
+/// The command that runs the step alone in the same way.
 fn typed(step: &Step, options: Options) -> String {
     match step.work {
         Work::Tests if options.long => format!("{}={} {}", LONG.0, LONG.1, step.alone),
@@ -149,7 +148,7 @@ fn typed(step: &Step, options: Options) -> String {
     }
 }
 
-/// Runs one step: the tests it counted, and a remark or the reason why it failed.
+/// Runs one step. Returns the numbers of its tests, and a remark or the reason of its failure.
 fn take(step: &Step, root: &Path, options: Options) -> (Totals, Result<String, String>) {
     let mut counted = None;
     let outcome = match step.work {
@@ -171,7 +170,8 @@ fn take(step: &Step, root: &Path, options: Options) -> (Totals, Result<String, S
     settle(&step.work, counted, outcome)
 }
 
-/// Makes totals and outcome agree: a failure counts at least one, and silence is no success.
+/// Makes totals and result consistent: a failed step counts at least one failure, and a test step without totals is a
+/// failure.
 fn settle(work: &Work, counted: Option<Totals>, outcome: Result<String, String>) -> (Totals, Result<String, String>) {
     let mut totals = counted.unwrap_or_default();
     let outcome = match outcome {
@@ -211,7 +211,7 @@ mod tests {
         // the build of one test failed, or the program was killed
         check(counted(5, 0), false, (5, 1), false);
         check(None, false, (0, 1), false);
-        // a success that cannot be true
+        // a successful step without totals
         check(None, true, (0, 1), false);
         check(counted(5, 2), true, (5, 2), false);
         let (totals, outcome) = settle(&Work::Command, None, Ok(String::new()));

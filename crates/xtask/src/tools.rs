@@ -1,13 +1,13 @@
-//! The tools the checks need: what is small is installed, what is slow to build is suggested.
+//! The tools of the checks. Small ones are installed; for those that take long to build, a command is suggested.
 
 use std::path::Path;
 
 use crate::command;
 
-/// Makes sure of rustfmt and clippy, which a minimal toolchain leaves out.
+/// Ensures that rustfmt and clippy are installed, which a minimal toolchain lacks.
 ///
 /// # Errors
-/// The sentence that says which one is missing and cannot be installed.
+/// A message that names the tool that is missing and cannot be installed.
 pub(crate) fn ensure(root: &Path) -> Result<String, String> {
     for (tool, component) in [("cargo fmt", "rustfmt"), ("cargo clippy", "clippy")] {
         if !command::succeeds(root, &format!("{tool} --version")) {
@@ -18,14 +18,14 @@ pub(crate) fn ensure(root: &Path) -> Result<String, String> {
     Ok(if has_nextest(root) {
         "rustfmt, clippy, nextest".to_owned()
     } else {
-        // built from source it takes minutes, more than it saves here
+        // a build from source takes minutes, more than the tool saves here
         "rustfmt, clippy; tests run through `cargo test`\n\
          hint: cargo-nextest runs them faster; get it built from https://nexte.st"
             .to_owned()
     })
 }
 
-/// True where `cargo nextest` can run the tests.
+/// Whether `cargo nextest` is installed.
 pub(crate) fn has_nextest(root: &Path) -> bool {
     command::succeeds(root, "cargo nextest --version")
 }

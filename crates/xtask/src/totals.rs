@@ -1,4 +1,4 @@
-//! How many tests passed and failed, read from the summary lines of the test programs.
+//! The numbers of passed and failed tests, read from the summary lines of the test programs.
 //!
 //! | program | line |
 //! |---|---|
@@ -6,9 +6,9 @@
 //! | libtest, doc tests | `test result: ok. 4 passed; 0 failed; 1 ignored; ...` |
 //! | pytest | `==== 4 passed, 1 failed, 2 skipped in 0.05s ====` |
 //!
-//! A line counts only where it begins as above, without an indent but for nextest's own: when a
-//! test fails, nextest repeats what the test program printed, its `test result:` included, and
-//! indents it. Counted, each failure would count twice.
+//! A line counts only if it begins as above, without indentation except that of nextest. When a test fails, nextest
+//! repeats the output of the test program with indentation, including its `test result:` line, which would count the
+//! failure twice.
 
 use std::ops::AddAssign;
 
@@ -26,13 +26,13 @@ impl AddAssign for Totals {
     }
 }
 
-/// The totals in a line without colours; `None` where the line is no summary.
+/// The totals in a line without colours; `None` if the line is not a summary.
 pub(crate) fn in_line(line: &str) -> Option<Totals> {
     let line = line.trim_end();
     nextest(line.trim_start()).or_else(|| libtest(line)).or_else(|| pytest(line))
 }
 
-/// A line that says why a step ran no test, and that [`in_line`] reads.
+/// A line that states why a step ran no test, in a form that [`in_line`] reads.
 pub(crate) fn skipped(why: &str) -> String {
     format!("test result: skipped, {why}. 0 passed; 0 failed")
 }
@@ -56,7 +56,7 @@ fn pytest(line: &str) -> Option<Totals> {
         return None;
     }
     let (counts, seconds) = line.trim_matches(['=', ' ']).rsplit_once(" in ")?;
-    // after a minute pytest adds the time in words: `75.20s (0:01:15)`
+    // after a minute pytest adds the time in another form: `75.20s (0:01:15)`
     let seconds = seconds.split_once(" (").map_or(seconds, |(seconds, _)| seconds);
     seconds.strip_suffix('s')?.parse::<f64>().ok()?;
     let reads = |part: &str| {
@@ -68,7 +68,7 @@ fn pytest(line: &str) -> Option<Totals> {
     counts.split(',').all(reads).then(|| count(counts, ','))
 }
 
-/// Adds up parts like `4 passed`; skipped, ignored, filtered out and the like are not counted.
+/// Adds up parts such as `4 passed`. Skipped, ignored and filtered tests are not counted.
 fn count(counts: &str, separator: char) -> Totals {
     let mut totals = Totals::default();
     for part in counts.split(separator) {
@@ -87,7 +87,7 @@ fn count(counts: &str, separator: char) -> Totals {
     totals
 }
 
-/// The text without its remarks in round brackets.
+/// The text without parts in round brackets.
 fn without_brackets(text: &str) -> String {
     let mut depth = 0_usize;
     text.chars()
@@ -156,7 +156,7 @@ mod tests {
             "        PASS [   0.004s] vibroimpact phase::tests::wraps",
             "test phase::wraps ... ok",
             "running 3 tests",
-            // how nextest repeats the output of a failed test
+            // nextest repeats the output of a failed test in this form
             "    test result: FAILED. 0 passed; 1 failed; 0 ignored; 0 measured; 1 filtered out; finished in 0.07s",
             "    ========= 1 failed in 0.05s =========",
             "the summary was: test result: ok. 4 passed; 0 failed",

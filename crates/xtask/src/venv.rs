@@ -1,4 +1,4 @@
-//! Python environments under the target folder, with what a list of pins names.
+//! Python environments under the target folder, with the packages of a list of fixed versions.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,10 +6,10 @@ use std::process::{Command, Stdio};
 
 use crate::command;
 
-/// The Python of the environment in `folder`, which is made anew only when the file of `pins` has changed.
+/// The Python of the environment in `folder`. The environment is created again only when the file `pins` has changed.
 ///
 /// # Errors
-/// The sentence that says which step failed.
+/// A message that names the step that failed.
 pub(crate) fn ready(root: &Path, folder: &Path, pins: &Path) -> Result<PathBuf, String> {
     let wanted = fs::read_to_string(pins).map_err(|error| format!("{} cannot be read: {error}", pins.display()))?;
     let python = folder.join("bin/python");

@@ -1,5 +1,5 @@
-//! `cargo xtask wasm`: what a page could compute in the browser compiles for WebAssembly: all but the store, the server, the command and
-//! the Python package.
+//! `cargo xtask wasm`: checks that the crates a page could use compile for WebAssembly. These are all but the store,
+//! the server, the command and the Python package.
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use crate::command;
 const TARGET: &str = "wasm32-unknown-unknown";
 const CRATES: [&str; 4] = ["vibroimpact", "vibroimpact-study", "vibroimpact-plot", "vibroimpact-report"];
 
-/// Checks these crates for the target, which rustup installs where it can.
+/// Checks these crates for the target, which rustup installs if possible.
 ///
 /// # Errors
-/// The sentence that says how cargo ended.
+/// A message with the exit status of cargo.
 pub(crate) fn check(root: &Path) -> Result<String, String> {
     if !command::succeeds(root, &format!("rustup target add {TARGET}")) {
         return Ok(format!("skipped: the target {TARGET} is not there, and rustup cannot install it"));

@@ -1,4 +1,5 @@
-//! Writes the table of the line 1/beta = 1.11 into `docs/orbits.md` and its figure beside it: `cargo xtask line`.
+//! Writes the table of the line 1/beta = 1.11 into `docs/orbits.md`, and its figure into the same folder: `cargo xtask
+//! line`.
 
 use fukaya_irie_1971::{Error, line};
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Reproduces the paper into the folder given: `cargo run --release -p fukaya-irie-1971 --example run -- OUT [--quick]`.
+//! Reproduces the paper into the given folder: `cargo run --release -p fukaya-irie-1971 --example run -- OUT
+//! [--quick]`.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // an example talks to the terminal
 
 use fukaya_irie_1971::{Error, ReproductionOptions, reproduce};

@@ -1,4 +1,4 @@
-//! Figures 6 to 9: which motion each start (xi0, u0) leads to, at P, Q, R and S, phase 0.
+//! Figures 6 to 9: the motion to which each start (xi0, u0) leads, at P, Q, R and S, phase 0.
 
 use crate::claims::{Agreement, Section};
 use crate::folder::Csv;
@@ -12,7 +12,7 @@ use vibroimpact_plot::{
 };
 use vibroimpact_study::{Basin, BasinPlan, Plan, Results, Span, SystemPlan, Task};
 
-/// A basin and what was measured on it.
+/// A basin and the values measured on it.
 struct Picture {
     point: Scenario,
     osc: Oscillator,
@@ -23,21 +23,22 @@ struct Picture {
     basin: Basin,
     /// Share of the starts by label.
     shares: BTreeMap<String, f64>,
-    /// Where the start at rest, the origin, leads.
+    /// The motion to which the start at rest at the origin leads.
     origin: String,
-    /// Area, in units of xi0 times u0, of the starts without impacts in the end; and of the piece the origin is in.
+    /// Area, in units of xi0 times u0, of the starts that lead to the motion without impacts; and of the part that
+    /// contains the origin.
     quiet: f64,
     round_origin: f64,
 }
 
-/// What the conclusions need.
+/// The shares that the conclusions need.
 #[derive(Clone, Debug)]
 pub(crate) struct Shares {
     /// 1/1 and 2/1 at S.
     pub(crate) at_s: BTreeMap<String, f64>,
 }
 
-/// Windows: P, where only starts close to the quiet motion stay without impacts, is shown closer.
+/// The windows. That of P is smaller, because only starts close to the motion without impacts lead to it.
 const FIGURES: [(&str, &str, Scenario, f64, f64); 4] = [
     ("figure-06", "figure 6: starts at P", scenario::P, -2.0, 2.0),
     ("figure-07", "figure 7: starts at Q", scenario::Q, -8.0, 8.0),
@@ -121,7 +122,7 @@ fn measure(point: Scenario, (x, v): (Span, Span), basin: Basin) -> Picture {
     }
 }
 
-/// The share of the starts that are joined to the one nearest the origin by starts with the same end.
+/// The share of the starts that are connected to the one nearest the origin by starts that lead to the same motion.
 #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a small grid
 fn piece(basin: &Basin, (x, v): (Span, Span)) -> f64 {
     let (nx, ny) = (x.count() as usize, v.count() as usize);
@@ -168,7 +169,7 @@ fn table(p: &Picture) -> Csv {
 
 fn draw(p: &Picture) -> Result<vibroimpact_plot::Figure, Error> {
     let (x, v) = (p.x, p.v);
-    // one class per motion: all cycles with one label have one colour
+    // one class for each motion; all cycles with one label have one colour
     let palette: Vec<Colour> =
         p.basin.motions.iter().map(|motion| class_style(&motion.verdict.label()).colour).collect();
     let raster =
@@ -176,7 +177,7 @@ fn draw(p: &Picture) -> Result<vibroimpact_plot::Figure, Error> {
     let origin = Points::new([0.0], [0.0], Colour::BLACK).shape(Shape::Plus).size(22.0);
     let mut legend = Legend::below();
     for (label, share) in &p.shares {
-        // a raster shows fills without hatches, and so must its legend
+        // a raster shows fills without hatches, so its legend has none either
         let style = ClassStyle { hatch: None, ..class_style(label) };
         legend = legend.patch(style, format!("{}, {}", legend_text(label), looks::percent(*share)));
     }

@@ -1,4 +1,4 @@
-//! Figure 4 continued to delta = -1: what the paper could not tell apart, because the mass sticks.
+//! Figure 4 continued to delta = -1, where the mass sticks and the method of the paper does not apply.
 
 use crate::claims::{Agreement, Section};
 use crate::figure04::cells;

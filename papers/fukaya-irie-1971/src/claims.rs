@@ -1,15 +1,15 @@
-//! The rows of the report: what the paper says, what was found, whether they agree.
+//! The rows of the report: a statement of the paper, the result of this run, and whether they agree.
 
 use std::fmt::Write as _;
 
 /// Whether the paper and this run agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Agreement {
-    /// They do.
+    /// They agree.
     Agrees,
-    /// In part; the row says in which.
+    /// They agree in part; the row states in which part.
     Partly,
-    /// They do not.
+    /// They differ.
     Differs,
 }
 
@@ -35,26 +35,26 @@ impl Agreement {
     }
 }
 
-/// A row: one thing the paper says.
+/// A row: one statement of the paper.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Claim {
-    /// Where it says so: `4`, `1`, or `(2)` for its second conclusion.
+    /// Its place in the paper: `4`, `1`, or `(2)` for its second conclusion.
     pub figure: &'static str,
-    /// What it says, in our words.
+    /// The statement, in our words.
     pub says: String,
-    /// What was found in this run.
+    /// The result of this run.
     pub found: String,
     /// Whether they agree.
     pub verdict: Agreement,
 }
 
-/// A part of the report: a figure with its rows.
+/// A section of the report: a figure with its rows.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Section {
     pub(crate) title: &'static str,
     pub(crate) caption: String,
     pub(crate) svg: Option<String>,
-    /// Files of the figure, for the links below it.
+    /// The files of the figure, for the links below it.
     pub(crate) files: Vec<String>,
     pub(crate) claims: Vec<Claim>,
 }
@@ -82,16 +82,16 @@ impl Section {
     }
 }
 
-/// Everything found in a run.
+/// All results of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     pub(crate) quick: bool,
     pub(crate) sections: Vec<Section>,
 }
 
-/// Columns of a terminal the table fits in.
+/// Width of the table, in columns of a terminal.
 const WIDTH: usize = 108;
-/// Columns before the text of a row.
+/// Number of columns before the text of a row.
 const INDENT: usize = 17;
 
 impl Report {
@@ -104,7 +104,7 @@ impl Report {
         self.sections.iter().flat_map(|section| &section.claims)
     }
 
-    /// How many rows agree, agree in part, differ.
+    /// Numbers of rows that agree, agree in part, and differ.
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         [Agreement::Agrees, Agreement::Partly, Agreement::Differs]
@@ -140,7 +140,7 @@ impl Report {
 
 const QUICK: &str = " (a quick run: coarse grids, few starts; not to be cited)";
 
-/// `head` and then `text` in lines of at most [`WIDTH`] characters, the further ones indented.
+/// `head` followed by `text`, in lines of at most [`WIDTH`] characters with further lines indented.
 fn wrap(head: &str, text: &str) -> String {
     let indent = head.chars().count().max(INDENT);
     let mut out = head.to_owned();

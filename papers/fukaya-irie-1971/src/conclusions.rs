@@ -1,4 +1,4 @@
-//! The four conclusions of the paper's section 4.
+//! The four conclusions in section 4 of the paper.
 
 use crate::Run;
 use crate::basins::Shares;

@@ -1,4 +1,4 @@
-//! What can go wrong on the way to a report.
+//! The errors of a reproduction.
 
 use std::path::PathBuf;
 use thiserror::Error;
@@ -6,24 +6,24 @@ use vibroimpact::SystemError;
 use vibroimpact_plot::PlotError;
 use vibroimpact_study::{PlanError, RunError, Stopped};
 
-/// Why there is no report.
+/// The reason why there is no report.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The folder holds files that no earlier reproduction wrote.
+    /// The folder contains files that are not from an earlier reproduction.
     #[error(
         "folder `{}` is not empty and holds no earlier reproduction\nhint: give another folder, or --force to write into this one", .0.display()
     )]
     Foreign(PathBuf),
-    /// The path names a file.
+    /// The path is that of a file.
     #[error("`{}` is not a folder\nhint: give the folder to write the figures into", .0.display())]
     NotAFolder(PathBuf),
-    /// The folder cannot be made or read.
+    /// The folder cannot be created or read.
     #[error("folder `{}` cannot be used: {source}", path.display())]
     Unusable {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// A file could not be written.
@@ -31,10 +31,10 @@ pub enum Error {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// The run was stopped from outside; figures done before that are there.
+    /// The run was stopped by its caller; complete figures are kept.
     #[error("stopped before the report was complete\nhint: run it again; it starts from the beginning")]
     Stopped,
     /// A figure could not be drawn: a defect of this program.
@@ -43,7 +43,7 @@ pub enum Error {
     /// A point of the paper was refused as a system: a defect of this program.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// A motion of the paper did not do what the figure needs: a defect of this program.
+    /// A motion of the paper lacks a property that the figure needs: a defect of this program.
     #[error("{0}")]
     Unexpected(&'static str),
 }
@@ -55,7 +55,7 @@ impl Error {
         matches!(self, Self::Stopped)
     }
 
-    /// Whether another folder (or force) would help.
+    /// Whether another folder, or force, would help.
     #[must_use]
     pub const fn is_bad_question(&self) -> bool {
         matches!(self, Self::Foreign(_) | Self::NotAFolder(_) | Self::Unusable { .. })

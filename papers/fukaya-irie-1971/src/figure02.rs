@@ -12,7 +12,7 @@ use vibroimpact_plot::{
     Colour, Dash, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text, TextSide, Tick, Wall,
 };
 
-/// Impacts shown and numbered.
+/// Number of impacts that are shown and numbered.
 const SHOWN: usize = 8;
 
 pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
@@ -87,7 +87,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Equations (3) to (9) as printed, against the flights of this program.
+/// Equations (3) to (9) as printed, compared with the flights of this program.
 fn model(section: &mut Section, osc: &Oscillator, list: &[Impact]) {
     let printed = |osc: &Oscillator, flight: &Flight, s: f64| {
         let (x, v) = as_printed(osc.beta(), (flight.x, flight.v, flight.phase), s);

@@ -1,5 +1,5 @@
-//! Figure 3: the flow chart, flight by flight until the rule (11)-(12) finds a period or 100 impacts have passed; and what
-//! that rule is worth, start by start, on the grid of figure 4.
+//! Figure 3: the flow chart, flight by flight until the rule (11)-(12) finds a period or 100 impacts have passed; and
+//! the reliability of this rule for each start on the grid of figure 4.
 
 use crate::claims::{Agreement, Section};
 use crate::folder::Csv;
@@ -87,7 +87,7 @@ fn ratio(part: usize, all: usize) -> f64 {
     part as f64 / all.max(1) as f64
 }
 
-/// The rule's answer as a label, `unstable`, `none` or `sticks`.
+/// The verdict of the rule as a label, `unstable`, `none` or `sticks`.
 pub(crate) fn in_words(rule: &PaperVerdict) -> String {
     match rule {
         PaperVerdict::Settled { m, n, .. } => format!("{m}/{n:.0}"),
@@ -97,7 +97,7 @@ pub(crate) fn in_words(rule: &PaperVerdict) -> String {
     }
 }
 
-/// Whether the rule's answer means our label.
+/// Whether the verdict of the rule is equivalent to our label.
 fn same(ours: &str, rule: &str) -> bool {
     match ours {
         "0" => rule == "none",
@@ -108,7 +108,7 @@ fn same(ours: &str, rule: &str) -> bool {
     }
 }
 
-/// Whether the rule's m/n goes round our motion several times.
+/// Whether the m/n of the rule is our motion counted over several periods.
 fn repeated(ours: &str, rule: &str) -> bool {
     let numbers = |label: &str| -> Option<(u32, u32)> {
         let (m, n) = label.split_once('/')?;

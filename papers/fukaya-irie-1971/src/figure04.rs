@@ -13,10 +13,10 @@ use crate::search::{self, Part};
 use crate::{Error, Run};
 use vibroimpact::{Label, scenario};
 
-/// What figure 4 found besides its grid.
+/// The results of figure 4 in addition to its grid.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
-    /// 1/1 to 3/1, 1/2, 4/1 to 6/1; of the first four where they exist too.
+    /// The regions of 1/1 to 3/1, 1/2, and 4/1 to 6/1; for the first four also the regions of existence.
     pub(crate) regions: Vec<Region>,
     pub(crate) lower_left: Part,
     pub(crate) right: Part,
@@ -29,20 +29,20 @@ impl Plane {
     }
 }
 
-/// Orders followed by theory.
+/// Number of orders followed by theory.
 const ORDERS: u32 = 6;
-/// Labels whose existence is followed too.
+/// Number of labels whose region of existence is followed too.
 const DRAWN: usize = 4;
-/// The window of the figure: the cells of the grid from end to end.
+/// The window of the figure: the cells of the grid from edge to edge.
 const X: (f64, f64) = (0.375, 2.025);
-/// The regions end where the paper's grid does. 1/beta = 2 itself is left out: there the free motion has twice the
-/// frequency of the force, and without damping the equations of an orbit are singular.
+/// The regions end at the edge of the grid of the paper. 1/beta = 2 itself is excluded: there the free motion has twice
+/// the frequency of the force, and without damping the equations of an orbit are singular.
 const X_REGIONS: (f64, f64) = (0.375, 1.999);
 const GAP: (f64, f64) = (-0.0625, 5.0625);
 
 pub(crate) fn run(run: &mut Run<'_>, grid: &Grid) -> Result<Plane, Error> {
     let orders = (1..=ORDERS).map(|m| Label::new(m, 1));
-    // the drawn ones first
+    // the labels that are drawn come first
     let labels: Vec<Label> = orders.clone().take(3).chain([Label::new(1, 2)]).chain(orders.skip(3)).collect();
     let regions = regions(run, Window { x: X_REGIONS, gap: GAP }, &labels, DRAWN)?;
     let lower_left = search::lower_left(run)?;

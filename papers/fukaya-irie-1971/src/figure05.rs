@@ -1,4 +1,4 @@
-//! Figure 5: the steady motion of order four at N.
+//! Figure 5: the motion 4/1 at N.
 
 use crate::claims::{Agreement, Section};
 use crate::folder::Csv;
@@ -79,7 +79,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// The impacts of a cycle with the depth of the flight after each.
+/// The impacts of a cycle, each with the depth of the following flight.
 fn hops(osc: &Oscillator, cycle: &Cycle) -> Vec<Hop> {
     let mut time = 0.0;
     cycle

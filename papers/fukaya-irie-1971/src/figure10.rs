@@ -1,4 +1,4 @@
-//! Figure 10: started exactly on the unstable fundamental motion at T, which rounding errors leave for 1/2.
+//! Figure 10: a motion that starts exactly on the unstable orbit 1/1 at T; rounding errors lead it to 1/2.
 
 mod windows;
 
@@ -13,17 +13,17 @@ use vibroimpact::verdict::{SettleOptions, settle};
 use vibroimpact::{Label, Oscillator, scenario};
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text};
 
-/// Impacts followed.
+/// Number of impacts followed.
 const FOLLOWED: usize = 400;
-/// Relative errors a machine of fewer digits might start with.
+/// Relative errors that a machine with fewer digits might start with.
 const COARSER: [f64; 3] = [1e-4, 1e-6, 1e-8];
-/// An interval this far from the fundamental one, relatively, has left it.
+/// A motion has left 1/1 when an interval differs from that of 1/1 by this relative amount.
 const LEFT: f64 = 0.01;
 
 /// A motion that begins near the unstable orbit.
 struct Escape {
     impacts: Vec<Impact>,
-    /// Distance from the orbit at each impact: phase or relative speed, the larger.
+    /// Distance from the orbit at each impact: the larger one of the differences in phase and in relative speed.
     distance: Vec<f64>,
     leaves: Option<usize>,
     settles: Option<usize>,
@@ -62,7 +62,7 @@ pub(crate) fn run(run: &mut Run<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-/// The motion from the orbit with its speed wrong by the factor `1 + error`.
+/// The motion from the orbit with its speed multiplied by `1 + error`.
 fn escape(osc: &Oscillator, cycle: &Cycle, error: f64) -> Escape {
     let on = cycle.points[0].state;
     let start = ImpactState { velocity: on.velocity * (1.0 + error), ..on };
@@ -84,7 +84,8 @@ fn escape(osc: &Oscillator, cycle: &Cycle, error: f64) -> Escape {
     Escape { impacts, distance, leaves, settles }
 }
 
-/// The smallest error of the speed, in powers of two of its last place, that is not rounded away, and the motion from it.
+/// The smallest error of the speed, in powers of two of its last place, that is not lost by rounding; and the motion
+/// from it.
 fn least(osc: &Oscillator, cycle: &Cycle) -> (u32, Escape) {
     let mut ulps = 1;
     loop {
@@ -98,7 +99,8 @@ fn least(osc: &Oscillator, cycle: &Cycle) -> (u32, Escape) {
     }
 }
 
-/// The growth per impact: a straight line through the logarithms of the distances that are clear of rounding and small.
+/// The growth per impact, by linear regression of the logarithms of the distances that are small but well above
+/// rounding.
 #[allow(clippy::cast_precision_loss)] // hundreds
 fn growth(escape: &Escape) -> (f64, usize) {
     let small: Vec<(f64, f64)> = escape

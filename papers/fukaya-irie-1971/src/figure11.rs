@@ -1,4 +1,4 @@
-//! Figure 11: impacts that never settle, at U.
+//! Figure 11: impacts of a chaotic motion, at U.
 
 use crate::claims::{Agreement, Section};
 use crate::figure03::with_tolerance;
@@ -13,17 +13,17 @@ use vibroimpact::verdict::{PaperVerdict, SettleOptions, StartBox, attractors, pa
 use vibroimpact::{Label, Oscillator, Side, Start, scenario};
 use vibroimpact_plot::{Colour, Dash, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Text};
 
-/// Impacts shown.
+/// Number of impacts shown.
 const SHOWN: usize = 200;
-/// Simple motions looked for: impacts and periods.
+/// Simple motions that are searched: impacts and periods.
 const SIMPLE: [(u32, u32); 5] = [(1, 1), (2, 1), (1, 2), (2, 2), (1, 3)];
-/// Starts put to the paper's rule.
+/// Number of starts to which the rule of the paper is applied.
 const STARTS: u64 = 100;
 
-/// The nearest a motion comes to an orbit.
+/// The closest approach of a motion to an orbit.
 struct Pass {
     label: String,
-    /// Impact number and distance: phase or relative speed, the larger.
+    /// Number of the impact, and distance: the larger one of the differences in phase and in relative speed.
     shown: (usize, f64),
     long: (usize, f64),
 }
@@ -173,12 +173,12 @@ fn simple(section: &mut Section, orbits: &[(Label, Vec<Orbit>)]) {
     );
 }
 
-/// Three places, or powers of ten where they would show nothing.
+/// The text of a distance: three decimals, or a power of ten if these would be zero.
 fn distance(d: f64) -> String {
     if d < 1e-3 { format!("{d:.1e}") } else { format!("{d:.3}") }
 }
 
-/// How near the motion comes to the two orbits, and how long it looks like them.
+/// How close the motion comes to the two orbits, and how long it resembles them.
 fn similar(section: &mut Section, period: f64, list: &[Impact], passes: &[Pass]) {
     let like = |periods: f64| -> (usize, usize) {
         let near = |i: &Impact| (i.interval / (periods * period) - 1.0).abs() < 0.1;

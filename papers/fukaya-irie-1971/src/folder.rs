@@ -1,4 +1,4 @@
-//! The folder a reproduction is written to: recognised by its marker, written file by file, each whole or not at all.
+//! The folder of a reproduction. It is recognised by a marker file, and each file is written completely or not at all.
 
 use crate::Error;
 use std::fmt::Write as _;
@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use vibroimpact_plot::{DPI_300, Figure};
 
-/// The file that says what the folder is, written first, so that even a stopped run can be run again.
+/// The marker file, which describes the folder. It is written first, so that even a stopped run can be repeated.
 const MARKER: &str = "REPRODUCTION.txt";
 
 /// Its content.
@@ -24,7 +24,8 @@ pub(crate) struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder, or takes one that is empty, holds an earlier reproduction, or is to be taken by `force`.
+    /// Creates the folder, or opens one that is empty, contains an earlier reproduction, or is to be used because of
+    /// `force`.
     pub(crate) fn open(path: &Path, force: bool) -> Result<Self, Error> {
         let unusable = |source| Error::Unusable { path: path.to_owned(), source };
         if path.exists() && !path.is_dir() {
@@ -36,14 +37,14 @@ impl Folder {
             return Err(Error::Foreign(path.to_owned()));
         }
         let folder = Self { path: path.to_owned() };
-        // a folder that takes no marker takes no figure either: that is a bad question, not a failed run
+        // a folder in which no marker can be written cannot hold figures either: an invalid question, not a failed run
         match folder.write(MARKER, ABOUT.as_bytes()) {
             Err(Error::Write { source, .. }) => Err(unusable(source)),
             other => other.map(|()| folder),
         }
     }
 
-    /// Writes a file: under a temporary name, then renamed, so that no reader ever sees half of one.
+    /// Writes a file under a temporary name and then renames it, so that readers never see an incomplete file.
     pub(crate) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         let path = self.path.join(name);
         let temporary = self.path.join(format!(".{name}.{}.tmp", std::process::id()));
@@ -63,17 +64,17 @@ impl Folder {
     }
 }
 
-/// A table as text: a comment that says what it is, a header, rows. Numbers are written so that they read back exactly.
+/// A table as text: a comment that describes it, a header, and rows. Numbers read back as the same doubles.
 #[derive(Debug)]
 pub(crate) struct Csv(String);
 
 impl Csv {
-    /// A table of these columns.
+    /// A table with these columns.
     pub(crate) fn new(about: &str, columns: &str) -> Self {
         Self(format!("# {about}\n{columns}\n"))
     }
 
-    /// One more row.
+    /// Adds a row.
     pub(crate) fn row(&mut self, cells: &[&dyn std::fmt::Display]) {
         for (k, cell) in cells.iter().enumerate() {
             let comma = if k == 0 { "" } else { "," };

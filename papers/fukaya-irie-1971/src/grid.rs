@@ -1,5 +1,5 @@
-//! The plane of 1/beta and delta on the paper's grid, several starts at each point: our verdict of each start, and the
-//! paper's own rule beside it.
+//! The plane of 1/beta and delta on the grid of the paper, with several starts at each point: our verdict on each
+//! start, and that of the rule of the paper.
 
 use crate::{EPS, Error, Run};
 use vibroimpact::Oscillator;
@@ -9,7 +9,7 @@ use vibroimpact::verdict::{
 };
 use vibroimpact_study::{Span, tiles};
 
-/// Sequence of the scattered starts; any other would do.
+/// Seed of the scattered starts; its value is arbitrary.
 const SEED: u64 = 1971;
 
 /// A point of the plane.
@@ -17,16 +17,16 @@ const SEED: u64 = 1971;
 pub(crate) struct Point {
     pub(crate) inverse_beta: f64,
     pub(crate) gap: f64,
-    /// Amplitude |f| of the motion without a stop.
+    /// Amplitude |f| of the motion without impacts.
     pub(crate) free: f64,
     /// The distinct motions, the most frequent first.
     pub(crate) motions: Vec<CountedMotion>,
-    /// Each start: our label and what the paper's rule says.
+    /// For each start, our label and the verdict of the rule of the paper.
     pub(crate) starts: Vec<(String, PaperVerdict)>,
 }
 
 impl Point {
-    /// Whether motions with and without impacts are both among the verdicts: (with, without).
+    /// Whether there are motions with impacts, and motions without, as (with, without).
     pub(crate) fn kinds(&self) -> (bool, bool) {
         let none = |found: &CountedMotion| matches!(found.verdict, Verdict::NoImpact(_));
         (self.motions.iter().any(|found| !none(found)), self.motions.iter().any(none))
@@ -39,7 +39,7 @@ impl Point {
     }
 }
 
-/// The points, rows of rising gap.
+/// The points, in rows of rising gap.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
     pub(crate) x: Span,
@@ -49,7 +49,7 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// The points that have a motion with this label, and the share of starts that lead to it.
+    /// The points that have a motion with this label, each with the share of starts that lead to it.
     pub(crate) fn with<'a>(&'a self, label: &'a str) -> impl Iterator<Item = (&'a Point, f64)> {
         self.points.iter().filter_map(move |point| {
             let share: f64 = point
@@ -62,7 +62,7 @@ impl Grid {
         })
     }
 
-    /// All labels with the number of points that have them, in order of first appearance.
+    /// All labels with their numbers of points, in order of first appearance.
     pub(crate) fn labels(&self) -> Vec<(String, usize)> {
         let mut list: Vec<(String, usize)> = Vec::new();
         for point in &self.points {
@@ -80,7 +80,8 @@ impl Grid {
     }
 }
 
-/// Settles `starts` starts, the first at rest and the second on the free motion if it clears the wall, at each point of a grid.
+/// Settles `starts` starts at each point of a grid. The first is at rest; the second is on the motion without impacts,
+/// if that clears the stop.
 pub(crate) fn settle_grid(run: &Run<'_>, stage: &str, (x, gap, starts): (Span, Span, u64)) -> Result<Grid, Error> {
     let columns = u64::from(x.count());
     let total = columns * u64::from(gap.count());
@@ -101,7 +102,7 @@ pub(crate) fn settle_grid(run: &Run<'_>, stage: &str, (x, gap, starts): (Span, S
     Ok(Grid { x, gap, starts, points })
 }
 
-/// Figure 4's grid: steps 0.05 and 0.125.
+/// The grid of figure 4, with steps 0.05 and 0.125.
 pub(crate) fn settle_all(run: &Run<'_>) -> Result<Grid, Error> {
     let x = Span::new(0.4, 2.0, run.size(33, 17))?;
     let gap = Span::new(0.0, 5.0, run.size(41, 21))?;
@@ -109,7 +110,7 @@ pub(crate) fn settle_all(run: &Run<'_>) -> Result<Grid, Error> {
 }
 
 fn point((x, gap): (f64, f64), starts: u64) -> Result<Point, Error> {
-    // 0.4 + 0.05 k as it is written, not a rounding away: 1/beta = 1.2 is a fraction, 1.2000000000000002 is none
+    // 0.4 + 0.05 k as a decimal number, without rounding errors: 1/beta = 1.2 is a fraction, 1.2000000000000002 is none
     let x = (x * 1e6).round() / 1e6;
     let osc = Oscillator::from_inverse_beta(x, gap, EPS)?;
     let area = StartBox::natural(&osc);

@@ -3,27 +3,27 @@
 //! K. Fukaya, T. Irie, "On the Transient Oscillation of a Vibro-Impact System", Bulletin of the Faculty of
 //! Engineering, Hokkaido University 62 (1971) 31-39, <https://hdl.handle.net/2115/41063>.
 //!
-//! [`reproduce`] computes every figure anew, writes each as SVG, PNG and CSV, and puts beside each thing the paper says
-//! of it what was found here, with numbers, and whether the two agree. What the paper says is in this crate in our own
-//! words; what was found comes from the run and from nowhere else. Restitution is 0.5 throughout, there is no damping.
+//! [`reproduce`] computes every figure, writes it as SVG, PNG and CSV, and compares each statement of the paper with
+//! the result found here, in numbers. The statements of the paper are in this crate in our own words; the results come
+//! only from the run. Restitution is 0.5 in all figures, and there is no damping.
 //!
 //! | the paper | file |
 //! |---|---|
 //! | figures 1 and 2: the model, a waveform | `figure02` |
 //! | figure 3: the method and its rule (11)-(12) | `figure03` |
-//! | figure 4: the plane of 1/beta and delta; below zero | `figure04`, `grid`, `regions`, `search`, `below_zero` |
+//! | figure 4: the plane of 1/beta and delta; negative delta | `figure04`, `grid`, `regions`, `search`, `below_zero` |
 //! | figure 5: a motion of order four | `figure05` |
-//! | figures 6 to 9: which start leads where | `basins` |
+//! | figures 6 to 9: the motion to which each start leads | `basins` |
 //! | figure 10: from an unstable motion to a stable one | `figure10` |
-//! | figure 11: impacts that never settle | `figure11` |
+//! | figure 11: a chaotic motion | `figure11` |
 //! | section 4: the conclusions | `conclusions` |
 //! | the line through T and U, for `docs/orbits.md` | [`mod@line`] |
 //!
-//! | around it | file |
+//! | other parts | file |
 //! |---|---|
 //! | a row of the report, the report, its table for a terminal | [`Claim`], [`Report`] |
 //! | the report as a page | `page` |
-//! | the folder written to | `folder` |
+//! | the output folder | `folder` |
 
 mod basins;
 mod below_zero;
@@ -56,16 +56,16 @@ use vibroimpact_study::Control;
 /// Restitution of every figure.
 const EPS: f64 = 0.5;
 
-/// How to run.
+/// The options of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ReproductionOptions {
-    /// A small version of everything, in seconds: coarser grids, fewer starts. Its report says so.
+    /// Whether to run a small version within seconds, with coarser grids and fewer starts. Its report states this.
     pub quick: bool,
-    /// Write into a folder that holds other files; files of the same names are overwritten.
+    /// Whether to write into a folder that contains other files; files with the same names are overwritten.
     pub force: bool,
 }
 
-/// What the parts of a run share.
+/// The data common to all parts of a run.
 struct Run<'a> {
     quick: bool,
     control: &'a Control<'a>,
@@ -75,7 +75,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Announces a stage of this number of points, unless the run was stopped.
+    /// Announces a stage with this number of points, unless the run is stopped.
     fn stage(&self, name: &str, points: u64) -> Result<(), Error> {
         (self.stage)(name, points);
         if self.control.stop.load(Ordering::Relaxed) {
@@ -84,7 +84,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// `full`, or `quick` in a quick run.
+    /// Returns `full`, or `quick` in a quick run.
     fn size<T>(&self, full: T, quick: T) -> T {
         if self.quick { quick } else { full }
     }
@@ -92,12 +92,12 @@ impl Run<'_> {
 
 /// Computes the figures, writes them and the report into the folder `out`, and returns the report.
 ///
-/// `stage` is called at the beginning of each stage with its name and its number of points; `control.progress` then
-/// counts them. The files have the same bytes for any number of threads.
+/// `stage` is called at the beginning of each stage with its name and its number of points, which `control.progress`
+/// then counts. The files have the same bytes for any number of threads.
 ///
 /// # Errors
-/// [`Error`]: a folder that cannot be written or is not ours to overwrite, or a run stopped through `control`. Figures
-/// done before that stay.
+/// [`Error`] for a folder that cannot be written or may not be overwritten, and for a run that was stopped through
+/// `control`. Complete figures are kept.
 pub fn reproduce(
     out: &Path,
     options: &ReproductionOptions,

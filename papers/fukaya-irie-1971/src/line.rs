@@ -1,5 +1,5 @@
-//! The line 1/beta = 1.11 through the paper's points T and U, restitution 1/2, no damping: its periodic orbits over the gap,
-//! every event on their branches, and what simulation says beside each.
+//! The line 1/beta = 1.11 through the points T and U of the paper, with restitution 1/2 and no damping: its periodic
+//! orbits over the gap, every event on their branches, and simulation near each event.
 //!
 //! The document `docs/orbits.md` shows the table and the figure that [`write()`] makes.
 //!
@@ -21,16 +21,16 @@ use crate::Error;
 use std::path::Path;
 use vibroimpact_plot::DPI_300;
 
-/// What stands before and after the table in the document.
+/// The lines before and after the table in the document.
 const MARKERS: (&str, &str) = (
     "<!-- Written by `cargo xtask line`. Do not edit: change papers/fukaya-irie-1971/src/line instead. -->\n",
     "<!-- End of what `cargo xtask line` writes. -->\n",
 );
 
-/// The document with the table computed anew.
+/// The document with a newly computed table.
 ///
 /// # Errors
-/// [`Error::Unexpected`] where a branch does not begin, or the document lacks the markers.
+/// [`Error::Unexpected`] if a branch cannot begin, or the document lacks the markers.
 pub fn table_in(document: &str) -> Result<String, Error> {
     let lacks = Error::Unexpected("the document lacks the comments that a table goes between");
     let Some((before, rest)) = document.split_once(MARKERS.0) else { return Err(lacks) };
@@ -42,7 +42,7 @@ pub fn table_in(document: &str) -> Result<String, Error> {
 /// Writes the table into `orbits.md` and the figure into `line.png`, both in the folder `docs`.
 ///
 /// # Errors
-/// As [`table_in`], and [`Error::Write`] for a file that cannot be read or written.
+/// As for [`table_in`], and [`Error::Write`] for a file that cannot be read or written.
 pub fn write(docs: &Path) -> Result<(), Error> {
     let failed = |path: &Path| {
         let path = path.to_owned();

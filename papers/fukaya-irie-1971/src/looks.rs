@@ -1,8 +1,8 @@
-//! How figures and numbers look here: axes of the plane, legends of motions, percentages.
+//! Common parts of figures and numbers: axes of the plane, legends of motions, percentages.
 
 use vibroimpact_plot::{ClassStyle, Figure, GROUPS, Legend, class_style, legend_group, legend_text};
 
-/// Style number of a label's group, for a [`Rects`](vibroimpact_plot::Rects) made with [`styles`].
+/// Number of the style of the group of a label, for a [`Rects`](vibroimpact_plot::Rects) made with [`styles`].
 pub(crate) fn class(label: &str) -> usize {
     let group = legend_group(label);
     GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len() - 1)
@@ -13,7 +13,7 @@ pub(crate) fn styles() -> Vec<ClassStyle> {
     GROUPS.map(class_style).to_vec()
 }
 
-/// A legend of the groups these labels fall in, in the palette's order.
+/// A legend of the groups of these labels, in the order of the palette.
 pub(crate) fn legend<'a>(labels: impl Iterator<Item = &'a str>) -> Legend {
     let present: Vec<usize> = labels.map(class).collect();
     GROUPS
@@ -23,12 +23,12 @@ pub(crate) fn legend<'a>(labels: impl Iterator<Item = &'a str>) -> Legend {
         .fold(Legend::below(), |legend, (_, group)| legend.patch(class_style(group), legend_text(group)))
 }
 
-/// A figure on one column, its height in units of 1/8 mm.
+/// A figure for one column, with its height in units of 1/8 mm.
 pub(crate) fn column(panel: vibroimpact_plot::Panel, height: f64) -> Figure {
     Figure::new(panel).size(vibroimpact_plot::COLUMN, height)
 }
 
-/// `12.3 %`, with more digits where it is small, and never a rounded 0 or 100.
+/// The text of a share: `12.3 %`, with more digits for small shares, and never rounded to 0 or 100.
 pub(crate) fn percent(share: f64) -> String {
     let p = 100.0 * share;
     let from_end = p.min(100.0 - p);
@@ -46,13 +46,13 @@ pub(crate) fn count(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
-/// `(1.8, 0.25)`, to four digits at most.
+/// `(1.8, 0.25)`, with at most four digits.
 pub(crate) fn place(x: f64, gap: f64) -> String {
     let short = |v: f64| (v * 1e4).round() / 1e4;
     format!("({}, {})", short(x), short(gap))
 }
 
-/// `a, b and c`; at most `most` of them, then `...`.
+/// `a, b and c`: at most `most` items, then `...`.
 pub(crate) fn list(items: &[String], most: usize) -> String {
     if items.len() > most {
         return format!("{}, ... ({} in all)", items[..most].join(", "), items.len());

@@ -1,4 +1,4 @@
-//! The report as a page: one file, nothing fetched from anywhere, for screens of any size and for paper.
+//! The report as a page: one file without external parts, for screens of any size and for print.
 
 use crate::claims::{Agreement, Claim, Report, Section};
 
@@ -87,7 +87,7 @@ fn row(page: &mut String, claim: &Claim) {
     ));
 }
 
-/// The verdict without colour.
+/// A sign for the verdict that is legible without colour.
 const fn sign(verdict: Agreement) -> &'static str {
     match verdict {
         Agreement::Agrees => "&#10003;",
@@ -111,7 +111,7 @@ fn marks(section: &Section) -> String {
         .join(" ")
 }
 
-/// The SVG without the size in pixels, which the page sets.
+/// The SVG without its size in pixels, which the page sets.
 fn scalable(svg: &str) -> String {
     let Some((head, rest)) = svg.split_once('>') else {
         return svg.to_owned();
@@ -125,7 +125,7 @@ fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Names of quantities as letters.
+/// Replaces names of quantities by their symbols.
 fn pretty(text: &str) -> String {
     let mut out = escape(text);
     for (name, letter) in [

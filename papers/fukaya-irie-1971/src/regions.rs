@@ -1,5 +1,5 @@
-//! Where the simple orbits are stable and where they exist at all, from theory: the regions of [`region`], polygons along
-//! the curves where an orbit folds, doubles its period, loses an impact or gains one.
+//! The regions where simple orbits are stable and where they exist, from theory: the polygons of [`region`] along the
+//! curves where an orbit folds, flips, loses an impact or gains one.
 
 use crate::{EPS, Error, Run};
 use vibroimpact::continuation::{self, Bound, Frame, Polygon, RegionKind, RegionOptions, region};
@@ -8,7 +8,7 @@ use vibroimpact::verdict::Count;
 use vibroimpact::{Label, Oscillator, Parameter};
 use vibroimpact_study::tiles;
 
-/// The window that is searched: 1/beta and the gap.
+/// The window of the search: ranges of 1/beta and the gap.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Window {
     pub(crate) x: (f64, f64),
@@ -19,20 +19,21 @@ pub(crate) struct Window {
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
     pub(crate) label: Label,
-    /// Where it is stable.
+    /// The region where it is stable.
     pub(crate) stable: continuation::Region,
-    /// Where it exists, stable or not, for the labels that were asked for.
+    /// The region where it exists, stable or not, if requested.
     pub(crate) exists: Option<continuation::Region>,
-    /// The part of the window, above gap 0, in which it is stable.
+    /// Area of the region of stability above gap 0.
     pub(crate) area: f64,
-    /// The mean gap over it, and the lowest and highest.
+    /// The mean gap over this area, and the lowest and highest gap.
     pub(crate) mean_gap: f64,
     pub(crate) gaps: (f64, f64),
     window: Window,
 }
 
 impl Region {
-    /// Whether a stable orbit of this label is possible at a point; beside the window the point itself is asked.
+    /// Whether an admissible stable orbit of this label exists at a point. Outside the window it is searched at the
+    /// point itself.
     pub(crate) fn holds(&self, inverse_beta: f64, gap: f64) -> bool {
         if inverse_beta <= self.window.x.1 {
             return self.stable.contains((inverse_beta, gap));
@@ -43,13 +44,13 @@ impl Region {
     }
 }
 
-/// The regions of these labels, in the order asked for; existence of the first `both` of them.
+/// The regions of these labels, in the given order; for the first `both` labels also the regions of existence.
 pub(crate) fn regions(run: &Run<'_>, window: Window, labels: &[Label], both: usize) -> Result<Vec<Region>, Error> {
     let stable = labels.iter().map(|label| (*label, RegionKind::Stability));
     let jobs: Vec<_> = stable.chain(labels[..both].iter().map(|label| (*label, RegionKind::Existence))).collect();
     run.stage("figure 4: regions from theory", jobs.len() as u64)?;
     let options = RegionOptions { longest: run.size(0.02, 0.05), ..RegionOptions::default() };
-    // the regions of high orders are low: more rows there, and fewer seeds
+    // regions of high orders are narrow in the gap, so they need more rows and fewer seeds
     let (plain, fine) = run.size(((24, 24), (24, 48)), ((12, 12), (12, 24)));
     let of = |label: Label| {
         if label.impacts > Count::Finite(3) {
@@ -58,7 +59,7 @@ pub(crate) fn regions(run: &Run<'_>, window: Window, labels: &[Label], both: usi
             RegionOptions { grid: plain, ..options }
         }
     };
-    // 1/beta and the gap vary, so those given here count for nothing
+    // 1/beta and the gap vary, so their values here are ignored
     let osc = Oscillator::from_inverse_beta(window.x.0, 0.0, EPS)?;
     let frame = Frame {
         parameters: (Parameter::InverseBeta, Parameter::Gap),
@@ -81,8 +82,8 @@ pub(crate) fn regions(run: &Run<'_>, window: Window, labels: &[Label], both: usi
     Ok(labels.iter().zip(found).map(|(label, stable)| measured(*label, stable, exists.next(), window)).collect())
 }
 
-/// The measures of a region: area and mean gap over what lies above gap 0, by Green's theorem. Gaps below 0 are raised
-/// to 0, which leaves no area there.
+/// The measures of a region: area and mean gap of its part above gap 0, by Green's theorem. Gaps below 0 are replaced
+/// by 0, which contributes no area.
 fn measured(
     label: Label,
     stable: continuation::Region,
@@ -104,11 +105,11 @@ fn measured(
     Region { label, stable, exists, area: area / whole, mean_gap: moment / area, gaps, window }
 }
 
-/// The parts of a polygon's edge that are no part of the frame, each with the bounds along it.
+/// The parts of the boundary of a polygon that are not on the frame, each with its kinds of boundary.
 pub(crate) fn outlines(polygon: &Polygon) -> Vec<Vec<((f64, f64), Bound)>> {
     let vertices = &polygon.vertices;
     let m = vertices.len();
-    // begin where the frame is left, so that no line is cut in two
+    // begin where the boundary leaves the frame, so that no line is divided
     let begin = (0..m).find(|&k| vertices[k].bound != Bound::Frame && vertices[(k + m - 1) % m].bound == Bound::Frame);
     let mut lines: Vec<Vec<((f64, f64), Bound)>> = Vec::new();
     let mut open = false;

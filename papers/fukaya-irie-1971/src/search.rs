@@ -1,4 +1,4 @@
-//! Two parts of figure 4 looked at with finer steps, for the super-sub motions the paper names there.
+//! Two parts of figure 4 on finer grids, to search for the super-sub motions that the paper names there.
 
 use crate::folder::Csv;
 use crate::grid::{Grid, settle_grid};
@@ -9,13 +9,13 @@ use vibroimpact_study::Span;
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
     pub(crate) grid: Grid,
-    /// Its window, for sentences.
+    /// The text of its window.
     pub(crate) window: String,
 }
 
 impl Part {
-    /// Where a label was found, the place with the largest share first: `5/8 at 7 points, most of the starts (100 %) at
-    /// (0.4, 0.375)`.
+    /// Where a label was found, beginning with the point with the largest share: `5/8 at 7 points, most of the starts
+    /// (100 %) at (0.4, 0.375)`.
     pub(crate) fn found(&self, label: &str) -> Option<String> {
         told(&self.grid, label)
     }
@@ -62,7 +62,7 @@ fn part(run: &Run<'_>, stage: &str, (x, gap, starts): (Span, Span, u64)) -> Resu
     Ok(Part { grid, window })
 }
 
-/// Both as a table.
+/// Both parts as a table.
 pub(crate) fn csv(parts: &[&Part]) -> Csv {
     let mut csv = Csv::new(
         "Figure 4: motions found with finer steps in two parts of the plane",
@@ -74,7 +74,7 @@ pub(crate) fn csv(parts: &[&Part]) -> Csv {
     csv
 }
 
-/// One row per point and motion.
+/// One row for each point and motion.
 pub(crate) fn rows(grid: &Grid, csv: &mut Csv) {
     for point in &grid.points {
         for found in &point.motions {

@@ -1,4 +1,4 @@
-//! Impacts of a motion as a list, and its waveform.
+//! The impacts of a motion as a list, and its waveform.
 
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::{Oscillator, Start};
@@ -8,16 +8,16 @@ use vibroimpact::{Oscillator, Start};
 pub(crate) struct Impact {
     /// Time since the start.
     pub(crate) time: f64,
-    /// Time since the impact before, or since the start.
+    /// Time since the previous impact, or since the start.
     pub(crate) interval: f64,
     /// Phase of the force.
     pub(crate) phase: f64,
-    /// Speed of arrival and of rebound.
+    /// Speed before and after the impact.
     pub(crate) speed: f64,
     pub(crate) rebound: f64,
 }
 
-/// The first `count` impacts from `start`, fewer if the motion ceases to strike.
+/// The first `count` impacts from `start`, or fewer if the motion has no more.
 pub(crate) fn impacts(osc: &Oscillator, start: Start, count: usize) -> Vec<Impact> {
     let mut last = 0.0;
     Motion::new(osc, start)
@@ -40,8 +40,8 @@ pub(crate) fn impacts(osc: &Oscillator, start: Start, count: usize) -> Vec<Impac
         .collect()
 }
 
-/// Position and velocity in a flight as the paper writes them, equations (6) and (8), and (3)' and (4)' at resonance: a
-/// time `z` after leaving `(x, v)` at phase `phase` of the force.
+/// Position and velocity in a flight by the equations of the paper, (6) and (8), and (3)' and (4)' at resonance: at a
+/// time `z` after `(x, v)` at the phase `phase` of the force.
 pub(crate) fn as_printed(beta: f64, (x, v, phase): (f64, f64, f64), z: f64) -> (f64, f64) {
     let turned = beta * z + phase;
     let (sin, cos) = z.sin_cos();

@@ -1,4 +1,4 @@
-//! The table of `docs/orbits.md`, computed anew.
+//! Computes the table of `docs/orbits.md` again.
 
 use fukaya_irie_1971::line;
 use std::path::Path;
@@ -10,7 +10,7 @@ fn the_document_says_what_is_computed() {
     let anew = line::table_in(&document).expect("the branches are followed");
     let differ: Vec<_> = document.lines().zip(anew.lines()).filter(|(old, new)| old != new).collect();
     assert!(document == anew, "run `cargo xtask line`; these lines differ: {differ:#?}");
-    // what the study rests on, in the words of the table
+    // the main results of the study, as rows of the table
     for row in [
         "1.829006189684 | flip | 1/1, 2/2 ",
         "1.831961666269 | grazing | 1/2, 2/2 ",

@@ -1,4 +1,4 @@
-//! A quick reproduction: every file, every row, the same bytes for any number of threads, and a stop that stops.
+//! Tests of a quick reproduction: all files, all rows, the same bytes for any number of threads, and stopping.
 
 use fukaya_irie_1971::{Report, ReproductionOptions, reproduce};
 use std::collections::BTreeMap;
@@ -33,7 +33,7 @@ fn files_and_rows_are_complete_for_any_number_of_threads() {
     assert_eq!(report, run(&two, 2));
     let written = files(&one);
     assert_eq!(written, files(&two));
-    // and over itself
+    // a second run into the same folder
     run(&one, 2);
     assert_eq!(files(&one), written);
 

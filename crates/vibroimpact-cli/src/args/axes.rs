@@ -1,4 +1,4 @@
-//! AXES: in which order the parameters that vary are the axes.
+//! AXES: the order in which the parameters that vary are the axes.
 
 use super::vary::{flag, parameter};
 use crate::failure::Failure;
@@ -14,7 +14,7 @@ pub(crate) struct AxesArgs {
 }
 
 impl AxesArgs {
-    /// What varies, in the order asked for, or as it is.
+    /// The parameters that vary in the requested order, or unchanged if none was requested.
     pub(crate) fn order<T>(&self, varied: Vec<T>, parameter: impl Fn(&T) -> Parameter) -> Result<Vec<T>, Failure> {
         if self.axes.is_empty() {
             return Ok(varied);

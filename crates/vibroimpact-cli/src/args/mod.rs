@@ -1,4 +1,4 @@
-//! Groups of arguments that several commands share; what belongs to one command is in its file.
+//! Groups of arguments that several commands share. Arguments of one command are in the file of that command.
 
 mod axes;
 mod numbers;

@@ -1,11 +1,11 @@
-//! Numbers as people write them: `1000` or `1e3`, `0.5` or `-2e-3`.
+//! Numbers in the forms that users write: `1000` or `1e3`, `0.5` or `-2e-3`.
 
 use core::fmt::Display;
 
-/// Up to here every whole number is a double.
+/// Up to this number every integer is a double.
 const MOST: f64 = 9_007_199_254_740_992.0;
 
-/// A number. One that is not finite is left to what it is a number of, which names its range.
+/// A number. Numbers that are not finite pass, because the check of the quantity names its range.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     text.trim().parse().map_err(|_| format!("`{}` is not a number, such as 0.5 or -2e-3", shown(text)))
 }
@@ -14,7 +14,7 @@ fn shown(text: &str) -> String {
     text.chars().take(60).collect()
 }
 
-/// A whole number, in digits or with an exponent.
+/// An integer, in digits or with an exponent.
 pub(crate) fn whole<T: TryFrom<u64, Error: Display>>(text: &str) -> Result<T, String> {
     let bad = || format!("`{}` is not a whole number, such as 1000 or 1e3", shown(text));
     let short = |text: &str| {
@@ -27,7 +27,7 @@ pub(crate) fn whole<T: TryFrom<u64, Error: Display>>(text: &str) -> Result<T, St
     T::try_from(number).map_err(|_| format!("{number} is too large"))
 }
 
-/// A whole number between two ends, both allowed.
+/// An integer in a range, with both ends allowed.
 pub(crate) fn within<T: TryFrom<u64, Error: Display>, const LOWEST: u64, const HIGHEST: u64>(
     text: &str,
 ) -> Result<T, String> {

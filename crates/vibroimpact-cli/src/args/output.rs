@@ -1,4 +1,4 @@
-//! Options that every command understands.
+//! Options of all commands.
 
 use super::within;
 use clap::Args;

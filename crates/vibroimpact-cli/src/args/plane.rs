@@ -1,4 +1,4 @@
-//! PLANE: ranges of parameters, `A:B`, alone or with the name of the parameter.
+//! PLANE: ranges of parameters, `A:B`, with or without the name of the parameter.
 
 use super::vary::flag;
 use core::str::FromStr;
@@ -26,7 +26,7 @@ pub(crate) enum Place {
 }
 
 impl Place {
-    /// The value, or the smallest.
+    /// The value, or the smallest value of the range.
     pub(crate) const fn first(self) -> f64 {
         match self {
             Self::At(value) | Self::Over(Interval(value, _)) => value,
@@ -56,7 +56,7 @@ impl FromStr for Place {
     }
 }
 
-/// `A:B`, either way round.
+/// `A:B` with the ends in any order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ends(pub(crate) f64, pub(crate) f64);
 
@@ -71,7 +71,7 @@ impl FromStr for Ends {
     }
 }
 
-/// `PARAMETER=...`, what is said of a parameter.
+/// `PARAMETER=...`: a parameter with a value or range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Named<T>(pub(crate) Parameter, pub(crate) T);
 

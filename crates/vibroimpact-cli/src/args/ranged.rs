@@ -3,7 +3,7 @@
 use core::str::FromStr;
 use vibroimpact_study::{Axis, Parameter, Values};
 
-/// One value, or those of an axis.
+/// One value, or the values of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Ranged {
     At(f64),
@@ -11,7 +11,7 @@ pub(crate) enum Ranged {
 }
 
 impl Ranged {
-    /// The value, or the first.
+    /// The value, or the first value of the axis.
     pub(crate) fn first(&self) -> f64 {
         match self {
             Self::At(value) => *value,

@@ -1,4 +1,4 @@
-//! START: where a motion begins.
+//! START: the start of a motion.
 
 use super::number;
 use clap::Args;

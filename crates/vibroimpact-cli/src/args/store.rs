@@ -1,4 +1,4 @@
-//! STORE: where the results of a grid go, tile by tile.
+//! STORE: the store for the results of a grid, which is filled tile by tile.
 
 use super::whole;
 use crate::failure::Failure;
@@ -23,7 +23,8 @@ pub(crate) struct StoreArgs {
 }
 
 impl StoreArgs {
-    /// The plan with the tiles asked for. A store keeps its plan, which is nondimensional: one in metres and seconds is refused.
+    /// The plan with the requested size of tiles. Results in metres and seconds are refused, because a store contains
+    /// its plan, which is nondimensional.
     pub(crate) fn tiled(&self, plan: Plan, units: &Units) -> Result<Plan, Failure> {
         if let (Some(_), Some(scales), true) = (&self.store, &units.scales, units.si) {
             return Err(Failure::bad(format!(

@@ -1,4 +1,4 @@
-//! SYSTEM: the oscillator, nondimensional or as a machine in physical units.
+//! SYSTEM: the oscillator, in nondimensional or in physical units.
 
 use super::number;
 use crate::failure::Failure;
@@ -147,7 +147,7 @@ impl SystemArgs {
 }
 
 impl SystemArgs {
-    /// The gap of a nondimensional system, if nothing that it needs is missing.
+    /// The gap of a nondimensional system; an error if a required parameter is missing.
     fn complete(&self) -> Result<f64, Failure> {
         let needed = [
             ("the frequency ratio", "--beta B or --inverse-beta X", self.beta.or(self.inverse_beta)),
@@ -157,7 +157,7 @@ impl SystemArgs {
         let missing = needed.iter().filter(|(.., value)| value.is_none());
         let (names, flags): (Vec<&str>, Vec<&str>) = missing.map(|(name, flag, _)| (*name, *flag)).unzip();
         let said = match names.as_slice() {
-            // of a frequency alone the plan says it, in the same words to all that make one
+            // if only the frequency is missing, the plan reports it with the same message in all interfaces
             [] | ["the frequency ratio"] => return Ok(self.gap.unwrap_or(0.0)),
             [one] => format!("{one} is not given"),
             [first @ .., last] => format!("{} and {last} are not given", first.join(", ")),
@@ -166,9 +166,9 @@ impl SystemArgs {
     }
 }
 
-/// What a plane needs, whose values may be ranges.
+/// Functions for a plane, whose values may be ranges.
 impl SystemArgs {
-    /// The system of these values.
+    /// The system with these values.
     pub(crate) fn of(values: &[(Parameter, Option<f64>)], machine: MachineArgs, units: Convention) -> Self {
         let mut args = Self {
             beta: None,
@@ -188,7 +188,7 @@ impl SystemArgs {
     }
 }
 
-/// What a parameter that varies needs to know and to set.
+/// Functions for a parameter that varies.
 impl SystemArgs {
     pub(super) const fn slot(&mut self, parameter: Parameter) -> &mut Option<f64> {
         match parameter {
@@ -214,7 +214,7 @@ impl SystemArgs {
 }
 
 impl MachineArgs {
-    /// The machine, if any of its quantities is given; then all must be.
+    /// The machine in physical units, if any of its quantities is given; then all are required.
     fn machine(&self, restitution: Option<f64>) -> Result<Option<Machine>, Failure> {
         let frequency = match (self.frequency_hz, self.omega_rad_per_s) {
             (Some(hertz), _) => Some(Frequency::Hz(hertz)),

@@ -1,4 +1,4 @@
-//! VARY: the parameter that takes all values of a range, and the system without it.
+//! VARY: a parameter that varies over a range, and the system without it.
 
 use super::SystemArgs;
 use crate::failure::Failure;
@@ -6,7 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vibroimpact_report::Asked;
 use vibroimpact_study::{Parameter, SystemPlan};
 
-/// A parameter by the name of its flag.
+/// Parses a parameter from the name of its flag.
 pub(crate) fn parameter() -> impl TypedValueParser<Value = Parameter> {
     let values = Parameter::ALL.map(|parameter| PossibleValue::new(flag(parameter)).help(meaning(parameter)));
     PossibleValuesParser::new(values).try_map(|name| {
@@ -15,7 +15,7 @@ pub(crate) fn parameter() -> impl TypedValueParser<Value = Parameter> {
     })
 }
 
-/// Its flag, without the dashes.
+/// The name of the flag of a parameter, without the dashes.
 pub(crate) const fn flag(parameter: Parameter) -> &'static str {
     match parameter {
         Parameter::Beta => "beta",
@@ -41,9 +41,9 @@ const fn meaning(parameter: Parameter) -> &'static str {
 }
 
 impl SystemArgs {
-    /// The system with their first values for the parameters that vary, which have no values of their own; each with the
-    /// flags that say that it varies, and over what. A machine in physical units is given whole, because its units need all of
-    /// it; its values are replaced.
+    /// The system in which the parameters that vary have their first values. They may not have other values. For each
+    /// parameter the flags are given that make it vary and set its range. A system in physical units must be given
+    /// completely, because its units depend on all quantities; its values are then replaced.
     pub(crate) fn varied(&self, varied: &[(Parameter, f64, [&str; 2])]) -> Result<Asked, Failure> {
         let mut args = *self;
         for (parameter, _, [varies, over]) in varied {
@@ -61,7 +61,7 @@ impl SystemArgs {
                 ));
             }
         }
-        // of a machine the values are replaced, in its units
+        // in a system in physical units, the values are replaced in its units
         let machine = args.is_machine();
         let replaced = |parameter: Parameter| {
             machine && ![Parameter::Restitution, Parameter::SecondRestitution].contains(&parameter)

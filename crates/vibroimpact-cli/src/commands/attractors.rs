@@ -1,4 +1,4 @@
-//! `vibro attractors`: the steady motions of a system and the share of starts that lead to each.
+//! `vibro attractors`: the attractors of a system, and the share of starts that lead to each.
 
 use crate::args::{StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;

@@ -1,4 +1,4 @@
-//! `vibro basin`: which motion each start of a plane leads to.
+//! `vibro basin`: the motion to which each start of a plane leads.
 
 use crate::args::{StoreArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;

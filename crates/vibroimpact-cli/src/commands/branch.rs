@@ -1,4 +1,4 @@
-//! `vibro branch`: an orbit followed in one parameter, through its events.
+//! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
 use crate::args::{Named, SystemArgs, number, parameter, whole};
 use crate::commands::outputs::Outputs;

@@ -1,4 +1,4 @@
-//! `vibro curve`: a fold, flip or grazing of an orbit over a plane of two parameters.
+//! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
 use crate::args::{Named, Over, SystemArgs, whole};
 use crate::commands::outputs::Outputs;

@@ -1,4 +1,4 @@
-//! `vibro explore`: the plane of motions on a local page.
+//! `vibro explore`: the explorer, a page on a local port.
 
 use crate::failure::Failure;
 use crate::session::Session;

@@ -42,7 +42,7 @@ pub(super) fn run(args: &Export, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
     if let Some(path) = &args.csv {
         let outputs = Outputs::reserve(Some(path), None, false, session)?;
-        // before the first row is written, which stdout cannot take back
+        // check for damage before the first row, because output to stdout cannot be taken back
         session.tiled(0, "points", |control, _| store.whole(control))?;
         return outputs.stream(
             session,

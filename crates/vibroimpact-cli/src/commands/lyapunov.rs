@@ -1,4 +1,4 @@
-//! `vibro lyapunov`: the Lyapunov exponents of a motion, and what its attractor looks like.
+//! `vibro lyapunov`: the Lyapunov exponents of a motion, and sections of its attractor.
 
 use crate::args::{StartArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;

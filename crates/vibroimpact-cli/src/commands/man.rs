@@ -25,7 +25,7 @@ pub(super) fn run(args: &Man, mut command: Command, session: &Session) -> Result
     };
     let mut pages = vec![("vibro.1".to_owned(), command.clone())];
     for sub in command.get_subcommands().filter(|sub| sub.get_name() != "help") {
-        // build() has given each its full name
+        // `build()` has given each sub-command its full name
         pages.push((format!("vibro-{}.1", sub.get_name()), sub.clone()));
     }
     let mut reserved = Vec::new();

@@ -1,4 +1,4 @@
-//! `vibro map`: which motions there are at each point of a plane of parameters.
+//! `vibro map`: the motions at each point of a plane of parameters.
 
 use crate::args::{AxesArgs, Ranged, StoreArgs, whole};
 use crate::commands::outputs::Outputs;
@@ -99,7 +99,7 @@ struct PlaneArgs {
 }
 
 impl PlaneArgs {
-    /// The parameters that were given, in the order of the flags.
+    /// The given parameters, in the order of the flags.
     fn given(&self) -> impl Iterator<Item = (Parameter, &Ranged)> {
         let all = [
             (Parameter::Beta, self.beta.as_ref()),

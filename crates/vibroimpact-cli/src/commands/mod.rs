@@ -1,4 +1,4 @@
-//! The command line, and the commands, one file each: its arguments, its plan, its run, its report.
+//! The command line and its commands. The file of a command has its arguments, plan, run and report.
 
 mod attractors;
 mod basin;

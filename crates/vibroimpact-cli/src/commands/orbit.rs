@@ -1,4 +1,4 @@
-//! `vibro orbit`: the periodic orbits of a label, stable or not.
+//! `vibro orbit`: the periodic orbits with a label, stable or not.
 
 use crate::args::SystemArgs;
 use crate::commands::outputs::Outputs;

@@ -1,4 +1,4 @@
-//! What a grid command writes: a table, a picture, or both, reserved before anything is computed.
+//! The output files of a command: a table, a figure, or both. They are reserved before the computation.
 
 use crate::failure::Failure;
 use crate::files::Target;
@@ -10,7 +10,7 @@ use vibroimpact_report::figure::plane::Plane;
 use vibroimpact_report::{Table, Units};
 use vibroimpact_study::Axis;
 
-/// The outputs of a grid command.
+/// The outputs of a command.
 pub(super) struct Outputs {
     csv: Option<Sheet>,
     picture: Option<Picture>,
@@ -44,7 +44,7 @@ impl Outputs {
         Ok(Self { csv, picture, json })
     }
 
-    /// Refuses a picture of axes that none can be drawn over, before anything is computed.
+    /// Refuses axes over which no figure can be drawn, before the computation.
     pub(super) fn drawable(&self, axes: &[Axis]) -> Result<(), Failure> {
         if self.picture.is_some() {
             Plane::of(axes, &Units::default())?;
@@ -52,27 +52,27 @@ impl Outputs {
         Ok(())
     }
 
-    /// Whether a table or a picture was asked for.
+    /// Whether a table or a figure was requested.
     pub(super) const fn any_file(&self) -> bool {
         self.csv.is_some() || self.picture.is_some()
     }
 
-    /// Whether JSON was asked for.
+    /// Whether JSON was requested.
     pub(super) const fn json(&self) -> bool {
         self.json
     }
 
-    /// Whether anything but text was asked for.
+    /// Whether any output other than text was requested.
     pub(super) const fn any(&self) -> bool {
         self.csv.is_some() || self.picture.is_some() || self.json
     }
 
-    /// Whether the table goes to stdout: then it is the answer, and no text follows it.
+    /// Whether the table goes to stdout. It is then the only output there, and no text is printed.
     pub(super) const fn table_on_stdout(&self) -> bool {
         matches!(self.csv, Some(Sheet::Stdout))
     }
 
-    /// Writes what was asked for of a result.
+    /// Writes the requested outputs of a result.
     pub(super) fn write<'a>(
         self,
         session: &Session,
@@ -83,7 +83,7 @@ impl Outputs {
         self.stream(session, |out| table.map_or(Ok(()), |table| table.write(out)), figure)
     }
 
-    /// The same with a table that is read while it is written.
+    /// The same, with a table that is read while it is written.
     pub(super) fn stream(
         self,
         session: &Session,

@@ -1,4 +1,4 @@
-//! `vibro region`: where in a plane of two parameters a motion exists, and where it is stable.
+//! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
 use crate::args::{AxesArgs, Convention, MachineArgs, Place, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
@@ -99,8 +99,8 @@ impl Region {
         ]
     }
 
-    /// The system, with the smallest value of what varies. A machine in physical units is given whole, because its units
-    /// need all of it; ranges replace its values.
+    /// The system, with the smallest values of the parameters that vary. A system in physical units must be given
+    /// completely, because its units depend on all quantities; ranges replace its values.
     fn asked(&self) -> Result<Asked, Failure> {
         let restitution = |p: Parameter| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
         let machine = SystemArgs::of(&[], self.machine, self.units).is_machine();
@@ -117,7 +117,7 @@ impl Region {
         Ok(asked)
     }
 
-    /// What is given as a range.
+    /// The parameters that are given as ranges.
     fn over(&self, units: &Units) -> Vec<Stretch> {
         let over = |(parameter, place): (Parameter, Option<Place>)| {
             let (stretch, unit) = (place?.over(parameter)?, units.of(parameter));
@@ -126,7 +126,7 @@ impl Region {
         self.places().into_iter().filter_map(over).collect()
     }
 
-    /// The two parameters that are ranges, the abscissa first.
+    /// The two parameters with ranges, the abscissa first.
     fn plane(&self, asked: &Asked) -> Result<(Stretch, Stretch), Failure> {
         if asked.system.second_stop.is_some()
             && self.second_restitution.is_none()

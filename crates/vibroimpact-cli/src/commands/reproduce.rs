@@ -1,4 +1,4 @@
-//! `vibro reproduce`: the 1971 paper, figure by figure.
+//! `vibro reproduce`: the figures of the 1971 paper.
 
 use crate::failure::Failure;
 use crate::session::Session;

@@ -1,4 +1,4 @@
-//! What the commands that ask one question share: compute its answer, then write the files and print what was asked for.
+//! Common part of the commands with one answer: compute it, write the files, and print the report.
 
 use crate::args::StoreArgs;
 use crate::commands::outputs::Outputs;
@@ -10,7 +10,7 @@ use vibroimpact_report::{Answer, AnswerError, Shown, Units, answer};
 use vibroimpact_store::Part;
 use vibroimpact_study::{Control, Plan, Results, Stopped};
 
-/// Computes the answer of a plan and reports it; with --store the plan is computed into the store instead.
+/// Computes the answer of a plan and reports it. With --store, the plan fills the store instead.
 pub(super) fn run(
     plan: &Plan,
     units: Units,
@@ -25,7 +25,7 @@ pub(super) fn run(
     tell(&answer, (outputs, shown), session)
 }
 
-/// Computes the answer of a plan, with a progress bar where there is something to count.
+/// Computes the answer of a plan, with a progress bar if the plan reports progress.
 pub(super) fn compute(plan: &Plan, units: Units, session: &Session) -> Result<Answer, Failure> {
     let work = plan.work();
     session.watched(work, |control| answer(plan, units, control)).map_err(|error| match error {
@@ -38,12 +38,13 @@ pub(super) fn compute(plan: &Plan, units: Units, session: &Session) -> Result<An
     })
 }
 
-/// Writes the files, then prints the JSON object or, where the table is not on stdout, the text. Of a grid with a file there is no text.
+/// Writes the files, then prints the JSON object, or the text unless the table is on stdout. For a grid with an output
+/// file no text is printed.
 pub(super) fn tell(answer: &Answer, (outputs, shown): (Outputs, Shown), session: &Session) -> Result<(), Failure> {
     let grid = matches!(answer.results, Results::Basin(_) | Results::Map(_) | Results::Diagram(_));
     let (json, files, table) = (outputs.json(), outputs.any_file(), outputs.table_on_stdout());
     let none = |what: &str| Failure::bad(format!("this question has no {what}"));
-    // the diagram behind a branch is computed for its figure
+    // the orbit diagram behind a branch is computed with its figure
     let behind = |control: &Control<'_>| answer.figure(&shown, control);
     outputs.write(
         session,

@@ -1,4 +1,4 @@
-//! `vibro resume`: what a store lacks.
+//! `vibro resume`: computes the missing tiles of a store.
 
 use super::stored;
 use crate::args::Tiles;

@@ -1,4 +1,4 @@
-//! `vibro run`: a study from a plan in a file, into a store.
+//! `vibro run`: fills a store with the study of a plan in a file.
 
 use super::stored;
 use crate::args::Tiles;
@@ -46,7 +46,7 @@ pub(crate) struct Run {
     json: bool,
 }
 
-/// The plan in a file.
+/// Reads the plan in a file.
 pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     let name = path.display();
     let text = std::fs::read_to_string(path)
@@ -55,7 +55,7 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
         .map_err(|error| Failure::bad(format!("`{name}`: {}", hints::worded(&error, hints::plan(&error)))))
 }
 
-/// Where the store of a plan is by default.
+/// The default place of the store of a plan.
 pub(super) fn default_store(plan: &Path) -> String {
     let stem = plan.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     format!("{stem}.zarr")

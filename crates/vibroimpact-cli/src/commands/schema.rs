@@ -1,4 +1,4 @@
-//! `vibro schema`: what may be in a plan.
+//! `vibro schema`: the JSON schema of plans.
 
 use crate::failure::Failure;
 use crate::session::Session;

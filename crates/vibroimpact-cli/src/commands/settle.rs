@@ -1,4 +1,4 @@
-//! `vibro settle`: what the motion from one start settles into.
+//! `vibro settle`: the motion from one start after its transient.
 
 use crate::args::{StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;

@@ -1,4 +1,4 @@
-//! `vibro simulate`: the events of a motion, one after another.
+//! `vibro simulate`: the events of a motion.
 
 use crate::args::{StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;

@@ -1,4 +1,4 @@
-//! `vibro slurm`: a job script for a cluster, that works as it stands.
+//! `vibro slurm`: a complete job script for a cluster with Slurm.
 
 use super::run::{default_store, read};
 use crate::args::within;
@@ -59,7 +59,7 @@ pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
     let program =
         std::env::current_exe().map_err(|error| Failure::Failed(format!("where this program is: {error}")))?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
-    // a bucket is where it is; a folder is given by its full path
+    // a bucket needs no path; a folder is given by its absolute path
     let place = if place.contains("://") { place } else { whole(Path::new(&place))? };
     let partition = args.partition.as_ref().map_or_else(String::new, |name| format!("#SBATCH --partition={name}\n"));
     session.print(&format!(

@@ -1,4 +1,4 @@
-//! `vibro status`: how far a store is.
+//! `vibro status`: the progress of a store.
 
 use super::stored;
 use crate::failure::Failure;
@@ -28,13 +28,13 @@ struct StatusFields<'a> {
     points: u64,
     points_done: u64,
     complete: bool,
-    /// Seconds the rest will take at the rate of the last tiles.
+    /// Estimated seconds for the remaining tiles, at the rate of the last ones.
     seconds_left: Option<f64>,
-    /// Seconds since the last tile was done.
+    /// Seconds since the last tile was completed.
     seconds_since: Option<f64>,
-    /// The first tiles that are missing, up to a thousand.
+    /// Numbers of the missing tiles, at most a thousand.
     missing: Vec<u64>,
-    /// Tiles that are missing and not among these.
+    /// Number of further missing tiles.
     missing_left_out: u64,
     bytes: u64,
     begun_by: &'a str,
@@ -92,7 +92,7 @@ pub(super) fn run(args: &Status, session: &Session) -> Result<(), Failure> {
     session.print(&text)
 }
 
-/// The numbers of missing tiles, neighbours joined.
+/// The text of the numbers of missing tiles, with consecutive numbers joined.
 fn missing(tiles: &[u64], count: u64) -> String {
     const SHOWN: usize = 8;
     if count == 0 {
@@ -118,7 +118,7 @@ fn clock(time: Duration) -> String {
     }
 }
 
-#[allow(clippy::cast_precision_loss)] // for people
+#[allow(clippy::cast_precision_loss)] // for human readers
 fn size(bytes: u64) -> String {
     match bytes {
         0..=9_999 => format!("{bytes} bytes"),

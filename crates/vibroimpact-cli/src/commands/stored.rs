@@ -1,4 +1,4 @@
-//! What the commands that fill a store share: run, say what was done, and write tables and figures from it.
+//! Common part of the commands that fill a store: run, report the numbers of tiles, and write tables and figures.
 
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
@@ -9,18 +9,18 @@ use vibroimpact_report::figure::stored::figure;
 use vibroimpact_store::{Part, Ran, Store, StoreError, shelf};
 use vibroimpact_study::{Plan, counted};
 
-/// The part of an answer about a store.
+/// The fields about the store in a JSON object.
 #[derive(Serialize)]
 pub(super) struct Filled {
     store: String,
     tiles: u64,
-    /// Tiles computed by this run.
+    /// Tiles that this run computed.
     computed: u64,
-    /// Tiles that were there.
+    /// Tiles that were already complete.
     found: u64,
-    /// Of those computed, the ones that were there but damaged.
+    /// Among the computed tiles, those that were damaged before.
     mended: u64,
-    /// Tiles left to other parts.
+    /// Missing tiles of other parts.
     left: u64,
 }
 
@@ -29,12 +29,12 @@ pub(super) fn open(place: &str) -> Result<Store, Failure> {
     Ok(Store::open(shelf(place)?)?)
 }
 
-/// Opens the store of a plan at a place, or begins it.
+/// Opens the store of a plan, and creates it if absent.
 pub(super) fn begin(plan: &Plan, place: &str) -> Result<Store, Failure> {
     Ok(Store::create(shelf(place)?, plan)?)
 }
 
-/// Computes what is missing of a part, and says so.
+/// Computes the missing tiles of a part, and prints their numbers.
 pub(super) fn fill(store: &Store, part: Part, session: &Session) -> Result<Filled, Failure> {
     let grid = store.study().grid();
     let total = if part == Part::ALL { grid.points() } else { part.points(grid) };
@@ -62,7 +62,7 @@ impl Filled {
     }
 }
 
-/// Fills a store from the flags of a command, then writes what was asked for from it.
+/// Fills a store according to the flags of a command, then writes the requested outputs from it.
 pub(super) fn run(plan: &Plan, place: &str, part: Part, outputs: Outputs, session: &Session) -> Result<(), Failure> {
     let store = begin(plan, place)?;
     let filled = fill(&store, part, session)?;

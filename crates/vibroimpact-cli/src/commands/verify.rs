@@ -1,4 +1,4 @@
-//! `vibro verify`: whether a store holds what its plan gives.
+//! `vibro verify`: the verification of a store against its plan.
 
 use super::stored;
 use crate::args::whole;
@@ -42,7 +42,7 @@ struct VerifyFields {
 
 #[derive(Serialize)]
 struct Wrong {
-    /// None for what belongs to the whole store.
+    /// `None` for a fault of the whole store.
     tile: Option<u64>,
     what: String,
 }

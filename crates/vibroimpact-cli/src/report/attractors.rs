@@ -1,4 +1,4 @@
-//! The steady motions of many starts in words.
+//! The attractors of many starts as text.
 
 use crate::report::words::{meaning, multipliers, table};
 use vibroimpact::Oscillator;
@@ -6,7 +6,7 @@ use vibroimpact::verdict::{Census, StartBox};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, short};
 
-/// Where the starts are, and one row a motion.
+/// The box of the starts, and one row for each motion.
 pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units) -> String {
     let StartBox { x, v, .. } = StartBox::natural(osc);
     let heads = ["share", "starts", "<label", "multipliers", "<meaning"].map(str::to_owned);

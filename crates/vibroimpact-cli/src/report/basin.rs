@@ -1,11 +1,11 @@
-//! The motions of a basin in words.
+//! The motions of a basin as text.
 
 use crate::report::words::{meaning, table};
 use vibroimpact_report::json::basin::by_count;
 use vibroimpact_report::number::percent;
 use vibroimpact_study::Basin;
 
-/// One row a motion.
+/// One row for each motion.
 pub(crate) fn text(found: &Basin) -> String {
     let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
     let row = |m: usize| {

@@ -1,4 +1,4 @@
-//! Branches of periodic orbits in words: their events one by one, and how they end.
+//! Branches of periodic orbits as text: their events, and how they end.
 
 use crate::report::words::{stop_name, table};
 use std::fmt::Write;
@@ -9,13 +9,13 @@ use vibroimpact_report::Units;
 use vibroimpact_report::number::{precise, short};
 use vibroimpact_study::{Branches, Chosen, Cut, Followed, counted};
 
-/// `gap`, `inverse beta`: a parameter in a sentence.
+/// The name of a parameter in a sentence, such as `gap` or `inverse beta`.
 pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
     let name = parameter.name().replace('_', " ");
     if vibroimpact_study::is_length(parameter) { units.named(&name, "m") } else { name }
 }
 
-/// Which orbit, if there were several.
+/// The number of the orbit, if there are several.
 pub(crate) fn chosen(chosen: &Chosen) -> String {
     let which = if chosen.count > 1 { format!("orbit {} of {}, ", chosen.number, chosen.count) } else { String::new() };
     let stable = match (chosen.orbit.physical, chosen.orbit.cycle.stable()) {
@@ -26,7 +26,7 @@ pub(crate) fn chosen(chosen: &Chosen) -> String {
     format!("{which}{stable} there")
 }
 
-/// Every branch: its events, and how it ends.
+/// The text of all branches, each with its events and its end.
 pub(crate) fn text(found: &Branches, cut: &Cut, units: &Units) -> String {
     let (unit, name, (from, to)) = (units.of(cut.vary), named(cut.vary, units), cut.ends);
     let also = cut.also.map_or_else(String::new, |also| {
@@ -106,8 +106,8 @@ fn of(branch: &Followed, cut: &Cut, units: &Units) -> String {
     text
 }
 
-/// The stability of a branch beside an event. Where no point lies between two events, rounding hides the multipliers between them;
-/// where the branch ends with the event, what is beyond was not followed.
+/// The stability of a branch next to an event. Unknown if there is no point between two events, because rounding hides
+/// the multipliers there, or if the branch ends at the event.
 fn beside(neighbour: Option<&SolutionPoint>, label: Label) -> String {
     match neighbour {
         Some(point) if plain(point) && point.cycle.label == label => state(point),
@@ -117,12 +117,12 @@ fn beside(neighbour: Option<&SolutionPoint>, label: Label) -> String {
     }
 }
 
-/// Whether nothing happens to the cycle at a point.
+/// Whether a point has no event other than the end of the range.
 const fn plain(point: &SolutionPoint) -> bool {
     matches!(point.event, None | Some(BranchEvent::EndOfRange))
 }
 
-/// `1/1 stable`.
+/// The state at a point, such as `1/1 stable`.
 fn state(point: &SolutionPoint) -> String {
     let stability = match (point.physical, point.stable()) {
         (false, _) => "inadmissible",
@@ -132,12 +132,12 @@ fn state(point: &SolutionPoint) -> String {
     format!("{} {stability}", point.cycle.label)
 }
 
-/// What an impact at a grazing does.
+/// The change of an impact at a grazing event.
 fn touch(cycle: &Cycle, change: Change, touch: &Touch) -> String {
     let (impact, stop, phase) = (touch.impact + 1, stop_name(touch.side), short(touch.phase));
     match change {
         Change::Appears if cycle.points.is_empty() => format!("an impact on the {stop} appears, phase {phase}"),
-        // the list of a cycle that rests begins at a release
+        // the list of a cycle with sticking begins at a release
         Change::Appears if !cycle.rests.is_empty() && impact == cycle.points.len() => {
             format!("an impact on the {stop} appears after the release, phase {phase}")
         }

@@ -1,4 +1,4 @@
-//! Curves of events in a plane of two parameters in words.
+//! Curves of events in a plane of two parameters as text.
 
 use crate::report::branch::{chosen, named};
 use crate::report::words::table;
@@ -9,7 +9,7 @@ use vibroimpact_report::json::curve::values;
 use vibroimpact_report::number::{precise, short};
 use vibroimpact_study::{CurvePlan, EventCurve, Stretch, counted};
 
-/// What it is, and the events on it from one end to the other.
+/// The description of a curve, and the events on it from one end to the other.
 pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> String {
     let name = |parameter: Parameter| named(parameter, units);
     let over = |stretch: &Stretch| {
@@ -36,7 +36,7 @@ pub(crate) fn text(found: &EventCurve, plan: &CurvePlan, units: &Units) -> Strin
         .enumerate()
         .filter_map(|(k, point)| {
             let [p, q] = values(point, plan, units);
-            // at an event itself rounding decides; what lies beside it counts
+            // at an event itself rounding decides, so the neighbouring points are used
             let beside = [k.checked_sub(1).and_then(|k| all.get(k)), all.get(k + 1)];
             let physical = point.physical || beside.into_iter().flatten().any(|point| point.physical);
             let motion = if physical { plan.label.trim() } else { "inadmissible" }.to_owned();

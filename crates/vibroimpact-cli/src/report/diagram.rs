@@ -1,4 +1,4 @@
-//! The motions of an orbit diagram in words.
+//! The motions of an orbit diagram as text.
 
 use crate::report::words::table;
 use vibroimpact_report::Units;
@@ -6,7 +6,7 @@ use vibroimpact_report::json::diagram::{Counts, counts};
 use vibroimpact_report::number::short;
 use vibroimpact_study::{Diagram, Stretch, counted};
 
-/// What varies, and one row a sweep.
+/// The parameters that vary, and one row for each sweep.
 pub(crate) fn text(found: &Diagram, units: &Units) -> String {
     let plan = &found.plan;
     let ((from, to), unit) = (plan.over.ends(), units.of(plan.vary));

@@ -1,4 +1,4 @@
-//! Lyapunov exponents in words.
+//! Lyapunov exponents as text.
 
 use crate::report::words::{meaning, stop_name, table};
 use std::fmt::Write;
@@ -8,15 +8,15 @@ use vibroimpact_report::Units;
 use vibroimpact_report::json::lyapunov::scaled;
 use vibroimpact_report::number::short;
 
-/// A number in words: `0.01862 +- 0.00023`, with the digits that its error leaves; `minus infinity`, `none`, or as it is where
-/// it is exact.
+/// The text of a measured number: `0.01862 +- 0.00023`, rounded according to its error; `minus infinity`, `none`, or
+/// the number alone if it is exact.
 fn said(of: Measured) -> String {
     if of.value == f64::NEG_INFINITY {
         "minus infinity".into()
     } else if of.error == 0.0 || !of.value.is_finite() {
         short(of.value)
     } else if of.error < 1e-6 * of.value.abs() {
-        // more digits than anyone reads
+        // very small errors are printed with an exponent, because they would need too many digits
         format!("{} +- {:.0e}", short(of.value), of.error)
     } else {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 0 and 9
@@ -25,7 +25,7 @@ fn said(of: Measured) -> String {
     }
 }
 
-/// What the motion is, its exponents, and on what grounds.
+/// The motion, its exponents, and how they were obtained.
 pub(crate) fn text(found: &Exponents, units: &Units) -> String {
     let mut text = format!("{}: {}\n", found.motion.label(), meaning(&found.motion));
     let per_time = |of: Measured| said(scaled(of, 1.0 / units.time()));

@@ -1,10 +1,10 @@
-//! The motions of a map in words.
+//! The motions of a map as text.
 
 use crate::report::stored::label_table;
 use vibroimpact_report::json::map::{coexisting, counts};
 use vibroimpact_study::{RegionMap, counted};
 
-/// How many points there are, and one row a label.
+/// The number of points, and one row for each label.
 pub(crate) fn text(found: &RegionMap) -> String {
     format!(
         "{}, {} each; several motions coexist at {} of them\n\n{}",

@@ -1,4 +1,4 @@
-//! Answers in words. JSON, tables and figures are those of `vibroimpact-report`.
+//! Answers as text. JSON, tables and figures are made by `vibroimpact-report`.
 
 mod attractors;
 mod basin;
@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use vibroimpact_report::Answer;
 use vibroimpact_study::{Results, Task};
 
-/// What a command prints where neither JSON nor a table on stdout was asked for.
+/// The text that a command prints, unless JSON or a table on stdout was requested.
 pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
     let Answer { plan, asked, osc, results, paper_rule } = answer;
     let units = &asked.units;
@@ -44,7 +44,7 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
     })
 }
 
-/// What to try next.
+/// A hint for the next command.
 pub(crate) const fn hint(answer: &Answer) -> Option<&'static str> {
     match answer.results {
         Results::Settle(..) => Some("`vibro attractors` shows what other starts lead to"),

@@ -1,4 +1,4 @@
-//! An orbit that was looked for in words: a motion, or a solution of the equations that is none.
+//! The orbits with a label as text: admissible ones and inadmissible solutions of the equations.
 
 use crate::report::words::{impacts, motion, multipliers, stop_name};
 use vibroimpact::orbit::Orbit;
@@ -7,11 +7,11 @@ use vibroimpact::{Label, Oscillator};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
 
-/// All orbits of a label, one after another.
+/// The text of all orbits of a label.
 pub(crate) fn text(orbits: &[Orbit], label: &str, osc: &Oscillator, units: &Units) -> String {
     let mut text = String::new();
     if orbits.is_empty() {
-        // a label that was searched for does read
+        // the label has been parsed before, so this does not fail
         let label = label.parse().unwrap_or(Label::new(0, 1));
         text.push_str(&format!("no orbit {label} was found\n"));
         if label == Label::new(0, 1) {
@@ -31,7 +31,7 @@ pub(crate) fn text(orbits: &[Orbit], label: &str, osc: &Oscillator, units: &Unit
     text
 }
 
-/// Everything about one.
+/// The text of one orbit.
 fn one(orbit: &Orbit, osc: &Oscillator, units: &Units) -> String {
     if orbit.physical {
         return motion(&Verdict::Periodic(orbit.cycle.clone()), osc, units);

@@ -1,4 +1,4 @@
-//! Regions of existence and stability in words.
+//! Regions of existence and stability as text.
 
 use crate::report::branch::named;
 use crate::report::words::table;
@@ -10,13 +10,13 @@ use vibroimpact_report::table::region::both;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
-/// A parameter's range in words.
+/// The text of the range of a parameter.
 fn over(stretch: &Stretch, units: &Units) -> String {
     let (name, unit) = (named(stretch.parameter, units), units.of(stretch.parameter));
     format!("{name} from {} to {}", short(stretch.from * unit), short(stretch.to * unit))
 }
 
-/// Each polygon with its extent and what bounds it.
+/// Each polygon with its extent and the kinds of its boundary.
 pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: &Asked) -> String {
     let (across, up) = (over(&plan.across, units), over(&plan.up, units));
     let mut text = format!("{} over {across}, {up}\n", plan.label.trim());
@@ -28,7 +28,7 @@ pub(crate) fn text(found: &Regions, plan: &RegionPlan, Asked { system, units }: 
             (true, "stability") if plan.neutral(system) => {
                 ": none, the motion is neutrally stable where it exists: without damping and losses at impacts nothing attracts"
             }
-            // known in closed form
+            // this region is known in closed form
             (true, _) if plan.clears() => {
                 ": none, the amplitude of the motion without impacts exceeds a gap everywhere"
             }
@@ -65,7 +65,7 @@ fn row(k: usize, polygon: &Polygon, (x, y): (f64, f64)) -> Vec<String> {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
         format!("{} to {}", short(low), short(high))
     };
-    // in the order in which they are met, each once
+    // each kind once, in the order of first appearance
     let mut bounds: Vec<&str> = Vec::new();
     for vertex in &polygon.vertices {
         if !bounds.contains(&vertex.bound.name()) {

@@ -1,4 +1,4 @@
-//! What a motion settles into, in words.
+//! A settled motion as text.
 
 use crate::report::words::motion;
 use vibroimpact::Oscillator;
@@ -7,7 +7,7 @@ use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
 use vibroimpact_study::counted;
 
-/// The motion, how long it was followed, and what the paper's rule says of it.
+/// The motion, how long it was followed, and the verdict of the rule of the paper.
 pub(crate) fn text(
     settled: &Settled,
     paper: Option<(PaperRule, PaperVerdict)>,

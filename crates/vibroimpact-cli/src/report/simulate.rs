@@ -1,4 +1,4 @@
-//! The events of a motion in words.
+//! The events of a motion as text.
 
 use crate::report::words::{meaning, table};
 use vibroimpact::motion::EventKind;
@@ -6,7 +6,7 @@ use vibroimpact_report::Asked;
 use vibroimpact_report::number::short;
 use vibroimpact_study::Simulated;
 
-/// The events, and why there are no more.
+/// The events, and the reason why the list ends.
 pub(crate) fn text(followed: &Simulated, asked: &Asked) -> String {
     let units = &asked.units;
     let heads = [

@@ -1,4 +1,4 @@
-//! What is in a store: a summary, and a table with a row for each point and motion.
+//! The contents of a store: a summary, and a table with a row for each point and motion.
 
 use crate::failure::Failure;
 use crate::hints;
@@ -14,7 +14,7 @@ use vibroimpact_store::{Store, StoreError};
 use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, diagram_of, label_of};
 use vibroimpact_study::{Block, Column, Field, Plan, Task};
 
-/// One JSON object about a store.
+/// A JSON object about a store.
 #[derive(Serialize)]
 pub(crate) struct StoredFields<'a, Filled: Serialize> {
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
@@ -40,14 +40,14 @@ impl<'a, Filled: Serialize> StoredFields<'a, Filled> {
     }
 }
 
-/// The labels as a table of text.
+/// The text of a table of labels.
 pub(crate) fn label_table(labels: &[LabelCount]) -> String {
     let heads = ["<label", "points", "share of starts"].map(str::to_owned);
     let row = |count: &LabelCount| vec![count.label.clone(), count.points.to_string(), percent(count.share)];
     columns_of_text(&heads, &labels.iter().map(row).collect::<Vec<_>>())
 }
 
-/// The labels of all finished tiles, the most frequent first.
+/// The labels of all complete tiles, the most frequent first.
 fn labels(store: &Store) -> Result<Vec<LabelCount>, Failure> {
     let (Some(label), share) = (store.field("label"), store.field("share")) else { return Ok(Vec::new()) };
     let width = store.study().fields()[label].width();
@@ -80,7 +80,7 @@ fn labels(store: &Store) -> Result<Vec<LabelCount>, Failure> {
     Ok(list)
 }
 
-/// A summary as text.
+/// The text of a summary.
 pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
     let grid = store.study().grid();
     let sides: Vec<String> = grid.dimensions.iter().rev().map(|d| format!("{} {}", d.count, d.name)).collect();
@@ -93,12 +93,12 @@ pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// The fields of a short table: those that the command without a store writes.
+/// The fields of a short table, which are those of the command without a store.
 const SHORT: [&str; 2] = ["label", "share"];
 
-/// A row for each point and motion, or for each point; `long` with all fields.
+/// Writes a row for each point and motion, or for each point; with `long` it has all fields.
 ///
-/// Of an orbit diagram the table of `vibro diagram`.
+/// For an orbit diagram the table is that of `vibro diagram`.
 pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Result<()> {
     if let Task::Diagram(plan) = &store.plan().task {
         let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
@@ -108,7 +108,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let (study, all) = (store.study(), store.study().fields());
     let shown: Vec<usize> =
         (0..all.len()).filter(|k| long || !has_short(&all) || SHORT.contains(&all[*k].name)).collect();
-    // scattered starts are identified by their coordinates
+    // scattered starts have no axes; their coordinates are fields
     let along: Vec<Option<Vec<f64>>> = (study.grid().dimensions.iter())
         .map(|d| study.coordinates().into_iter().find(|along| along.name == d.name).map(|along| along.values))
         .collect();
@@ -147,7 +147,7 @@ fn has_short(fields: &[Field]) -> bool {
     fields.iter().any(|field| SHORT.contains(&field.name))
 }
 
-/// A number of a column as text: flags by name, what is not there as nothing.
+/// The text of a number of a column: the name of a flag, and an empty text for a missing value.
 fn text(field: &Field, column: &Column, at: usize) -> String {
     match column {
         Column::F64(values) if values[at].is_nan() => String::new(),
@@ -170,8 +170,8 @@ fn text(field: &Field, column: &Column, at: usize) -> String {
     }
 }
 
-/// Calls `each` with bands of the grid, one tile high in its slowest dimension, in order: what is in memory at once does
-/// not grow with their number.
+/// Calls `each` for bands of the grid in order. A band is one tile high in the slowest dimension, so the memory used
+/// does not depend on the number of bands.
 fn bands(store: &Store, mut each: impl FnMut(&Block, &[Column]) -> io::Result<()>) -> io::Result<()> {
     let (grid, fields) = (store.study().grid(), store.study().fields());
     let per_band = grid.tiles() / grid.tiles_along().first().map_or(1, |n| *n as u64);

@@ -1,4 +1,4 @@
-//! Text about motions: the label, what it means, the numbers, and the grounds.
+//! Text about motions: the label, its meaning, the numbers and the grounds of the verdict.
 
 use std::fmt::Write;
 use vibroimpact::chaos::Measured;
@@ -51,7 +51,8 @@ pub(crate) fn start(start: &Start, units: &Units) -> String {
     )
 }
 
-/// Columns of numbers, right-aligned under their heads; those of words, whose heads begin with `<`, left-aligned.
+/// A table of columns. Numbers are right-aligned under their heads; texts, whose heads begin with `<`, are
+/// left-aligned.
 pub(crate) fn table(heads: &[String], rows: &[Vec<String>]) -> String {
     let wide = |text: &str| text.chars().count();
     let left: Vec<bool> = heads.iter().map(|head| head.starts_with('<')).collect();
@@ -76,7 +77,7 @@ pub(crate) fn table(heads: &[String], rows: &[Vec<String>]) -> String {
     text
 }
 
-/// A count in words: `two impacts`.
+/// A count as text, such as `two impacts`.
 fn counted(n: u32, one: &str) -> String {
     const WORDS: [&str; 11] = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
     let number =
@@ -84,7 +85,7 @@ fn counted(n: u32, one: &str) -> String {
     format!("{number} {one}{}", if n == 1 { "" } else { "s" })
 }
 
-/// What a verdict means, in a sentence without full stop.
+/// The meaning of a verdict, as a sentence without full stop.
 pub(crate) fn meaning(verdict: &Verdict) -> String {
     match verdict {
         Verdict::Periodic(cycle) => {
@@ -136,7 +137,7 @@ const fn stability(stable: Option<bool>, verdict: &Verdict) -> &'static str {
     }
 }
 
-/// Why it is so.
+/// The grounds of a verdict.
 fn grounds(verdict: &Verdict, units: &Units) -> String {
     match verdict {
         Verdict::Periodic(cycle) if cycle.points.is_empty() && cycle.rests.is_empty() => {
@@ -195,7 +196,7 @@ fn measured(m: Measured, factor: f64) -> String {
     format!("{} +- {}", short(m.value * factor), short(m.error * factor))
 }
 
-/// `0.44, 0.14` or `0.3 +- 0.4i (modulus 0.5)`.
+/// The text of two multipliers: `0.44, 0.14` or `0.3 +- 0.4i (modulus 0.5)`.
 pub(crate) fn multipliers([a, b]: [Multiplier; 2]) -> String {
     if a.im == 0.0 {
         format!("{}, {}", short(a.re), short(b.re))
@@ -204,7 +205,7 @@ pub(crate) fn multipliers([a, b]: [Multiplier; 2]) -> String {
     }
 }
 
-/// Everything about one motion.
+/// The complete text of one motion.
 pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> String {
     let mut text = format!("{}: {}\n", verdict.label(), meaning(verdict));
     if let Verdict::Periodic(cycle) = verdict {
@@ -225,7 +226,7 @@ pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Stri
     text
 }
 
-/// Impacts shown of a long cycle.
+/// Maximum number of impacts shown of a long cycle.
 const MOST_IMPACTS: usize = 40;
 
 pub(crate) fn impacts(cycle: &Cycle, osc: &Oscillator, units: &Units) -> String {

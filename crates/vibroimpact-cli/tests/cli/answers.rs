@@ -1,4 +1,4 @@
-//! What the commands say, field by field.
+//! Tests of the output of the commands, field by field.
 
 use crate::{S, json, vibro};
 use serde_json::Value;
@@ -122,7 +122,8 @@ fn orbits_stable_or_not() {
     assert!(half["orbits"].as_array().unwrap().iter().any(|orbit| orbit["stable"] == true && orbit["label"] == "1/2"));
 }
 
-/// A solution that passes through the stop: followed from its impact, a flight strikes where it is said to.
+/// An inadmissible solution passes through the stop: simulated from its impact, the motion hits the stop where the
+/// report says.
 #[test]
 fn solutions_that_are_no_motions() {
     let system = "--inverse-beta 1.8 --gap 1 --restitution 0.5";
@@ -138,7 +139,7 @@ fn solutions_that_are_no_motions() {
     assert!((number(&flown["events"][0]["time"]) - time).abs() < 1e-9 && time < number(&at["interval"]));
     let text = String::from_utf8(vibro(&format!("orbit {system} --label 1/1")).output().unwrap().stdout).unwrap();
     assert!(text.contains("earlier contact: after impact 1 it meets the stop at a time of 3.93216, not"), "{text}");
-    // the steady motion, which a stop is in the way of, at sin(phase - lag) = gap/amplitude for the first time
+    // the motion without impacts would pass the stop first at sin(phase - lag) = gap/amplitude
     let damped = "orbit --beta 1.2 --gap 0.5 --restitution 0.5 --damping 0.05 --label 0";
     let contact = json(damped)["orbits"][0]["earlier_contact"].clone();
     assert_eq!((&contact["after_impact"], &contact["side"]), (&Value::Null, &"upper".into()));
@@ -193,7 +194,8 @@ fn text_help_and_pages() {
     }
 }
 
-/// At gap 0 and 1/beta = 5 the mass rests on the stop once a period and lands without speed: `orbit` says so as `settle` does.
+/// At gap 0 and 1/beta = 5 the mass rests on the stop once a period and lands without speed. `orbit` and `settle` agree
+/// on this.
 #[test]
 fn f05_a_landing_without_impact_rests_on_the_stop() {
     let line = "--beta 0.2 --gap 0 --restitution 0";
@@ -204,7 +206,7 @@ fn f05_a_landing_without_impact_rests_on_the_stop() {
     }
 }
 
-/// Item 5: at beta 3 and gap 1/8 = |f| orbits of speed 1.3e-16 were listed as motions.
+/// Regression test (item 5): at beta 3 and gap 1/8 = |f|, orbits of speed 1.3e-16 were listed as motions.
 #[test]
 fn f05_a_touch_is_listed_as_no_orbit() {
     let orbits =

@@ -1,13 +1,14 @@
-//! Whatever the arguments: an answer or a refusal, soon, and never a defect. `cargo xtask fuzz` asks for longer.
+//! Random arguments: each gives an answer or a refusal within a short time, and no defect. `cargo xtask fuzz` runs
+//! longer.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 use vibroimpact_fuzz::case::{run, runner};
 use vibroimpact_fuzz::command::Commands;
 
-/// The same questions every day, so that a slow one is no lottery.
+/// The same questions in every run, so that a failure is reproducible.
 const SEED: u64 = 1971;
-/// Short in the everyday loop.
+/// A small number of cases for the regular tests.
 const CASES: u64 = 150;
 
 #[test]

@@ -1,9 +1,9 @@
-//! `vibro branch`: points, events, and what is said of them.
+//! Tests of `vibro branch`: points, events and texts.
 
 use crate::{json, vibro};
 use serde_json::Value;
 
-/// From before the doubling of 1/1 on the line 1/beta = 1.11.
+/// Begins below the flip of 1/1 on the line 1/beta = 1.11.
 const DOUBLING: &str = "branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap";
 
 fn number(value: &Value) -> f64 {
@@ -44,7 +44,7 @@ fn points_events_and_the_branch_that_begins_at_a_flip() {
     assert_eq!((&grazing["change"], &grazing["turns"]), (&"disappears".into(), &true.into()));
     assert_eq!((&grazing["impact"], &grazing["side"]), (&2.into(), &"upper".into()));
     assert!(number(&grazing["phase"]) > 0.0 && events(second, "fold").len() == 1);
-    // the motion that takes over is what simulation settles into
+    // beyond the event, simulation settles into the motion of the branch
     let settled = json("settle --inverse-beta 1.11 --gap 2.5 --restitution 0.5");
     let last = second["points"].as_array().unwrap().last().unwrap();
     assert_eq!((&last["label"], &settled["motion"]["label"]), (&"1/2".into(), &"1/2".into()));
@@ -53,7 +53,7 @@ fn points_events_and_the_branch_that_begins_at_a_flip() {
     assert_eq!(json(&format!("{DOUBLING} --to 2.5"))["branches"], Value::Array(Vec::new()));
 }
 
-/// Down to lower values, in any parameter; the plan says what was asked.
+/// A branch towards lower values, in any parameter; the plan contains the question.
 #[test]
 fn other_parameters_and_the_other_way() {
     let answer = json(&format!("{DOUBLING} --to 0.5"));
@@ -68,7 +68,7 @@ fn other_parameters_and_the_other_way() {
     }
 }
 
-/// The fast one of two is stable; the slow one, named, is not.
+/// The fast one of two orbits is stable; the slow one, selected by its number, is not.
 #[test]
 fn one_of_several_orbits() {
     let system = "branch --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --vary gap --to 3.5";
@@ -77,7 +77,7 @@ fn one_of_several_orbits() {
     assert_eq!(fast["points"][0]["stable"], true);
     let slow = json(&format!("{system} --orbit 1"));
     assert_eq!((&slow["orbit"]["number"], &slow["points"][0]["stable"]), (&1.into(), &false.into()));
-    // they meet at a fold, from which the branch comes back to where it began
+    // both orbits meet at a fold, at which the branch turns back
     let [one, two] = [&fast, &slow].map(|answer| number(&events(answer, "fold")[0]["parameter"]));
     assert!((one - two).abs() < 1e-10);
     let back = fast["points"].as_array().unwrap().last().unwrap();
@@ -110,7 +110,7 @@ fn text_and_table() {
     assert!(rows.iter().any(|row| row[5] == "flip") && rows.iter().any(|row| row[0] == "2" && row[2] == "1/2"));
 }
 
-/// inf/n has no equations and is followed by its release; its rests are told at each point.
+/// inf/n has no equations and is followed by its release. Its phases of sticking are reported at each point.
 #[test]
 fn a_cycle_that_rests() {
     let line = "branch --inverse-beta 2.5 --gap 0.25 --restitution 0.5 --label inf/1 --vary gap --to 1";
@@ -132,7 +132,7 @@ fn a_cycle_that_rests() {
         assert!(number(&rest["begin"]) < number(&rest["release"]));
         assert_eq!(point["multipliers"], serde_json::json!([[0.0, 0.0], [0.0, 0.0]]));
     }
-    // a motion settles on it before the end, and on something else beyond
+    // simulation settles on this motion before the end of the branch, and on another one beyond
     let settled = |gap: f64| json(&format!("settle --inverse-beta 2.5 --gap {gap} --restitution 0.5"));
     assert_eq!(settled(number(&end["parameter"]) - 1e-4)["motion"]["label"], "inf/1");
     assert_ne!(settled(number(&end["parameter"]) + 1e-3)["motion"]["label"], "inf/1");
@@ -150,7 +150,7 @@ fn a_cycle_that_rests() {
             .skip(1)
             .all(|row| row.split(',').count() == 12 && row.contains(",inf/1,true,true,"))
     );
-    // with restitution 0 the label is m/n, and an impact comes after the release
+    // with restitution 0 the label is m/n, and an impact follows the release
     let zero = "branch --inverse-beta 1.3 --gap 0.3 --restitution 0 --label 1/1 --vary gap --to 1";
     assert!(
         said(zero).contains("1/1 stable  2/1 stable  an impact on the stop appears after the release"),
@@ -159,7 +159,7 @@ fn a_cycle_that_rests() {
     );
 }
 
-/// Between two stops alike: the symmetric 2/1 loses its symmetry to two orbits, mirror images of each other, which --follow follows.
+/// Two identical stops: the symmetric 2/1 loses its symmetry to two mirror-image orbits, which --follow follows.
 #[test]
 fn the_branches_at_a_branch_point() {
     let system = "--gap 0.4 --restitution 0.8 --damping 0.02 --second-gap 0.4 --second-restitution 0.8";
@@ -180,7 +180,7 @@ fn the_branches_at_a_branch_point() {
         assert!(branch["points"].as_array().unwrap().len() > 20 && unlike(branch, 10).abs() > 1e-4);
     }
     assert!((unlike(&branches[0], 10) + unlike(&branches[1], 10)).abs() < 1e-9);
-    // beyond the branch point the symmetric orbit is unstable, and a motion settles on one of the two
+    // beyond the branch point the symmetric orbit is unstable, and simulation settles on one of the two
     let (index, beyond) = branches[0]["points"]
         .as_array()
         .unwrap()
@@ -204,7 +204,7 @@ fn the_branches_at_a_branch_point() {
     }
 }
 
-/// Two touches at once, one on each of two stops alike, are both told.
+/// Two simultaneous grazing contacts, one on each of two identical stops, are both reported.
 #[test]
 fn touches_of_both_stops() {
     let line = "branch --beta 0.7 --gap 3 --restitution 0.6 --damping 0.1 --second-gap 3 --second-restitution 0.6 --label 0 --vary beta --to 1.2";
@@ -220,7 +220,7 @@ fn touches_of_both_stops() {
     );
 }
 
-/// Where impacts are added without end, the branch says so, and where that leads.
+/// A branch that ends because ever more impacts are added reports this, and the limit.
 #[test]
 fn ever_more_impacts() {
     let line = "branch --inverse-beta 1.11 --gap -0.3 --restitution 0.5 --label 4/1 --vary gap --to -1";
@@ -238,7 +238,7 @@ fn ever_more_impacts() {
     ));
 }
 
-/// In metres, of the same line in physical units: one unit of length is 5 mm, of velocity 0.1 m/s.
+/// The same line in physical units: the unit of length is 5 mm, that of velocity 0.1 m/s.
 #[test]
 fn a_machine_in_physical_units() {
     let machine =
@@ -252,7 +252,8 @@ fn a_machine_in_physical_units() {
     assert_eq!(si["to"], 0.0125);
 }
 
-/// Along a line through two parameters: each event has both values, and is that of the gap alone at its frequency.
+/// Along a line through two parameters each event has both values. It is an event in the gap alone at the same
+/// frequency.
 #[test]
 fn a_line_through_two_parameters() {
     let answer = json(&format!("{DOUBLING} --to 2.5 --also inverse-beta=1.05"));
@@ -275,7 +276,7 @@ fn a_line_through_two_parameters() {
     }
 }
 
-/// Item 11: between a fold and a flip 3e-6 apart the table left the stability blank.
+/// Regression test (item 11): between a fold and a flip 3e-6 apart the table had no stability.
 #[test]
 fn f11_between_close_events_the_stability_is_known() {
     let line = "branch --beta 2.55 --gap 0 --restitution 0.8 --label 1/1 --vary beta --to 3 --follow 4";

@@ -1,4 +1,4 @@
-//! `vibro diagram`: what its table says, row by row.
+//! Tests of the table of `vibro diagram`, row by row.
 
 use crate::{json, vibro};
 
@@ -14,7 +14,7 @@ fn number(cell: &str) -> f64 {
     cell.parse().expect("a number")
 }
 
-/// Gaps around S of the 1971 paper: 2/1 on the way up, 1/1 on the way down, with the velocities that `orbit` gives.
+/// Gaps around S of the 1971 paper: 2/1 in the sweep up, 1/1 in the sweep down, with the velocities of `orbit`.
 #[test]
 fn hysteresis_at_s_with_the_velocities_of_the_orbits() {
     let rows = table("diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:2:81");
@@ -51,7 +51,7 @@ fn ends_have_a_row() {
     assert!(rows.len() == 4 && rows.iter().all(|row| row[2] == "none" && number(&row[3]) < 0.0));
 }
 
-/// A sweep down begins at the other end.
+/// A sweep down begins at the largest value.
 #[test]
 fn sweeps_and_starts_are_named() {
     let system = "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap";
@@ -79,7 +79,7 @@ fn a_summary_that_can_be_run_again() {
     assert_eq!(scatter["sweeps"][0]["motions"], 24);
 }
 
-/// In metres, of the machine that is S of the paper in physical units.
+/// The same in metres, for a system in physical units equal to S of the paper.
 #[test]
 fn a_machine_in_physical_units() {
     let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 25 --gap-m 0.01 --restitution 0.5";
@@ -93,7 +93,7 @@ fn a_machine_in_physical_units() {
     }
 }
 
-/// Values in equal ratios are equally far apart on the page, as dots and as the cells of a picture of many.
+/// With logarithmic values the distances on the page are equal, both for dots and for the cells of a raster.
 #[test]
 fn a_logarithmic_span_has_a_logarithmic_axis() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -104,7 +104,7 @@ fn a_logarithmic_span_has_a_logarithmic_axis() {
         assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
         std::fs::read_to_string(place).expect("a figure is text")
     };
-    // the path of the dots, or of the cells, in the first colour: where each piece of it begins
+    // the beginnings of the pieces of the path in the first colour, for dots or cells
     let pieces = |figure: &str| -> Vec<f64> {
         let path = figure.lines().find(|line| line.starts_with("<path d=\"M") && line.contains("#0072b2"));
         let path = path.expect("a path").split('"').nth(1).expect("its data");
@@ -118,7 +118,7 @@ fn a_logarithmic_span_has_a_logarithmic_axis() {
             "{xs:?}"
         );
     }
-    // chaos in most of it, and so many dots that they become cells: no column is narrower than another
+    // mostly chaos, with so many dots that a raster is drawn: no column is narrower than another
     let figure = drawn("--inverse-beta 1.11 --over 2.2:4.4:700:log --direction up --keep 900 --transient 100");
     assert!(figure.contains("crispEdges"), "still dots");
     let mut xs = pieces(&figure);
@@ -129,7 +129,8 @@ fn a_logarithmic_span_has_a_logarithmic_axis() {
     assert!(column > 0.5 && narrowest > 0.9 * column, "{narrowest} {column}");
 }
 
-/// Along a line through two parameters: a second column, and at both ends the motions of the systems there.
+/// Along a line through two parameters there is a second column. At both ends the motions are those of the systems
+/// there.
 #[test]
 fn a_line_through_two_parameters() {
     let line = "diagram --restitution 0.5 --direction scatter --starts 3 --over 1.2:1.4:3 --vary inverse-beta";
@@ -148,7 +149,7 @@ fn a_line_through_two_parameters() {
     let answer = json(&format!("{line} --also gap=1:0.5"));
     assert_eq!(answer["also"], serde_json::json!({ "parameter": "gap", "from": 1.0, "to": 0.5 }));
     assert_eq!(answer["columns"][1], "gap");
-    // in metres
+    // the same in metres
     let machine = "diagram --mass-kg 2 --stiffness-n-per-m 8000 --force-n 40 --frequency-hz 10 --gap-m 0.004 \
                    --restitution 0.7 --units si --vary damping --over 0.01:0.02:2 --also gap-m=0.004:0.005";
     let refused = vibro(machine).output().expect("vibro runs");

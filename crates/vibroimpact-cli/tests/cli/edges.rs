@@ -1,4 +1,4 @@
-//! The edges of the interface: ranges with exact ends, `-` for stdout, places that hold nothing, counts and their words.
+//! Special cases of the interface: exact ends of ranges, `-` for stdout, empty places, and counts in texts.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use crate::{S, json, vibro};
@@ -19,7 +19,7 @@ fn refused(line: &str, sentence: &str) {
     assert!(complaint.contains(sentence) && out.is_empty(), "{line}: {complaint}");
 }
 
-/// The first column of a table, each value once.
+/// The distinct values of the first column of a table.
 fn first_column(line: &str) -> Vec<String> {
     let (code, out, complaint) = ran(line);
     assert_eq!(code, Some(0), "{line}: {complaint}");
@@ -77,7 +77,7 @@ fn f10b_a_dash_is_stdout() {
     refused("reproduce --quick --out -", "--out names a folder");
 }
 
-/// A store of 2000 tiles, of which a part fills 10: all that are missing are counted.
+/// All missing tiles are counted: a store of 2000 tiles of which a part has filled 10.
 #[test]
 fn f10c_missing_tiles_are_counted() {
     let folder = tempfile::tempdir().unwrap();

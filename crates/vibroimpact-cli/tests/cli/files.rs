@@ -1,4 +1,4 @@
-//! Files and pipes: complete or absent, never overwritten unasked, the same for any number of threads.
+//! Tests of files and pipes: complete or absent, not overwritten without --force, equal for any number of threads.
 
 use crate::{S, vibro};
 use std::fs;
@@ -54,7 +54,7 @@ fn existing_files_stay_unless_forced() {
         format!("{BRANCH} --csv keep.csv"),
         format!("{CURVE} --csv keep.csv"),
         format!("{REGION} --csv keep.csv"),
-        // nothing is reserved for a question that turns out to have no answer
+        // a question without an answer leaves the file unchanged
         format!("branch {S} --label 7/5 --vary gap --to 1 --orbit 99 --csv keep.csv --force"),
     ] {
         let output = vibro(&line).current_dir(&folder).output().unwrap();
@@ -99,7 +99,7 @@ fn a_directory_without_permission() {
     let locked = folder.path().join("locked");
     fs::create_dir(&locked).unwrap();
     fs::set_permissions(&locked, fs::Permissions::from_mode(0o555)).unwrap();
-    // root may write everywhere
+    // root can write everywhere, so the test does not apply
     if fs::write(locked.join("probe"), "").is_err() {
         let line = format!("simulate {S} --csv locked/a.csv");
         let output = vibro(&line).current_dir(&folder).output().unwrap();

@@ -1,9 +1,9 @@
-//! `vibro lyapunov`: exponents with their errors, or why there are none, and the points of both sections.
+//! Tests of `vibro lyapunov`: exponents with errors or the reason for their absence, and the points of both sections.
 
 use crate::{S, json, vibro};
 use serde_json::Value;
 
-/// U of the 1971 paper, where impacts never settle.
+/// U of the 1971 paper, where the motion is chaotic.
 const U: &str = "--inverse-beta 1.11 --gap 3 --restitution 0.5";
 
 /// Value and error.
@@ -62,7 +62,7 @@ fn where_there_is_nothing_to_measure() {
     assert_eq!(why(&touches), ["undefined", "undefined"]);
 }
 
-/// Of S in physical units: exponents per second, those per period as they were.
+/// S in physical units: exponents per second differ, exponents per period are the same.
 #[test]
 fn a_machine_in_physical_units() {
     let machine = "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --omega-rad-per-s 25 --gap-m 0.01 --restitution 0.5";
@@ -90,14 +90,14 @@ fn both_sections_as_a_table() {
         };
         assert!(cycle["motion"]["cycle"].as_array().unwrap().iter().any(at), "{row:?}");
     }
-    // one state in each period, the same to rounding
+    // one state in each period, equal to rounding
     let state = |row: &[&str]| [3, 4].map(|k| row[k].parse::<f64>().unwrap());
     for row in &rows[5..9] {
         assert_eq!((row[0], row[1], row[2]), ("strobe", "", "0"));
         let (now, first) = (state(row), state(&rows[5]));
         assert!((now[0] - first[0]).abs() < 1e-9 && (now[1] - first[1]).abs() < 1e-9, "{row:?}");
     }
-    // a lower stop is arrived at with a negative velocity
+    // an impact on the lower stop has a negative velocity before it
     let line = "lyapunov --beta 0.7 --gap 0.6 --restitution 0.7 --second-gap 0.8 --impacts 1000 --csv - --points 50";
     let table = String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
     let lower: Vec<&str> = table.lines().filter(|row| row.starts_with("impact,lower,")).collect();

@@ -1,4 +1,4 @@
-//! The `vibro` command from outside: answers, refusals, files, and whatever arguments chance brings.
+//! Tests of the `vibro` command from outside: answers, refusals, files, and random arguments.
 
 mod answers;
 mod arguments;
@@ -17,7 +17,7 @@ mod units;
 use assert_cmd::Command;
 use serde_json::Value;
 
-/// A run of `vibro` that cannot take for ever.
+/// A run of `vibro` with a time limit.
 fn vibro(line: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_vibro"));
     command.args(line.split_whitespace()).timeout(std::time::Duration::from_secs(60));

@@ -1,4 +1,4 @@
-//! `vibro curve` and `vibro region`: what is said of a plane of two parameters.
+//! Tests of `vibro curve` and `vibro region` in a plane of two parameters.
 
 use crate::{json, vibro};
 use serde_json::Value;
@@ -10,7 +10,8 @@ fn number(value: &Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
-/// Folds end on the grazing curve where 1/beta = 1/2: there the gap is the amplitude of the motion without stops, 1/3.
+/// Curves of folds end on the grazing curve at 1/beta = 1/2, where the gap is the amplitude of the motion without
+/// impacts, 1/3.
 #[test]
 fn the_fold_of_one_impact_a_period_ends_at_a_resonant_grazing() {
     let answer = json(FOLD);
@@ -72,7 +73,7 @@ fn inside(polygons: &Value, (x, y): (f64, f64)) -> bool {
     })
 }
 
-/// Below the flip at 1.829 it is what `orbit` says it is, above too.
+/// Below and above the flip at 1.829 the region agrees with `orbit`.
 #[test]
 fn the_regions_of_one_impact_a_period() {
     let answer = json(REGION);
@@ -108,7 +109,7 @@ fn a_region_as_text_and_table_for_any_threads() {
     assert!(other.starts_with("region,polygon,hole,sheet,gap,restitution,bound\n") && other.lines().count() > 10);
 }
 
-/// A machine in physical units: the same region, its gaps in metres; ranges replace the machine's own values.
+/// In physical units the region is the same, with gaps in metres. Ranges replace the values of the system.
 #[test]
 fn a_region_in_physical_units() {
     // omega_n = 10 rad/s, F/k = 0.02 m
@@ -129,7 +130,8 @@ fn a_region_in_physical_units() {
     assert!(text.starts_with("1/1 over inverse beta from 1.05 to 1.2, gap (m) from 0.02 to 0.05\n"), "{text}");
 }
 
-/// Item 6: "existence: none found" of the motion without impacts, where `orbit --label 0` finds it stable.
+/// Regression test (item 6): "existence: none found" for the motion without impacts, which `orbit --label 0` finds
+/// stable.
 #[test]
 fn f06_the_region_of_the_motion_without_impacts() {
     let said = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
@@ -145,7 +147,7 @@ fn f06_the_region_of_the_motion_without_impacts() {
     }
     let text = said(line);
     assert!(text.contains("touch") && !text.contains("none"), "{text}");
-    // in other planes, and where no energy is lost
+    // the same in other planes, and without loss of energy
     let undamped = said(&line.replace("--damping 0.05 ", ""));
     assert!(undamped.contains("stability: none, the motion is neutrally stable"), "{undamped}");
     assert!(undamped.contains("existence\n"), "{undamped}");
@@ -157,7 +159,8 @@ fn f06_the_region_of_the_motion_without_impacts() {
     assert!(inside(&two["existence"]["polygons"], (0.5, 0.35)) && !inside(&two["existence"]["polygons"], (0.5, 0.3)));
 }
 
-/// The same family: without damping `branch` and `curve` of label 0 said that there was nothing to follow.
+/// A related regression test: without damping, `branch` and `curve` of label 0 reported that there was nothing to
+/// follow.
 #[test]
 fn f06b_what_begins_with_no_impact_without_damping() {
     for line in [
@@ -172,7 +175,7 @@ fn f06b_what_begins_with_no_impact_without_damping() {
     }
 }
 
-/// Item 10: refused with "the cycle given does not solve its equations at these parameters".
+/// Regression test (item 10): refused with "the cycle given does not solve its equations at these parameters".
 #[test]
 fn f10_a_grazing_curve_over_the_restitution() {
     let answer = json(
@@ -180,7 +183,7 @@ fn f10_a_grazing_curve_over_the_restitution() {
          --vary gap=-0.8:3.0 --and restitution=0.3:0.7 --event 2",
     );
     let points = answer["points"].as_array().unwrap();
-    // delta = |f|, whatever the restitution
+    // delta = |f| for any restitution
     assert!(points.iter().all(|point| (number(&point["values"][0]) - 0.667_333_049_989_617_4).abs() < 1e-12));
     for (at, value) in [(0, 0.3), (points.len() - 1, 0.7)] {
         let end = number(&points[at]["values"][1]);
@@ -188,7 +191,7 @@ fn f10_a_grazing_curve_over_the_restitution() {
     }
 }
 
-/// Item 12: 46 s, in which nothing was found.
+/// Regression test (item 12): took 46 s and found nothing.
 #[test]
 fn f12_a_region_over_tiny_restitutions() {
     let line = "region --label 1/1 --inverse-beta=0.8366542825959349 --gap=1e-9:1 --restitution=0:1e-12 --grid=8";

@@ -1,4 +1,4 @@
-//! The command line that the library writes for a plan asks that very plan.
+//! The command line that the library writes for a plan gives exactly this plan.
 
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -94,7 +94,7 @@ fn of_every_task() {
     }
 }
 
-/// The line for a panel of the page writes the very picture of that panel.
+/// The command line for a panel of the page draws exactly the figure of that panel.
 #[test]
 fn f10_the_command_of_a_view_draws_that_view() {
     use vibroimpact::verdict::{SettleOptions, settle};
@@ -129,7 +129,8 @@ fn f10_the_command_of_a_view_draws_that_view() {
     assert_eq!(alone.status.code(), Some(2));
 }
 
-/// Tiles go with a store; and what no flags say has no command, but is run from its plan where it is a study.
+/// A size of tiles needs a store. A plan that no flags can express has no command; if it is a study, it is run from a
+/// file.
 #[test]
 fn stores_and_plans_in_files() {
     let one = json!({ "inverse_beta": 1.11, "gap": 1.5, "restitution": 0.5 });
@@ -177,7 +178,7 @@ fn number() -> impl Strategy<Value = f64> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
 
-    /// All numbers come back, whatever their size: the flags of the system and of the start.
+    /// All numbers are preserved, whatever their size: the flags of the system and of the start.
     #[test]
     fn of_any_system(
         beta in 1e-3..1e3_f64, inverse: bool, restitution in 0.0..=1.0, damping in prop_oneof![Just(0.0), 1e-12..0.5],

@@ -1,4 +1,4 @@
-//! Questions that make no sense: one sentence, exit 2, nothing computed, nothing overwritten.
+//! Tests of invalid questions: one message, exit code 2, no computation, no file overwritten.
 
 use crate::{S, vibro};
 

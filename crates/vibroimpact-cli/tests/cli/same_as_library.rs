@@ -1,4 +1,4 @@
-//! What the library answers to a plan is what the command prints, writes and draws, to the byte.
+//! The command prints, writes and draws exactly what the library answers to the same plan, to the byte.
 
 use crate::{S, vibro};
 use serde_json::Value;
@@ -6,11 +6,11 @@ use vibroimpact::Scales;
 use vibroimpact_report::{Shown, Units, answer};
 use vibroimpact_study::{Control, Plan};
 
-/// A machine: omega_n = 20 rad/s, F/k = 0.005 m.
+/// A system in physical units: omega_n = 20 rad/s, F/k = 0.005 m.
 const MACHINE: &str =
     "--mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --gap-m 0.003 --restitution 0.6 --units si";
 
-/// The units an object is told in.
+/// The units of an object.
 fn units(object: &Value) -> Units {
     let scales = &object["system"]["scales"];
     let number = |key: &str| scales[key].as_f64();
@@ -18,7 +18,7 @@ fn units(object: &Value) -> Units {
     Units { scales: scales.map(|(length_m, time_s)| Scales { length_m, time_s }), si: object["units"] == "si" }
 }
 
-/// Runs a command with all its outputs, and asks the library the plan that it prints.
+/// Runs a command with all its outputs, and compares them with the answer of the library to the printed plan.
 fn same(line: &str) {
     let folder = tempfile::tempdir().expect("a folder");
     let (csv, svg) = (folder.path().join("table.csv"), folder.path().join("figure.svg"));

@@ -1,4 +1,4 @@
-//! Studies from outside: killed, resumed, damaged, run twice at once, and refused.
+//! Tests of studies from outside: killed, resumed, damaged, run twice at the same time, and refused.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use crate::{json, vibro};
@@ -26,7 +26,7 @@ fn plan(folder: &Path, text: &str) {
     fs::write(folder.join("study.toml"), text).unwrap();
 }
 
-/// `vibro` in a folder, in the background.
+/// Starts `vibro` in a folder, in the background.
 fn begin(folder: &Path, line: &str) -> Child {
     Command::new(env!("CARGO_BIN_EXE_vibro"))
         .args(line.split_whitespace())
@@ -65,8 +65,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// Killed without warning at twenty moments of one study: what is resumed in the end is, byte for byte, what a run without
-/// interruption leaves.
+/// A study that is killed at twenty moments and resumed is equal to that of a run without interruption, byte for byte.
 #[test]
 #[cfg(unix)]
 fn killed_at_twenty_moments() {
@@ -79,7 +78,7 @@ fn killed_at_twenty_moments() {
     let (mut killed, mut moment) = (0, 0_u64);
     let mut store = 0;
     while killed < 20 {
-        // a fixed sequence of moments, spread over a third of the time of the whole
+        // a fixed pseudorandom sequence of moments, spread over a third of the duration of the whole run
         moment = moment.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let share = (moment >> 33) as f64 / (1_u64 << 31) as f64;
         let verb = if folder.path().join(format!("{store}.zarr/zarr.json")).exists() {
@@ -90,7 +89,7 @@ fn killed_at_twenty_moments() {
         let mut run = begin(folder.path(), &verb);
         std::thread::sleep(time.mul_f64(0.33 * share));
         if run.try_wait().unwrap().is_some() {
-            // it was done before its moment came: the next one begins anew
+            // the study was complete before the moment came, so a new one is begun
             assert!(files(&folder.path().join(format!("{store}.zarr"))) == want, "{killed} kills");
             store += 1;
             continue;
@@ -105,7 +104,7 @@ fn killed_at_twenty_moments() {
     assert!(files(&place) == want);
 }
 
-/// Ctrl-C leaves the tiles that are finished, and says how to go on.
+/// After Ctrl-C, complete tiles are kept, and a hint says how to continue.
 #[test]
 #[cfg(unix)]
 fn stopped_it_can_be_resumed() {
@@ -154,7 +153,7 @@ fn two_at_once_parts_in_any_order_and_flags_make_the_same_store() {
     assert!(files(&folder.path().join("flags.zarr")) == want);
     done(folder.path(), "map --inverse-beta 0.6:1.9:28 --gap 0:3:28 --restitution 0.5 --starts 4 --csv b.csv");
     assert!(fs::read(folder.path().join("a.csv")).unwrap() == fs::read(folder.path().join("b.csv")).unwrap());
-    // the plan in a store is a plan
+    // the plan in a store can be read as a plan
     let answer = json(&format!("status {}", folder.path().join("whole.zarr").display()));
     fs::write(folder.path().join("again.json"), answer["plan"].to_string()).unwrap();
     done(folder.path(), "run again.json --store again.zarr");
@@ -282,7 +281,7 @@ fn refusals_are_one_sentence_and_lose_nothing() {
     assert!(!at.join("study.zarr").exists());
 }
 
-/// A study that is complete is nobody's to write: not where it could be, and not where it cannot.
+/// A complete store is not written again, whether its folder is writable or not.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_complete_study_where_nothing_can_be_written() {
@@ -293,7 +292,7 @@ fn a_complete_study_where_nothing_can_be_written() {
     let mount = |options: &str| Command::new("mount").args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(&disk).status();
     let mounted = mount("size=8m").is_ok_and(|status| status.success());
     let ran = said(folder.path(), "run study.toml --store disk/s.zarr");
-    // the times of the folders tell of every file that was begun in them
+    // the modification times of folders change when a file is created in them
     let written = || {
         let times = |path: &Path| fs::metadata(path).unwrap().modified().unwrap();
         let folders = ["", "label", "status", "share/c/0"].map(|name| times(&disk.join("s.zarr").join(name)));
@@ -321,7 +320,7 @@ fn a_complete_study_where_nothing_can_be_written() {
     }
 }
 
-/// A disk that is full: what is finished is kept, and goes on when there is room.
+/// A full disk: complete tiles are kept, and the run can be resumed when there is space.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_full_disk() {
@@ -360,7 +359,7 @@ fn the_script_for_a_cluster_and_the_schema() {
         vibro("slurm study.toml --jobs 3 --cpus 1 --partition debug").current_dir(folder.path()).output().unwrap();
     let script = String::from_utf8(output.stdout).unwrap();
     assert!(script.contains("#SBATCH --array=1-3\n") && script.contains("#SBATCH --partition=debug\n"), "{script}");
-    // the script without a cluster: its jobs one after another
+    // the script without a cluster: its jobs run one after another
     fs::write(folder.path().join("job.sh"), &script).unwrap();
     for task in ["2", "1", "3"] {
         let job = Command::new("bash")

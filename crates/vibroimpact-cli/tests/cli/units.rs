@@ -1,18 +1,19 @@
-//! Metres and seconds: every command gives the same numbers converted, in JSON and in its table, or refuses.
+//! Metres and seconds: every command gives the same numbers converted, in JSON and in its table, or a refusal.
 #![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use crate::{json, vibro};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
-/// A machine: omega_n = 8 rad/s, F/k = 0.5 m. Its units are powers of two, so that nothing is rounded on the way.
+/// A system in physical units: omega_n = 8 rad/s, F/k = 0.5 m. Its units are powers of two, so that conversion is
+/// exact.
 const MACHINE: &str =
     "--mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --omega-rad-per-s 7.2 --gap-m 0.75 --restitution 0.5";
 const LENGTH: f64 = 0.5;
 const TIME: f64 = 0.125;
 const VELOCITY: f64 = 4.0;
 
-/// Every command that takes units, with its ranges and starts in F/k and in metres, and whether it takes a store and has a table.
+/// Every command with units: its ranges and starts in F/k and in metres, and whether it has a store and a table.
 const COMMANDS: [(&str, &str, &str, bool, bool); 10] = [
     ("simulate", "--x -1 --v 0.5 --impacts 5", "--x -0.5 --v 2 --impacts 5", false, true),
     ("settle", "--x -1 --v 0.5", "--x -0.5 --v 2", false, true),
@@ -43,7 +44,7 @@ fn line(name: &str, rest: &str, si: bool) -> String {
     format!("{name} {MACHINE} {rest}{}", if si { " --units si" } else { "" })
 }
 
-/// One unit of what is found under a key, where that says it.
+/// The unit of the numbers under a key, if the key determines it.
 fn unit(key: &str) -> Option<f64> {
     match key {
         "x" | "gap" => Some(LENGTH),
@@ -59,7 +60,7 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-14
 }
 
-/// Compares two results; says by which factors numbers differ.
+/// Compares two results, and collects the factors by which numbers differ.
 fn compare(path: &str, key: &str, plain: &Value, si: &Value, factors: &mut BTreeSet<String>) {
     match (plain, si) {
         (Value::Object(a), Value::Object(b)) => {
@@ -95,7 +96,7 @@ fn f08_every_command_converts_its_json() {
         assert_eq!((a["units"].as_str(), b["units"].as_str()), (Some("nondimensional"), Some("si")), "{name}");
         let mut factors = BTreeSet::new();
         for (key, value) in a.as_object().unwrap() {
-            // the plan is nondimensional in both, and what was given is told as it was given
+            // the plan is nondimensional in both results, and the system is reported as it was given
             if !["units", "plan", "system"].contains(&key.as_str()) {
                 compare(key, key, value, &b[key], &mut factors);
             }
@@ -135,7 +136,7 @@ fn f08_every_command_converts_its_table() {
     }
 }
 
-/// A store has no units: asked for them, every command that fills one refuses, whatever else it is to write.
+/// A store has no units: every command that fills one refuses physical units, whatever its other outputs.
 #[test]
 fn f08_no_command_fills_a_store_in_metres() {
     let mut stores = 0;
@@ -156,7 +157,7 @@ fn f08_no_command_fills_a_store_in_metres() {
             if name == "attractors" {
                 continue;
             }
-            // what is read from it is what the command prints without a store
+            // the exported table is equal to that of the command without a store
             let exported = vibro("export s.zarr --csv -").current_dir(&folder).output().unwrap().stdout;
             let printed = vibro(&(line(name, plain, false) + " --csv -")).output().unwrap().stdout;
             let (exported, printed) = (String::from_utf8(exported).unwrap(), String::from_utf8(printed).unwrap());

@@ -1,4 +1,4 @@
-//! Command lines of `vibro`: an answer or a refusal, soon, and the same one the next time.
+//! Command lines of `vibro`: each must give an answer or a refusal within its time, and the same one when repeated.
 
 mod others;
 mod parts;
@@ -25,32 +25,32 @@ pub struct CommandCase {
     heavy: bool,
 }
 
-/// The family.
+/// The family of command lines.
 #[derive(Debug)]
 pub struct Commands {
     vibro: PathBuf,
     scratch: TempDir,
 }
 
-/// What is asked a second time must have been answered soon.
+/// Only a question answered within this time is repeated.
 const SOON: Duration = Duration::from_secs(4);
-/// When a question of a large budget is interrupted.
+/// Time after which a question of a large budget is interrupted.
 const INTERRUPT: Duration = Duration::from_millis(1500);
 
 impl Commands {
     /// Tests this command.
     ///
     /// # Errors
-    /// Where there is no such command, or no place for temporary files.
+    /// If there is no such command, or no folder for temporary files.
     pub fn new(vibro: &Path) -> io::Result<Self> {
         let vibro =
             vibro.canonicalize().map_err(|why| io::Error::new(why.kind(), format!("{}: {why}", vibro.display())))?;
         Ok(Self { vibro, scratch: TempDir::new()? })
     }
 
-    /// Runs a line in a folder of its own; what it left there besides the files of every case.
+    /// Runs a line in its own folder. Returns the end of the process and the names of new files.
     fn ask(&self, words: &[String], limits: &Limits) -> io::Result<(ProcessEnd, Vec<String>)> {
-        // always under the same name, which some answers have in them
+        // always the same name, because some answers contain it
         let folder = self.scratch.path().join("case");
         if folder.exists() {
             fs::remove_dir_all(&folder)?;
@@ -100,11 +100,11 @@ impl Property for Commands {
         let verb = case.words.first().map_or("", String::as_str);
         if code != 0 {
             rules::sentence(&ran.stderr)?;
-            // what was found wrong in a store is the answer of `verify`
+            // the faults of a store are the answer of `verify`
             if !ran.stdout.is_empty() && verb != "verify" {
                 return Err(format!("exit code {code} with {} bytes on stdout: {}", ran.stdout.len(), ran.stderr));
             }
-            // what a store holds already stays; a figure that fails leaves none
+            // existing stores are kept; a failed figure leaves no file
             if let Some(name) = left.iter().find(|name| code != 130 && !name.ends_with(".zarr")) {
                 return Err(format!("exit code {code} and a file `{name}` is left: {}", ran.stderr));
             }
@@ -127,7 +127,7 @@ impl Property for Commands {
     }
 }
 
-/// The object reads, has what programs rely on, and its plan gives the same.
+/// Checks that the object can be parsed, contains what programs need, and that its plan gives the same object.
 fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), String> {
     let object = rules::object(stdout)?;
     if stored || matches!(verb, "resume" | "verify" | "status") {
@@ -142,7 +142,7 @@ fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), Stri
     same(first.trim_end().as_bytes(), second.as_bytes()).map_err(|why| format!("its plan gives another answer: {why}"))
 }
 
-/// The same line with another number of threads gives the same bytes.
+/// Checks that the same line with another number of threads gives the same bytes.
 fn again(commands: &Commands, case: &CommandCase, first: &ProcessEnd) -> Result<(), String> {
     if case.words.iter().any(|word| word.starts_with("--threads")) {
         return Ok(());
@@ -156,10 +156,10 @@ fn again(commands: &Commands, case: &CommandCase, first: &ProcessEnd) -> Result<
         .map_err(|why| format!("the same question with --threads=3 has another answer: {why}"))
 }
 
-/// Equal, or where they part.
+/// Checks that two outputs are equal.
 ///
 /// # Errors
-/// Where they part.
+/// The position of the first difference.
 pub(crate) fn same(a: &[u8], b: &[u8]) -> Result<(), String> {
     if a == b {
         return Ok(());

@@ -1,10 +1,10 @@
-//! Command lines of the verbs about files, pages and the program itself, and questions of a very large budget.
+//! Command lines for files, pages and the program itself, and questions with a very large budget.
 
 use super::parts::{Words, all, flag, line, switch, system, word};
 use crate::values::{count, number, odd};
 use proptest::prelude::*;
 
-/// A file in the folder of every case: a plan that is sound, one that is none, and a store that is none.
+/// The files in the folder of every case: a valid plan, an invalid one, and a file that is no store.
 pub(super) const FILES: [(&str, &str); 3] = [
     (
         "plan.toml",
@@ -18,7 +18,7 @@ fn words(choice: &'static [&'static str]) -> Words {
     prop_oneof![9 => word(choice), 1 => odd()].prop_map(|word| vec![word]).boxed()
 }
 
-/// Any of them.
+/// Any of these command lines.
 pub(super) fn lines() -> Words {
     const PLACES: &[&str] =
         &["s.zarr", "thesis.zarr", ".", "", "none/s.zarr", "plan.toml", "s3://", "s3://bucket/x", "file:///none"];
@@ -49,7 +49,7 @@ pub(super) fn lines() -> Words {
     .boxed()
 }
 
-/// Legal questions of a budget that takes minutes or days: they must heed Ctrl-C.
+/// Valid questions with a budget of minutes or days, which must stop at Ctrl-C.
 pub(super) fn heavy() -> Words {
     let most = || word(&["1000000", "100000", "1000000000", "5000000"]);
     let huge = || word(&["-3:-1:5000", "-3:-1:100000", "-2:-1:1000000"]);

@@ -7,13 +7,13 @@ use proptest::prelude::*;
 /// Words of a command line.
 pub(super) type Words = BoxedStrategy<Vec<String>>;
 
-/// `--name=value`, this often, 1 for always.
+/// `--name=value` with this probability.
 pub(super) fn flag(name: &'static str, often: f64, value: ProptestText) -> Words {
     let given = value.prop_map(move |value| vec![format!("--{name}={value}")]);
     sometimes(often, given.boxed())
 }
 
-/// `--name`, this often, 1 for always.
+/// `--name` with this probability.
 pub(super) fn switch(name: &'static str, often: f64) -> Words {
     sometimes(often, Just(vec![format!("--{name}")]).boxed())
 }
@@ -60,12 +60,12 @@ fn machine() -> Words {
     all(parts)
 }
 
-/// A start.
+/// The flags of a start.
 pub(super) fn start() -> Words {
     system::start().prop_map(|values| flags(&values)).boxed()
 }
 
-/// What is written: a table, a figure, JSON.
+/// The flags of outputs: a table, a figure, JSON.
 pub(super) fn outputs(table: &'static str) -> Words {
     const TABLES: &[&str] = &[".csv", ".csv", ".txt"];
     const FIGURES: &[&str] = &[".svg", ".svg", ".png", ".jpg"];
@@ -74,12 +74,12 @@ pub(super) fn outputs(table: &'static str) -> Words {
     all(vec![table, flag("plot", 0.1, file(FIGURES)), switch("json", 0.5)])
 }
 
-/// Words after each other.
+/// The words of several parts, in order.
 pub(super) fn all(parts: Vec<Words>) -> Words {
     parts.prop_map(|parts| parts.concat()).boxed()
 }
 
-/// A command line: its verb, its parts, what every command understands, and sometimes a word too many, one twice or one cut.
+/// A command line: its verb, its parts, the global options, and sometimes an additional, repeated or truncated word.
 pub(super) fn line(verb: &'static str, parts: Vec<Words>) -> Words {
     let usual = all(vec![
         flag("threads", 0.1, word(&["0", "1", "3", "1024", "1025", "-1", "x"])),
@@ -102,7 +102,7 @@ pub(super) fn line(verb: &'static str, parts: Vec<Words>) -> Words {
                 }
                 _ => line[k].push_str(&odd),
             }
-            // no operating system passes such a word
+            // no operating system passes a word with this character
             line.iter_mut().for_each(|word| word.retain(|c| c != '\0'));
             line
         })

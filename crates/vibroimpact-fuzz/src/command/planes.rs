@@ -1,11 +1,11 @@
-//! Command lines of the verbs that ask over ranges: basin, map, diagram, region and curve.
+//! Command lines with ranges: basin, map, diagram, region and curve.
 
 use super::parts::{Words, all, flag, flags, line, outputs, start, switch, word};
 use crate::system::{parameter, system, without};
 use crate::values::{ProptestText, count, interval, label, range};
 use proptest::prelude::*;
 
-/// Any of them.
+/// Any of these command lines.
 pub(super) fn lines() -> Words {
     prop_oneof![3 => basin(), 3 => map(), 3 => diagram(), 2 => region(), 2 => curve()].boxed()
 }
@@ -18,7 +18,7 @@ fn budget() -> ProptestText {
     prop_oneof![4 => word(&["1", "60", "200", "1500"]), 1 => count()].boxed()
 }
 
-/// A store in the current folder, and what goes with one.
+/// The flags of a store in the current folder.
 fn store() -> Words {
     let asked = all(vec![
         flag("store", 1.0, word(&["s.zarr", "s.zarr", "ünï.zarr", "none/s.zarr", "", "."])),
@@ -44,7 +44,7 @@ fn basin() -> Words {
     )
 }
 
-/// A system of which this number of parameters vary over ranges.
+/// A system in which this number of parameters vary over ranges.
 fn varied(
     most: usize,
     over: fn(f64, f64) -> ProptestText,
@@ -55,7 +55,7 @@ fn varied(
     )
         .prop_map(|(mut over, system)| {
             let mut seen: Vec<&str> = Vec::new();
-            // nine in ten would be refused for a parameter that is given twice
+            // without this, nine of ten would be refused for a parameter that is given twice
             over.retain(|(name, _)| {
                 let same = |other: &&str| other == name || other.ends_with("beta") && name.ends_with("beta");
                 let new = !seen.iter().any(same);
@@ -130,7 +130,7 @@ fn curve() -> Words {
         let names = ["--vary", "--and"];
         let ranges =
             over.iter().zip(names).map(|((name, range), flag)| format!("{flag}={}={range}", name.replace('_', "-")));
-        // the orbit is looked for in the middle of both ranges
+        // the orbit is searched in the middle of both ranges
         let middle = |(name, range): &(&'static str, String)| {
             let (a, b) = range.split_once(':')?;
             let at = 0.5 * (a.parse::<f64>().ok()? + b.parse::<f64>().ok()?);

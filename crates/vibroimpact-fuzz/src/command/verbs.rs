@@ -1,4 +1,4 @@
-//! Command lines of the verbs that ask about one system.
+//! Command lines for one system.
 
 use super::parts::{Words, flag, line, outputs, start, switch, system, word};
 use crate::values::{count, label, number, plain};
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 const PARAMETERS: &[&str] =
     &["gap", "inverse-beta", "beta", "restitution", "damping", "second-gap", "second-restitution", "mass", ""];
 
-/// Any of them.
+/// Any of these command lines.
 pub(super) fn lines() -> Words {
     let few = || prop_oneof![4 => word(&["1", "2", "5", "40"]), 1 => count()].boxed();
     prop_oneof![

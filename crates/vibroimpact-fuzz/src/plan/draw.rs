@@ -1,11 +1,11 @@
-//! Plans as JSON, small enough to be answered at once: every task, with values aimed at hard places.
+//! Plans as JSON, small enough to be answered at once: every task, with values chosen to be difficult.
 
 use crate::system::{SystemValues, parameter, start, system, without};
 use crate::values::{ProptestText, interval, label, number, range};
 use proptest::prelude::*;
 use serde_json::{Map, Value, json};
 
-/// A value as it stands in a plan: a number where the text is one.
+/// A value in a plan: a number if the text is one.
 fn value(text: &str) -> Value {
     let parsed = text.parse::<f64>().ok();
     parsed.and_then(serde_json::Number::from_f64).map_or_else(|| Value::String(text.to_owned()), Value::Number)
@@ -36,7 +36,7 @@ fn object(values: &SystemValues) -> Value {
 
 type Tasks = BoxedStrategy<(Value, SystemValues)>;
 
-/// A task over the system as it is drawn.
+/// A task that uses the system unchanged.
 fn alone(task: BoxedStrategy<Value>) -> Tasks {
     (task, system()).boxed()
 }
@@ -142,14 +142,14 @@ fn continuation() -> Tasks {
         .boxed()
 }
 
-/// The system with the first value of what varies over a region.
+/// The system with the first values of the parameters that vary over a region.
 fn region(system: SystemValues, p: &'static str, first: &Value, q: &'static str, second: &Value) -> SystemValues {
     let mut system = without(system, &[p, q]);
     system.extend([(p, first["from"].to_string()), (q, second["from"].to_string())]);
     system
 }
 
-/// A plan, most often a sound one.
+/// A plan, which is valid in most cases.
 pub fn plan() -> BoxedStrategy<Value> {
     let task = prop_oneof![5 => one_start(), 2 => basin(), 2 => map(), 2 => diagram(), 3 => continuation()];
     let tile = prop::option::weighted(0.1, prop::sample::select(vec![1, 2, 4096, 0, 4097]));
@@ -164,7 +164,7 @@ pub fn plan() -> BoxedStrategy<Value> {
         .boxed()
 }
 
-/// TOML has no null, and in a plan an absent field says the same.
+/// Removes null values, which TOML does not have; an absent field means the same in a plan.
 fn without_nulls(value: Value) -> Value {
     match value {
         Value::Object(fields) => {

@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 use vibroimpact_report::{AnswerError, Shown, Units, answer};
 use vibroimpact_study::{Control, Plan, Task};
 
-/// A plan, what happened to it, and how it is written.
+/// A plan, its mutations, and its format.
 #[derive(Clone, Debug)]
 pub struct Written {
     plan: Value,
@@ -28,7 +28,7 @@ pub struct Written {
 }
 
 impl Written {
-    /// How plans are drawn.
+    /// The strategy by which plans are drawn.
     pub fn strategy() -> BoxedStrategy<Self> {
         (draw::plan(), mutate::changes(), mutate::edits(), any::<bool>())
             .prop_map(|(plan, changes, edits, toml)| Self { plan, changes, edits, toml })
@@ -40,28 +40,28 @@ impl Written {
     pub fn text(&self) -> String {
         let tree = mutate::changed(self.plan.clone(), &self.changes);
         let toml = if self.toml { toml::to_string(&tree).ok() } else { None };
-        // what TOML has no words for is JSON
+        // values that TOML cannot express are written as JSON
         mutate::edited(&toml.unwrap_or_else(|| tree.to_string()), &self.edits)
     }
 
-    /// The same as JSON.
+    /// The same plan as JSON.
     #[must_use]
     pub fn json(&self) -> String {
         Self { toml: false, ..self.clone() }.text()
     }
 }
 
-/// The family.
+/// The family of plans.
 #[derive(Clone, Copy, Debug)]
 pub struct Plans;
 
-/// Processor time of a plan of a small budget.
+/// Limit of processor time for a plan with a small budget.
 const SMALL: Duration = Duration::from_secs(30);
-/// Of one of a large budget, after which it is stopped.
+/// Processor time after which a plan with a large budget is stopped.
 const LARGE: Duration = Duration::from_secs(2);
-/// Impacts that are few.
+/// Maximum number of impacts of a small budget.
 const FEW: u64 = 200_000;
-/// Points that fit into memory.
+/// Maximum number of points of a small budget.
 const POINTS: u64 = 100_000;
 
 impl Property for Plans {
@@ -99,7 +99,7 @@ impl Property for Plans {
     }
 }
 
-/// Written out and read again it is the same plan.
+/// Checks that the plan is the same when it is written and read again.
 fn as_written(plan: &Plan) -> Result<(), String> {
     let json = serde_json::to_string(plan).map_err(|why| format!("it cannot be written: {why}"))?;
     for (kind, text) in [("JSON", json), ("TOML", plan.to_toml())] {
@@ -112,12 +112,12 @@ fn as_written(plan: &Plan) -> Result<(), String> {
     Ok(())
 }
 
-/// Whether it asks for so little that its answer is waited for.
+/// Whether its budget is so small that its answer is waited for.
 pub(crate) fn small(plan: &Plan) -> bool {
     budget(plan) <= FEW
 }
 
-/// Impacts it asks for, about.
+/// Approximate number of impacts of its budget.
 fn budget(plan: &Plan) -> u64 {
     match &plan.task {
         Task::Simulate { impacts, periods, .. } => {
@@ -155,7 +155,7 @@ enum Refused {
     Stopped,
 }
 
-/// Everything that is reported of it: JSON, table, figure.
+/// Everything that is reported of a plan: JSON, table, figure.
 struct EventRecord {
     json: String,
     table: Vec<u8>,
@@ -173,7 +173,7 @@ fn asked(plan: &Plan, threads: usize, stop: &AtomicBool) -> Result<EventRecord, 
     match answer.table(&Shown::default()) {
         Ok(Some(found)) => found.write(&mut table).map_err(|why| Refused::Sentence(why.to_string()))?,
         Ok(None) => {}
-        // no table is a refusal of the table alone, as one of too many points
+        // a refused table, for example one with too many points, is only an error of the table
         Err(why) => rules::sentence(&why.to_string()).map_err(Refused::Sentence)?,
     }
     let figure = match answer.figure(&Shown::default(), &control) {
@@ -184,7 +184,8 @@ fn asked(plan: &Plan, threads: usize, stop: &AtomicBool) -> Result<EventRecord, 
     Ok(EventRecord { json: answer.json(), table, figure })
 }
 
-/// The answer has what programs rely on, and is the same with other threads and from the plan it prints.
+/// Checks that the answer contains what programs need, and is the same with other numbers of threads and from the plan
+/// that it prints.
 fn answered(plan: &Plan, first: &EventRecord) -> Result<(), String> {
     let object = rules::object(first.json.as_bytes())?;
     let task = serde_json::to_value(&plan.task).unwrap_or_default();
@@ -210,7 +211,7 @@ fn answered(plan: &Plan, first: &EventRecord) -> Result<(), String> {
     }
 }
 
-/// Runs work with a flag that is set after this time, measured in processor time where the system gives it.
+/// Runs work with a stop flag that is set after this time, measured as processor time if the system provides it.
 fn stopped_after<T>(limit: Duration, work: impl FnOnce(&AtomicBool) -> T) -> T {
     const LOOK: Duration = Duration::from_millis(100);
     let stop = AtomicBool::new(false);
@@ -220,7 +221,7 @@ fn stopped_after<T>(limit: Duration, work: impl FnOnce(&AtomicBool) -> T) -> T {
         scope.spawn(move || {
             let id = std::process::id();
             let (begun, before) = (Instant::now(), processor_time(id));
-            // the work is over when its end of the channel is gone, by a panic too
+            // the work is over when its end of the channel is dropped, also by a panic
             while over.recv_timeout(LOOK) == Err(mpsc::RecvTimeoutError::Timeout) {
                 let taken = processor_time(id).zip(before).map(|(now, before)| now - before);
                 let taken = taken.unwrap_or_else(|| begun.elapsed().as_secs_f64());
@@ -240,7 +241,7 @@ mod tests {
     use crate::case::runner;
     use proptest::strategy::ValueTree;
 
-    /// Most plans make sense, or nothing would be computed.
+    /// Most plans are valid, so that results are computed.
     #[test]
     fn most_plans_are_sound() {
         let texts = (0..400).map(|k| Plans.strategy().new_tree(&mut runner(1, "plans", k)).unwrap().current());

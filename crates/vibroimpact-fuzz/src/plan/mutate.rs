@@ -1,34 +1,34 @@
-//! Plans that went wrong: values replaced, fields lost, renamed or invented, and texts cut and garbled.
+//! Mutated plans: values replaced, fields removed, renamed or added, and texts truncated or changed.
 
 use proptest::prelude::*;
 use proptest::sample::Index;
 use serde_json::{Map, Value, json};
 
-/// One change of a tree of values; the index says where.
+/// One change of a tree of values. The index selects the place.
 #[derive(Clone, Debug)]
 pub(super) enum Change {
-    /// Another value.
+    /// Replaces a value.
     Replace(Index, Value),
-    /// A field less.
+    /// Removes a field.
     Remove(Index),
-    /// A field under another name.
+    /// Renames a field.
     Rename(Index, String),
-    /// A field more.
+    /// Adds a field.
     Add(Index, String, Value),
-    /// The value, nested in this number of lists.
+    /// Nests the value in this number of lists.
     Nest(Index, u16),
-    /// An element of a list twice.
+    /// Repeats an element of a list.
     Twice(Index),
 }
 
 /// One change of a text.
 #[derive(Clone, Debug)]
 pub(super) enum Edit {
-    /// Cut there.
+    /// Truncates the text at the place.
     Cut(Index),
-    /// Something more there.
+    /// Inserts text at the place.
     Insert(Index, String),
-    /// So many characters less.
+    /// Removes this number of characters.
     Remove(Index, u8),
 }
 
@@ -86,7 +86,7 @@ fn name() -> BoxedStrategy<String> {
     prop::sample::select(names).prop_map(str::to_owned).boxed()
 }
 
-/// Changes of a tree: none for more than half of the cases.
+/// Changes of a tree; none in more than half of the cases.
 pub(super) fn changes() -> BoxedStrategy<Vec<Change>> {
     let place = any::<Index>;
     let change = prop_oneof![
@@ -100,7 +100,7 @@ pub(super) fn changes() -> BoxedStrategy<Vec<Change>> {
     prop_oneof![3 => Just(Vec::new()), 2 => prop::collection::vec(change, 1..4)].boxed()
 }
 
-/// Edits of a text: none for most cases.
+/// Edits of a text; none in most cases.
 pub(super) fn edits() -> BoxedStrategy<Vec<Edit>> {
     let inserted = vec![
         "{", "}", "[", "]", "\"", "'", ":", ",", "=", "\n", "\0", "NaN", "inf", "-", "1e999", "\u{feff}", "\u{202e}",
@@ -115,7 +115,7 @@ pub(super) fn edits() -> BoxedStrategy<Vec<Edit>> {
     prop_oneof![6 => Just(Vec::new()), 1 => prop::collection::vec(edit, 1..4)].boxed()
 }
 
-/// The nodes of a tree, in order.
+/// The number of nodes of a tree.
 fn count(value: &Value) -> usize {
     1 + match value {
         Value::Object(fields) => fields.values().map(count).sum::<usize>(),

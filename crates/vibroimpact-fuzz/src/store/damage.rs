@@ -1,4 +1,4 @@
-//! What can happen to the objects of a store.
+//! Kinds of damage to the objects of a store.
 
 use proptest::prelude::*;
 use proptest::sample::Index;
@@ -7,10 +7,10 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-/// All files of a store by their names in it.
+/// All files of a store, by their names.
 pub(super) type Files = BTreeMap<String, Vec<u8>>;
 
-/// One thing that happened to an object of a store.
+/// One kind of damage to an object of a store.
 #[derive(Clone, Debug)]
 pub(super) enum Damage {
     Flip(Index, Index, u8),
@@ -24,7 +24,7 @@ pub(super) enum Damage {
 }
 
 impl Damage {
-    /// How damage is drawn.
+    /// The strategy by which damage is drawn.
     pub(super) fn strategy() -> BoxedStrategy<Self> {
         let at = any::<Index>;
         let texts = prop::sample::select(vec![
@@ -49,7 +49,7 @@ impl Damage {
         .boxed()
     }
 
-    /// The object it happened to.
+    /// Selects the damaged object.
     fn place(&self) -> Index {
         let (Self::Flip(at, ..)
         | Self::Cut(at, _)
@@ -62,7 +62,7 @@ impl Damage {
         *at
     }
 
-    /// What happened, by the names of the objects.
+    /// A description of the damage, with the names of the objects.
     pub(super) fn told(&self, files: &Files) -> String {
         let names: Vec<&String> = files.keys().collect();
         let name = *self.place().get(&names);
@@ -98,7 +98,7 @@ pub(super) fn files(root: &Path) -> io::Result<Files> {
     Ok(found)
 }
 
-/// Writes them into a folder.
+/// Writes the files into a folder.
 pub(super) fn write(files: &Files, root: &Path) -> io::Result<()> {
     for (name, bytes) in files {
         let path = root.join(name);
@@ -108,12 +108,12 @@ pub(super) fn write(files: &Files, root: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Lets it happen, one after the other.
+/// Applies several kinds of damage, one after another.
 pub(super) fn damage(files: &Files, root: &Path, damage: &[Damage]) -> io::Result<()> {
     let names: Vec<&String> = files.keys().collect();
     for one in damage {
         let path = root.join(one.place().get(&names));
-        // an earlier damage may have taken it away
+        // an earlier damage may have removed the object
         let Ok(mut bytes) = fs::read(&path) else { continue };
         match one {
             Damage::Flip(_, byte, bit) if !bytes.is_empty() => {

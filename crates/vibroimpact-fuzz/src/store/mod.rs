@@ -1,5 +1,5 @@
-//! Stores with damaged bytes: every command that reads one says what is wrong or is right, and `vibro resume` mends it to
-//! the same bytes.
+//! Stores with damaged bytes: every command that reads one must report the damage or give correct results, and `vibro
+//! resume` must repair it to the same bytes.
 
 mod damage;
 
@@ -25,14 +25,14 @@ const PLANS: [&str; 6] = [
     r#"{"version":1,"tile":1,"system":{"inverse_beta":1.11,"restitution":0.5},"task":{"lyapunov":{"axes":[{"vary":"gap","over":"2:3:3"}],"impacts":1000,"transient":100}}}"#,
 ];
 
-/// A store and what happened to it.
+/// A store and its damage.
 #[derive(Clone, Debug)]
 pub struct Damaged {
     plan: usize,
     damage: Vec<Damage>,
 }
 
-/// The family.
+/// The family of damaged stores.
 #[derive(Debug)]
 pub struct Stores {
     vibro: PathBuf,
@@ -44,7 +44,7 @@ impl Stores {
     /// Tests this command.
     ///
     /// # Errors
-    /// Where there is no such command, or no place for temporary files.
+    /// If there is no such command, or no folder for temporary files.
     pub fn new(vibro: &Path) -> io::Result<Self> {
         Ok(Self { vibro: vibro.canonicalize()?, scratch: TempDir::new()?, whole: vec![None; PLANS.len()] })
     }
@@ -61,7 +61,7 @@ impl Stores {
         Ok(ran)
     }
 
-    /// The undamaged store of a plan and its table.
+    /// The undamaged store of a plan, and its table.
     fn whole(&mut self, k: usize) -> Result<(Files, Vec<u8>), String> {
         if let Some(whole) = &self.whole[k] {
             return Ok(whole.clone());
@@ -115,7 +115,7 @@ impl Property for Stores {
             }
         }
         let exported = self.vibro(folder, "export s.zarr --csv - --quiet")?;
-        // a tile whose status is gone was never computed, and has empty cells
+        // a tile without a status counts as never computed, and has empty cells
         let open = now.keys().filter(|key| key.starts_with("status/")).count()
             < want.keys().filter(|key| key.starts_with("status/")).count();
         if exported.code == Some(0) && exported.stdout != table && !exchanged && !open {

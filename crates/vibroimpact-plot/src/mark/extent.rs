@@ -1,10 +1,10 @@
-//! How far marks reach.
+//! The extent of marks.
 
-/// The smallest and largest finite value seen.
+/// The smallest and largest finite value so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Extent {
     range: Option<(f64, f64)>,
-    /// For a logarithmic axis only positive values count.
+    /// Whether only positive values count, for a logarithmic axis.
     positive: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Lines across a panel, and the wall that an oscillator strikes.
+//! Horizontal and vertical lines across a panel, and the stop that the mass hits.
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
@@ -7,50 +7,50 @@ use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::stroke::Stroke;
 
-/// A line across the panel at one y.
+/// A horizontal line across the panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HLine {
-    /// Where.
+    /// Its ordinate.
     pub y: f64,
-    /// The look.
+    /// Its stroke.
     pub stroke: Stroke,
 }
 
-/// A line up the panel at one x.
+/// A vertical line across the panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VLine {
-    /// Where.
+    /// Its abscissa.
     pub x: f64,
-    /// The look.
+    /// Its stroke.
     pub stroke: Stroke,
 }
 
-/// On which side of the stop the wall stands.
+/// The side of the line on which the wall of a stop is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextSide {
-    /// Larger y.
+    /// At larger y.
     Above,
-    /// Smaller y.
+    /// At smaller y.
     Below,
-    /// Smaller x.
+    /// At smaller x.
     Left,
-    /// Larger x.
+    /// At larger x.
     Right,
 }
 
-/// A stop: a firm line, and the space behind it hatched to the edge of the panel.
+/// A stop: a line, with the area behind it hatched to the edge of the panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
-    /// Where the stop is.
+    /// The coordinate of the stop.
     pub at: f64,
-    /// What lies behind it.
+    /// The side of the wall.
     pub side: TextSide,
-    /// Colour of line and hatch.
+    /// Colour of the line and the hatch.
     pub colour: Colour,
 }
 
 impl HLine {
-    /// A line at `y`.
+    /// A horizontal line at `y`.
     #[must_use]
     pub const fn new(y: f64, stroke: Stroke) -> Self {
         Self { y, stroke }
@@ -66,7 +66,7 @@ impl HLine {
 }
 
 impl VLine {
-    /// A line at `x`.
+    /// A vertical line at `x`.
     #[must_use]
     pub const fn new(x: f64, stroke: Stroke) -> Self {
         Self { x, stroke }
@@ -111,7 +111,7 @@ impl Wall {
             TextSide::Above | TextSide::Right => first.max(last),
             TextSide::Below | TextSide::Left => first.min(last),
         };
-        // a stop outside the panel leaves all of it behind the wall, or none
+        // if the stop is outside the panel, either the whole panel is behind the wall or nothing
         let band = if matches!(self.side, TextSide::Above | TextSide::Right) == (self.at < beyond) {
             let (x, y) = if upright { ((self.at, beyond), frame.y.range) } else { (frame.x.range, (self.at, beyond)) };
             frame.cut(x, y)

@@ -11,9 +11,9 @@ use crate::stroke::{Dash, Stroke};
 pub struct Line {
     /// Abscissae.
     pub xs: Vec<f64>,
-    /// Ordinates; surplus values of either list are left out.
+    /// Ordinates; surplus values of the longer list are ignored.
     pub ys: Vec<f64>,
-    /// The look.
+    /// Its stroke.
     pub stroke: Stroke,
 }
 
@@ -23,13 +23,13 @@ impl Line {
         Self { xs: xs.into(), ys: ys.into(), stroke: Stroke::new(colour) }
     }
 
-    /// With another width in figure units.
+    /// Sets the width in figure units.
     #[must_use]
     pub fn width(self, width: f64) -> Self {
         Self { stroke: self.stroke.width(width), ..self }
     }
 
-    /// With dashes.
+    /// Sets the dashes.
     #[must_use]
     pub fn dash(self, dash: Dash) -> Self {
         Self { stroke: self.stroke.dash(dash), ..self }

@@ -1,4 +1,4 @@
-//! Marks: what a panel shows, drawn in the order given.
+//! Marks: the contents of a panel, drawn in the given order.
 
 pub(crate) mod extent;
 pub(crate) mod guide;
@@ -20,7 +20,7 @@ use rects::Rects;
 use region::FilledRegion;
 use text::Text;
 
-/// Anything a panel can show.
+/// A mark of any kind.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mark {
     /// A polyline.
@@ -33,13 +33,13 @@ pub enum Mark {
     Rects(Rects),
     /// An area with holes.
     FilledRegion(FilledRegion),
-    /// A label at a place.
+    /// A label at a point.
     Text(Text),
-    /// A line across the panel at one y.
+    /// A horizontal line across the panel.
     HLine(HLine),
-    /// A line up the panel at one x.
+    /// A vertical line across the panel.
     VLine(VLine),
-    /// A stop, with the space behind it hatched.
+    /// A stop, with the area behind it hatched.
     Wall(Wall),
 }
 
@@ -58,7 +58,7 @@ macro_rules! marks {
                 }
             }
 
-            /// Hands every place this mark wants to be seen to the two collectors.
+            /// Passes every point that should be visible to the two collectors.
             pub(crate) fn extent(&self, x: &mut Extent, y: &mut Extent) {
                 match self {
                     $(Self::$kind(mark) => mark.extent(x, y),)*

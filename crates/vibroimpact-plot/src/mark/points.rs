@@ -1,4 +1,4 @@
-//! Separate points: impacts, Poincaré sections, named places.
+//! Separate points: impacts, Poincaré sections, named points.
 
 use std::collections::HashSet;
 
@@ -7,7 +7,7 @@ use crate::colour::Colour;
 use crate::mark::extent::Extent;
 use crate::number::N;
 
-/// The form of a point.
+/// The shape of a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shape {
     /// ●
@@ -28,7 +28,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Path data about a centre; `size` is the diameter of the circle, the others have its area.
+    /// Path data about a centre. `size` is the diameter of the circle; the other shapes have its area.
     pub(crate) fn path(self, x: f64, y: f64, size: f64) -> String {
         let r = size / 2.0;
         let (nx, ny) = (N(x), N(y));
@@ -65,23 +65,23 @@ impl Shape {
     }
 }
 
-/// The look of points.
+/// The style of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointStyle {
-    /// The form.
+    /// The shape.
     pub shape: Shape,
     /// Diameter in figure units.
     pub size: f64,
     /// The colour.
     pub colour: Colour,
-    /// Filled, or an outline only.
+    /// Whether the points are filled; otherwise only outlined.
     pub filled: bool,
-    /// A rim in another colour, which keeps filled points apart from what lies below.
+    /// An outline in another colour, which separates filled points from what lies below.
     pub rim: Option<Colour>,
 }
 
 impl PointStyle {
-    /// The rim and body of the points whose path is given.
+    /// Paints the outline and the body of points with this path.
     pub(crate) fn paint(&self, path: &str) -> String {
         let open = self.shape.is_open();
         let line = if open { 2.5 } else { 2.0 };
@@ -104,14 +104,14 @@ impl PointStyle {
     }
 }
 
-/// Points of one look.
+/// Points with a common style.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
     /// Abscissae.
     pub xs: Vec<f64>,
-    /// Ordinates; surplus values of either list are left out.
+    /// Ordinates; surplus values of the longer list are ignored.
     pub ys: Vec<f64>,
-    /// The look.
+    /// The style.
     pub style: PointStyle,
 }
 
@@ -122,41 +122,41 @@ impl Points {
         Self { xs: xs.into(), ys: ys.into(), style }
     }
 
-    /// With another form.
+    /// Sets the shape.
     #[must_use]
     pub fn shape(mut self, shape: Shape) -> Self {
         self.style.shape = shape;
         self
     }
 
-    /// With another diameter in figure units.
+    /// Sets the diameter in figure units.
     #[must_use]
     pub fn size(mut self, size: f64) -> Self {
         self.style.size = size;
         self
     }
 
-    /// As outlines.
+    /// Draws outlines only.
     #[must_use]
     pub fn hollow(mut self) -> Self {
         self.style.filled = false;
         self
     }
 
-    /// With a rim.
+    /// Sets the outline.
     #[must_use]
     pub fn rim(mut self, colour: Colour) -> Self {
         self.style.rim = Some(colour);
         self
     }
 
-    /// Points are not cut in half by the frame: one whose centre is inside is drawn whole.
+    /// Draws the points. The frame does not clip them: a point whose centre is inside is drawn completely.
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let size = if self.style.size.is_finite() { self.style.size.clamp(0.2, 200.0) } else { 9.0 };
         let mut path = String::new();
         let mut seen = HashSet::new();
-        // two points within a fiftieth of their size look like one; in a cloud of thousands, whose
-        // points overlap anyway, a tenth is enough and keeps the file small
+        // two points within a fiftieth of their size look like one; in a cloud of thousands of overlapping points a
+        // tenth is enough, and the file is smaller
         let many = self.xs.len().min(self.ys.len()) > 5000;
         let grid = (size / if many { 10.0 } else { 50.0 }).max(0.05);
         for (&x, &y) in self.xs.iter().zip(&self.ys) {

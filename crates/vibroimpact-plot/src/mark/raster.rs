@@ -1,4 +1,4 @@
-//! A grid of class indices as one picture: basins of attraction with a cell per pixel.
+//! A grid of class indices as one image: basins of attraction with one pixel for each cell.
 
 use resvg::tiny_skia::{IntSize, Pixmap};
 
@@ -10,7 +10,7 @@ use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::scale::Scale;
 
-/// Equal cells over a rectangle, each the colour of its class.
+/// Equal cells over a rectangle, each in the colour of its class.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Raster {
     x: (f64, f64),
@@ -22,11 +22,11 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// Cells that fill `x` times `y` (outer edges); `classes` holds rows from the lowest y up,
-    /// each from the first x on. A class beyond the palette is transparent.
+    /// Cells that fill the rectangle `x` times `y` (outer edges). `classes` has rows from the lowest y upwards, each
+    /// from the first x on. A class without a colour in the palette is transparent.
     ///
     /// # Errors
-    /// When `classes` does not hold `nx * ny` values, or a side is 0 or above 16384.
+    /// If `classes` does not have `nx * ny` values, or a side is 0 or above 16384.
     pub fn new(
         x: (f64, f64),
         y: (f64, f64),
@@ -45,8 +45,8 @@ impl Raster {
         Ok(Self { x, y, nx, ny, classes, palette })
     }
 
-    /// The same, but `x` and `y` are the middles of the first and last cells: the grid points that
-    /// were computed.
+    /// The same, but `x` and `y` are the centres of the first and last cells, that is, the grid points that were
+    /// computed.
     ///
     /// # Errors
     /// As [`Raster::new`].
@@ -74,7 +74,7 @@ impl Raster {
         if !(width > 0.0 && height > 0.0) {
             return;
         }
-        // the page's y runs down: the first row is the lowest line of the picture
+        // page coordinates increase downwards, so the first row is the lowest line of the image
         let Some(png) = self.png(b < a, c > d) else {
             return;
         };
@@ -95,7 +95,7 @@ impl Raster {
         self.palette.get(usize::from(class)).copied()
     }
 
-    /// One pixel per cell; `None` never happens for the sizes `new` lets through.
+    /// An image with one pixel for each cell. `None` does not occur for the sizes allowed by `new`.
     fn png(&self, mirror: bool, upturn: bool) -> Option<Vec<u8>> {
         let mut data = Vec::with_capacity(4 * self.classes.len());
         for j in 0..self.ny {
@@ -113,7 +113,7 @@ impl Raster {
         Pixmap::from_vec(data, size)?.encode_png().ok()
     }
 
-    /// On a logarithmic axis cells are not equally wide: runs of one class become rectangles.
+    /// On a logarithmic axis cells have different widths, so runs of one class are drawn as rectangles.
     fn draw_cells(&self, canvas: &mut Canvas, frame: &Frame) {
         let step = |(a, b): (f64, f64), i: usize, n: usize| a + (b - a) * i as f64 / n as f64;
         let mut paths = vec![String::new(); self.palette.len()];

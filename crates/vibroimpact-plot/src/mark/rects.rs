@@ -1,22 +1,22 @@
-//! Rectangles of classes: the cells of a map, whole or split in stripes.
+//! Rectangles with classes: the cells of a map, whole or divided into stripes.
 
 use crate::canvas::{Canvas, Frame};
 use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::palette::ClassStyle;
 
-/// One rectangle.
+/// A rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
-    /// Left and right.
+    /// Left and right edge.
     pub x: (f64, f64),
-    /// Lower and upper.
+    /// Lower and upper edge.
     pub y: (f64, f64),
-    /// Index into the styles.
+    /// Index of its style.
     pub class: usize,
 }
 
-/// Rectangles with the style of their class; a class without a style is not drawn.
+/// Rectangles in the styles of their classes. A class without a style is not drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rects {
     /// The rectangles.
@@ -26,13 +26,12 @@ pub struct Rects {
 }
 
 impl Rects {
-    /// No rectangle yet, and these styles.
+    /// No rectangles yet, with these styles.
     pub fn new(styles: impl Into<Vec<ClassStyle>>) -> Self {
         Self { rects: Vec::new(), styles: styles.into() }
     }
 
-    /// Adds a cell. Several classes share it in upright stripes of equal width: motions that
-    /// coexist there.
+    /// Adds a cell. Several classes, which are coexisting motions, share it in vertical stripes of equal width.
     pub fn cell(&mut self, x: (f64, f64), y: (f64, f64), classes: &[usize]) {
         let n = classes.len() as f64;
         for (k, &class) in classes.iter().enumerate() {
@@ -41,7 +40,7 @@ impl Rects {
         }
     }
 
-    /// One path per class: neighbours of a class join without a seam, and the file stays small.
+    /// Draws one path for each class: neighbours of a class join without a seam, and the file is small.
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let mut paths = vec![String::new(); self.styles.len()];
         for rect in &self.rects {

@@ -1,4 +1,4 @@
-//! Areas with holes: regions of existence, outlines read off a published map.
+//! Areas with holes: regions of existence, or outlines read from a published map.
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
@@ -7,44 +7,44 @@ use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::stroke::Stroke;
 
-/// Closed rings; where they overlap an even number of times is outside.
+/// Closed rings. An area inside an even number of rings is outside the region.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FilledRegion {
-    /// The rings, each a list of corners; the last joins the first.
+    /// The rings, each a list of corners; the last corner is joined to the first.
     pub rings: Vec<Vec<(f64, f64)>>,
-    /// Colour of the inside; give it an opacity to keep what lies below.
+    /// Colour of the inside; it may be transparent to show what lies below.
     pub fill: Option<Colour>,
-    /// Lines over the inside.
+    /// Hatch of the inside.
     pub hatch: Option<Hatch>,
     /// The outline.
     pub outline: Option<Stroke>,
 }
 
 impl FilledRegion {
-    /// A region of these rings, invisible until it is given a fill, a hatch or an outline.
+    /// A region with these rings. It is invisible until it has a fill, a hatch or an outline.
     #[must_use]
     pub fn new(rings: Vec<Vec<(f64, f64)>>) -> Self {
         Self { rings, ..Self::default() }
     }
 
-    /// A region of one ring.
+    /// A region with one ring.
     pub fn polygon(ring: impl Into<Vec<(f64, f64)>>) -> Self {
         Self::new(vec![ring.into()])
     }
 
-    /// Filled.
+    /// Sets the fill.
     #[must_use]
     pub fn fill(self, colour: Colour) -> Self {
         Self { fill: Some(colour), ..self }
     }
 
-    /// Hatched.
+    /// Sets the hatch.
     #[must_use]
     pub fn hatch(self, hatch: Hatch) -> Self {
         Self { hatch: Some(hatch), ..self }
     }
 
-    /// Outlined.
+    /// Sets the outline.
     #[must_use]
     pub fn outline(self, stroke: Stroke) -> Self {
         Self { outline: Some(stroke), ..self }
@@ -53,7 +53,7 @@ impl FilledRegion {
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let mut path = String::new();
         for ring in &self.rings {
-            // corners without a place are left out; fewer than three enclose nothing
+            // corners that cannot be shown are left out; fewer than three corners enclose nothing
             let corners: Vec<_> =
                 ring.iter().map(|&(x, y)| frame.at(x, y)).filter(|(x, y)| !x.is_nan() && !y.is_nan()).collect();
             if corners.len() >= 3 {

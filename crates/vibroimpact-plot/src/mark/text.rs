@@ -1,4 +1,4 @@
-//! Labels at a place of the data.
+//! Labels at a point of the data.
 
 use crate::canvas::{Canvas, Frame};
 use crate::colour::Colour;
@@ -7,33 +7,33 @@ use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::theme;
 
-/// A label; it is shown when its place lies inside the axes, and never cut off by them.
+/// A label. It is shown if its point lies inside the axes, and is never clipped by them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// Its place.
+    /// Abscissa of its point.
     pub x: f64,
-    /// Its place.
+    /// Ordinate of its point.
     pub y: f64,
-    /// What it says, in the markup of [labels](crate::plain).
+    /// The text, in the markup of [labels](crate::plain).
     pub markup: String,
-    /// Which end of the text stands there.
+    /// The part of the text that is placed at the point.
     pub anchor: Anchor,
-    /// How far it is moved to the right, in figure units.
+    /// Shift to the right, in figure units.
     pub dx: f64,
-    /// How far it is moved up, in figure units.
+    /// Shift upwards, in figure units.
     pub dy: f64,
     /// Font size in figure units.
     pub size: f64,
     /// The colour.
     pub colour: Colour,
-    /// A white rim, so that it reads over colour.
+    /// Whether it has a white outline, so that it is legible over colours.
     pub halo: bool,
-    /// A thin line from the place to the moved label.
+    /// Whether a thin line joins the point and the shifted label.
     pub leader: bool,
 }
 
 impl Text {
-    /// A label centred on its place, with a halo.
+    /// A label centred at a point, with a white outline.
     pub fn new(x: f64, y: f64, markup: impl Into<String>) -> Self {
         Self {
             x,
@@ -49,37 +49,37 @@ impl Text {
         }
     }
 
-    /// Moved right and up by figure units.
+    /// Sets the shift to the right and upwards, in figure units.
     #[must_use]
     pub fn shift(self, dx: f64, dy: f64) -> Self {
         Self { dx, dy, ..self }
     }
 
-    /// Standing on another end.
+    /// Sets the anchor.
     #[must_use]
     pub fn anchor(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
 
-    /// With another font size.
+    /// Sets the font size.
     #[must_use]
     pub fn size(self, size: f64) -> Self {
         Self { size, ..self }
     }
 
-    /// In another colour.
+    /// Sets the colour.
     #[must_use]
     pub fn colour(self, colour: Colour) -> Self {
         Self { colour, ..self }
     }
 
-    /// Without the white rim.
+    /// Removes the white outline.
     #[must_use]
     pub fn without_halo(self) -> Self {
         Self { halo: false, ..self }
     }
 
-    /// With a thin line back to its place.
+    /// Adds a thin line to its point.
     #[must_use]
     pub fn leader(self) -> Self {
         Self { leader: true, ..self }
@@ -101,7 +101,7 @@ impl Text {
                 ));
             }
         }
-        // capitals are 0.73 high: half of it below the place centres them
+        // capitals are 0.73 high, so this baseline centres them
         let baseline = y + 0.365 * size;
         let placed = Placed {
             colour: self.colour,

@@ -1,7 +1,7 @@
-//! Polylines thinned to what can be seen.
+//! Reduces polylines to the visible resolution.
 //!
-//! A run of 10^6 samples would make a file of many megabytes that looks like one of a few
-//! thousand points. Three passes, each linear in time, keep the look:
+//! A waveform of 10^6 samples would give a file of many megabytes that looks like one of a few thousand points. Three
+//! passes, each linear in time, preserve the appearance:
 //!
 //! 1. pieces that leave the frame are cut (Liang and Barsky 1984, doi:10.1145/357332.357333);
 //! 2. consecutive points in one narrow column keep the first, lowest, highest and last (M4:
@@ -12,18 +12,18 @@
 use crate::canvas::Frame;
 use crate::number::N;
 
-/// How far a drawn line may lie from the true one, in figure units: 6 micrometres in print.
+/// Maximum deviation of a drawn line, in figure units: 6 micrometres in print.
 const TOLERANCE: f64 = 0.05;
 
-/// Width of a column of the second pass, in figure units; a tenth of a default line.
+/// Width of a column of the second pass, in figure units: a tenth of a default line.
 const COLUMN: f64 = 0.25;
 
-/// How far outside the frame pieces are cut, so that no cut end or corner shows.
+/// Distance outside the frame at which lines are cut, so that no cut end or corner is visible.
 const MARGIN: f64 = 60.0;
 
 type Point = (f64, f64);
 
-/// Page points to path data.
+/// The path data of some page points.
 pub(crate) fn path(points: impl Iterator<Item = Point>, frame: &Frame) -> String {
     let mut out = String::new();
     for piece in pieces(points, frame) {
@@ -34,7 +34,7 @@ pub(crate) fn path(points: impl Iterator<Item = Point>, frame: &Frame) -> String
     out
 }
 
-/// Pass 1: the stretches near the frame.
+/// Pass 1: the parts near the frame.
 fn pieces(points: impl Iterator<Item = Point>, frame: &Frame) -> Vec<Vec<Point>> {
     let mut pieces: Vec<Vec<Point>> = Vec::new();
     let mut last: Option<Point> = None;
@@ -74,13 +74,13 @@ fn cut(a: Point, b: Point, frame: &Frame) -> Option<(Point, Point)> {
         }
     }
     let on = |t: f64| (a.0 + t * dx, a.1 + t * dy);
-    // whole ends are passed on bit by bit: the next piece is recognised by them
+    // ends that are not cut keep their exact bits, by which the next part is recognised
     let start = if enter > 0.0 { on(enter) } else { a };
     let end = if leave < 1.0 { on(leave) } else { b };
     (enter <= leave).then_some((start, end))
 }
 
-/// Pass 2: first, extremes and last of every run inside one column.
+/// Pass 2: the first, extreme and last points of every run inside one column.
 fn columns(points: &[Point]) -> Vec<Point> {
     let column = |p: &Point| (p.0 / COLUMN).floor();
     let mut out = Vec::new();
@@ -99,7 +99,7 @@ fn columns(points: &[Point]) -> Vec<Point> {
     out
 }
 
-/// Pass 3: drops a point while one straight stroke passes close to all it skips.
+/// Pass 3: drops points as long as one straight line passes close to all dropped points.
 fn straighten(points: &[Point]) -> Vec<Point> {
     let mut out: Vec<Point> = Vec::with_capacity(points.len().min(1024));
     let (mut cone, mut reach): (Option<(f64, f64)>, f64) = (None, 0.0);
@@ -117,10 +117,10 @@ fn straighten(points: &[Point]) -> Vec<Point> {
         let narrowed = match cone {
             None => Some((angle - half, angle + half)),
             Some((lo, hi)) => {
-                // angles wrap: compare this one where it is nearest to the cone
+                // angles are periodic: use the value nearest to the cone
                 let turn = ((f64::midpoint(lo, hi) - angle) / std::f64::consts::TAU).round();
                 let angle = angle + turn * std::f64::consts::TAU;
-                // a step back towards the anchor is a turning point, which must stay
+                // a step back towards the anchor is a turning point, which must be kept
                 (angle >= lo && angle <= hi && far >= reach).then_some((lo.max(angle - half), hi.min(angle + half)))
             }
         };

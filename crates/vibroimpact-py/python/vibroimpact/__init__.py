@@ -1,35 +1,35 @@
-"""Vibro-impact dynamics: oscillators that strike stops.
+"""Vibro-impact dynamics: oscillators that hit rigid stops.
 
-A mass on a spring, driven harmonically, strikes a rigid stop:
+A mass on a spring, driven by a harmonic force, hits a rigid stop:
 
     x'' + 2 zeta x' + x = sin(beta t + phase),   x <= gap,   u+ = -eps u-
 
 Lengths are in units of the static deflection F/k, times in units of 1/omega_n, phases in radians;
-`Oscillator.from_units` takes kg, N/m, N, Hz and m, and its `units` lead back.
+`Oscillator.from_units` takes kg, N/m, N, Hz and m, and its attribute `units` converts results back.
 
 >>> import vibroimpact as vi
 >>> osc = vi.Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5)
->>> vi.settle(osc).label                    # what does it settle into?
+>>> vi.settle(osc).label                    # the motion after the transient
 '4/1'
 >>> other = osc.replace(inverse_beta=1.3, gap=0.75)
->>> [(m.label, m.share) for m in vi.attractors(other, starts=200)]     # what else could it do, and how often?
+>>> [(m.label, m.share) for m in vi.attractors(other, starts=200)]     # all attractors, and their shares of the starts
 [('2/1', 0.64), ('1/1', 0.36)]
 
-| you want | call |
+| result | function |
 |---|---|
 | every impact of a motion | `simulate` |
-| what a motion settles into, from one start or from many | `settle`, `settle_many` |
-| the motions there are, and their shares | `attractors` |
+| the motion after its transient, from one start or from many | `settle`, `settle_many` |
+| the attractors, and their shares of the starts | `attractors` |
 | periodic orbits, stable or not | `orbits` |
-| an orbit over a parameter, through its events | `branch` |
-| a fold, flip or grazing over two parameters | `curve` |
-| where a motion exists and where it is stable | `region` |
-| Lyapunov exponents and the dimension | `lyapunov` |
-| the motion after its transient over a parameter | `orbit_diagram` |
-| which motion each start leads to, which motions there are over parameters | `basin`, `region_map` |
-| a study as large as you like: a plan in a store | `Plan`, `run`, `resume`, `status`, `verify`, `open`, `vibroimpact.dask` |
+| a branch of periodic orbits in one parameter, through its events | `branch` |
+| a curve of folds, flips or grazing impacts in two parameters | `curve` |
+| the regions where a motion exists and where it is stable | `region` |
+| Lyapunov exponents and the dimension of the attractor | `lyapunov` |
+| the motion after its transient at each value of a parameter | `orbit_diagram` |
+| the motion to which each start leads; the motions at each point of a parameter plane | `basin`, `region_map` |
+| a study of any size: a plan in a store | `Plan`, `run`, `resume`, `status`, `verify`, `open`, `vibroimpact.dask` |
 
-Results have arrays, `plot()` for a figure and `to_dict()` with the fields of the command's JSON.
+Results contain arrays. `plot()` draws a figure, and `to_dict()` returns the fields of the JSON of the command.
 """
 
 from vibroimpact import dask

@@ -1,4 +1,4 @@
-"""`python -m vibroimpact export STORE --format netcdf|parquet|csv FILE`: what `vibro export` leaves to Python."""
+"""`python -m vibroimpact export STORE --format netcdf|parquet|csv FILE`: the formats that `vibro export` writes with Python."""
 
 import argparse
 import sys
@@ -8,7 +8,7 @@ from vibroimpact._export import export
 
 
 def main(words: list[str] | None = None) -> int:
-    """Runs the command: 0, or 1 after one sentence on stderr."""
+    """Run the command. Returns the exit code: 0, or 1 after an error message on stderr."""
     parser = argparse.ArgumentParser("python -m vibroimpact")
     parser.add_argument("--version", action="version", version=f"vibroimpact {_core.__version__}")
     commands = parser.add_subparsers(dest="command", required=True)

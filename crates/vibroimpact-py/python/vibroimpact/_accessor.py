@@ -1,4 +1,4 @@
-"""`ds.vibro`: figures and labels of Datasets made here. Importing this registers it with xarray."""
+"""`ds.vibro`: figures and labels of the Datasets of vibroimpact. The import of this module registers it with xarray."""
 
 from typing import TYPE_CHECKING
 
@@ -11,25 +11,25 @@ from vibroimpact._core import QuestionError, Units
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: A code of nothing.
+#: A code that stands for no motion.
 _NOTHING = np.iinfo(np.int32).min
 
 
 @xr.register_dataset_accessor("vibro")  # type: ignore[no-untyped-call]
 class VibroAccessor:
-    """What a Dataset of vibroimpact can do besides."""
+    """Additional methods for Datasets of vibroimpact."""
 
     def __init__(self, ds: xr.Dataset) -> None:
         self._ds = ds
 
     def labels(self, name: str | None = None) -> xr.DataArray:
-        """The words behind the codes of a variable, in its shape.
+        """The texts of the codes of a variable, in the same shape.
 
         Parameters
         ----------
         name : str
-            "label" unless given, in an orbit diagram "kind": motions by their labels m/n, other codes by their
-            meaning. Where there is no motion the text is empty.
+            Name of the variable; by default "label", or "kind" for an orbit diagram. Motions have their labels m/n,
+            other codes their meanings. Where there is no motion the text is empty.
         """
         name = name or ("label" if "label" in self._ds else "kind")
         if name not in self._ds:
@@ -39,7 +39,7 @@ class VibroAccessor:
             raise QuestionError(f"`{name}` has no codes: it lacks the attribute flag_meanings")
         values = array.values
         if values.dtype.kind == "f":
-            # where Datasets were aligned, what is in none of them is nan
+            # points that are in none of several aligned Datasets are nan
             values = np.where(np.isfinite(values), values, _NOTHING)
             broken = values[values != np.round(values)]
             if len(broken):
@@ -57,15 +57,15 @@ class VibroAccessor:
         return xr.DataArray(text, array.coords, array.dims, attrs={"long_name": array.attrs.get("long_name", name)})
 
     def si(self, units: Units | None = None) -> xr.Dataset:
-        """The same in metres and seconds: every value and coordinate that has a unit of length or time.
+        """The same Dataset with all lengths and times, in values and coordinates, converted to metres and seconds.
 
-        The plan in its attributes stays as it is, nondimensional. Figures are drawn of the Dataset before.
+        The plan in its attributes remains nondimensional. Figures are drawn from the Dataset before conversion.
 
         Parameters
         ----------
         units : Units
-            What one unit of length and time is, `osc.units`; those of the oscillator the Dataset was computed from unless
-            given. A Dataset read from a store has none.
+            The units of length and time, `osc.units`. By default those of the oscillator from which the Dataset was
+            computed. A Dataset that was read from a store has no units, so they must be given.
 
         Examples
         --------
@@ -80,17 +80,18 @@ class VibroAccessor:
         return _si.converted(self._ds, units)
 
     def plot(self, ax: "Axes | None" = None, *, which: str | None = None) -> "Axes":
-        """The figure of what the Dataset holds: the motions over two axes, or the points of an orbit diagram.
+        """Draw the Dataset: the motions over two axes, or the points of an orbit diagram.
 
-        It states the coordinates that the Dataset has, so that it stays true after `isel`, `sel`, `concat` and the like. A
-        parameter that varied and whose coordinate was dropped is not known. Axes rise or fall: values in another order are sorted.
+        The title states the coordinates of the Dataset, so it is still correct after `isel`, `sel`, `concat` and similar
+        operations. A parameter that varied and whose coordinate was dropped is stated as not known. Values of an axis that
+        neither rise nor fall are sorted.
 
         Parameters
         ----------
         ax : matplotlib Axes
-            Where to draw; a new figure unless given.
+            The axes to draw on; by default those of a new figure.
         which : str
-            Of an orbit diagram, the variable on the ordinate: "velocity" or "x" unless given.
+            For an orbit diagram, the variable on the ordinate; by default "velocity" or, if absent, "x".
         """
         from vibroimpact import _cells, _clouds
 

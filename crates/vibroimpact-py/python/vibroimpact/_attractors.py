@@ -1,4 +1,4 @@
-"""The steady motions of a system, and the share of starts that lead to each."""
+"""The attractors of a system, and the share of starts that lead to each."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Attractor(Motion):
-    """A motion, the share of starts that lead to it, and their number."""
+    """A motion, with the share (0 to 1) and the number of the starts that lead to it."""
 
     share: float
     count: int
@@ -25,13 +25,13 @@ class Attractor(Motion):
         return f", {100 * self.share:.4g} %"
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON, a number that is not finite as None."""
+        """The fields of the JSON of the command; numbers that are not finite are None."""
         return {**Motion.to_dict(self), "share": self.share, "count": self.count}
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Attractors:
-    """Motions, the most frequent first; a sequence of `Attractor`.
+    """A sequence of `Attractor`, the most frequent first.
 
     Attributes
     ----------
@@ -40,11 +40,11 @@ class Attractors:
     motions : list of Attractor
         The motions.
     starts, seed : int
-        How many starts, and which sequence of them.
+        The number of starts, and the seed of their sequence.
     box : dict
-        Ranges "x", "v" and "phase" of the starts.
+        Ranges of the starts in "x", "v" and "phase".
     plan : str
-        The question as JSON.
+        The plan as JSON.
     """
 
     osc: Oscillator
@@ -67,7 +67,7 @@ class Attractors:
         return self.motions[k]
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
-        """The shares as bars."""
+        """Draw the shares as bars."""
         from vibroimpact import _figure
 
         return _figure.shares(self.osc, [(m.label, m.share) for m in self], ax)
@@ -76,23 +76,23 @@ class Attractors:
 def attractors(
     osc: Oscillator, *, starts: int = 200, seed: int = 1, threads: int = 0, progress: Progress = None
 ) -> Attractors:
-    """Find the steady motions that many scattered starts lead to, and their shares.
+    """Find the attractors to which many scattered starts lead, and their shares of the starts.
 
-    Starts are spread evenly over positions, velocities and phases of a box around the motion; the same starts on every
-    machine. Two motions with one label are two if their impacts differ.
+    The starts are spread evenly over a box of positions, velocities and phases that contains the motion. They are the
+    same on every machine. Motions with the same label are distinguished if their impacts differ.
 
     Parameters
     ----------
     osc : Oscillator
         The system.
     starts : int
-        How many starts, 1 to 1e9.
+        Number of starts, 1 to 1e9.
     seed : int
-        Which sequence of them.
+        Seed of the sequence of starts.
     threads : int
-        0 for one per core; the answer does not depend on it.
+        Number of threads; 0 for one per core. The result does not depend on it.
     progress : bool or callable
-        True for a bar, or a function of what is done and what there is to do.
+        True for a progress bar, or a function called with the amounts done and in total.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Values along an axis and ranges of parameters, as people write them."""
+"""Conversion of the values of an axis and the ranges of parameters, as users write them, to the form of plans."""
 
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias, TypeVar
@@ -15,12 +15,12 @@ Interval: TypeAlias = str | tuple[float, float]
 
 _T = TypeVar("_T")
 
-#: What spacing may be off by, relative to the values: the rounding of `numpy.linspace` and `numpy.arange`.
+#: Allowed deviation from even spacing, relative to the values: the rounding of `numpy.linspace` and `numpy.arange`.
 _EVEN = 1e-14
 
 
 def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Numbers as contiguous doubles, without a copy where they are that."""
+    """Numbers as contiguous doubles; an array that is one already is not copied."""
     array = np.asarray(values)
     if array.dtype.kind not in "biuf":
         raise TypeError(f"{name} must be numbers, not {array.dtype}")
@@ -28,7 +28,7 @@ def numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 def span(over: Axis) -> str:
-    """A range as a plan has it; arrays must be evenly spaced."""
+    """A range as the text in a plan; an array must be evenly spaced."""
     given = values(over)
     if isinstance(given, str):
         return given
@@ -42,7 +42,7 @@ def span(over: Axis) -> str:
 
 
 def values(over: Axis) -> str | list[float]:
-    """Values of an axis as a plan has them: a range as text, or a list."""
+    """Values of an axis in the form of a plan: a range as text, or a list."""
     if isinstance(over, str):
         return over
     if isinstance(over, tuple) and len(over) == 3:
@@ -63,7 +63,7 @@ def values(over: Axis) -> str | list[float]:
     listed: list[float] = array.tolist()
     if len(listed) == 1 or listed[0] == listed[-1] or not np.all(np.isfinite(array)):
         return listed
-    # short where nothing is lost: the very same numbers
+    # the short form is used only if it gives exactly the same numbers
     text = _text(listed[0], listed[-1], len(listed))
     return text if np.array_equal(array, _core.span_values(text)) else listed
 
@@ -73,7 +73,7 @@ def _text(first: float, last: float, count: int) -> str:
 
 
 def axes(over: Mapping[str, Axis]) -> list[dict[str, object]]:
-    """The axes of a plan, the first drawn to the right."""
+    """The axes of a plan; the first one is the abscissa."""
     if not isinstance(over, Mapping):
         raise TypeError('axes are written {"inverse_beta": "0.4:2:33", "gap": "0:5:41"}')
     return [{"vary": name, "over": values(of)} for name, of in over.items()]
@@ -86,7 +86,7 @@ def _whole(count: float) -> int:
 
 
 def interval(given: Interval) -> tuple[float, float]:
-    """A range, either way round."""
+    """The two ends of a range, in the given order."""
     parts: Sequence[object] = given.split(":") if isinstance(given, str) else given
     try:
         low, high = (float(part) for part in parts)  # type: ignore[arg-type]
@@ -109,7 +109,7 @@ def plane(over: Mapping[str, Interval]) -> tuple[tuple[str, float, float], tuple
 
 
 def beside(also: Mapping[str, _T] | None) -> tuple[str, _T] | None:
-    """The second parameter of a line, and what is said of it."""
+    """The second parameter of a line, with its value or range."""
     if also is None:
         return None
     if not isinstance(also, Mapping) or len(also) != 1:

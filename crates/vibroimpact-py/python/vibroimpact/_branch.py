@@ -1,4 +1,4 @@
-"""A periodic orbit over one parameter or along a line through two, through its events, and the branches that begin on it."""
+"""Branches of periodic orbits in one parameter or along a line through two, with their events."""
 
 import json
 from collections.abc import Mapping
@@ -20,17 +20,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BranchEvent:
-    """What happens at a point of a branch.
+    """An event at a point of a branch.
 
     `kind` is "fold", "flip", "branch point", "grazing", "loss of contact", "stick", "soft landing", "end of
-    rest", "rest for ever", "chatter", or why the branch ends: "end of range",
-    "closed", "halving", "step limit", "impact limit", "no convergence". Grazing events say which impact (counted from 1)
-    appears or disappears, on which side, at which phase, and whether the parameter turns back.
+    rest", "rest for ever", "chatter", or the reason why the branch ends: "end of range",
+    "closed", "halving", "step limit", "impact limit", "no convergence". A grazing event has the number of the impact
+    (counted from 1) that appears or disappears, its side, its phase, and whether the parameter turns back.
     """
 
     kind: str
     parameter: float
-    #: Place among the points of the branch.
+    #: Index among the points of the branch.
     point: int
     ends: bool
     label_before: str
@@ -40,13 +40,13 @@ class BranchEvent:
     side: str | None = None
     phase: float | None = None
     turns: bool | None = None
-    #: With two stops alike the touch of the other one: impact, side and phase.
+    #: For two identical stops, the simultaneous grazing contact with the other one: impact, side and phase.
     also: tuple[int | None, str, float] | None = None
-    #: Of both parameters, on a line through two.
+    #: Values of both parameters, on a line through two.
     values: tuple[float, float] | None = None
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON."""
+        """The fields of the JSON of the command."""
         always = ("kind", "parameter", "point", "ends", "label_before", "label_after")
         fields = {name: getattr(self, name) for name in self.__dataclass_fields__}
         if self.also is not None:
@@ -58,22 +58,22 @@ class BranchEvent:
 
 
 class Origin(NamedTuple):
-    """The event where a further branch begins."""
+    """The event at which a further branch begins."""
 
     kind: str
     parameter: float
-    #: The branch it leaves, counted from 1, that of the orbit being the first.
+    #: Number of the branch on which the event lies, counted from 1; the branch of the chosen orbit is number 1.
     branch: int
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Branch:
-    """A branch of periodic orbits, a point for each step along it.
+    """A branch of periodic orbits; each point is one step along it.
 
     Attributes
     ----------
     osc : Oscillator
-        The system it began with.
+        The system at which the branch begins.
     vary : str
         The parameter that varies.
     parameter : ndarray
@@ -81,27 +81,27 @@ class Branch:
     also : (str, float, float) or None
         The parameter that varies with it along a line, and its values at the ends of the range.
     second : ndarray or None
-        Its value at each point.
+        The value of that parameter at each point.
     label : list of str
         m/n at each point.
     stable, physical : ndarray of bool
-        Whether the orbit attracts its neighbourhood; whether it is a possible motion.
+        Whether the orbit is stable; whether it is admissible.
     multipliers : ndarray of complex128, shape (points, 2)
-        Infinite at a grazing.
+        Floquet multipliers; infinite at a grazing impact.
     speed : ndarray
-        The largest speed of arrival at each point, 0 without impacts.
+        The largest speed before an impact at each point; 0 without impacts.
     cycles : sequence of Cycle
         The impacts at each point.
     events : list of BranchEvent
-        In order along the branch.
+        The events, in order along the branch.
     origin : Origin or None
-        Where it begins; None for the branch of the orbit.
+        The event at which it begins; None for the branch of the chosen orbit.
     followed : list of Branch
-        The branches that begin on it, on those, and so on.
+        The branches that begin on it, the branches that begin on those, and so on.
     orbit : (int, int)
-        The number of the orbit it began with, and how many there are.
+        The number of the orbit at which it begins, and the number of orbits with its label.
     plan : str
-        The question as JSON.
+        The plan as JSON.
     """
 
     osc: Oscillator
@@ -135,29 +135,29 @@ class Branch:
 
     @property
     def rests(self) -> list[list[dict[str, Any]]]:
-        """The rests on a stop at each point, as in a Motion."""
+        """The phases of sticking at each point, as in a Motion."""
         return self.cycles.rests or [[] for _ in range(len(self))]
 
     @property
     def speed(self) -> NDArray[np.float64]:
-        """The largest speed of arrival at each point."""
+        """The largest speed before an impact at each point; 0 without impacts."""
         return self.cycles.fastest()
 
     def plot(
         self, ax: "Axes | None" = None, *, diagram: bool = True, virtual: bool = False, si: bool = False
     ) -> "Axes":
-        """The bifurcation diagram: speeds of arrival, stable solid and unstable dashed, with the events.
+        """Draw the bifurcation diagram: speeds before impacts (solid if stable, dashed if unstable) and events.
 
         Parameters
         ----------
         ax : matplotlib Axes
-            Where to draw; a new figure unless given.
+            The axes to draw on; by default those of a new figure.
         diagram : bool
-            Whether what simulation finds lies behind it, in grey.
+            Whether to draw the orbit diagram from simulation in grey behind the branch.
         virtual : bool
-            Whether inadmissible solutions are drawn too, dotted.
+            Whether to draw inadmissible solutions too, as dotted lines.
         si : bool
-            Metres and seconds.
+            Whether to draw in metres and seconds.
         """
         from vibroimpact import _tracks
 
@@ -180,7 +180,7 @@ class Branch:
         ]
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON, a number that is not finite as None."""
+        """The fields of the JSON of the command; numbers that are not finite are None."""
         own = {"points": self._points(), "events": [event.to_dict() for event in self.events]}
         if self.origin is not None:
             return {"from": self.origin._asdict(), **own}
@@ -208,10 +208,10 @@ def branch(
     follow: int = 0,
     points: int = 5000,
 ) -> Branch:
-    """Follow a periodic orbit, stable or not, in one parameter through every event on the way.
+    """Follow a periodic orbit, stable or not, in one parameter and through its events.
 
-    The orbit is looked for at `osc` and followed by pseudo-arclength to the value `to`. Events are located to rounding.
-    At a grazing the branch goes on with the motion that takes over.
+    The orbit is searched at `osc` and followed by pseudo-arclength continuation to the value `to`. Events are located to
+    rounding. At a grazing event the branch continues with the orbit on the other side of the event.
 
     Parameters
     ----------
@@ -224,14 +224,14 @@ def branch(
     to : float
         The other end of its range.
     also : dict
-        A second parameter that varies with it in proportion, from its value in `osc` to the one given here when the first is
-        at `to`: {"inverse_beta": 1.05}. So a branch goes along any line through two parameters.
+        A second parameter that varies in proportion to the first, and its value where the first is `to`:
+        {"inverse_beta": 1.05}. Its value at the beginning is that of `osc`. So a branch can follow any line in two parameters.
     orbit : int
-        Which of several orbits, counted from 1 as `orbits` lists them; the stable one, else the fastest motion, unless given.
+        Number of the orbit, counted from 1 in the order of `orbits`. Default: the stable orbit, or else the fastest admissible one.
     follow : int
-        Follow up to this number of the branches that begin at flips and branch points, 0 to 100.
+        Maximum number of branches, 0 to 100, to follow from flips and branch points.
     points : int
-        Points of each branch at most, 2 to 100000.
+        Maximum number of points of each branch, 2 to 100000.
 
     Examples
     --------

@@ -1,6 +1,6 @@
-"""Figures of basins and maps: which motions there are over two axes, each in its colour.
+"""Figures of basins and maps: the motions over two axes, in colours.
 
-Where several motions coexist at a point of a map, its cell is divided between them, the most frequent to the left.
+If several motions coexist at a point of a map, its cell is divided between them, with the most frequent on the left.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-#: Columns beyond which a cell is too narrow to be divided.
+#: With more columns than this, cells are too narrow to be divided.
 _DIVIDED = 400
-#: Stripes of a divided cell: of two, three or four motions each has as many.
+#: Number of stripes of a divided cell: divisible by two, three and four, so that up to four motions have equal parts.
 _STRIPES = 12
 
 
 def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
-    """Cells over the two axes, the faster one to the right; their coordinates, not the plan, say where and of which parameters."""
+    """Draw cells over two axes; the faster one is the abscissa. Axes and title use the coordinates, not the plan."""
     dims = [str(name) for name in ds["label"].dims if name != "motion"]
     if len(dims) != 2:
         raise QuestionError(
@@ -52,7 +52,7 @@ def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
 
 
 def _in_order(ds: "xr.Dataset", name: str) -> "xr.Dataset":
-    """Sorted along an axis unless its values rise or fall: cells lie side by side only where they do."""
+    """The Dataset sorted along an axis, unless its values already rise or fall, as neighbouring cells require."""
     steps = np.diff(along(ds, name))
     if np.all(steps > 0) or np.all(steps < 0):
         return ds
@@ -65,7 +65,7 @@ def _in_order(ds: "xr.Dataset", name: str) -> "xr.Dataset":
 
 
 def _classes(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, Any]], NDArray[np.int64]]:
-    """Names and colours of what there is, and the class of each cell (and motion); -1 where there is none."""
+    """Names and colours of the classes of motions, and the class of each cell (and motion); -1 for no motion."""
     names = ds.assign(label=label).vibro.labels().values
     if "motion" not in label.dims:
         names = names[..., None]
@@ -73,7 +73,7 @@ def _classes(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, A
     group = groups[np.searchsorted(np.unique(names), names)]
     numbers = np.zeros(names.shape, dtype=np.int64)
     if _numbered(ds, label):
-        # two cycles of one label are two motions
+        # two cycles with the same label are two motions
         numbers = np.maximum(ds["cycle"].transpose(*label.dims).values.reshape(names.shape), -1) + 1
     classes: list[tuple[str, Any]] = []
     cells = np.full(names.shape, -1)
@@ -90,14 +90,14 @@ def _classes(ds: "xr.Dataset", label: "xr.DataArray") -> tuple[list[tuple[str, A
 
 
 def _numbered(ds: "xr.Dataset", label: "xr.DataArray") -> bool:
-    """Whether the numbers of cycles mean the same at all places: those of Datasets that were joined do not."""
+    """Whether cycles are numbered in the same way everywhere, which is not the case in Datasets that were joined."""
     return "cycle" in ds and "cycle_label" in ds and ds["cycle"].dims == ds["label"].dims and not (
         set(ds["cycle_label"].dims) & set(label.dims)
     )
 
 
 def _variant(colour: str, k: int) -> tuple[float, float, float]:
-    """Itself, darker, lighter, darker still ... for motions of one class."""
+    """Variant `k` of a colour, for the motions of one class: the colour itself, darker, lighter, darker still, and so on."""
     from matplotlib.colors import to_rgb
 
     towards, part = (0.0 if k % 2 else 1.0), 1 - 0.6 ** ((k + 1) // 2)
@@ -107,7 +107,7 @@ def _variant(colour: str, k: int) -> tuple[float, float, float]:
 
 
 def _edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Edges of cells around values in any order that rises or falls."""
+    """Edges of cells around values that rise or fall."""
     if len(centres) == 1:
         return np.array([centres[0] - 0.5, centres[0] + 0.5])
     between = 0.5 * (centres[:-1] + centres[1:])
@@ -117,7 +117,7 @@ def _edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
 def _divided(
     cells: NDArray[np.int64], xs: NDArray[np.float64]
 ) -> tuple["np.ma.MaskedArray[Any, np.dtype[np.int64]]", NDArray[np.float64]]:
-    """Each cell in stripes, shared by its motions; the first alone where stripes would be too narrow."""
+    """Divide cells into stripes, one part for each motion. If stripes would be too narrow, only the first motion is kept."""
     count = (cells >= 0).sum(axis=-1)
     if count.max(initial=0) <= 1 or cells.shape[1] > _DIVIDED:
         first = cells[..., 0]

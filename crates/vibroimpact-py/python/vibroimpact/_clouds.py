@@ -1,7 +1,7 @@
-"""The figure of an orbit diagram: a dot for every impact or state over the parameter, the sweeps in two colours.
+"""The figure of an orbit diagram: a dot for every impact or state over the parameter. The two sweeps have two colours.
 
-Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other and both colours are
-seen. What does not repeat itself has small dots in both.
+Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other, so both colours are
+visible. Motions that do not repeat have small dots in both sweeps.
 """
 
 import json
@@ -22,7 +22,7 @@ _ORDINATES = {"velocity": ARRIVAL, "impact_phase": r"phase $\theta$", "x": r"$\x
 
 
 def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
-    """Points of all sweeps; the coordinates, not the plan, say over what."""
+    """Draw the points of all sweeps. Axes and title use the coordinates, not the plan."""
     drawn = [name for name in _ORDINATES if name in ds.data_vars]
     which = which or drawn[0]
     if which not in drawn:
@@ -39,7 +39,7 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
         ys = ds[which].isel({rows: k}).transpose(vary, "point").values
         falling = bool(ways) and ways[k] < 0
         colour = SERIES[1] if falling else SERIES[0]
-        # small dots of the other sweep lie on the large ones of a motion that repeats itself
+        # a motion that repeats has large dots in one sweep, under the small dots of the other sweep
         kept = np.isfinite(ys).sum(axis=1)
         repeats = (kept < keep) | (kept == 1)
         large = repeats if len(ways) == 2 and not falling else np.zeros_like(repeats)
@@ -51,7 +51,7 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
             ax.plot([], [], "o", color=colour, markersize=4, label=word)
     if str(task.get("over", "")).endswith(":log") and values.min() > 0:
         ax.set_xscale("log")
-    # what goes with the parameter along a line, from the left end to the right one
+    # the second parameter of a line, with its values at the left and the right end
     beside = [name for name in SYMBOLS if name in ds.coords and ds[name].dims == (vary,) and name != vary]
     ends = np.argsort(values)[[0, -1]]
     with_ = (span(symbol(name), *ds[name].values[ends]) for name in beside)
@@ -63,12 +63,12 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
 
 
 def is_diagram(ds: "xr.Dataset") -> bool:
-    """Whether a Dataset is that of an orbit diagram, or a part of it."""
+    """Whether a Dataset is an orbit diagram or a part of one."""
     return "kind" in ds.data_vars and any(name in ds.data_vars for name in _ORDINATES)
 
 
 def _spread(ds: "xr.Dataset", which: str, task: dict[str, Any]) -> tuple["xr.Dataset", str, str]:
-    """With all three dimensions of a diagram, those restored of which one value was taken; the parameter, and sweeps or starts."""
+    """The Dataset with all three dimensions of a diagram (dropped ones restored with length 1), and the names of the first two."""
     rows = "start" if "start" in ds.dims or isinstance(task.get("direction"), dict) else "sweep"
     others = [str(name) for name in ds[which].dims if name not in ("sweep", "start", "point")]
     vary = others[0] if others else str(task.get("vary", ""))

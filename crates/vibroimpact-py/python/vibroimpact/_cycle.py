@@ -7,22 +7,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-#: Names of the two sides by their sign.
+#: Names of the two stops by their sign.
 SIDES = {1: "upper", -1: "lower"}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Cycle:
-    """Impacts in order of time, the fastest first (after a rest those that follow its release).
+    """The impacts of a cycle in order of time. The first is the fastest one or, after sticking, the first one after the release.
 
     Attributes
     ----------
     phase : ndarray
         Phase of the force at each impact, radians in [0, 2 pi).
     velocity_before : ndarray
-        Speed of arrival, positive.
+        Speed before each impact, positive.
     interval : ndarray
-        Time to the next impact; after the last one before a rest to the end of the chatter.
+        Time to the next impact; for the last impact before sticking, time to the end of the chatter.
     side : ndarray of int8
         +1 for the first stop, -1 for the second.
     """
@@ -43,7 +43,7 @@ class Cycle:
     __hash__ = None  # type: ignore[assignment]
 
     def to_list(self) -> list[dict[str, Any]]:
-        """One dict an impact, as in the command's JSON."""
+        """One dict for each impact, as in the JSON of the command."""
         rows = zip(self.phase.tolist(), self.velocity_before.tolist(), self.interval.tolist(), self.side.tolist())
         return [
             {"phase": phase, "velocity_before": velocity, "interval": interval, "side": SIDES[side]}
@@ -53,7 +53,7 @@ class Cycle:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Cycles:
-    """Many cycles, one after another."""
+    """Several cycles in one set of columns. Cycle `k` has the impacts `offsets[k]` to `offsets[k + 1]`."""
 
     offsets: NDArray[np.int64]
     impacts: Cycle
@@ -79,16 +79,16 @@ class Cycles:
         return (self[k] for k in range(len(self)))
 
     def fastest(self) -> NDArray[np.float64]:
-        """The largest speed of arrival of each, 0 without impacts."""
+        """The largest speed before an impact of each cycle; 0 without impacts."""
         lists = (cycle.velocity_before for cycle in self)
         return np.array([speeds.max() if len(speeds) else 0.0 for speeds in lists], dtype=np.float64)
 
 
 def finite(value: float | None) -> float | None:
-    """As JSON has it: a number that is not finite is null."""
+    """The value for JSON: None (null) for a number that is not finite."""
     return value if value is not None and np.isfinite(value) else None
 
 
 def pairs(multipliers: NDArray[np.complex128]) -> list[list[float | None]]:
-    """Real and imaginary parts, as in the command's JSON."""
+    """Real and imaginary parts, as in the JSON of the command."""
     return [[finite(float(m.real)), finite(float(m.imag))] for m in multipliers]

@@ -1,4 +1,4 @@
-"""A store in other formats: NetCDF with all arrays, Parquet or CSV with a row for each point, or each point and motion."""
+"""Export of stores: NetCDF with all arrays, or Parquet and CSV with a row for each point, or each point and motion."""
 
 import contextlib
 import os
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-#: Engines of xarray that write NetCDF, and the modules each needs; the last one knows the older format alone.
+#: Engines of xarray that write NetCDF, and the modules that each needs. The last one writes only the older format.
 _ENGINES = {"netcdf4": ("netCDF4",), "h5netcdf": ("h5netcdf", "h5py"), "scipy": ("scipy",)}
-#: What a table says about the study as a whole.
+#: Attributes of the study that are stored with a table.
 _TOLD = ("title", "source", "plan", "plan_hash")
 
 
 def export(store: str | PathLike[str], path: str | PathLike[str], form: str) -> None:
-    """Write a store to a file, "netcdf", "parquet" or "csv"; the file is there whole or not at all."""
+    """Write a store to a file in the format "netcdf", "parquet" or "csv". An incomplete file is never left behind."""
     writers: dict[str, Callable[[xr.Dataset, Path], None]] = {"netcdf": _netcdf, "parquet": _parquet, "csv": _csv}
     if form not in writers:
         raise _core.QuestionError(f"format = `{form}` is none of {', '.join(writers)}")
@@ -49,25 +49,25 @@ def _netcdf(ds: "xr.Dataset", path: Path) -> None:
             "writing NetCDF needs netCDF4, h5netcdf or scipy, and none of them is installed\n"
             "hint: pip install netCDF4, or pip install h5netcdf h5py"
         )
-    # chunks and compressors are those of Zarr, and no other format knows them
+    # chunks and compressors are those of Zarr; other formats do not support them
     ds = ds.drop_encoding()
     for of in ds.variables.values():
         if of.dtype.kind in "TU":
-            # text in a form that all engines know
+            # text as objects, which all engines support
             of.data = of.values.astype(object)
         else:
-            # every value is a value: nothing is masked on reading, and integers stay integers
+            # without a fill value, readers mask nothing and integers stay integers
             of.encoding["_FillValue"] = None
         if "flag_values" in of.attrs:
-            # CF asks for the type of the variable itself
+            # CF requires the type of the variable
             of.attrs["flag_values"] = np.asarray(of.attrs["flag_values"], dtype=of.dtype)
     ds.to_netcdf(path, engine=engine)  # type: ignore[call-overload]
 
 
 def table(ds: "xr.Dataset") -> "pd.DataFrame":
-    """A row for each point, or each point and motion: the coordinates, then all fields, codes as words.
+    """A table with a row for each point, or each point and motion: the coordinates, then all fields, with codes as texts.
 
-    The dimension drawn to the right comes first and runs fastest; what is not there is empty. Columns and rows are those of
+    The dimension of the abscissa comes first and varies fastest. Missing values are empty. Columns and rows are those of
     `vibro export --csv`.
     """
     if "point" in ds.dims:
@@ -82,7 +82,7 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
     columns: dict[str, Any] = {}
     places = np.unravel_index(np.arange(points), shape)
     for k, name in reversed(list(enumerate(along))):
-        # scattered starts are numbered; where they are is among the fields
+        # scattered starts are numbered; their positions are fields
         values = ds[name].values if name in ds.coords else np.arange(1, shape[k] + 1)
         columns[name] = np.repeat(values[places[k]], width)
     if extra == "direction":
@@ -102,7 +102,7 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
 
 
 def _words(ds: "xr.Dataset", name: str) -> Any:
-    """The values of a field: of a label and of a flag the words, None where there is none."""
+    """The values of a field. Labels and flags are converted to texts, or None where there is no value."""
     of = ds[name]
     if name != "label" and of.dtype != np.int8:
         return of.values
@@ -122,7 +122,7 @@ def _parquet(ds: "xr.Dataset", path: Path) -> None:
 
     whole = pa.Table.from_pandas(table(ds), preserve_index=False)
     told = {name: str(ds.attrs[name]) for name in _TOLD if name in ds.attrs}
-    # the words of an orbit diagram are not the codes of its variables
+    # the text columns of an orbit diagram do not belong to one variable each
     shown = _points.shown(ds) if "point" in ds.dims else {name: str(name) for name in ds.variables}
     fields = []
     for field in whole.schema:

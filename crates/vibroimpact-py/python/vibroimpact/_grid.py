@@ -1,4 +1,4 @@
-"""Studies over grids as xarray Datasets: in memory, or in a store."""
+"""Studies over grids as xarray Datasets, in memory or in a store."""
 
 from collections.abc import Mapping
 from os import PathLike, fspath
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def bare(osc: Oscillator, store: str | PathLike[str] | None) -> Oscillator:
-    """The oscillator without the units of a machine, which plans do not have; a store has no place for them either."""
+    """The oscillator without physical units, which a plan does not contain. With units, a store is refused."""
     if osc.units is not None and store is not None:
         raise _core.QuestionError(
             "a store keeps no units of a machine\n"
@@ -36,7 +36,7 @@ def computed(
     threads: int,
     progress: Progress,
 ) -> "xr.Dataset":
-    """The Dataset of a plan: in memory, or through a store, by threads here or by the workers of a client."""
+    """Compute the Dataset of a plan: in memory, or in a store by threads of this process or by the workers of a client."""
     from vibroimpact import _store
 
     threads = whole("threads", threads, THREADS)
@@ -47,7 +47,7 @@ def computed(
             )
         with watched(progress, "points") as tell:
             return _dataset(plan, units, *_core.fill(plan.json, threads, tell))
-    # what is to be read in the end has to be readable before hours are spent
+    # check before a long computation that its result can be read
     _store.need_readers(fspath(store))
     if client is None:
         _store.run(plan, store, threads=threads, progress=progress)
@@ -63,7 +63,7 @@ def _dataset(
 ) -> "xr.Dataset":
     import xarray as xr
 
-    from vibroimpact import _accessor, _si  # the former registers ds.vibro
+    from vibroimpact import _accessor, _si  # the import of _accessor registers ds.vibro
     from vibroimpact._stated import with_fixed
 
     def variable(of: dict[str, Any]) -> tuple[list[str], Any, dict[str, Any]]:
@@ -108,37 +108,38 @@ def basin(
     threads: int = 0,
     progress: Progress = None,
 ) -> "xr.Dataset":
-    """Find out which motion each start leads to.
+    """Find the motion to which each start leads.
 
     Parameters
     ----------
     osc : Oscillator
-        The system. Of a machine in physical units the starts and the Dataset are nondimensional all the same, its units
-        are kept in the attributes, and `ds.vibro.si()` converts; a store does not take one.
+        The system. For an oscillator with physical units the starts and the Dataset are nondimensional too; the units are
+        kept in the attributes, and `ds.vibro.si()` converts the Dataset. Such an oscillator cannot be used with a store.
     over : mapping
-        Parameters that vary besides the start, with their values; one of the start is needed too.
+        Parameters that vary in addition to the start, with their values. At least one coordinate of the start must vary too.
     x, v, phase : float, str or array
-        Position, velocity and phase of the starts: a number for all, or values: "-4:0.75:200" for 200 of them, or an array.
-        The first of them that varies is drawn to the right, the second upwards.
+        Position, velocity and phase of the starts: one number for all starts, a range ("-4:0.75:200" has 200 values) or an
+        array. The first one that varies is the abscissa, the second one the ordinate.
     refine : int
-        Compute every K-th point first, K being this number, and those between only where neighbours differ.
+        Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
     impacts : int
-        Budget of impacts for each start; what is not settled by then is undecided.
+        Budget of impacts for each start. Motions that have not settled by then are undecided.
     store : path
-        Where results are kept; what is there already is not computed again.
+        The store for the results; tiles that it already contains are not computed again.
     client : distributed.Client
-        Whose workers fill the store.
+        A Dask client, whose workers fill the store.
     tile : int
         Points of a tile along each axis.
     threads : int
-        0 for one per core; the answer does not depend on it.
+        Number of threads; 0 for one per core. The result does not depend on it.
     progress : bool or callable
-        True for a bar, or a function of what is done and what there is to do.
+        True for a progress bar, or a function called with the amounts done and in total.
 
     Returns
     -------
     xarray.Dataset
-        `label` as codes, `ds.vibro.labels()` has them as text; `cycle` numbers the cycles described in `cycle_...`.
+        `label` contains codes, which `ds.vibro.labels()` converts to text. `cycle` contains the numbers of the cycles, which
+        the variables `cycle_...` describe.
 
     Examples
     --------
@@ -179,23 +180,23 @@ def region_map(
     threads: int = 0,
     progress: Progress = None,
 ) -> "xr.Dataset":
-    """Find out which motions there are at each point of a plane of parameters.
+    """Find the motions at each point of a plane of parameters.
 
     Parameters
     ----------
     osc : Oscillator
-        The system; its values of what varies count for nothing. A machine in physical units as for `basin`.
+        The system; its values of the parameters that vary are ignored. Physical units as for `basin`.
     over : mapping
-        One to four parameters with their values, the first drawn to the right:
+        One to four parameters with their values; the first one is the abscissa:
         {"inverse_beta": "0.4:2:33", "gap": [0, 1, 2.5]}.
     starts : int
-        Starts at each point: at rest, on the free motion, the others scattered.
+        Number of starts at each point: the first at rest, the second on the motion without impacts, the others scattered.
     seed : int
-        Which sequence of them.
+        Seed of the sequence of starts.
     refine : int
-        Compute every K-th point first, K being this number, and those between only where neighbours differ.
+        Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
     impacts : int
-        Budget of impacts for each start; what is not settled by then is undecided.
+        Budget of impacts for each start. Motions that have not settled by then are undecided.
     store, client, tile, threads, progress
         As for `basin`.
 
@@ -233,39 +234,39 @@ def orbit_diagram(
     threads: int = 0,
     progress: Progress = None,
 ) -> "xr.Dataset":
-    """Follow the motion along one parameter, or along a line through two, swept up and down, so that coexisting motions show.
+    """Compute the motion after its transient at each value of a parameter, or along a line through two parameters.
 
-    A sweep carries the state: the one in which a value left the motion is the start at the next value. A motion that
-    repeats itself is shown once; what is not filled is nan.
+    A sweep carries the state: the last state at one value is the start at the next value. Sweeps in both directions show
+    coexisting motions. The points of a motion that repeats are stored once; unused places are nan.
 
     Parameters
     ----------
     osc : Oscillator
-        The system; its value of what varies counts for nothing. A machine in physical units as for `basin`.
+        The system; its value of the parameter that varies is ignored. Physical units as for `basin`.
     vary : str
         "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution".
     over : str or array
-        Its values: "0:3:601" for 601 of them, or an evenly spaced array.
+        Its values: a range ("0:3:601" has 601 values) or an evenly spaced array.
     also : dict
-        A second parameter that varies with it in proportion, with its values at the first and the last of these:
-        {"gap": (0.5, 1.5)}. It becomes a second coordinate along the same dimension.
+        A second parameter that varies in proportion to the first, with its values at the first and the last value of
+        `over`: {"gap": (0.5, 1.5)}. It is a second coordinate of the same dimension.
     show : str
-        "velocity" for phase and speed of arrival of each impact, "strobe" for position and velocity at phase 0.
+        "velocity" for the phase of each impact and the speed before it; "strobe" for position and velocity at phase 0.
     direction : str
         "up", "down", "both", or "scatter" for several scattered starts at each value.
     starts, seed : int
-        Of "scatter": how many (8), and which sequence of them (1).
+        For "scatter": the number of starts (default 8), and the seed of their sequence (default 1).
     transient : int
-        Impacts (velocity) or forcing periods (strobe) to pass before anything is shown.
+        Number of impacts ("velocity") or forcing periods ("strobe") before the points shown.
     keep : int
-        Impacts or states to show at each value at most.
+        Maximum number of impacts or states shown at each value.
     store, client, threads, progress
         As for `basin`.
 
     Returns
     -------
     xarray.Dataset
-        Dimensions `sweep` (1 with rising values, -1 with falling ones; `start` of scattered ones), the parameter, and `point`.
+        Dimensions `sweep` (1 for rising values, -1 for falling values; or `start` for scattered starts), the parameter, and `point`.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A steady motion: what it is, its impacts, how stable it is."""
+"""The motion after the transient: its kind, its impacts and its stability."""
 
 import math
 from dataclasses import dataclass
@@ -14,49 +14,49 @@ from vibroimpact._cycle import Cycle, finite, pairs
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Forcing periods shown of a steady motion, at least.
+#: Minimum number of forcing periods in a figure of a periodic motion.
 _SHOWN = 6
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Motion:
-    """What a motion settles into.
+    """The result of settling a motion.
 
     Attributes
     ----------
     osc : Oscillator
         The system.
     kind : str
-        "periodic", "no_impact", "chaotic", "stuck" or "undecided". None of these is an error.
+        "periodic", "no_impact", "chaotic", "stuck" or "undecided". All of these are results; none is an error.
     label : str
-        m/n, m impacts in n forcing periods: "4/1"; "inf/1" with a complete chatter; "0", "chaotic", "stuck", "undecided".
+        m/n for m impacts in n forcing periods, such as "4/1", or "inf/1" with a complete chatter; or "0", "chaotic", "stuck", "undecided".
     impacts, periods : int or None
         m and n.
     sticks : int or None
-        Rests on a stop in each turn.
+        Number of phases of sticking in each period of the motion.
     stable : bool or None
-        Whether it attracts its neighbourhood; None where that is open.
+        Whether it is stable; None if this is not decided.
     multipliers : ndarray of complex128 or None
         Floquet multipliers, the larger first.
     cycle : Cycle
-        The impacts of one turn; empty unless it is periodic.
+        The impacts of one period of the motion; empty unless it is periodic.
     rests : list of dict
-        Rests on a stop: side, chatter (whether one leads there), phases begin and release.
+        Phases of sticking: "side", "chatter" (whether a chatter precedes it), and the phases of the force "begin" and "release".
     residual : float or None
-        What the cycle misses by after one turn.
+        The distance between the states before and after one period of the cycle.
     lyapunov : (float, float) or None
-        The larger exponent per unit of time and its error, of a chaotic motion.
+        For a chaotic motion: the larger exponent per unit of time, and its error.
     seen_impacts : int or None
-        Of a chaotic motion: impacts over which neither a cycle nor a second rest on a stop nor fading impacts were found. Chaos may be
-        a transient that lasts longer.
+        For a chaotic motion: number of impacts over which no cycle, no second phase of sticking and no fading impacts were
+        found. The chaos may still be a longer transient.
     chaotic_transient : (int, (float, float)) or None
-        Chaos that was seen before the motion settled: the impact at which it had ended, and the exponent with its error.
+        Chaos before the motion settled: the number of the impact by which it had ended, and the exponent with its error.
     horizon : dict or None
-        On what grounds there are no more impacts, and for how many periods (None: for ever).
+        Why there are no more impacts, and for how many periods (None: for ever).
     side : str or None
-        On which stop it is stuck, "upper" or "lower".
+        For a stuck motion: the stop, "upper" or "lower".
     tried : dict or None
-        What was tried of an undecided one.
+        For an undecided motion: the budget used and the measurements made.
 
     Examples
     --------
@@ -102,7 +102,7 @@ class Motion:
     __hash__ = None  # type: ignore[assignment]
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON, a number that is not finite as None."""
+        """The fields of the JSON of the command; numbers that are not finite are None."""
         fields: dict[str, Any] = {
             "kind": self.kind,
             "label": self.label,
@@ -139,7 +139,7 @@ class Motion:
         return fields
 
     def start(self) -> tuple[float, float, float]:
-        """Position, velocity and phase just after the first impact of its cycle: a start on the motion."""
+        """A start on the motion: position, velocity and phase just after the first impact of its cycle."""
         if not len(self.cycle):
             raise _core.QuestionError(f"the motion {self.label} has no impacts to start from\nhint: simulate it from its start")
         first = (array[0] for array in (self.cycle.phase, self.cycle.velocity_before, self.cycle.side))
@@ -157,16 +157,16 @@ class Motion:
         Parameters
         ----------
         points_per_period : float
-            Points in each forcing period; every impact has one before and one after it.
+            Number of points in each forcing period. Every impact has one point before and one after it in addition.
         periods : float
-            Forcing periods; those of one turn unless given.
+            Number of forcing periods; by default those of one period of the motion.
         """
         start = self.start()
         turns = self.periods or 1
         return _core.waveform(self.osc, start, (periods or turns) * self.osc.period, points_per_period)
 
     def plot(self, ax: "Axes | None" = None, *, si: bool = False) -> "Axes":
-        """Position over time along the periodic motion, with the stops. `si` for metres and seconds."""
+        """Draw the position over time along the periodic motion, with the stops. `si` selects metres and seconds."""
         from vibroimpact import _figure
 
         turns = self.periods or 1
@@ -185,7 +185,7 @@ def _estimate(of: tuple[float, float]) -> dict[str, Any]:
 
 
 def horizon_object(horizon: dict[str, Any]) -> dict[str, Any]:
-    """As the command's JSON has it."""
+    """The object in the JSON of the command."""
     fields = {name: horizon[name] for name in ("kind", "periods", "why")}
     if horizon["common_period"] is not None:
         forcing, natural = horizon["common_period"]
@@ -194,5 +194,5 @@ def horizon_object(horizon: dict[str, Any]) -> dict[str, Any]:
 
 
 def fields_of(osc: Oscillator, fields: dict[str, Any]) -> dict[str, Any]:
-    """The keywords of a Motion, from the fields of the compiled part."""
+    """The keyword arguments of a Motion, from the fields returned by the compiled module."""
     return {**fields, "osc": osc, "cycle": Cycle(**fields["cycle"])}

@@ -1,4 +1,4 @@
-"""The periodic orbits of a label, stable or not."""
+"""The periodic orbits with a label, stable or not."""
 
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -13,23 +13,23 @@ from vibroimpact._motion import Motion, fields_of
 
 
 class EarlierContact(NamedTuple):
-    """Where an inadmissible solution meets a stop before its next impact."""
+    """The first contact of an inadmissible solution with a stop before its next impact."""
 
-    #: After which of its impacts, counted from 1; None where it has no impacts.
+    #: The number of the impact before the contact, counted from 1; None if the solution has no impacts.
     after_impact: int | None
     #: "upper" or "lower".
     side: str
-    #: How long after that impact, or after phase 0.
+    #: Time from that impact, or from phase 0, to the contact.
     time: float
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Orbit(Motion):
-    """A periodic orbit, and whether it is a possible motion."""
+    """A periodic orbit, admissible or not."""
 
-    #: False for a solution of the equations that passes through a stop on its way.
+    #: Whether it is admissible; False for a solution of the equations that passes through a stop.
     physical: bool
-    #: Where it does so first.
+    #: For an inadmissible solution, its first contact with a stop before its next impact.
     earlier_contact: EarlierContact | None
 
     def _remark(self) -> str:
@@ -38,29 +38,30 @@ class Orbit(Motion):
     def waveform(
         self, points_per_period: float = 200, periods: float | None = None
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """As that of a Motion; an inadmissible solution has none."""
+        """As for a Motion. Raises QuestionError for an inadmissible solution."""
         if not self.physical:
             raise _core.QuestionError(f"this solution {self.label} is inadmissible: it passes through a stop on its way")
         return Motion.waveform(self, points_per_period, periods)
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields of the command's JSON, a number that is not finite as None."""
+        """The fields of the JSON of the command; numbers that are not finite are None."""
         earlier = None if self.earlier_contact is None else self.earlier_contact._asdict()
         return {**Motion.to_dict(self), "physical": self.physical, "earlier_contact": earlier}
 
 
 def orbits(osc: Oscillator, label: str) -> list[Orbit]:
-    """Find all periodic orbits with m impacts in n forcing periods, stable or not, the fastest last.
+    """Find the periodic orbits with m impacts in n forcing periods, stable or not. The fastest one comes last.
 
-    Looked for by Newton's method from many seeds, and in closed form for 1/n. An orbit that no seed leads to is not
-    found. Solutions that pass through a stop on their way are inadmissible and marked; only some of them are found.
+    Orbits are searched by Newton's method from many seeds; orbits 1/n are also computed in closed form. An orbit to which
+    no seed leads is not found. Solutions that pass through a stop are inadmissible and marked as such; only some of them
+    are found.
 
     Parameters
     ----------
     osc : Oscillator
         The system.
     label : str
-        "m/n", "inf/n", or "0" for the steady motion without impacts.
+        "m/n", "inf/n", or "0" for the motion without impacts.
 
     Examples
     --------

@@ -1,7 +1,7 @@
-"""Colours: those of the command's figures (crates/vibroimpact-plot/src/palette.rs).
+"""Colours of figures, the same as those of the command (crates/vibroimpact-plot/src/palette.rs).
 
 The series are the set of M. Okabe and K. Ito, "Color Universal Design" (2002, 2008), https://jfly.uni-koeln.de/color/.
-Motions follow their kin: m/1 light to dark blue, 1/n yellow to red-brown, other periodic ones green, chatter pink.
+Motions of one group have similar colours: m/1 light to dark blue, 1/n yellow to red-brown, other periodic motions green, chatter pink.
 """
 
 from vibroimpact._tables import CLASSES, GROUP_RULES, LEGEND, SERIES
@@ -10,7 +10,7 @@ __all__ = ["CLASSES", "LEGEND", "SERIES", "class_colour", "legend_group"]
 
 
 def legend_group(label: str) -> str:
-    """The key of `CLASSES` that a motion's label belongs to."""
+    """The key of `CLASSES` for the label of a motion."""
     impacts, slash, periods = label.partition("/")
     if not slash:
         return label if label in CLASSES else "other"
@@ -26,5 +26,5 @@ def legend_group(label: str) -> str:
 
 
 def class_colour(label: str) -> str:
-    """The colour of a motion's label, the same in every figure."""
+    """The colour of the label of a motion, the same in every figure."""
     return CLASSES[legend_group(label)]

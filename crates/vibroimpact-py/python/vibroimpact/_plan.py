@@ -1,4 +1,4 @@
-"""A plan: all that a study depends on, and nothing else."""
+"""A plan: everything on which a study depends, and nothing else."""
 
 import json
 from collections.abc import Mapping
@@ -18,21 +18,21 @@ _VERSION = 1
 
 @dataclass(frozen=True, repr=False, slots=True)
 class Plan:
-    """What is asked of which system, checked: it can be run anywhere, stored, and run again from its results.
+    """A checked plan: a system and a task. It can be run on any machine, stored, and run again from its results.
 
-    The command, a TOML file and Python build the same plans. Those here fill a grid: `map`, `basin`, `diagram`,
-    `lyapunov` and `attractors` make them, `read` takes one from a file.
+    The command, a TOML file and Python build the same plans. The plans of this class fill a grid. They are made by `map`,
+    `basin`, `diagram`, `lyapunov` and `attractors`, or read from a file by `read`.
 
     Attributes
     ----------
     json : str
-        The plan as it is stored; given as JSON or TOML.
+        The plan in the form in which it is stored. The argument may be JSON or TOML.
     hash : str
-        A name for its content.
+        An identifier of its content.
     title : str
-        What it asks, in words.
+        A title in words.
     points : int
-        Points of its grid.
+        Number of points of its grid.
 
     Examples
     --------
@@ -58,13 +58,13 @@ class Plan:
         return f"<Plan: {self.title}; {self.points} points>"
 
     def to_dict(self) -> dict[str, Any]:
-        """Its fields."""
+        """The fields of the plan."""
         fields: dict[str, Any] = json.loads(self.json)
         return fields
 
     @classmethod
     def read(cls, path: str | PathLike[str]) -> "Plan":
-        """The plan in a .toml or .json file."""
+        """Read a plan from a .toml or .json file."""
         file = Path(path)
         try:
             return cls(file.read_text("utf-8"))
@@ -83,7 +83,7 @@ class Plan:
         impacts: int | None = None,
         tile: int | None = None,
     ) -> "Plan":
-        """Which motions there are at each point of a plane of parameters; the arguments are those of `region_map`."""
+        """A plan for the motions at each point of a plane of parameters; the arguments are those of `region_map`."""
         task = {
             "axes": axes(over),
             "starts": whole("starts", starts, POINT_STARTS),
@@ -106,7 +106,7 @@ class Plan:
         impacts: int | None = None,
         tile: int | None = None,
     ) -> "Plan":
-        """Which motion each start leads to, over "x", "v", "phase" and parameters; what is on no axis is as given."""
+        """A plan for the motion to which each start leads, over "x", "v", "phase" and parameters. Other values are those given."""
         task = {
             "axes": axes(over),
             "start": _start(x, v, phase),
@@ -131,7 +131,7 @@ class Plan:
         keep: int = 64,
         tile: int | None = None,
     ) -> "Plan":
-        """The motion after its transient along one parameter or a line through two; the arguments are those of `orbit_diagram`."""
+        """A plan for the motion after its transient along one parameter or a line through two; arguments as for `orbit_diagram`."""
         _known("show", show, ("velocity", "strobe"))
         _known("direction", direction, ("up", "down", "both", "scatter"))
         way: object = direction
@@ -166,7 +166,7 @@ class Plan:
         transient: int = 1000,
         tile: int | None = None,
     ) -> "Plan":
-        """Lyapunov exponents over parameters and coordinates of the start."""
+        """A plan for Lyapunov exponents over parameters and coordinates of the start."""
         task = {
             "axes": axes(over),
             "start": _start(x, v, phase),
@@ -177,7 +177,7 @@ class Plan:
 
     @classmethod
     def attractors(cls, osc: Oscillator, starts: int, *, seed: int = 1, tile: int | None = None) -> "Plan":
-        """Which motion each of many scattered starts leads to."""
+        """A plan for the motion to which each of many scattered starts leads."""
         task = {"starts": whole("starts", starts, STARTS), "seed": whole("seed", seed, SEED)}
         return cls._of(osc, "attractors", task, tile)
 
@@ -206,7 +206,7 @@ def _start(x: float | None, v: float, phase: float) -> dict[str, float]:
 
 
 def oscillator(plan: dict[str, Any]) -> Oscillator:
-    """The oscillator of a plan's fields."""
+    """The oscillator from the fields of a plan."""
     system = dict(plan["system"])
     second = system.pop("second_stop", None) or {}
     return Oscillator(**system, **{f"second_{name}": value for name, value in second.items()})

@@ -1,4 +1,4 @@
-"""The points of an orbit diagram as a table: the columns and rows of `vibro diagram --csv`, which `vibro export` writes too."""
+"""The points of an orbit diagram as a table, with the columns and rows of `vibro diagram --csv` and `vibro export`."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -8,22 +8,22 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-#: Motions by their codes.
+#: Kinds of motion by their codes.
 _MOTIONS = np.array(["none", "impact", "stuck", "undecided"], dtype=object)
-#: What a point is, and where, by its code, which is negative for the second stop.
+#: Kind of a point, and its stop, by its code; negative codes (second stop) index from the end.
 _POINTS = np.array([None, "impact", "chatter", "chatter", "impact"], dtype=object)
 _SIDES = np.array([None, "upper", "upper", "lower", "lower"], dtype=object)
-#: The variable behind each column of numbers.
+#: The variable of each column of numbers.
 _NUMBERS = {"velocity": {"phase": "impact_phase", "velocity": "velocity"}, "x": {"x": "x", "v": "v"}}
 
 
 def shown(ds: "xr.Dataset") -> dict[str, str]:
-    """The columns of numbers, each with the variable it shows."""
+    """The columns of numbers, each with its variable."""
     return {name: name for name in _line(ds)} | _numbers(ds)
 
 
 def _line(ds: "xr.Dataset") -> list[str]:
-    """The parameter that varies, and that of a line which varies with it."""
+    """The parameter that varies, and on a line the second parameter."""
     vary = str(ds["kind"].dims[1])
     return [vary, *(str(name) for name, of in ds.coords.items() if of.dims == (vary,) and name != vary)]
 
@@ -33,13 +33,13 @@ def _numbers(ds: "xr.Dataset") -> dict[str, str]:
 
 
 def table(ds: "xr.Dataset") -> "pd.DataFrame":
-    """A row for each point, in the order in which they were found; one without numbers for a motion that has none to show."""
+    """A table with a row for each point, in the order of computation. A motion without points has one row without numbers."""
     import pandas as pd
 
     motion = ds["kind"].values
     runs, vary = map(str, ds["kind"].dims)
     values = ds[vary].values
-    # row and column of each motion that is there, in the order of the command
+    # row and column of each computed motion, in the order of the command
     if runs == "start":
         at, run = (places.ravel() for places in np.indices(motion.shape[::-1]))
         names = np.array([f"start {k + 1}" for k in range(len(motion))], dtype=object)

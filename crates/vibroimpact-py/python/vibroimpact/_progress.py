@@ -1,17 +1,17 @@
-"""Progress: reported to nobody, to a function, or to a bar of tqdm."""
+"""Reports of progress: none, to a function, or to a progress bar of tqdm."""
 
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TypeAlias
 
-#: `None`, `True` for a bar, or a function of what is done and what there is to do; one that returns False stops the work.
+#: `None`, `True` for a progress bar, or a function called with the amounts done and in total. It stops the work by returning False.
 Progress: TypeAlias = "bool | Callable[[int, int], object] | None"
 
 
 @contextmanager
 def watched(progress: Progress, what: str) -> Iterator[Callable[[int, int], object] | None]:
-    """The function to call, and the bar cleared away afterwards."""
+    """The function to call with progress; a progress bar is closed afterwards."""
     if progress is None or progress is False:
         yield None
         return

@@ -1,4 +1,4 @@
-"""What motions settle into: one, or as many as there are starts in arrays."""
+"""Settling of motions, from one start or from arrays of starts."""
 
 from dataclasses import dataclass
 
@@ -15,14 +15,14 @@ from vibroimpact._whole import THREADS, whole
 
 
 def settle(osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: float = 0.0) -> Motion:
-    """Say what the motion from a start settles into, and confirm it.
+    """Follow the motion from a start until it has settled, and confirm the result.
 
     Parameters
     ----------
     osc : Oscillator
         The system.
     x : float
-        Position at the start, in units of F/k; at rest, or on the stop, unless given.
+        Position at the start, in units of F/k. Default: at rest, or on the stop.
     v, phase : float
         Velocity, and phase of the force in radians, at the start.
 
@@ -39,16 +39,16 @@ def settle(osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: fl
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Settlement:
-    """What many starts lead to.
+    """The motions to which many starts lead.
 
     Attributes
     ----------
     osc : Oscillator
         The system.
     motions : list of Attractor
-        The distinct motions in order of first appearance, with their shares.
+        The distinct motions in the order of their first start, with their shares.
     cells : ndarray of uint32
-        The motion of each start as a place in `motions`, in the shape of the starts.
+        The motion of each start as an index into `motions`, in the shape of the starts.
     """
 
     osc: Oscillator
@@ -60,7 +60,7 @@ class Settlement:
 
     @property
     def labels(self) -> NDArray[np.str_]:
-        """The label of each start's motion, in the shape of the starts."""
+        """The label of the motion of each start, in the shape of the starts."""
         names = np.array([motion.label for motion in self.motions], dtype=np.str_)
         return names[self.cells]
 
@@ -74,21 +74,20 @@ def settle_many(
     threads: int = 0,
     progress: Progress = None,
 ) -> Settlement:
-    """Say what the motions from many starts settle into.
+    """Follow the motions from many starts until they have settled.
 
-    Arrays of doubles are read where they are, not copied; other arrays are converted. The answer does not depend on
-    the number of threads.
+    Arrays of doubles are not copied; other arrays are converted. The result does not depend on the number of threads.
 
     Parameters
     ----------
     osc : Oscillator
         The system.
     x, v, phase : array_like
-        Positions, velocities and phases, of one shape or broadcast to one.
+        Positions, velocities and phases, broadcast to one shape.
     threads : int
-        0 for one per core.
+        Number of threads; 0 for one per core.
     progress : bool or callable
-        True for a bar, or a function of what is done and what there is to do.
+        True for a progress bar, or a function called with the amounts done and in total.
 
     Examples
     --------
@@ -102,7 +101,7 @@ def settle_many(
     columns = [numbers(name, of) for name, of in (("x", x), ("v", v), ("phase", phase))]
     shape = np.broadcast_shapes(*(column.shape for column in columns))
     size = int(np.prod(shape))
-    # one number for all, or as many as there are: only what is broadcast in part has to be spread out
+    # the compiled module accepts one number or a full column; only partly broadcast arrays must be expanded
     flat = [
         column.reshape(-1)
         if column.size in (1, size) and (column.size == 1 or column.shape == shape)

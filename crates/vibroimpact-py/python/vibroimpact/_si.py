@@ -1,4 +1,4 @@
-"""Datasets in metres and seconds."""
+"""Conversion of Datasets to metres and seconds."""
 
 from typing import TYPE_CHECKING
 
@@ -7,17 +7,17 @@ from vibroimpact._core import QuestionError, Units
 if TYPE_CHECKING:
     import xarray as xr
 
-#: The attributes of a Dataset that keep the units of a machine.
+#: The attributes of a Dataset that contain its physical units.
 _LENGTH, _TIME = "unit_length_m", "unit_time_s"
 
 
 def attributes(units: Units | None) -> dict[str, float]:
-    """The units of a machine as attributes of a Dataset; nothing where there are none."""
+    """The physical units as attributes of a Dataset; empty without units."""
     return {} if units is None else {_LENGTH: units.length_m, _TIME: units.time_s}
 
 
 def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
-    """All values in metres and seconds, by the units given or those in the attributes."""
+    """The Dataset in metres and seconds, converted with the given units or those in its attributes."""
     if ds.attrs.get("units") == "si":
         raise QuestionError("this Dataset is in metres and seconds already")
     if units is None:

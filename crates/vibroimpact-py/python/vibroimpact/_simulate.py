@@ -1,4 +1,4 @@
-"""A motion event by event."""
+"""Simulation of a motion event by event."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -21,34 +21,34 @@ _KINDS = np.array(["impact", "graze", "stick", "release"])
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
 class Simulation:
-    """The events of a motion as columns, and why there are no more.
+    """The events of a motion as columns, and the reason why the list ends.
 
     Attributes
     ----------
     osc : Oscillator
         The system.
     start : (float or None, float, float)
-        Position (None: at rest, or on the stop), velocity and phase it began with.
+        Position (None: at rest, or on the stop), velocity and phase of the start.
     time, phase : ndarray
-        Of each event; phases in radians in [0, 2 pi).
+        Time and phase of each event; phases in radians in [0, 2 pi).
     side : ndarray of int8
         +1 for the first stop, -1 for the second.
     velocity_before, velocity_after : ndarray
-        Of an impact, towards the stop positive; else nan.
+        For an impact: the velocities before and after it, positive towards the stop. Otherwise nan.
     depth : ndarray
-        Of a graze: the distance left, within rounding of 0.
+        For a graze: the remaining distance to the stop, which is 0 within rounding.
     chatter : ndarray of bool
-        Of a stick: whether infinitely many impacts led to it.
+        For a stick: whether it is the end of a complete chatter.
     error : ndarray
-        Of a stick: the bound on the error of its time.
+        For a stick: the bound on the error of its time.
     end : str
-        "impact_limit", "time_limit", "no_more_impacts", "stuck" or "search_limit".
+        Why the list ends: "impact_limit", "time_limit", "no_more_impacts", "stuck" or "search_limit".
     end_time : float
-        When.
+        The time at which the list ends.
     horizon : dict or None
-        On what grounds there are no more impacts.
+        Why there are no more impacts, if this is decided.
     plan : str
-        The question as JSON.
+        The plan as JSON.
     """
 
     osc: Oscillator
@@ -76,7 +76,7 @@ class Simulation:
 
     @property
     def kind(self) -> NDArray[np.str_]:
-        """Of each event: "impact", "graze", "stick" or "release"."""
+        """The kind of each event: "impact", "graze", "stick" or "release"."""
         return _KINDS[self.code]
 
     def waveform(
@@ -86,7 +86,7 @@ class Simulation:
         return _core.waveform(self.osc, self.start, self.shown_until, points_per_period)
 
     def plot(self, ax: "Axes | None" = None, *, si: bool = False) -> "Axes":
-        """Position over time, with the stops and the impacts. `si` for metres and seconds."""
+        """Draw the position over time, with the stops and the impacts. `si` selects metres and seconds."""
         from vibroimpact import _figure
 
         fine = max(240.0, 240.0 * self.osc.beta**-1) if self.osc.beta < 1 else 240.0
@@ -96,14 +96,14 @@ class Simulation:
         return _figure.waveform(self.osc, (t, x), (self.time[struck], self.side[struck]), None, ax, si)
 
     def to_dict(self) -> dict[str, Any]:
-        """The fields "events" and "end" of the command's JSON."""
+        """The fields "events" and "end" of the JSON of the command."""
         end: dict[str, Any] = {"reason": self.end, "time": finite(self.end_time)}
         if self.horizon is not None:
             end["horizon"] = horizon_object(self.horizon)
         return {"events": self._events(), "end": end}
 
     def _events(self) -> list[dict[str, Any]]:
-        """One dict an event. Each column is read once: an event for itself would cost as much as the whole motion."""
+        """One dict for each event. Each column is converted once, because access to single elements is slow."""
         names = ("time", "phase", "velocity_before", "velocity_after", "depth", "chatter", "error", "side")
         rows = zip(self.kind.tolist(), *(getattr(self, name).tolist() for name in names))
         events = []
@@ -130,20 +130,20 @@ def simulate(
     impacts: int | None = None,
     periods: float | None = None,
 ) -> Simulation:
-    """Follow a motion event by event: impacts, grazes, sticking, release.
+    """Follow a motion event by event: impacts, grazing contacts, sticking and release.
 
     Parameters
     ----------
     osc : Oscillator
         The system.
     x : float
-        Position at the start, in units of F/k, not beyond a stop; at rest, or on the stop, unless given.
+        Position at the start, in units of F/k, not beyond a stop. Default: at rest, or on the stop.
     v : float
         Velocity at the start.
     phase : float
         Phase of the force at the start, radians.
     impacts : int
-        Stop after this number of impacts, 1 to 1e7; 100 unless given, 1e6 with `periods`.
+        Stop after this number of impacts, 1 to 1e7. Default: 100, or 1e6 with `periods`.
     periods : float
         Stop after this number of forcing periods, up to 1e9.
 

@@ -1,7 +1,7 @@
-"""What a Dataset says about its parameters: scalar coordinates for those that its plan leaves as they are, and what a figure states.
+"""The parameters of a Dataset: scalar coordinates for those that do not vary, and the title of its figure.
 
-A Dataset may have been selected from, joined with others or transposed since it was computed, while its attribute "plan" stays that of
-the first one. So a figure states the coordinates, which follow the data, and nothing that only the plan says.
+After a Dataset was computed, parts of it may be selected, or it may be joined with others or transposed. Its coordinates
+then follow the data, but its attribute "plan" does not change. So a figure states the coordinates and not the plan.
 """
 
 import json
@@ -17,15 +17,15 @@ from vibroimpact._figure import SYMBOLS, equal, span
 if TYPE_CHECKING:
     import xarray as xr
 
-#: Coordinates of a start.
+#: Symbols of the coordinates of a start.
 STARTS = {"x": r"\xi_0", "v": r"u_0", "phase": r"\varphi_0"}
 _FREQUENCIES = ("beta", "inverse_beta")
-#: Those that a title states wherever they are known; the others where there is something to say of them.
+#: Parameters that a title always states if they are known. The others are stated only where `_worth_saying` holds.
 _ALWAYS = (*_FREQUENCIES, "gap", "restitution")
 
 
 def with_fixed(ds: "xr.Dataset") -> "xr.Dataset":
-    """The Dataset of a plan with the parameters and coordinates of the start that vary over none of its axes as scalar coordinates."""
+    """The Dataset of a plan, with parameters and coordinates of the start that do not vary added as scalar coordinates."""
     import xarray as xr
 
     fixed = {
@@ -38,13 +38,13 @@ def with_fixed(ds: "xr.Dataset") -> "xr.Dataset":
 
 
 def symbol(name: str) -> str:
-    """How an axis names a coordinate; one of another name as it is called."""
+    """The symbol of a coordinate, or its name if it has no symbol."""
     known = SYMBOLS | STARTS
     return f"${known[name]}$" if name in known else name
 
 
 def along(ds: "xr.Dataset", name: str) -> NDArray[np.float64]:
-    """The values of an axis of a figure: a finite number for each place."""
+    """The values of an axis of a figure, all finite. Raises QuestionError otherwise."""
     if name not in ds.coords or ds[name].dims != (name,) or ds[name].dtype.kind not in "iuf":
         raise QuestionError(
             f"the dimension {name} has no numbers along it, so there is no axis to draw it over\n"
@@ -58,12 +58,12 @@ def along(ds: "xr.Dataset", name: str) -> NDArray[np.float64]:
 
 
 def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
-    """The parameters as the coordinates have them, without those on the axes of the figure."""
+    """The title: the parameters from the coordinates, except those on the axes of the figure."""
     plan = json.loads(ds.attrs["plan"]) if "plan" in ds.attrs else {}
     lost = {name for name in varied(plan) if name not in ds.coords and name not in axes}
     given = "beta" if "beta" in plan.get("system", {}) else "inverse_beta"
     drawn = set(axes) | ({*_FREQUENCIES} if {*_FREQUENCIES} & set(axes) else set())
-    # of two words for the frequency the one that varies, else the one that was given
+    # of beta and its inverse, state the one that varies, or else the one that was given
     lengths = {name: ds[name].size for name in _FREQUENCIES if name in ds.coords}
     if len(lengths) == 2:
         drawn |= {*_FREQUENCIES} - {given}
@@ -83,7 +83,7 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
 
 
 def varied(plan: dict[str, Any]) -> list[str]:
-    """What varies over the axes of a plan's fields."""
+    """The names of the quantities that vary in a plan."""
     task: dict[str, Any] = next(iter(plan.get("task", {}).values()), {})
     names = [axis["vary"] for axis in task.get("axes", [])]
     if "vary" in task:
@@ -96,7 +96,7 @@ def varied(plan: dict[str, Any]) -> list[str]:
 def _worth_saying(
     ds: "xr.Dataset", name: str, values: NDArray[np.float64], axes: tuple[str, ...], plan: dict[str, Any]
 ) -> bool:
-    """Whether a title says it: not a second stop that is not there, no damping of 0, no restitution of the second stop like the first."""
+    """Whether a title states a parameter. Left out: an absent second stop, zero damping, a second restitution equal to the first."""
     if not len(values):
         return False
     if name in _ALWAYS or len(values) > 1 or name in varied(plan):

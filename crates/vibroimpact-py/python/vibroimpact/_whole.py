@@ -1,4 +1,4 @@
-"""Whole numbers as arguments: those that no count can be are refused here, by name; the compiled part checks the others."""
+"""Integer arguments. Values that do not fit the types of the compiled module are refused here, by name; it checks the others."""
 
 import operator
 from typing import Any, NamedTuple, SupportsIndex
@@ -7,7 +7,7 @@ from vibroimpact._core import QuestionError
 
 
 class Range(NamedTuple):
-    """What an argument may be, as the sentences of the compiled part say it."""
+    """The allowed range of an argument, as in the error messages of the compiled module."""
 
     least: int
     most: int | None = None
@@ -16,16 +16,16 @@ class Range(NamedTuple):
 _UNSIGNED = 2**64 - 1
 
 STARTS = Range(1, 1_000_000_000)
-#: Of each point of a map.
+#: Starts at each point of a map.
 POINT_STARTS = Range(1, 10_000_000)
 SEED = Range(0, _UNSIGNED)
-#: As the command has it.
+#: As for the command.
 THREADS = Range(0, 65_535)
 TILE = Range(1, 4096)
 REFINE = Range(2, 64)
 KEEP = Range(1, 100_000)
 TRANSIENT = Range(0, 1_000_000)
-#: Impacts of a simulation, of each start of a grid, and those that exponents are measured over.
+#: Impacts of a simulation, of each start of a grid, and of a measurement of exponents.
 SIMULATED = Range(1, 10_000_000)
 BUDGET = Range(1, 1_000_000)
 MEASURED = Range(1000, 10_000_000)
@@ -34,23 +34,23 @@ SECTION = Range(1, 100_000)
 BRANCH = Range(2, 100_000)
 FOLLOW = Range(0, 100)
 GRID = Range(2, 400)
-#: Orbits and events are numbered from 1; how many there are is not known beforehand.
+#: Orbits and events are numbered from 1; their number is not known in advance.
 NUMBER = Range(1)
-#: Tiles to compute again, times to try.
+#: Number of tiles to compute again, and number of retries.
 COUNT = Range(0, _UNSIGNED)
 
-#: Of 32 bits, as most counts in a plan are.
+#: The largest number of 32 bits, the size of most counts in a plan.
 _SMALL = 2**32 - 1
 
 
 def whole(name: str, value: SupportsIndex, allowed: Range) -> int:
-    """The number, if it is one that the compiled part can look at."""
+    """The number, if the compiled module can represent it. Raises TypeError or QuestionError otherwise."""
     try:
         number = operator.index(value)
     except TypeError:
         raise TypeError(f"{name} = {value!r} is not a whole number") from None
     least, most = allowed
-    # what fits is left to the compiled part, whose sentences have hints; it takes any number of threads
+    # numbers that fit are checked by the compiled module, whose messages have hints; it does not check the number of threads
     largest = THREADS.most if allowed == THREADS else max(most or 0, _SMALL)
     if number < 0 or (largest is not None and number > largest):
         upper = "" if most is None else f" <= {most}"
@@ -59,12 +59,12 @@ def whole(name: str, value: SupportsIndex, allowed: Range) -> int:
 
 
 def maybe(name: str, value: SupportsIndex | None, allowed: Range) -> int | None:
-    """The same of an argument that need not be given."""
+    """As `whole`, for an optional argument."""
     return None if value is None else whole(name, value, allowed)
 
 
 def part(given: Any) -> tuple[int, int]:
-    """Which tiles: (i, n)."""
+    """The checked argument `part`: (i, n)."""
     try:
         index, of = (operator.index(number) for number in given)
     except (TypeError, ValueError):

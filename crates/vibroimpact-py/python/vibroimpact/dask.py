@@ -1,7 +1,7 @@
-"""Studies on the workers of a Dask cluster: on this machine, or of a batch system through dask-jobqueue.
+"""Studies on the workers of a Dask cluster, on this machine or in a batch system with dask-jobqueue.
 
-A task is a tile. A worker computes it, writes it to the store and returns its number: results never travel through the
-scheduler. Tiles are idempotent, so a worker may die and its tiles are computed elsewhere; the store has the same bytes.
+A task is one tile. A worker computes it, writes it to the store and returns its number, so results do not pass through
+the scheduler. If a worker dies, its tiles are computed by others, and the store has the same bytes.
 
 >>> import tempfile
 >>> import vibroimpact as vi
@@ -31,12 +31,12 @@ if TYPE_CHECKING:
 
 @lru_cache(maxsize=4)
 def _opened(place: str, plan: str) -> _core.Store:
-    """The store, opened once in each worker: what is known of a system beforehand is worked out there."""
+    """The store, opened once in each worker, so that the survey of the system is computed only once there."""
     return _core.Store(place, plan)
 
 
 def _tile(tile: int, place: str, plan: str) -> tuple[int, bool]:
-    """Computes a tile, on a worker: its number, and whether it had to be computed."""
+    """Compute a tile on a worker. Returns its number and whether it had to be computed."""
     computed, _, _, _ = _opened(place, plan).run_tiles([tile], 1)
     return tile, computed == 1
 
@@ -49,20 +49,20 @@ def run(
     retries: int = 3,
     progress: Progress = None,
 ) -> Ran:
-    """Fill the store of a plan by the workers of a client; what is there already is not computed again.
+    """Fill the store of a plan by the workers of a client. Tiles that it already contains are not computed again.
 
     Parameters
     ----------
     plan : Plan
         The study.
     store : path
-        A place that the workers and this process reach by the same name.
+        A path or URL under which the workers and this process can access the store.
     client : distributed.Client
         The cluster.
     retries : int
-        How often a tile that failed is tried again.
+        Number of times that a failed tile is tried again.
     progress : bool or callable
-        True for a bar, or a function of the points done and those there are; one that returns False stops.
+        True for a progress bar, or a function called with the numbers of points done and in total; it stops the run by returning False.
     """
     from distributed import as_completed
 
@@ -74,7 +74,7 @@ def run(
     with watched(progress, "points") as tell:
         far, done = begun, begun["points_done"]
         each = begun["points"] / max(begun["tiles"], 1)
-        # some hundred tiles at a time: a study may have more of them than a scheduler likes
+        # `missing` lists at most a thousand tiles, so the scheduler never holds all tiles of a large study
         while far["missing"]:
             turn = uuid4().hex[:8]
             keys = [f"vibroimpact-tile-{plan.hash}-{turn}-{tile}" for tile in far["missing"]]

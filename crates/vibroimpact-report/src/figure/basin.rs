@@ -1,4 +1,4 @@
-//! The basin: each start in the colour of the motion it leads to.
+//! The figure of a basin: each start in the colour of the motion to which it leads.
 
 use crate::figure::plane::Plane;
 use crate::figure::{title, variant};
@@ -6,22 +6,22 @@ use crate::{Asked, ReportError};
 use vibroimpact_plot::{ClassStyle, Colour, Figure, Legend, Panel, Raster, Rects, class_style, legend_group};
 use vibroimpact_study::{Basin, counted};
 
-/// Motions with an entry of their own in the legend.
+/// Maximum number of motions with an entry of their own in the legend.
 const NAMED: usize = 12;
 
-/// A motion and the share of starts that lead to it.
+/// A motion, and the share of starts that lead to it.
 #[derive(Clone, Debug)]
 pub struct BasinMotion {
     /// Its label.
     pub label: String,
-    /// Its share.
+    /// Its share, from 0 to 1.
     pub share: f64,
 }
 
 /// The figure of `vibro basin`.
 ///
 /// # Errors
-/// [`ReportError`] for axes that are not two in some order, or too long.
+/// [`ReportError`] if there are not two axes with rising or falling values, or if an axis is too long.
 pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
     let motion = |m: usize| BasinMotion { label: found.motions[m].verdict.label().into_owned(), share: found.share(m) };
     let motions: Vec<BasinMotion> = (0..found.motions.len()).map(motion).collect();
@@ -29,10 +29,10 @@ pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
     draw(&plane, &motions, found.cells.clone(), title(&asked.system))
 }
 
-/// `cells` holds the number of its motion for each start; what is no number of a motion is left blank.
+/// Draws a basin. `cells` has the index of the motion of each start; other numbers are left blank.
 ///
 /// # Errors
-/// [`ReportError::Plot`] for cells that are not as many as the points of the plane.
+/// [`ReportError::Plot`] if the number of cells is not the number of points of the plane.
 pub fn draw(plane: &Plane, motions: &[BasinMotion], cells: Vec<u16>, title: String) -> Result<Figure, ReportError> {
     let mut by_share: Vec<usize> = (0..motions.len()).collect();
     by_share.sort_by(|a, b| motions[*b].share.total_cmp(&motions[*a].share));

@@ -1,5 +1,5 @@
-//! The bifurcation diagram: impact velocities of orbits over the parameter, or their positions at phase 0, stable solid and unstable
-//! dashed, with the events, over what simulation finds.
+//! The bifurcation diagram: impact velocities of orbits over the parameter, or their positions at phase 0. Stable
+//! orbits are solid and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
 
 use crate::figure::diagram::{backdrop, ordinate};
 use crate::figure::tracks::{Curves, Followed as What, Look, curves};
@@ -11,25 +11,26 @@ use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Po
 use vibroimpact_study::diagram::{Diagram, Show};
 use vibroimpact_study::{Cut, Followed, Span, counted};
 
-/// What simulation finds.
+/// Colour of the orbit diagram from simulation.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
 /// Width of a curve.
 const WIDTH: f64 = 2.8;
-/// Size of the mark of an event, and where there are many.
+/// Size of the mark of an event, and its size if there are many marks.
 const MARK: f64 = 12.0;
 const SMALL_MARK: f64 = 7.0;
-/// Marks that are many.
+/// Number of marks above which they are small.
 const MANY: usize = 40;
-/// Labels with a colour of their own.
+/// Maximum number of labels with a colour of their own.
 const NAMED: usize = 12;
-/// Colour of the others.
+/// Colour of the other labels.
 const OTHERS: Colour = Colour::hex(0x50_5050);
 
-/// The figure of `vibro branch`: branches along a line, with simulation behind, and with solutions that are
-/// no motions where they are asked for. What the simulation shows is what is shown of the branches, impact velocities without one.
+/// The figure of `vibro branch`: branches along a line, with the orbit diagram from simulation behind, and with
+/// inadmissible solutions if requested. Impact velocities or positions are shown as in the orbit diagram; without one,
+/// impact velocities.
 ///
 /// # Errors
-/// [`ReportError::Plan`] where the values of the parameter leave the range of numbers in these units.
+/// [`ReportError::Plan`] if a value of the parameter overflows in these units.
 pub fn figure(
     followed: &[Followed],
     cut: &Cut,
@@ -94,7 +95,7 @@ pub fn figure(
         panel.add(points);
     }
     if behind.is_some() {
-        // a dot of the cloud is too small for a key
+        // a dot of the cloud is too small for the legend
         legend = legend.points(&Points::new([], [], GREY).size(7.0), "simulation");
     }
     Ok(Figure::new(panel)
@@ -111,9 +112,9 @@ const fn pen(look: Look) -> (f64, Dash) {
     }
 }
 
-/// A colour for each label, in the order in which the branches come to them.
+/// A colour for each label, in the order of first appearance on the branches.
 fn colours(followed: &[Followed]) -> Vec<(String, Colour)> {
-    // without black, the colour of marks, and yellow, which is too light for a thin line
+    // without black, which is used for marks, and yellow, which is too light for a thin line
     const USABLE: usize = 6;
     let mut labels: Vec<String> = Vec::new();
     for point in followed.iter().flat_map(|branch| &branch.points) {
@@ -126,7 +127,7 @@ fn colours(followed: &[Followed]) -> Vec<(String, Colour)> {
     labels.into_iter().enumerate().map(|(k, label)| (label, colour(k))).collect()
 }
 
-/// The marks of events by kind.
+/// The marks of events, by kind.
 fn marks(
     followed: &[Followed],
     show_virtual: bool,
@@ -152,7 +153,8 @@ fn marks(
     places.into_iter().map(|(kind, place)| (kind, style(place))).collect()
 }
 
-/// The form of an event's mark, and where it stands: at all impacts or states, or at velocity zero where an impact comes or goes.
+/// The shape of the mark of an event, and its ordinates: those of all impacts or states, or velocity zero where an
+/// impact appears or disappears.
 fn mark(point: &SolutionPoint, event: &BranchEvent, what: What<'_>) -> Option<(Shape, Vec<f64>)> {
     let all = || what.ordinates(point);
     let none = || if matches!(what, What::Velocity) { vec![0.0] } else { all() };

@@ -1,4 +1,4 @@
-//! A curve of events in the plane of its two parameters, and the points of codimension two on it.
+//! The figure of a curve of events in the plane of its two parameters, with its points of codimension two.
 
 use crate::Asked;
 use crate::figure::{label, named, title_without};
@@ -31,7 +31,7 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
         let (mut xs, mut ys) = (Vec::new(), Vec::new());
         let mut last = false;
         for pair in found.points.windows(2) {
-            // an event lies on the edge and counts for neither side
+            // an event separates two parts, so a step takes its look from the end that is no event
             let one = if pair[1].event.is_some() && pair[0].event.is_none() { &pair[0] } else { &pair[1] };
             let belongs = one.physical == physical;
             if belongs && !last {
@@ -65,7 +65,7 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
     Figure::new(panel).size(680.0, 520.0).title(title_without(&asked.system, &[p, q])).legend(legend)
 }
 
-/// The marks of points of codimension two by kind; ends of the curve have none.
+/// The marks of points of codimension two, by kind. Ends of the curve have no marks.
 fn marks(found: &EventCurve, x: f64, y: f64) -> BTreeMap<&'static str, Points> {
     let mut marks: BTreeMap<&'static str, Points> = BTreeMap::new();
     for point in &found.points {
@@ -88,7 +88,7 @@ const fn shape(event: CurveEvent) -> Option<Shape> {
         CurveEvent::Touch | CurveEvent::OneToTwo => Shape::Circle,
         CurveEvent::DegenerateFlip => Shape::Cross,
         CurveEvent::LossOfContact | CurveEvent::WholePeriods | CurveEvent::Unbounded => Shape::Plus,
-        // where a curve ends for no reason of its own
+        // ends of the curve, such as the edge of the plane
         _ => return None,
     })
 }

@@ -1,7 +1,8 @@
-//! The orbit diagram: a dot for every impact or state over the parameter, the sweeps in two colours.
+//! The figure of an orbit diagram: a dot for every impact or state over the parameter, with the two sweeps in two
+//! colours.
 //!
-//! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other and both colours
-//! are seen. What does not repeat itself has small dots in both.
+//! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other, so both colours
+//! are visible. Motions that do not repeat have small dots in both sweeps.
 
 use crate::figure::{along, plane::PlaneAxis, symbol, title_without};
 use crate::units::shown_span;
@@ -11,18 +12,19 @@ use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Po
 use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, Show, Sweep, SweepDirection};
 use vibroimpact_study::{Span, counted};
 
-/// Dots beyond which a picture of cells takes their place: a file of a few megabytes.
+/// Maximum number of dots, which gives a file of a few megabytes. With more dots a raster is drawn instead.
 const MOST_DOTS: usize = 50_000;
-/// Columns of that picture at most, so that each has a pixel in print.
+/// Maximum number of columns of the raster, so that each has a pixel in print.
 const MOST_COLUMNS: usize = 800;
-/// Rows of that picture.
+/// Number of rows of the raster.
 const CELL_ROWS: usize = 400;
-/// Rows finer than the eye resolves: of the dots in one row at one value one is drawn.
+/// Number of rows, finer than the eye can resolve, for the thinning of dots: of all dots in a row at the same value,
+/// one is drawn.
 const ROWS: f64 = 2000.0;
-/// A large dot, in small ones.
+/// Size of a large dot relative to a small one.
 const LARGE: f64 = 1.9;
 
-/// The dots of one colour: which value, and the ordinate.
+/// The dots of one colour: number of the value, and ordinate.
 struct Cloud {
     name: String,
     colour: Colour,
@@ -33,7 +35,7 @@ struct Cloud {
 /// The figure of `vibro diagram`.
 ///
 /// # Errors
-/// [`ReportError::Plan`] where the values of the parameter leave the range of numbers in these units.
+/// [`ReportError::Plan`] if a value of the parameter overflows in these units.
 pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
     let over = &shown_span(&found.plan.over, asked.units.of(found.plan.vary))?;
     let mut clouds = clouds(found, asked);
@@ -51,7 +53,7 @@ pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
     Ok(Figure::new(panel).title(title_without(&asked.system, &cut.parameters().collect::<Vec<_>>())).legend(legend))
 }
 
-/// All its dots in one colour, to lie behind curves: those of motions that repeat themselves are wider than a curve.
+/// All dots of a diagram in one colour, to be drawn behind curves. Dots of motions that repeat are wider than a curve.
 pub(super) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colour) -> [Points; 2] {
     let range = spread(clouds(found, asked).iter().flat_map(|cloud| cloud.large.iter().chain(&cloud.small)));
     [(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
@@ -64,7 +66,7 @@ pub(super) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colo
     })
 }
 
-/// Sizes of dots behind curves.
+/// Sizes of the dots behind curves.
 const WIDE: f64 = 7.0;
 const NARROW: f64 = 2.6;
 
@@ -76,7 +78,7 @@ fn ordinate_of(point: &DiagramPoint, asked: &Asked) -> f64 {
     }
 }
 
-/// The axis of what a diagram shows.
+/// The ordinate axis of a diagram.
 pub(super) fn ordinate(show: Show, asked: &Asked) -> FigureAxis {
     FigureAxis::new(match show {
         Show::Velocity => asked.units.named("arrival velocity *u*_−", "m/s"),
@@ -107,25 +109,25 @@ fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
     clouds
 }
 
-/// Whether a motion came back before as many points were kept as were asked for.
+/// Whether a motion repeats, that is, has fewer points than the plan allows.
 fn repeats(found: &Diagram, step: &DiagramStep) -> bool {
     let kept = step.points.iter().filter(|point| !matches!(point, DiagramPoint::Chatter { .. })).count();
     (kept as u64) < found.plan.keep || kept == 1
 }
 
-/// The range of all values, with air.
+/// The range of all values, with a margin.
 fn spread<'a>(dots: impl Iterator<Item = &'a (u32, f64)>) -> (f64, f64) {
     let (low, high) = dots.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (_, y)| (low.min(*y), high.max(*y)));
     if low > high {
         return (0.0, 1.0);
     }
-    // one value alone, to rounding, gets a range of its own size
+    // if all values are equal to rounding, the range is proportional to the value
     let size = low.abs().max(high.abs());
     let air = if high - low > 1e-9 * size { 0.04 * (high - low) } else { 0.5 * size.max(1e-300) };
     (low - air, high + air)
 }
 
-/// One dot a row at each value, the first one.
+/// Keeps one dot, the first one, for each row and value.
 fn thin(dots: &mut Vec<(u32, f64)>, (low, high): (f64, f64)) {
     let mut seen = HashSet::new();
     #[allow(clippy::cast_possible_truncation)] // between 0 and ROWS
@@ -133,7 +135,7 @@ fn thin(dots: &mut Vec<(u32, f64)>, (low, high): (f64, f64)) {
 }
 
 fn as_dots(mut panel: Panel, clouds: Vec<Cloud>, over: &Span) -> (Panel, Legend) {
-    // about the distance of two values on the page, but neither dust nor discs
+    // about the distance between two values on the page, within limits for visibility
     let size = (850.0 / f64::from(over.count())).clamp(2.4, 6.0);
     let mut legend = Legend::below();
     for cloud in clouds {
@@ -149,13 +151,13 @@ fn as_dots(mut panel: Panel, clouds: Vec<Cloud>, over: &Span) -> (Panel, Legend)
     (panel, legend)
 }
 
-/// The number of value `k` among all in rising order, and the other way round.
+/// The number of value `k` in rising order (and its inverse, which is the same function).
 fn rising(over: &Span, k: usize) -> usize {
     let (a, b) = over.ends();
     if a <= b { k } else { over.count() as usize - 1 - k }
 }
 
-/// The same as a picture of cells, as many columns as there are values, or a whole part of them.
+/// The same diagram as a raster. The number of columns is the number of values, or less by an integer factor.
 fn as_cells(
     panel: Panel,
     clouds: &[Cloud],
@@ -186,7 +188,7 @@ fn as_cells(
                 for j in j.saturating_sub(reach)..(j + reach + 1).min(rows) {
                     for i in i.saturating_sub(reach)..(i + reach + 1).min(columns) {
                         let cell = &mut cells[j * columns + i];
-                        // where small dots of two clouds meet, both are seen, side by side
+                        // where small dots of two sweeps meet, both colours are shown in a checkerboard
                         if !(small && cell.1 && (i + j) % 2 == 0) {
                             *cell = (class, small);
                         }
@@ -199,7 +201,7 @@ fn as_cells(
     let colours: Vec<Colour> = clouds.iter().map(|cloud| cloud.colour).collect();
     let classes: Vec<u16> = cells.into_iter().map(|(class, _)| class).collect();
     if side.logarithmic() {
-        // columns of like width on the page are not alike in the parameter
+        // on a logarithmic axis, columns of equal width do not have equal ranges of the parameter
         let edge = |i: usize| match (i * values).div_ceil(columns) {
             first if first < values => side.cell(rising(over, first)).0,
             _ => across.1,

@@ -1,4 +1,4 @@
-//! The map: each point of the parameter plane in the colours of the motions that coexist there.
+//! The figure of a map: each point of the parameter plane in the colours of its coexisting motions.
 
 use crate::figure::plane::{Plane, varied};
 use crate::figure::title_without;
@@ -8,13 +8,14 @@ use vibroimpact_plot::{
 };
 use vibroimpact_study::{MapPoint, RegionMap, SystemPlan};
 
-/// Above this number of points coexisting motions would be too small to see, and a raster shows the most frequent one.
+/// With more points than this, coexisting motions would be too small to be visible, and only the most frequent one is
+/// drawn.
 const SPLIT: usize = 40_000;
 
 /// The figure of `vibro map`.
 ///
 /// # Errors
-/// [`ReportError`] for axes that are not two in some order, or too long.
+/// [`ReportError`] if there are not two axes with rising or falling values, or if an axis is too long.
 pub fn figure(found: &RegionMap, system: &SystemPlan) -> Result<Figure, ReportError> {
     let axes = &found.plan.axes;
     let cell = |point: &MapPoint| groups(point.motions.iter().map(|motion| motion.verdict.label()));
@@ -22,17 +23,17 @@ pub fn figure(found: &RegionMap, system: &SystemPlan) -> Result<Figure, ReportEr
     draw(&Plane::of(axes, &Units::default())?, &cells, title_without(system, &varied(axes)))
 }
 
-/// The group of a label in the legend.
+/// The index of the group of a label in the legend.
 #[must_use]
 pub fn group(label: &str) -> usize {
     let group = legend_group(label);
     GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len() - 1)
 }
 
-/// `cells` holds the groups of the motions at each point, each once, the most frequent first.
+/// Draws a map. `cells` has the distinct groups of the motions at each point, the most frequent first.
 ///
 /// # Errors
-/// [`ReportError::Plot`] for cells that are not as many as the points of the plane.
+/// [`ReportError::Plot`] if the number of cells is not the number of points of the plane.
 pub fn draw(plane: &Plane, cells: &[Vec<usize>], title: String) -> Result<Figure, ReportError> {
     let mut present = [false; GROUPS.len()];
     let split = cells.len() <= SPLIT;
@@ -67,7 +68,7 @@ pub fn draw(plane: &Plane, cells: &[Vec<usize>], title: String) -> Result<Figure
     Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(legend))
 }
 
-/// The groups of these labels, each once, in their order.
+/// The distinct groups of some labels, in the order of first appearance.
 fn groups<'a>(labels: impl Iterator<Item = std::borrow::Cow<'a, str>>) -> Vec<usize> {
     let mut groups: Vec<usize> = Vec::new();
     for label in labels {

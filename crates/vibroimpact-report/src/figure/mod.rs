@@ -1,4 +1,4 @@
-//! Figures: each file one kind of picture, and here what several say of a system and its motions.
+//! Figures. Each file draws one kind of figure; this file has their common texts and colours.
 
 pub mod basin;
 pub mod branch;
@@ -18,13 +18,13 @@ use crate::number::short;
 use vibroimpact_plot::{Colour, plain};
 use vibroimpact_study::{Cut, Parameter, SystemPlan, is_length};
 
-/// The parameters as a title, the frequency as it was given.
+/// The title of a figure: the parameters, with the frequency in the form in which it was given.
 #[must_use]
 pub fn title(system: &SystemPlan) -> String {
     title_without(system, &[])
 }
 
-/// The same without the parameters that vary in the figure.
+/// The title without the parameters that vary in the figure.
 #[must_use]
 pub fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String {
     let frequency = match (system.inverse_beta, system.beta) {
@@ -49,13 +49,13 @@ pub fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String {
     parts.join(", ").replace('-', "−")
 }
 
-/// What an axis along a line shows: its first parameter, and from where to where the second one goes with it.
+/// The name of an axis along a line: the first parameter, and the range of the second one.
 #[must_use]
 pub fn along(cut: &Cut, units: &Units) -> String {
     let name = named(cut.vary, units);
     let Some(also) = cut.also else { return name };
     let unit = units.of(also.parameter);
-    // an axis rises, whichever way the line was drawn
+    // the axis rises, in whichever direction the line is followed
     let (from, to) = if cut.ends.0 <= cut.ends.1 { (also.from, also.to) } else { (also.to, also.from) };
     let value = |value: f64| short(value * unit).replace('-', "−");
     format!("{name}, with {} from {} to {}", named(also.parameter, units), value(from), value(to))
@@ -75,13 +75,13 @@ pub const fn symbol(parameter: Parameter) -> &'static str {
     }
 }
 
-/// The same with its unit, for an axis.
+/// The symbol of a parameter with its unit, for an axis.
 #[must_use]
 pub fn named(parameter: Parameter, units: &Units) -> String {
     if is_length(parameter) { units.named(symbol(parameter), "m") } else { symbol(parameter).into() }
 }
 
-/// A label as a figure shows it.
+/// The text of a label in a figure.
 #[must_use]
 pub fn label(label: &str) -> String {
     match label {
@@ -90,7 +90,8 @@ pub fn label(label: &str) -> String {
     }
 }
 
-/// Variant number `k` of a colour: itself, darker, lighter, darker still ... for motions of one class.
+/// Variant number `k` of a colour, for the motions of one class: the colour itself, darker, lighter, darker still, and
+/// so on.
 #[must_use]
 pub fn variant(colour: Colour, k: usize) -> Colour {
     let towards = if k % 2 == 1 { 0.0 } else { 255.0 };

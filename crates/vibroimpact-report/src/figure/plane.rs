@@ -6,17 +6,17 @@ use crate::{ReportError, Units};
 use vibroimpact_plot::FigureAxis;
 use vibroimpact_study::{Axis as Along, Coordinate, Parameter, Values, is_length};
 
-/// Points a figure of a plane can show along one axis.
+/// Maximum number of points along one axis of a figure.
 const MOST: usize = 16_384;
 
-/// One side of a plane: a name and values.
+/// One axis of a plane: its name and its values.
 #[derive(Clone, Debug)]
 pub struct PlaneAxis {
     name: String,
     values: Values,
 }
 
-/// The two sides; the first runs to the right and fastest.
+/// The two axes of a plane. The first one is the abscissa and varies fastest.
 #[derive(Clone, Debug)]
 pub struct Plane {
     /// The abscissa.
@@ -25,7 +25,7 @@ pub struct Plane {
     pub y: PlaneAxis,
 }
 
-/// One unit of what varies.
+/// The unit of the quantity that varies on an axis.
 pub(crate) fn unit(vary: Coordinate, units: &Units) -> f64 {
     match vary {
         Coordinate::Parameter(parameter) => units.of(parameter),
@@ -35,7 +35,7 @@ pub(crate) fn unit(vary: Coordinate, units: &Units) -> f64 {
     }
 }
 
-/// The parameters among what varies.
+/// The parameters among the quantities that vary.
 pub(crate) fn varied(axes: &[Along]) -> Vec<Parameter> {
     let parameter =
         |axis: &Along| if let Coordinate::Parameter(parameter) = axis.vary { Some(parameter) } else { None };
@@ -43,10 +43,10 @@ pub(crate) fn varied(axes: &[Along]) -> Vec<Parameter> {
 }
 
 impl Plane {
-    /// The plane of a plan; what has another number of axes has no figure.
+    /// The plane over two axes.
     ///
     /// # Errors
-    /// [`ReportError`] for axes that are not two in some order, or too long.
+    /// [`ReportError`] if there are not two axes with rising or falling values, or if an axis is too long.
     pub fn of(axes: &[Along], units: &Units) -> Result<Self, ReportError> {
         let [x, y] = axes else { return Err(ReportError::Axes(axes.len())) };
         let plane = Self { x: PlaneAxis::of(x, units)?, y: PlaneAxis::of(y, units)? };
@@ -59,10 +59,10 @@ impl Plane {
 }
 
 impl PlaneAxis {
-    /// Values that rise or fall throughout.
+    /// An axis with rising or falling values.
     ///
     /// # Errors
-    /// [`ReportError::Order`] for others.
+    /// [`ReportError::Order`] for values in another order.
     pub fn new(name: impl Into<String>, values: &Values) -> Result<Self, ReportError> {
         let all = values.all();
         if !(all.is_sorted() || all.is_sorted_by(|a, b| a >= b)) {
@@ -71,10 +71,10 @@ impl PlaneAxis {
         Ok(Self { name: name.into(), values: values.clone() })
     }
 
-    /// The axis of a plan, in these units.
+    /// The axis of a plan in the given units.
     ///
     /// # Errors
-    /// [`ReportError::Order`] as [`Self::new`], and [`ReportError::Plan`] where the units leave the range of numbers.
+    /// [`ReportError::Order`] as for [`Self::new`], and [`ReportError::Plan`] if a value overflows in these units.
     pub fn of(axis: &Along, units: &Units) -> Result<Self, ReportError> {
         let (name, name_of_unit) = match axis.vary {
             Coordinate::Parameter(parameter) => (symbol(parameter), is_length(parameter).then_some("m")),
@@ -86,13 +86,13 @@ impl PlaneAxis {
         Self::new(name, &shown(&axis.over, unit(axis.vary, units))?)
     }
 
-    /// How many values.
+    /// The number of values.
     #[must_use]
     pub fn count(&self) -> usize {
         self.values.count()
     }
 
-    /// Its first and last value, if they are evenly spaced.
+    /// The first and the last value, if the values are evenly spaced.
     #[must_use]
     pub fn even(&self) -> Option<(f64, f64)> {
         match &self.values {
@@ -111,7 +111,7 @@ impl PlaneAxis {
         let at = |k: usize| self.values.at(k);
         let (here, last) = (at(k), self.count() - 1);
         let between = |a: f64, b: f64| if self.logarithmic() { (a * b).sqrt() } else { f64::midpoint(a, b) };
-        // the outermost cells are as wide beyond their value as within
+        // the outermost cells are symmetric about their values
         let beyond = |inner: f64| {
             if self.logarithmic() { here * (here / inner) } else { here + (here - inner) }
         };
@@ -124,13 +124,13 @@ impl PlaneAxis {
         (before.min(after), before.max(after))
     }
 
-    /// From the outer edge of one outermost cell to that of the other.
+    /// The range from the outer edge of the first cell to that of the last one.
     pub(crate) fn range(&self) -> (f64, f64) {
         let (first, last) = (self.cell(0), self.cell(self.count() - 1));
         (first.0.min(last.0), first.1.max(last.1))
     }
 
-    /// An axis that shows the outermost cells whole.
+    /// An axis that shows the outermost cells completely.
     #[must_use]
     pub fn axis(&self) -> FigureAxis {
         let (low, high) = self.range();

@@ -1,4 +1,5 @@
-//! Where a motion exists and where it is stable, in a plane of two parameters: the edges in the colour of what bounds them.
+//! The figure of the regions where a motion exists and where it is stable, in a plane of two parameters. Edges have the
+//! colour of their kind.
 
 use crate::Asked;
 use crate::figure::{label, named, title_without};
@@ -8,12 +9,13 @@ use vibroimpact_plot::{
 };
 use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
-/// Where it exists and is unstable.
+/// Colour of the region where the motion exists and is unstable.
 const EXISTS: Colour = Colour::hex(0xec_ecec);
 /// Widths of edges.
 const THICK: f64 = 3.2;
 const THIN: f64 = 1.5;
-/// Every bound that is drawn, in the order of the legend. The frame is the edge of the figure.
+/// The kinds of boundary that are drawn, in the order of the legend. The frame is the edge of the figure and is not
+/// drawn.
 const BOUNDS: [Bound; 5] = [Bound::Fold, Bound::Flip, Bound::NoSpeed, Bound::Touch, Bound::Merging];
 
 /// The figure of `vibro region`.
@@ -50,7 +52,7 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
     for bound in BOUNDS {
         let (stroke, name) = pen(bound);
         let mut seen = false;
-        // the second orbit that exists beside another one has thin edges
+        // the edges of the second orbit that exists beside another one are thin
         for (below, stroke) in [(false, stroke.width(THIN)), (true, stroke)] {
             let (mut xs, mut ys) = (Vec::new(), Vec::new());
             let polygons = found.existence.polygons.iter().chain(&found.stability.polygons);
@@ -69,7 +71,7 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
     Figure::new(panel).size(680.0, 620.0).title(title).legend(legend)
 }
 
-/// Each outer ring with the holes in it: sheets of a surface may overlap, so not all rings together.
+/// Each outer ring with its holes, filled separately because the sheets of a surface may overlap.
 fn areas(region: &Region) -> impl Iterator<Item = FilledRegion> + '_ {
     region.polygons.iter().filter(|polygon| !polygon.hole).map(|outer| {
         let alone = Region { polygons: vec![outer.clone()], unresolved: Vec::new() };
@@ -87,7 +89,7 @@ fn ring(polygon: &Polygon) -> Vec<(f64, f64)> {
     polygon.vertices.iter().map(|vertex| vertex.values).collect()
 }
 
-/// Adds the edges of a polygon that are bounded by `bound`, run by run.
+/// Adds the edges of a polygon with the given kind of boundary.
 fn edges(polygon: &Polygon, bound: Bound, xs: &mut Vec<f64>, ys: &mut Vec<f64>) {
     let count = polygon.vertices.len();
     let mut joined = false;
@@ -107,7 +109,7 @@ fn edges(polygon: &Polygon, bound: Bound, xs: &mut Vec<f64>, ys: &mut Vec<f64>) 
     }
 }
 
-/// How an edge is drawn, and what it means.
+/// The stroke of a kind of boundary, and its name in the legend.
 const fn pen(bound: Bound) -> (Stroke, &'static str) {
     let (colour, dash, name) = match bound {
         Bound::Fold => (SERIES[1], Dash::Solid, "fold"),

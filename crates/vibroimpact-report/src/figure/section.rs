@@ -1,4 +1,5 @@
-//! Both sections of an attractor, one above the other: phase and speed of its impacts, and its states at phase 0.
+//! The figure of both sections of an attractor, one above the other: phase and speed of its impacts, and its states at
+//! phase 0.
 
 use crate::Asked;
 use crate::figure::title;
@@ -9,11 +10,11 @@ use vibroimpact::{Oscillator, Side, Stop};
 use vibroimpact_plot::{COLUMN, Colour, Figure, FigureAxis, Legend, Panel, Points, SERIES, Tick};
 use vibroimpact_study::SystemPlan;
 
-/// Points up to which each is a dot of its own.
+/// Maximum number of distinct points that are drawn as large dots.
 const FEW: usize = 200;
-/// Places closer than this fraction of the range are one.
+/// Two points are the same if they differ by less than this fraction of the range.
 const SAME: f64 = 1e-6;
-/// Diameter of a dot of its own, and of one in a cloud.
+/// Diameter of a large dot, and of a dot in a cloud.
 const LARGE: f64 = 9.0;
 const SMALL: f64 = 2.6;
 
@@ -38,7 +39,7 @@ pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
         let at = found.impacts.iter().filter(|impact| impact.side == side);
         let (xs, ys): (Vec<f64>, Vec<f64>) = at.map(|at| (at.phase, at.velocity * units.velocity())).unzip();
         let points = dots(xs, ys, colour);
-        // a dot of the cloud is too small for a key
+        // a dot of the cloud is too small for the legend
         legend = legend.points(&points.clone().size(LARGE), name);
         above.add(points);
     }
@@ -48,17 +49,17 @@ pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
     let below = Panel::new(across, fitted(units.named("velocity *u*", "m/s"), &ys, units.velocity()))
         .caption("states at phase 0")
         .with(dots(xs, ys, Colour::BLACK));
-    // the second stop stands in the legend: all on one line is too long for a column
+    // the legend names the second stop; a title with all parameters would be too long for a column
     let title = title(&SystemPlan { second_stop: None, ..asked.system });
     let figure = Figure::grid(1, vec![above, below]).size(COLUMN, 860.0).title(title);
     if second.is_some() { figure.legend(legend) } else { figure }
 }
 
-/// Spreads below this fraction of the values, or of a unit of length or velocity, are rounding.
+/// A spread below this fraction of the values, or of a unit of length or velocity, is rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// An axis over these values. What is one value to rounding stands in the middle of a range of its own size, so that it is drawn as
-/// one point: an axis fitted to its last digits would show them as structure.
+/// An axis over some values. Values that are equal to rounding are placed in the middle of a range of suitable size, so
+/// that they appear as one point. An axis fitted to their last digits would show rounding as structure.
 fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
     let axis = FigureAxis::new(name);
     let (low, high) = extremes(values.iter().copied());
@@ -70,7 +71,8 @@ fn fitted(name: String, values: &[f64], unit: f64) -> FigureAxis {
     axis.range(middle - 0.5 * size, middle + 0.5 * size)
 }
 
-/// The whole turn in parts of pi, or the part of it where all impacts are, if that is less than half of it but more than a point.
+/// The axis of the phase: the full period in fractions of pi, or the part with impacts if that is less than half of it
+/// (and more than one point).
 fn phases(found: &Section) -> FigureAxis {
     let (low, high) = extremes(found.impacts.iter().map(|impact| impact.phase));
     let axis = FigureAxis::new("phase *θ*");
@@ -85,13 +87,13 @@ fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
 }
 
-/// A cloud of small dots, or a few large ones.
+/// Points as large dots if few are distinct, otherwise as a cloud of small dots.
 fn dots(xs: Vec<f64>, ys: Vec<f64>, colour: Colour) -> Points {
     let size = if distinct(&xs, &ys) <= FEW { LARGE } else { SMALL };
     Points::new(xs, ys, colour).size(size)
 }
 
-/// How many different places there are.
+/// Number of distinct points.
 fn distinct(xs: &[f64], ys: &[f64]) -> usize {
     let cell = |list: &[f64]| {
         let (low, high) = extremes(list.iter().copied());
@@ -111,7 +113,8 @@ mod tests {
     use vibroimpact::Start;
     use vibroimpact::motion::ImpactState;
 
-    /// The states of 1/1 differ in their last digits: each panel shows one dot, on axes that show no digits of rounding.
+    /// The states of 1/1 differ in their last digits. Each panel shows one dot, and the axes show no digits of
+    /// rounding.
     #[test]
     fn f10_rounding_is_no_structure() {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };
@@ -127,7 +130,7 @@ mod tests {
                 assert!(high - low >= 0.99, "{low} {high}");
             }
         }
-        // what is apart is drawn apart
+        // points that are really distinct are drawn as distinct
         let strobes = [0.3, 0.3001].map(|x| Start { x, v: -1.0, phase: 0.0 }).to_vec();
         let found = Section { impacts: Vec::new(), strobes };
         assert_eq!(figure(&found, &osc, &asked).panels[1].x.range, None);

@@ -1,4 +1,4 @@
-//! The motion once it has settled, over a few of its periods.
+//! The figure of a settled motion: a few of its periods.
 
 use crate::Asked;
 use crate::figure::{label, title, waveform};
@@ -7,13 +7,13 @@ use vibroimpact::verdict::{Settled, Verdict};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::Figure;
 
-/// Forcing periods shown of a steady motion.
+/// Approximate number of forcing periods shown.
 const SHOWN: f64 = 6.0;
 
-/// Events shown at most: at a low frequency of the force a forcing period may have thousands of millions.
+/// Maximum number of events shown. At a low frequency of the force a forcing period may have billions of events.
 const MOST_EVENTS: usize = 200_000;
 
-/// The figure of `vibro settle`: the motion once it has settled.
+/// The figure of `vibro settle`: the motion after the transient.
 #[must_use]
 pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> Figure {
     let (from, span) = steady(osc, start, settled);
@@ -22,7 +22,7 @@ pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) 
     waveform::figure(osc, from, span, &asked.units, name)
 }
 
-/// Forcing periods in which the steady motion shows itself.
+/// Number of forcing periods shown of a settled motion.
 fn shown(settled: &Settled) -> f64 {
     match &settled.verdict {
         Verdict::Periodic(cycle) => {
@@ -34,8 +34,8 @@ fn shown(settled: &Settled) -> f64 {
     }
 }
 
-/// The steady motion that the figure shows: its state after the last event of the transient, the time of that event, and how long it
-/// is shown.
+/// The part of a settled motion that the figure shows: its state after the last event of the transient, the time of
+/// that event, and the duration shown.
 #[must_use]
 pub fn steady(osc: &Oscillator, start: Start, settled: &Settled) -> (Start, (f64, f64)) {
     let (from, time) = last_event(osc, start, settled.time);
@@ -44,7 +44,7 @@ pub fn steady(osc: &Oscillator, start: Start, settled: &Settled) -> (Start, (f64
     (from, (time, last.map_or(span, |event| event.time)))
 }
 
-/// The state after the last event up to a time, and the time of that event.
+/// The state after the last event before a given time, and the time of that event.
 pub(crate) fn last_event(osc: &Oscillator, start: Start, until: f64) -> (Start, f64) {
     let (mut state, mut time) = (start, 0.0);
     for event in Motion::new(osc, start).take_while(|event| event.time <= until) {

@@ -1,4 +1,4 @@
-//! The figure of a store: that of the command which asks the same.
+//! The figure of a store, equal to that of the command for the same question.
 
 use crate::figure::plane::{Plane, PlaneAxis, varied};
 use crate::figure::{basin, diagram, map, title_without};
@@ -8,10 +8,10 @@ use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
 use vibroimpact_study::study::{StudyArrays, diagram_of, label_of};
 use vibroimpact_study::{Axis as Along, LyapunovPlan, SystemPlan, Task};
 
-/// Draws what a store holds.
+/// Draws the figure of a study.
 ///
 /// # Errors
-/// [`ReportError`] for what has no figure, and the error of the store for what cannot be read.
+/// [`ReportError`] for a study without a figure, and the error of the store if it cannot be read.
 pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(store: &A) -> Result<Figure, E> {
     let system = store.plan().system;
     match &store.plan().task {
@@ -84,7 +84,7 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     Ok(basin::draw(&plane, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
 }
 
-/// Both exponents over one axis, and the line where they would be neither.
+/// Both exponents over one axis, with the line of zero.
 fn of_exponents<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     plan: &LyapunovPlan,

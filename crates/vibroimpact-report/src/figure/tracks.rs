@@ -1,5 +1,5 @@
-//! The impacts of a branch, or its states at phase 0, as curves: each is followed from point to point, and a curve changes its look
-//! where its stability does.
+//! The impacts of a branch, or its states at phase 0, as curves. Each impact is followed from point to point, and a
+//! curve changes its look where the stability changes.
 
 use std::collections::BTreeMap;
 use vibroimpact::Oscillator;
@@ -8,7 +8,7 @@ use vibroimpact::motion::Strobes;
 use vibroimpact::orbit::{Cycle, RestSpan};
 use vibroimpact::system::phase;
 
-/// How a piece of a branch is drawn.
+/// The look of a part of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Look {
     Stable,
@@ -17,20 +17,21 @@ pub(crate) enum Look {
     Virtual,
 }
 
-/// Curves of one label and look: abscissae and ordinates, broken by `NaN`.
+/// The curves with each label and look: abscissae and ordinates, separated by `NaN`.
 pub(crate) type Curves = BTreeMap<(String, Look), (Vec<f64>, Vec<f64>)>;
 
-/// What is followed along a branch.
+/// The quantity that is followed along a branch.
 #[derive(Clone, Copy)]
 pub(crate) enum Followed<'a> {
-    /// The arrival velocity of each impact.
+    /// The speed before each impact.
     Velocity,
-    /// The position at phase 0 of the force in each of its periods; of the oscillator at a value of the parameter.
+    /// The position at phase 0 of the force in each of its periods. The function gives the oscillator at a value of the
+    /// parameter.
     Position(&'a dyn Fn(f64) -> Option<Oscillator>),
 }
 
 impl Followed<'_> {
-    /// Of each impact or state at a point two numbers that tell it from the others.
+    /// Two numbers that identify each impact or state at a point.
     fn list(self, point: &SolutionPoint) -> Vec<(f64, f64)> {
         let cycle = &point.cycle;
         let oscillator = match self {
@@ -45,7 +46,7 @@ impl Followed<'_> {
         states.map(|state| (state.v, state.x)).collect()
     }
 
-    /// The square of the distance of two of them.
+    /// The square of the distance between two of them.
     fn apart(self, a: &(f64, f64), b: &(f64, f64)) -> f64 {
         let first = match self {
             Self::Velocity => phase::difference(a.0, b.0),
@@ -54,12 +55,12 @@ impl Followed<'_> {
         first.powi(2) + (a.1 - b.1).powi(2)
     }
 
-    /// Whether the list may begin with another one at the next point.
+    /// Whether the list may begin with another impact or state at the next point.
     fn turns(self, cycle: &Cycle) -> bool {
         matches!(self, Self::Position(_)) || cycle.rests.is_empty()
     }
 
-    /// What the ordinates are at a point.
+    /// The ordinates at a point.
     pub(crate) fn ordinates(self, point: &SolutionPoint) -> Vec<f64> {
         self.list(point).into_iter().map(|(_, ordinate)| ordinate).collect()
     }
@@ -72,7 +73,7 @@ pub(crate) fn curves(points: &[SolutionPoint], what: Followed<'_>) -> Curves {
     while let Some(first) = rest.first() {
         let label = first.cycle.label;
         let other = rest.iter().position(|point| point.cycle.label != label).unwrap_or(rest.len());
-        // a cycle that rests may have other impacts under the same label
+        // a cycle with sticking may have other impacts with the same label
         let changes = |point: &SolutionPoint| {
             matches!(point.event, Some(BranchEvent::Grazing { .. } | BranchEvent::SoftLanding { .. }))
                 && !point.cycle.rests.is_empty()
@@ -87,14 +88,14 @@ pub(crate) fn curves(points: &[SolutionPoint], what: Followed<'_>) -> Curves {
     curves
 }
 
-/// The ordinate of each impact or state at all points of a run, `NaN` where it is not listed.
+/// The ordinate of each impact or state at all points of a run; `NaN` where it is not listed.
 fn tracks(run: &[SolutionPoint], what: Followed<'_>) -> Vec<Vec<f64>> {
     let mut tracks: BTreeMap<(usize, usize), Vec<f64>> = BTreeMap::new();
     let mut before: Option<Vec<(f64, f64)>> = None;
     for (n, point) in run.iter().enumerate() {
         let mut here = what.list(point);
         if what.turns(&point.cycle) {
-            // the list begins with the fastest impact, which may have become another one
+            // the list begins with the fastest impact, which may change from point to point; choose the closest shift
             let off = |shift: &usize| -> f64 {
                 let before = before.iter().flatten();
                 before.zip(here.iter().cycle().skip(*shift)).map(|(a, b)| what.apart(a, b)).sum()
@@ -116,8 +117,8 @@ fn tracks(run: &[SolutionPoint], what: Followed<'_>) -> Vec<Vec<f64>> {
     tracks.into_values().collect()
 }
 
-/// Which of its impacts is the same at another value: how many rests come before it in the list, and how many impacts since the
-/// last of these. (Of a chatter sometimes more and sometimes fewer impacts are listed.)
+/// Identifies the impacts of a cycle across values of the parameter: the number of phases of sticking before the impact
+/// in the list, and the number of impacts since the last of these. (The number of listed impacts of a chatter varies.)
 fn places(cycle: &Cycle) -> Vec<(usize, usize)> {
     let last = |rest: &RestSpan| {
         let all = cycle.points.iter().enumerate().filter(|(_, point)| point.state.side == rest.side);
@@ -134,10 +135,10 @@ fn places(cycle: &Cycle) -> Vec<(usize, usize)> {
     (0..cycle.points.len()).map(step).collect()
 }
 
-/// Phases closer than this are one.
+/// Phases closer than this are equal.
 const NOTHING: f64 = 1e-9;
 
-/// Cuts a track where its look changes; neighbours share the point between them.
+/// Divides a track where its look changes. Consecutive parts share a point.
 fn add(curves: &mut Curves, label: &str, run: &[SolutionPoint], track: &[f64]) {
     let mut last = None;
     for (k, pair) in run.windows(2).enumerate() {
@@ -153,7 +154,7 @@ fn add(curves: &mut Curves, label: &str, run: &[SolutionPoint], track: &[f64]) {
     }
 }
 
-/// How the piece between two points looks. An event lies on the edge of two looks and counts for neither.
+/// The look of the part between two points. If one of them is an event, the other one decides.
 fn between(a: &SolutionPoint, b: &SolutionPoint) -> Look {
     let point = if b.event.is_some() && a.event.is_none() { a } else { b };
     match (point.physical, point.cycle.stable()) {
@@ -170,7 +171,8 @@ mod tests {
     use vibroimpact::orbit::{FindOptions, find};
     use vibroimpact::{Label, Parameter};
 
-    /// A cycle with a rest on either stop: of each chatter an impact is the same one whatever is listed before it.
+    /// A cycle that sticks on both stops: the impacts of each chatter are identified even if the number of impacts
+    /// listed before them changes.
     #[test]
     fn the_impacts_of_a_chatter_stay_apart() {
         use vibroimpact::Side;
@@ -187,7 +189,7 @@ mod tests {
         assert!(steps.len() > 500 && steps.iter().all(|step| *step < 0.05), "{:?}", steps.len());
     }
 
-    /// Of 2/1 the faster impact is another one after a while: the curves cross and do not jump.
+    /// The faster impact of 2/1 becomes the slower one along the branch: the curves cross and do not jump.
     #[test]
     fn curves_are_continuous_and_change_their_look_at_a_flip() {
         for (inverse, gap, to, label) in [(1.11, 1.5, 2.5, (1, 1)), (1.3, 0.75, 1.2, (2, 1))] {

@@ -1,4 +1,4 @@
-//! Position over time, with the stops and the impacts.
+//! The figure of a waveform: position over time, with the stops and the impacts.
 
 use crate::Units;
 use vibroimpact::motion::{Motion, sample};
@@ -7,12 +7,12 @@ use vibroimpact_plot::{
     ClassStyle, Colour, Figure, FigureAxis, Hatch, Legend, Line, Panel, Pattern, Points, SERIES, Wall,
 };
 
-/// Samples a picture needs at most: the page is a thousand pixels wide.
+/// Maximum number of samples: a page is a thousand pixels wide.
 const MOST: f64 = 400_000.0;
-/// Impacts marked one by one; more would be a band.
+/// Maximum number of impacts with a mark each; more marks would merge into a band.
 const MARKED: usize = 5000;
 
-/// The motion from `start` for a time `until`; times in the figure begin at `from`.
+/// Draws the motion from `start` for a time `until`. Times in the figure begin at `from`.
 #[must_use]
 pub fn figure(osc: &Oscillator, start: Start, (from, until): (f64, f64), units: &Units, title: String) -> Figure {
     let fine = osc.period().min(core::f64::consts::TAU) / 240.0;
@@ -54,12 +54,12 @@ pub fn figure(osc: &Oscillator, start: Start, (from, until): (f64, f64), units: 
     Figure::new(panel).size(1000.0, 400.0).title(title).legend(legend.patch(stop_key(), "stop"))
 }
 
-/// A stop in a legend.
+/// The entry of a stop in a legend.
 pub(crate) fn stop_key() -> ClassStyle {
     ClassStyle { colour: Colour::GREY.alpha(0.12), hatch: Some(Hatch::new(Pattern::Rising, Colour::GREY)) }
 }
 
-/// A range that shows the motion and a strip of each stop it comes near.
+/// A range of positions that contains the motion and a strip of each stop near it.
 pub(crate) fn extremes(osc: &Oscillator, ys: &[f64], length: f64) -> (f64, f64) {
     let low = ys.iter().copied().fold(f64::INFINITY, f64::min);
     let high = ys.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -1,4 +1,4 @@
-//! The steady motions that scattered starts lead to, and their shares.
+//! The attractors to which scattered starts lead, and their shares.
 
 use super::Document;
 use super::motion::{MotionFields, SharedMotion};
@@ -8,7 +8,7 @@ use vibroimpact::Oscillator;
 use vibroimpact::verdict::{Census, StartBox};
 use vibroimpact_study::Plan;
 
-/// What `vibro attractors` says.
+/// The fields of `vibro attractors`.
 #[derive(Serialize)]
 struct AttractorsFields {
     motions: Vec<SharedMotion>,
@@ -18,7 +18,7 @@ struct AttractorsFields {
     area: Area,
 }
 
-/// Where the starts were.
+/// The box of the starts.
 #[derive(Serialize)]
 struct Area {
     x: (f64, f64),

@@ -7,7 +7,7 @@ use serde::Serialize;
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::{Basin, Coordinate, Plan};
 
-/// What `vibro basin` says: the axes of the starts, and the values of what is on no axis.
+/// The fields of `vibro basin`: the axes of the starts, and the values of coordinates on no axis.
 #[derive(Serialize)]
 struct BasinFields {
     x: Place,
@@ -40,7 +40,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Bas
     Document::new(asked, osc, plan, answer)
 }
 
-/// The numbers of the motions, those that most starts lead to first.
+/// The indices of the motions in order of falling numbers of starts.
 #[must_use]
 pub fn by_count(found: &Basin) -> Vec<usize> {
     let mut order: Vec<usize> = (0..found.motions.len()).collect();

@@ -1,4 +1,4 @@
-//! Branches of periodic orbits: their points, their events, and where further branches begin.
+//! Branches of periodic orbits: their points, their events, and the events at which further branches begin.
 
 use super::motion::{CyclePoint, Rest, impacts, pairs, rests, side};
 use super::{Document, Pair};
@@ -8,7 +8,7 @@ use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
 use vibroimpact_study::{Branches, Chosen, Cut, EventRecord, Followed, Plan};
 
-/// What `vibro branch` says.
+/// The fields of `vibro branch`.
 #[derive(Serialize)]
 struct BranchFields {
     label: String,
@@ -23,7 +23,7 @@ struct BranchFields {
     branches: Vec<BranchObject>,
 }
 
-/// Which of the orbits it began with.
+/// The orbit at which the branch begins.
 #[derive(Serialize)]
 pub(super) struct ChosenObject {
     number: u32,
@@ -33,7 +33,7 @@ pub(super) struct ChosenObject {
 #[derive(Serialize)]
 struct PointObject {
     parameter: f64,
-    /// Of both parameters, on a line through two.
+    /// Values of both parameters, on a line through two.
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<[f64; 2]>,
     label: String,
@@ -51,7 +51,7 @@ struct EventObject {
     parameter: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<[f64; 2]>,
-    /// Place among the points.
+    /// Index among the points.
     point: usize,
     ends: bool,
     label_before: String,
@@ -70,7 +70,7 @@ struct EventObject {
     also: Option<TouchObject>,
 }
 
-/// A touch together with that of the event.
+/// A contact that is simultaneous with that of the event.
 #[derive(Serialize)]
 struct TouchObject {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -87,16 +87,16 @@ struct BranchObject {
     events: Vec<EventObject>,
 }
 
-/// Where it begins.
+/// The event at which it begins.
 #[derive(Serialize)]
 struct OriginObject {
     kind: &'static str,
     parameter: f64,
-    /// Counted from 1, the branch of the orbit being the first.
+    /// Number of the branch of that event, counted from 1; the branch of the chosen orbit is number 1.
     branch: usize,
 }
 
-/// The object of `vibro branch`, of branches followed along this line.
+/// The object of `vibro branch`, for branches along this line.
 #[must_use]
 pub fn document<'a>(
     asked: &Asked,
@@ -160,7 +160,7 @@ impl PointObject {
     }
 }
 
-/// The values of both parameters at a point, where there are two.
+/// The values of both parameters at a point of a line through two.
 fn both(point: &SolutionPoint, cut: &Cut, units: &Units) -> Option<[f64; 2]> {
     let mut values = cut.values(point.value).map(|(parameter, value)| value * units.of(parameter));
     Some([values.next()?, values.next()?])

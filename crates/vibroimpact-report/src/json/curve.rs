@@ -1,4 +1,4 @@
-//! Curves of events in a plane of two parameters: their points, and those of codimension two.
+//! Curves of events in a plane of two parameters: their points, and their points of codimension two.
 
 use super::Document;
 use super::branch::ChosenObject;
@@ -9,16 +9,16 @@ use vibroimpact::Oscillator;
 use vibroimpact::continuation::CurvePoint;
 use vibroimpact_study::{CurvePlan, EventCurve, Plan};
 
-/// What `vibro curve` says. Pairs of values are in the order of `parameters`.
+/// The fields of `vibro curve`. Pairs of values are in the order of `parameters`.
 #[derive(Serialize)]
 struct CurveFields {
     label: String,
     kind: &'static str,
     parameters: [&'static str; 2],
     orbit: ChosenObject,
-    /// Values of the first parameter at the events of that kind on the branch.
+    /// Values of the first parameter at the events of this kind on the branch.
     found_at: Vec<f64>,
-    /// The one the curve goes through, counted from 1, and its place among the points.
+    /// The number, counted from 1, of the event through which the curve passes, and its index among the points.
     through: Through,
     points: Vec<PointObject>,
     events: Vec<EventObject>,
@@ -34,7 +34,7 @@ struct Through {
 struct PointObject {
     values: [f64; 2],
     physical: bool,
-    /// On a grazing curve with the impact of speed zero in it.
+    /// The impacts; on a grazing curve including the one of speed zero.
     cycle: Vec<CyclePoint>,
     multipliers: [[f64; 2]; 2],
 }

@@ -1,4 +1,4 @@
-//! An orbit diagram as a count of what there is.
+//! A summary of an orbit diagram: numbers of motions of each kind.
 
 use super::{Document, Pair, Range};
 use crate::Asked;
@@ -8,7 +8,7 @@ use vibroimpact::Oscillator;
 use vibroimpact_study::Plan;
 use vibroimpact_study::diagram::{Diagram, MotionKind, Sweep, SweepDirection};
 
-/// What `vibro diagram` says.
+/// The fields of `vibro diagram`.
 #[derive(Serialize)]
 struct DiagramFields {
     vary: &'static str,
@@ -29,22 +29,22 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Dia
     Document::new(asked, osc, plan, answer)
 }
 
-/// What the motions of a sweep, or of all scattered starts, turned out to be.
+/// Numbers of motions of each kind in a sweep, or in all scattered starts.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Counts {
     /// `up`, `down` or `scatter`.
     pub sweep: &'static str,
-    /// Motions followed.
+    /// Number of motions followed.
     pub motions: usize,
-    /// Those with impacts.
+    /// Number of motions with impacts.
     pub impact: usize,
-    /// Those without.
+    /// Number of motions without further impacts.
     pub none: usize,
-    /// Those at rest on a stop for ever.
+    /// Number of motions at rest on a stop for ever.
     pub stuck: usize,
-    /// Those whose search ran out of steps.
+    /// Number of motions whose search used up its steps.
     pub undecided: usize,
-    /// Points to show.
+    /// Number of points to show.
     pub points: usize,
 }
 

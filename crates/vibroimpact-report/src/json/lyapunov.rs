@@ -1,4 +1,4 @@
-//! Lyapunov exponents with their errors, dimensions, and how they were found.
+//! Lyapunov exponents with error bars, dimensions, and how they were obtained.
 
 use super::Document;
 use super::motion::{HorizonObject, MotionFields, side};
@@ -8,7 +8,7 @@ use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::Plan;
 
-/// What `vibro lyapunov` says.
+/// The fields of `vibro lyapunov`.
 #[derive(Serialize)]
 struct LyapunovFields {
     motion: MotionFields,
@@ -16,7 +16,7 @@ struct LyapunovFields {
     exponents: [Quantity; 2],
     exponents_per_period: [Quantity; 2],
     sum: Quantity,
-    /// What the sum must be.
+    /// The exact value of the sum.
     identity: Option<f64>,
     impacts_per_period: Quantity,
     dimension: Dimension,
@@ -34,7 +34,7 @@ pub fn document<'a>(
     Document::new(asked, osc, plan, LyapunovFields::new(found, osc, &asked.units)).start(start, &asked.units)
 }
 
-/// A number with its error; where it is none, why.
+/// A number with its error; if it is not finite, the reason.
 #[derive(Serialize)]
 struct Quantity {
     value: Option<f64>,
@@ -43,12 +43,12 @@ struct Quantity {
     why: Option<&'static str>,
 }
 
-/// Kaplan-Yorke dimensions; `null` where the larger exponent is not known to differ from 0.
+/// Kaplan-Yorke dimensions; `null` if the larger exponent is not known to differ from 0.
 #[derive(Serialize)]
 struct Dimension {
-    /// Of the stroboscopic section.
+    /// Dimension of the stroboscopic section.
     section: Option<Quantity>,
-    /// Of the flow in the space of position, velocity and phase.
+    /// Dimension of the flow in the space of position, velocity and phase.
     flow: Option<Quantity>,
 }
 
@@ -106,7 +106,7 @@ impl LyapunovFields {
     }
 }
 
-/// A measured number and its error times a factor.
+/// A measured number and its error, multiplied by a factor.
 #[must_use]
 pub fn scaled(of: Measured, factor: f64) -> Measured {
     Measured { value: of.value * factor, error: of.error * factor }

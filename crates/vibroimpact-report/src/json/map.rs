@@ -1,4 +1,4 @@
-//! The labels of a map and how often they occur.
+//! The labels of a map and their frequencies.
 
 use super::Range;
 use crate::PROGRAM;
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use vibroimpact_plot::{GROUPS, legend_group};
 use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, RegionMap, SystemPlan, Values};
 
-/// What `vibro map` says. A map is nondimensional whatever the units.
+/// The fields of `vibro map`. A map is nondimensional in all units.
 #[derive(Serialize)]
 struct MapFields<'a> {
     system: serde_json::Map<String, Value>,
@@ -23,12 +23,12 @@ struct MapFields<'a> {
     program: &'static str,
 }
 
-/// How often a label occurs.
+/// The frequency of a label.
 #[derive(Clone, Debug, Serialize)]
 pub struct LabelCount {
     /// The label.
     pub label: String,
-    /// Points that have such a motion.
+    /// Number of points that have a motion with this label.
     pub points: u64,
     /// Its share of all starts.
     pub share: f64,
@@ -52,13 +52,13 @@ pub fn document<'a>(plan: &'a Plan, found: &RegionMap) -> impl Serialize + use<'
     }
 }
 
-/// Points where several motions coexist.
+/// Number of points where several motions coexist.
 #[must_use]
 pub fn coexisting(found: &RegionMap) -> usize {
     found.points.iter().filter(|point| point.motions.len() > 1).count()
 }
 
-/// What is the same at all points, and what varies.
+/// The parameters with one value, and those that vary.
 fn objects(system: &SystemPlan, axes: &[Axis]) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
     let mut fixed = serde_json::Map::new();
     for parameter in Parameter::ALL {

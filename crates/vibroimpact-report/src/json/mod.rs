@@ -1,6 +1,6 @@
-//! The JSON objects, one file for each command's. Numbers that are not finite become `null`.
+//! The JSON objects, one file for each command. Numbers that are not finite are `null`.
 //!
-//! Each `document` function gives the whole object that the command of that name prints with `--json`.
+//! Each `document` function returns the whole object that the command of the same name prints with `--json`.
 
 pub mod attractors;
 pub mod basin;
@@ -21,7 +21,7 @@ use serde::Serialize;
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_study::{Cut, Plan, Span, Stretch, Values};
 
-/// The object a command prints: system, start, the command's own fields, and the plan that led to them.
+/// The object that a command prints: the system, the start, the fields of the command, and the plan.
 #[derive(Serialize)]
 pub struct Document<'a, T> {
     system: System,
@@ -35,13 +35,13 @@ pub struct Document<'a, T> {
 }
 
 impl<'a, T: Serialize> Document<'a, T> {
-    /// With the command's own fields.
+    /// An object with the fields of the command.
     #[must_use]
     pub fn new(asked: &Asked, osc: &Oscillator, plan: &'a Plan, result: T) -> Self {
         Self { system: System::new(asked, osc), start: None, result, units: asked.units.name(), plan, program: PROGRAM }
     }
 
-    /// With the start of the motion.
+    /// Adds the start of the motion.
     #[must_use]
     pub fn start(self, start: &Start, units: &Units) -> Self {
         Self {
@@ -88,7 +88,7 @@ impl System {
     fn new(asked: &Asked, osc: &Oscillator) -> Self {
         Self {
             beta: osc.beta(),
-            // as it was given, where it was
+            // exactly as given, if it was given
             inverse_beta: asked.system.inverse_beta.unwrap_or(1.0 / osc.beta()),
             gap: osc.gap(),
             restitution: osc.restitution(),
@@ -100,7 +100,7 @@ impl System {
 }
 
 impl Scales {
-    /// Of the machine, where one was given.
+    /// The physical units, if there are any.
     fn new(units: &Units) -> Option<Self> {
         let scales = units.scales?;
         Some(Self { length_m: scales.length_m, time_s: scales.time_s, velocity_m_per_s: scales.velocity_m_per_s() })
@@ -122,7 +122,7 @@ impl Range {
     }
 }
 
-/// The second parameter of a line, at both ends.
+/// The second parameter of a line, with its values at both ends.
 #[derive(Serialize)]
 struct Pair {
     parameter: &'static str,
@@ -138,7 +138,7 @@ impl Pair {
     }
 }
 
-/// A value, or the values of an axis.
+/// One value, or the values of an axis.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Place {

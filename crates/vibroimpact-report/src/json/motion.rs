@@ -1,4 +1,4 @@
-//! A motion: its label, its impacts and rests, how stable it is, and on what grounds.
+//! A motion: its label, its impacts and phases of sticking, its stability, and the grounds of the verdict.
 
 use crate::Units;
 use serde::Serialize;
@@ -9,7 +9,7 @@ use vibroimpact::orbit::Cycle;
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side};
 
-/// The name of a side of the oscillator.
+/// The name of a stop.
 #[must_use]
 pub const fn side(side: Side) -> &'static str {
     match side {
@@ -37,10 +37,10 @@ pub struct MotionFields {
     rests: Option<Vec<Rest>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     lyapunov: Option<Estimate>,
-    /// Impacts over which chaos was seen.
+    /// Number of impacts over which chaos was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     seen_impacts: Option<u64>,
-    /// Chaos that was seen before and ended.
+    /// Chaos before the motion settled.
     #[serde(skip_serializing_if = "Option::is_none")]
     chaotic_transient: Option<Transient>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -62,7 +62,7 @@ pub(super) struct CyclePoint {
     side: &'static str,
 }
 
-/// A rest of a cycle.
+/// A phase of sticking of a cycle.
 #[derive(Serialize)]
 pub(super) struct Rest {
     side: &'static str,
@@ -85,7 +85,7 @@ impl Estimate {
 
 #[derive(Serialize)]
 struct Transient {
-    /// The impact at which it had ended.
+    /// The number of the impact by which it had ended.
     impacts: u64,
     lyapunov: Estimate,
 }
@@ -100,7 +100,7 @@ struct Tried {
     lyapunov: Option<Estimate>,
 }
 
-/// How far "no more impacts" reaches and why.
+/// Why there are no more impacts, and for how many periods.
 #[derive(Serialize)]
 pub(super) struct HorizonObject {
     kind: &'static str,
@@ -134,7 +134,7 @@ impl HorizonObject {
 }
 
 impl MotionFields {
-    /// Of a verdict, in these units.
+    /// The object of a verdict, in these units.
     #[must_use]
     pub fn new(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
         let bare = Self {
@@ -195,7 +195,7 @@ impl MotionFields {
         }
     }
 
-    /// With the chaos that was seen before.
+    /// Adds the chaos that preceded the motion.
     pub(super) fn after(self, transient: Option<Chaos>, units: &Units) -> Self {
         let told = |chaos: Chaos| Transient {
             impacts: chaos.impacts,
@@ -204,14 +204,14 @@ impl MotionFields {
         Self { chaotic_transient: transient.map(told), ..self }
     }
 
-    /// Without the exponent of the verdict, beside a better one.
+    /// Removes the exponent of the verdict, for a report with a more precise one.
     pub(super) fn without_lyapunov(self) -> Self {
         Self { lyapunov: None, tried: self.tried.map(|tried| Tried { lyapunov: None, ..tried }), ..self }
     }
 
     fn periodic(cycle: &Cycle, bare: Self, units: &Units) -> Self {
         let rests = rests(cycle);
-        // the list of impacts begins at the release that ends the last rest
+        // the list of impacts begins at the release that ends the last phase of sticking
         let last = cycle.rests.last();
         Self {
             kind: "periodic",
@@ -245,7 +245,7 @@ pub(super) fn impacts(cycle: &Cycle, units: &Units) -> Vec<CyclePoint> {
         .collect()
 }
 
-/// The rests of a cycle.
+/// The phases of sticking of a cycle.
 pub(super) fn rests(cycle: &Cycle) -> Vec<Rest> {
     let rests = cycle.rests.iter();
     rests
@@ -258,7 +258,7 @@ pub(crate) fn pairs(multipliers: [Multiplier; 2]) -> [[f64; 2]; 2] {
     multipliers.map(|m| [m.re, m.im])
 }
 
-/// A motion and how many starts led to it.
+/// A motion, with the number of starts that lead to it.
 #[derive(Serialize)]
 pub(super) struct SharedMotion {
     #[serde(flatten)]

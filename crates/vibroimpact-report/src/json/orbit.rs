@@ -1,4 +1,4 @@
-//! Orbits that were looked for: motions, or solutions of the equations that are none.
+//! The orbits with a label: admissible ones and inadmissible solutions of the equations.
 
 use super::Document;
 use super::motion::{MotionFields, side};
@@ -9,7 +9,7 @@ use vibroimpact::orbit::{EarlierContact, Orbit};
 use vibroimpact::verdict::Verdict;
 use vibroimpact_study::Plan;
 
-/// What `vibro orbit` says.
+/// The fields of `vibro orbit`.
 #[derive(Serialize)]
 struct OrbitFields {
     orbits: Vec<OrbitObject>,
@@ -22,7 +22,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, orbits: &[O
     Document::new(asked, osc, plan, OrbitFields { orbits })
 }
 
-/// One of them.
+/// One orbit.
 #[derive(Serialize)]
 struct OrbitObject {
     #[serde(flatten)]
@@ -33,10 +33,10 @@ struct OrbitObject {
 
 #[derive(Serialize)]
 struct ContactObject {
-    /// Counted from 1; none where the motion has no impacts.
+    /// Number of the impact before the contact, counted from 1; none if the motion has no impacts.
     after_impact: Option<usize>,
     side: &'static str,
-    /// Since that impact, or since phase 0.
+    /// Time from that impact, or from phase 0, to the contact.
     time: f64,
 }
 

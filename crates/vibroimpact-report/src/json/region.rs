@@ -1,4 +1,4 @@
-//! Regions of existence and stability: their polygons and what bounds them.
+//! Regions of existence and stability: their polygons and the kinds of their boundaries.
 
 use super::Scales;
 use crate::{Asked, PROGRAM, Units};
@@ -6,12 +6,12 @@ use serde::Serialize;
 use vibroimpact::continuation::{Polygon, Region, Vertex};
 use vibroimpact_study::{Parameter, Plan, RegionPlan, Regions};
 
-/// What is known of the regions. Pairs of values are in the order of `parameters`.
+/// The fields of the regions. Pairs of values are in the order of `parameters`.
 #[derive(Serialize)]
 struct RegionFields {
     label: String,
     parameters: [&'static str; 2],
-    /// Nothing is lost at impacts or between them: the motion is neutrally stable wherever it exists, and stable nowhere.
+    /// Whether no energy is lost, at impacts or between them. The motion is then neutrally stable wherever it exists.
     neutrally_stable: bool,
     existence: RegionObject,
     stability: RegionObject,
@@ -20,7 +20,7 @@ struct RegionFields {
 #[derive(Serialize)]
 struct RegionObject {
     polygons: Vec<PolygonObject>,
-    /// Points where the search for orbits and the polygons do not agree.
+    /// Points of the grid where the search for orbits contradicts the polygons.
     unresolved: Vec<[f64; 2]>,
 }
 
@@ -29,11 +29,11 @@ struct PolygonObject {
     hole: bool,
     sheet: &'static str,
     vertices: Vec<[f64; 2]>,
-    /// What bounds the region from each vertex to the next.
+    /// The kind of boundary from each vertex to the next.
     bounds: Vec<&'static str>,
 }
 
-/// The object; what varies has no value in `system`.
+/// The whole object. Parameters that vary have no value in `system`.
 #[derive(Serialize)]
 struct Object<'a> {
     system: SystemObject,
@@ -118,7 +118,7 @@ pub fn unit(plan: &RegionPlan, units: &Units) -> (f64, f64) {
     (units.of(plan.across.parameter), units.of(plan.up.parameter))
 }
 
-/// Which sheet of the surface of orbits: their multipliers below +1, or one above.
+/// The sheet of the surface of orbits: "below" if both multipliers are below +1, "above" otherwise.
 pub(crate) const fn sheet(polygon: &Polygon) -> &'static str {
     if polygon.below { "below" } else { "above" }
 }

@@ -1,4 +1,4 @@
-//! What a motion settles into, and what the 1971 paper's rule says of it.
+//! A settled motion, and the verdict of the rule of the 1971 paper.
 
 use super::Document;
 use super::motion::MotionFields;
@@ -8,7 +8,7 @@ use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::Plan;
 
-/// What `vibro settle` says.
+/// The fields of `vibro settle`.
 #[derive(Serialize)]
 struct SettleFields {
     motion: MotionFields,

@@ -1,4 +1,4 @@
-//! The events of a motion, and why there are no more.
+//! The events of a motion, and the reason why the list ends.
 
 use super::Document;
 use super::motion::{HorizonObject, side};
@@ -8,7 +8,7 @@ use vibroimpact::motion::{Event, EventKind};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::{Plan, Simulated};
 
-/// What `vibro simulate` says; events are converted while they are written.
+/// The fields of `vibro simulate`. Events are converted while they are written.
 #[derive(Serialize)]
 struct Simulation<'a> {
     #[serde(serialize_with = "each_event")]

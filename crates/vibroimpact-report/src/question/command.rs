@@ -7,11 +7,13 @@ use vibroimpact_study::{
     MapPlan, Parameter, Plan, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
-/// The words of the `vibro` command that asks a plan, from `vibro` on: its flags give the very plan, in nondimensional units.
+/// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan, in
+/// nondimensional units.
 ///
-/// Refinement and the size of tiles belong to stores, so with these the results go to a store, `map.zarr` or as the task is called; and
-/// points of the sections of an attractor belong to a figure, so with these one is drawn, `attractor.svg`. `None` where no flags say it: a
-/// basin over anything but position and velocity or over a list of values, exponents over axes, and a map over a list of one value.
+/// Refinement and the size of tiles need a store, so a plan with these has the flag for a store, such as `map.zarr`.
+/// Points of the sections of an attractor need a figure, so a plan with these has the flag for `attractor.svg`. Returns
+/// `None` for plans that no flags can express: a basin over anything but position and velocity or over a list of
+/// values, exponents over axes, and a map over a list of one value.
 #[must_use]
 pub fn command(plan: &Plan) -> Option<Vec<String>> {
     let plan = plan.complete().ok()?;
@@ -39,7 +41,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
         Task::Basin(task) => (task.refine, "basin.zarr"),
         Task::Attractors { .. } => (None, "attractors.zarr"),
         Task::Diagram(_) => (None, "diagram.zarr"),
-        // no other has a store
+        // the other tasks have no store
         _ => return plan.tile.is_none().then_some(line.words),
     };
     if refine.is_some() || plan.tile.is_some() {
@@ -48,7 +50,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
     Some(line.words)
 }
 
-/// A command line that grows.
+/// A command line under construction.
 struct Line {
     words: Vec<String>,
 }
@@ -71,18 +73,18 @@ impl Line {
         }
     }
 
-    /// Without what the command takes anyway.
+    /// Adds a flag unless its value is the default.
     fn unless<T: Copy + PartialEq + ToString>(self, name: &str, value: T, usual: T) -> Self {
         if value == usual { self } else { self.flag(name, value) }
     }
 
-    /// A number that is 0 when nothing is said.
+    /// Adds a flag for a number whose default is 0.
     fn zero(self, name: &str, value: f64) -> Self {
-        // minus zero is said
+        // minus zero is a different value and is written
         if value.to_bits() == 0 { self } else { self.flag(name, number(value)) }
     }
 
-    /// The parameters of a system, with those that vary in other words, or in none.
+    /// Adds the parameters of a system. Those that vary are replaced by the given texts, or left out.
     fn system(mut self, system: &SystemPlan, varied: &[(Parameter, Option<String>)]) -> Self {
         let second = system.second_stop;
         let values = [
@@ -112,7 +114,7 @@ fn basin(system: &SystemPlan, task: &BasinPlan) -> Option<Line> {
     let [x, v] = task.axes.as_slice() else { return None };
     let plane = x.vary == Coordinate::X && v.vary == Coordinate::V;
     let (Values::Span(x), Values::Span(v)) = (&x.over, &v.over) else { return None };
-    // a value on an axis as well is another plan, though it counts for nothing
+    // a fixed value of a quantity on an axis is ignored in computations, but makes the plan a different one
     if !plane || task.start.x.is_some() || task.start.v.to_bits() != 0 {
         return None;
     }
@@ -136,12 +138,12 @@ fn map(system: &SystemPlan, task: &MapPlan) -> Option<Line> {
     Some(line.given("impacts", task.impacts))
 }
 
-/// The name of its flag, without the dashes.
+/// The name of the flag of a parameter, without the dashes.
 fn flag(parameter: Parameter) -> String {
     parameter.name().replace('_', "-")
 }
 
-/// The order of the axes, where that is not the order of the flags.
+/// The order of the axes, if it differs from the order of the flags.
 fn order<T>(varied: &[(Parameter, T)]) -> Option<String> {
     let place = |(parameter, _): &(Parameter, T)| Parameter::ALL.into_iter().position(|other| other == *parameter);
     let names = || varied.iter().map(|(parameter, _)| flag(*parameter)).collect::<Vec<_>>();
@@ -191,7 +193,7 @@ fn range(stretch: &Stretch) -> String {
     format!("{}:{}", number(stretch.from), number(stretch.to))
 }
 
-/// `gap=0:3`
+/// The text of a range, such as `gap=0:3`.
 fn over(stretch: &Stretch) -> String {
     format!("{}={}", flag(stretch.parameter), range(stretch))
 }

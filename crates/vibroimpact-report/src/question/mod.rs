@@ -1,4 +1,4 @@
-//! The same question in other words: as a command line, and as a call in Python.
+//! The same question in two other forms: as a command line, and as a call in Python.
 
 mod command;
 mod python;
@@ -8,7 +8,7 @@ pub use command::command;
 pub use python::{python, python_showing};
 pub use shell::{quoted, shell_line, shell_line_showing};
 
-/// A number that reads back as the same double, in Rust, Python and the shell.
+/// The text of a number that reads back as the same double in Rust, Python and the shell.
 fn number(x: f64) -> String {
     let text = format!("{x:?}");
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)

@@ -8,10 +8,10 @@ use vibroimpact_study::{
     Stretch, SystemPlan, Target, Task, Values,
 };
 
-/// A few lines of Python that ask a plan, in nondimensional units; `None` for a plan that makes no sense.
+/// A few lines of Python for a plan, in nondimensional units; `None` for an invalid plan.
 ///
-/// Grids are computed in memory, refined where that is asked for, and the size of tiles is left out, as no result depends on it. Exponents
-/// over axes are a study, which goes to a store, `lyapunov.zarr`.
+/// Grids are computed in memory, with refinement if the plan has it. The size of tiles is left out, because no result
+/// depends on it. Exponents over axes are a study in the store `lyapunov.zarr`.
 #[must_use]
 pub fn python(plan: &Plan) -> Option<String> {
     let plan = plan.complete().ok()?;
@@ -59,7 +59,7 @@ pub fn python(plan: &Plan) -> Option<String> {
     Some(format!("import vibroimpact as vi\n\nosc = {}\n{told}", oscillator(&plan.system)))
 }
 
-/// The same, and one view of the motion that a start settles into; of other tasks as [`python`].
+/// The same lines, and one view of the motion into which a start settles. For other tasks as [`python`].
 #[must_use]
 pub fn python_showing(plan: &Plan, view: View) -> Option<String> {
     let text = python(plan)?;
@@ -75,7 +75,7 @@ pub fn python_showing(plan: &Plan, view: View) -> Option<String> {
     Some(format!("{text}{shown}\n"))
 }
 
-/// A call whose arguments are gathered; the first is the oscillator.
+/// A call under construction; its first argument is the oscillator.
 struct Call {
     function: &'static str,
     arguments: Vec<String>,
@@ -103,13 +103,13 @@ impl Call {
         }
     }
 
-    /// Without what the function takes anyway.
+    /// Adds an argument unless its value is the default.
     fn unless<T: Copy + PartialEq + ToString>(self, name: &str, value: T, usual: T) -> Self {
         if value == usual { self } else { self.named(name, value) }
     }
 
     fn zero(self, name: &str, value: f64) -> Self {
-        // minus zero is said
+        // minus zero is a different value and is written
         if value.to_bits() == 0 { self } else { self.named(name, number(value)) }
     }
 
@@ -137,7 +137,7 @@ fn oscillator(system: &SystemPlan) -> String {
     format!("vi.Oscillator({})", given.collect::<Vec<_>>().join(", "))
 }
 
-/// A text, quoted; JSON writes it as Python reads it.
+/// A quoted text. Its JSON form is valid in Python.
 fn text(of: &str) -> String {
     serde_json::Value::from(of).to_string()
 }
@@ -166,7 +166,7 @@ fn plane(one: &Stretch, two: &Stretch) -> String {
     mapping([range(one), range(two)].into_iter())
 }
 
-/// Coordinates of the start by name where they come first and in their order, which is how the function orders them.
+/// Coordinates of the start are named arguments if they come first and in the order of the function.
 fn basin(task: &BasinPlan) -> Call {
     let place = |axis: &Axis| [Coordinate::X, Coordinate::V, Coordinate::Phase].iter().position(|c| *c == axis.vary);
     let by_name = task.axes.iter().take_while(|axis| place(axis).is_some()).count();
@@ -183,7 +183,7 @@ fn basin(task: &BasinPlan) -> Call {
     }
     let varies = |coordinate| task.axes.iter().any(|axis| axis.vary == coordinate);
     let start = &task.start;
-    // a value of what is on an axis counts for nothing
+    // a fixed value of a quantity on an axis is ignored
     let call = call.given("x", start.x.filter(|_| !varies(Coordinate::X)).map(number));
     let call = if varies(Coordinate::V) { call } else { call.zero("v", start.v) };
     let call = if varies(Coordinate::Phase) { call } else { call.zero("phase", start.phase) };
@@ -220,7 +220,7 @@ fn lyapunov(task: &LyapunovPlan) -> Call {
 mod tests {
     use super::*;
 
-    /// The lines after the import, for a task of S.
+    /// The lines after the import, for a task with the system at S.
     fn lines(task: &str) -> String {
         let system = r#"{"inverse_beta":1.3,"gap":0.75,"restitution":0.5,"second_stop":{"gap":2.0,"restitution":0.4}}"#;
         let plan: Plan = serde_json::from_str(&format!(r#"{{"version":1,"system":{system},"task":{task}}}"#)).unwrap();

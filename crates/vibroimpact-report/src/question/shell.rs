@@ -1,10 +1,10 @@
-//! A command line as one types it.
+//! A command line as typed in a shell.
 
 use super::command;
 use crate::scene::View;
 use vibroimpact_study::{Plan, Study, Task};
 
-/// A word that a shell takes as it is.
+/// A word in the form in which a shell reads it unchanged.
 #[must_use]
 pub fn quoted(word: &str) -> String {
     let plain = |b: u8| b.is_ascii_alphanumeric() || b"/._-+:=@%,".contains(&b);
@@ -15,8 +15,8 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
-/// What to type for a plan: its [`command`], or, for a study that no flags say, its plan into a file and `vibro run`. `None` for tiles of what
-/// is no study, and for a plan that makes no sense.
+/// The command line for a plan: its [`command`] or, for a study that no flags can express, lines that write the plan
+/// into a file and call `vibro run`. `None` for a size of tiles in a task without a grid, and for an invalid plan.
 #[must_use]
 pub fn shell_line(plan: &Plan) -> Option<String> {
     if let Some(words) = command(plan) {
@@ -26,7 +26,7 @@ pub fn shell_line(plan: &Plan) -> Option<String> {
     Some(format!("echo {} > plan.json && vibro run plan.json", quoted(&text)))
 }
 
-/// The same, drawing one view of the motion that a start settles into; of other tasks as [`shell_line`].
+/// The same, with a figure of one view of the motion into which a start settles. For other tasks as [`shell_line`].
 #[must_use]
 pub fn shell_line_showing(plan: &Plan, view: View) -> Option<String> {
     let line = shell_line(plan)?;

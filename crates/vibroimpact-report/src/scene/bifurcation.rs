@@ -1,4 +1,5 @@
-//! The bifurcation diagram along a line through one or two parameters: the branches of several labels over what simulation finds.
+//! The bifurcation diagram along a line through one or two parameters: the branches of several labels over the orbit
+//! diagram from simulation.
 
 use crate::figure::branch::figure;
 use crate::{AnswerError, Asked};
@@ -10,27 +11,28 @@ use vibroimpact_study::{
     BranchPlan, Control, DiagramPlan, Followed, Plan, Results, RunError, Span, Stopped, Target, Task, run, tiles,
 };
 
-/// Values at which orbits of a label are looked for.
+/// Number of values at which orbits of a label are searched.
 const LOOKS: u32 = 25;
-/// Further branches from each orbit at most.
+/// Maximum number of further branches from each orbit.
 const FOLLOW: u32 = 3;
-/// Points of each branch at most.
+/// Maximum number of points of each branch.
 const POINTS: u32 = 3_000;
-/// Starts at each value to see which labels there are.
+/// Number of starts at each value, to find the labels that occur.
 const STARTS: u64 = 4;
-/// Which sequence of them.
+/// Seed of the sequence of starts.
 const SEED: u64 = 1;
-/// Values closer than this part of the range to a branch are on it.
+/// A value belongs to a branch if it is closer to it than this fraction of the range.
 const NEAR: f64 = 1e-9;
 
-/// The impact velocities, or positions at phase 0, that a diagram's plan asks for, and over them the branches of these labels, stable solid and unstable
-/// dashed: from each orbit found on a grid of values, both ways to the ends of the range, through their events; and of the branches
-/// that begin at their flips and branch points those that come to one of these labels.
+/// The branches of some labels over the orbit diagram of a plan, which also determines whether impact velocities or
+/// positions at phase 0 are shown. Stable orbits are solid and unstable ones dashed. Each orbit found on a grid of
+/// values is followed in both directions to the ends of the range, through its events. Of the branches that begin at
+/// flips and branch points, those that reach one of the labels are drawn too.
 ///
-/// What neither a value of the grid nor such an event leads to is missed.
+/// Orbits to which neither a value of the grid nor such an event leads are missed.
 ///
 /// # Errors
-/// [`AnswerError`] for a plan or label that makes no sense, or when stopped.
+/// [`AnswerError`] for an invalid plan or label, or when stopped.
 pub fn bifurcation(
     asked: &Asked,
     plan: &DiagramPlan,
@@ -48,7 +50,7 @@ pub fn bifurcation(
     Ok(figure(&followed, &plan.cut(), behind.as_ref(), false, asked)?)
 }
 
-/// Adds the branches of a label, unless one that is there passes through its orbit.
+/// Adds the branches of a label, unless an existing branch passes through its orbit.
 fn follow(
     asked: &Asked,
     plan: &DiagramPlan,
@@ -76,7 +78,7 @@ fn follow(
                 Ok(Results::Branch(found)) => followed.extend(found.followed),
                 Ok(_) => {}
                 Err(RunError::Stopped(stopped)) => return Err(stopped.into()),
-                // no orbit there is no fault: the label exists along a part of the line
+                // an absent orbit is no error: the label exists only on a part of the line
                 Err(RunError::Plan(_)) => {}
             }
         }
@@ -84,7 +86,7 @@ fn follow(
     Ok(())
 }
 
-/// Whether a branch has a cycle of this label at a value.
+/// Whether a branch has a cycle with this label at a value.
 fn passes(branch: &Followed, label: Label, value: f64, near: f64) -> bool {
     let points = branch.points.windows(2);
     points.filter(|pair| pair[0].cycle.label == label && pair[1].cycle.label == label).any(|pair| {
@@ -93,10 +95,11 @@ fn passes(branch: &Followed, label: Label, value: f64, near: f64) -> bool {
     })
 }
 
-/// The labels of the cycles along a diagram's line, those that most starts lead to first: at `count` values, from a few starts each.
+/// The labels of the cycles along the line of a diagram, those of most starts first. At `count` values a few starts are
+/// settled.
 ///
 /// # Errors
-/// [`AnswerError`] for a plan that makes no sense, or when stopped.
+/// [`AnswerError`] for an invalid plan, or when stopped.
 pub fn labels(
     asked: &Asked,
     plan: &DiagramPlan,
@@ -121,7 +124,7 @@ pub fn labels(
     let mut counts: BTreeMap<String, u64> = BTreeMap::new();
     for census in found.into_iter().flatten() {
         for motion in census?.motions() {
-            // what has no impacts, or infinitely many, is no branch of impacts
+            // motions without impacts, or with infinitely many, have no branch of impacts
             if let Verdict::Periodic(cycle) = &motion.verdict
                 && matches!(cycle.label.impacts, Count::Finite(1..))
             {
@@ -156,7 +159,7 @@ mod tests {
         for word in ["1/1", "2/2", "1/2", ">stable<", ">unstable<", ">flip<", ">simulation<"] {
             assert!(svg.contains(word), "{word}");
         }
-        // over a line through two parameters 1/1 doubles where the line crosses its curve of flips
+        // along a line through two parameters, 1/1 flips where the line crosses its curve of flips
         let also = Stretch { parameter: Parameter::InverseBeta, from: 1.05, to: 1.12 };
         let line = DiagramPlan { also: Some(also), ..plan };
         let found = labels(&asked, &line, 8, &control).unwrap();
@@ -165,12 +168,12 @@ mod tests {
         for word in [">flip<", "with", "1.05 to 1.12"] {
             assert!(svg.contains(word), "{word}");
         }
-        // positions once a period where these are asked for: 1/1 has one, which lies between the stop and the lowest position
+        // positions once in a period, if requested: 1/1 has one, which lies between the stop and the lowest position
         let strobes = DiagramPlan { show: Show::Strobe, ..plan };
         let figure = bifurcation(&asked, &strobes, &["1/1".into()], &control).unwrap();
         let svg = figure.to_svg();
         assert!(svg.contains("at phase 0") && !svg.contains("arrival velocity"), "{svg}");
-        // of the stable part, which simulation finds too
+        // the ordinates of the stable part, which simulation finds too
         let ordinates = |figure: &Figure| -> Vec<f64> {
             let lines = figure.panels[0].marks.iter().filter_map(|mark| match mark {
                 Mark::Line(line) if line.stroke.dash == Dash::Solid => Some(line),

@@ -1,4 +1,5 @@
-//! Pictures of a settled motion and of branches along a line, beside the figures of the commands. Each has a size of its own; [`Figure::size`] gives it another.
+//! Figures of a settled motion, and of branches along a line, in addition to those of the commands. Each has a default
+//! size, which [`Figure::size`] changes.
 //!
 //! [`Figure::size`]: vibroimpact_plot::Figure::size
 

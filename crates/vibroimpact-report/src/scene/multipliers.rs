@@ -1,16 +1,16 @@
-//! The Floquet multipliers of a cycle in the complex plane: stable within the unit circle.
+//! The Floquet multipliers of a cycle in the complex plane. A cycle is stable if they lie within the unit circle.
 
 use crate::number::short;
 use core::f64::consts::TAU;
 use vibroimpact::math::Multiplier;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, HLine, Legend, Line, Panel, Points, SERIES, Stroke, Tick, VLine};
 
-/// Points of the circle.
+/// Number of points of the circle.
 const CORNERS: u32 = 360;
-/// Width, and the height that makes the frame a square beside the numbers and words around it.
+/// Width, and the height with which the frame is a square.
 const SIZE: (f64, f64) = (480.0, 502.0);
 
-/// The unit circle and both multipliers, at a scale that shows all of it.
+/// Draws the unit circle and both multipliers, at a scale that shows all of them.
 #[must_use]
 pub fn multipliers(both: &[Multiplier; 2]) -> Figure {
     let largest = both.iter().map(|m| m.modulus()).filter(|r| r.is_finite()).fold(1.0, f64::max);
@@ -40,7 +40,7 @@ pub fn multipliers(both: &[Multiplier; 2]) -> Figure {
     Figure::new(panel).size(SIZE.0, SIZE.1).title(said(both)).legend(legend)
 }
 
-/// `*μ* = −0.31, −0.013` or `*μ* = 0.2 ± 0.46 i`.
+/// The text of the multipliers: `*μ* = −0.31, −0.013` or `*μ* = 0.2 ± 0.46 i`.
 fn said([a, b]: &[Multiplier; 2]) -> String {
     let text = if a.im == 0.0 {
         format!("*μ* = {}, {}", short(a.re), short(b.re))
@@ -50,10 +50,10 @@ fn said([a, b]: &[Multiplier; 2]) -> String {
     text.replace('-', "−")
 }
 
-/// The largest of 1, 2, 5, 10, 20 ... that is not above `largest`, which is at least 1.
+/// The largest of 1, 2, 5, 10, 20 ... that is at most `largest`, which is at least 1.
 fn tick(largest: f64) -> f64 {
     let mut decade = 1.0;
-    // doubles end after 308
+    // the largest double is below 10^309
     for _ in 0..308 {
         if 10.0 * decade > largest {
             break;

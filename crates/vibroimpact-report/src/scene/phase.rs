@@ -8,14 +8,14 @@ use vibroimpact::motion::{Sample, sample};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Wall};
 
-/// Samples at most.
+/// Maximum number of samples.
 const MOST: usize = 200_000;
-/// Impacts marked one by one; more would be a band.
+/// Maximum number of impacts with a mark each; more marks would merge into a band.
 const MARKED: usize = 120;
-/// Up to this number of impacts thick curves stay distinguishable.
+/// Maximum number of impacts for which thick curves can be distinguished.
 const CLEAR: usize = 30;
 
-/// The motion from `start` between two times, `from < until`.
+/// Draws the motion from `start` between two times, `from < until`.
 #[must_use]
 pub fn phase_portrait(asked: &Asked, osc: &Oscillator, start: Start, (from, until): (f64, f64)) -> Figure {
     let units = &asked.units;
@@ -87,7 +87,8 @@ mod tests {
     use vibroimpact_plot::Mark;
     use vibroimpact_study::SystemPlan;
 
-    /// Every impact is a dashed jump on the stop, from a velocity to -eps times it; the curve itself never leaves the room.
+    /// Every impact is a dashed jump on the stop, from a velocity to -eps times it. The curve itself never passes a
+    /// stop.
     #[test]
     fn an_impact_is_a_jump_on_the_stop() {
         let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, ..SystemPlan::default() };

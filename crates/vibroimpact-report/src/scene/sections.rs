@@ -1,14 +1,15 @@
-//! Both sections of the motion that a start has settled into: a few dots of a cycle, a cloud of chaos.
+//! Both sections of the settled motion of a start: a few dots for a cycle, a cloud for chaos.
 
 use crate::figure::settle::last_event;
 use vibroimpact::chaos::Section;
 use vibroimpact::verdict::Settled;
 use vibroimpact::{Oscillator, Start, chaos};
 
-/// Impacts and forcing periods that pass beforehand, after it has settled: what is left of the transient is not seen.
+/// Number of impacts and forcing periods after the motion has settled and before the points, so that the rest of the
+/// transient is not visible.
 const TRANSIENT: u64 = 200;
 
-/// So many impacts and states at phase 0 of the settled motion; dots on one another are one.
+/// The section with `points` impacts and states at phase 0 of the settled motion.
 pub(super) fn sections(osc: &Oscillator, start: Start, settled: &Settled, points: u64) -> Section {
     let (from, _) = last_event(osc, start, settled.time);
     chaos::section(osc, from, TRANSIENT, points)

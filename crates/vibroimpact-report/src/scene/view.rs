@@ -1,5 +1,5 @@
-//! What can be shown of a settled motion: over time, in the phase plane, by its multipliers, in both sections. Each has a figure and
-//! the table of what is in it.
+//! The views of a settled motion: over time, in the phase plane, by its multipliers, and in both sections. Each has a
+//! figure and a table of the same data.
 
 use super::sections::sections;
 use super::{multipliers, phase_portrait};
@@ -14,10 +14,10 @@ use vibroimpact::verdict::Settled;
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_plot::Figure;
 
-/// Impacts and states of a section.
+/// Number of impacts and states of a section.
 pub const SECTION_POINTS: u64 = 2000;
 
-/// What is shown of a settled motion.
+/// A view of a settled motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum View {
@@ -33,7 +33,7 @@ pub enum View {
 }
 
 impl View {
-    /// All of them.
+    /// All views.
     pub const ALL: [Self; 4] = [Self::Waveform, Self::Phase, Self::Multipliers, Self::Sections];
 
     /// Its name in commands and requests.
@@ -48,7 +48,7 @@ impl View {
     }
 }
 
-/// A settled motion in one view, with what is only computed for it.
+/// A settled motion in one view, with the data computed for this view.
 pub struct Viewed<'a> {
     view: View,
     osc: &'a Oscillator,
@@ -60,10 +60,10 @@ pub struct Viewed<'a> {
 }
 
 impl<'a> Viewed<'a> {
-    /// The motion that `start` settled into.
+    /// The view of the motion into which `start` settled.
     ///
     /// # Errors
-    /// [`ReportError::NoMultipliers`] for the multipliers of a motion that has none.
+    /// [`ReportError::NoMultipliers`] for the multipliers of a motion without any.
     pub fn new(
         view: View,
         (osc, start): (&'a Oscillator, Start),
@@ -96,7 +96,7 @@ impl<'a> Viewed<'a> {
         }
     }
 
-    /// The table of what is in the figure.
+    /// The table of the data in the figure.
     ///
     /// # Errors
     /// [`ReportError::Points`] for a waveform that is too long.

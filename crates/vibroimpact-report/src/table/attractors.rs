@@ -1,11 +1,11 @@
-//! The motions that many starts lead to: one row each, the most frequent first.
+//! The attractors: one row for each, the most frequent first.
 
 use super::Table;
 use crate::number::Number;
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::Census;
 
-/// Label, share and number of the starts, and real and imaginary part of both multipliers where the motion has them.
+/// Label, share and number of the starts, and real and imaginary part of both multipliers if the motion has any.
 #[must_use]
 pub fn table(found: &Census, osc: &Oscillator) -> Table<'static> {
     let row = |motion: &&vibroimpact::verdict::CountedMotion| {

@@ -1,4 +1,4 @@
-//! A basin: one row a start, in the order of the cells.
+//! A basin: one row for each start, in the order of the cells.
 
 use super::Table;
 use crate::Units;
@@ -7,10 +7,11 @@ use crate::number::Number;
 use crate::units::shown;
 use vibroimpact_study::{Basin, PlanError};
 
-/// The table of `vibro basin`: what varies, in the units and with the very numbers of the question, and the label.
+/// The table of `vibro basin`: the quantities that vary, in the units and with exactly the numbers of the question, and
+/// the label.
 ///
 /// # Errors
-/// [`PlanError`] where the values of an axis leave the range of numbers in these units.
+/// [`PlanError`] if a value of an axis overflows in these units.
 pub fn table<'a>(found: &'a Basin, units: &Units) -> Result<Table<'a>, PlanError> {
     let axes = &found.plan.axes;
     let names: Vec<&str> = axes.iter().map(|axis| axis.vary.name()).collect();

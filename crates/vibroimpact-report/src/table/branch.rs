@@ -1,4 +1,4 @@
-//! Branches of periodic orbits: one row a point.
+//! Branches of periodic orbits: one row for each point.
 
 use super::Table;
 use crate::Units;
@@ -19,7 +19,7 @@ fn columns(cut: &Cut) -> String {
     format!("branch,{},label,physical,stable,event,re_1,im_1,re_2,im_2,phases,velocities", names.join(","))
 }
 
-/// One row a point; phases and velocities are lists with blanks between.
+/// One row for each point. Phases and velocities are lists separated by blanks.
 fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<Item = String> + 'a {
     found.followed.iter().enumerate().flat_map(move |(k, branch)| {
         branch.points.iter().map(move |point| {
@@ -37,13 +37,13 @@ fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<It
     })
 }
 
-/// The parameters at a place of a line, in the units of the results.
+/// The parameters at a point of a line, in the units of the results.
 pub(super) fn values(cut: &Cut, value: f64, units: &Units) -> String {
     let cell = |(parameter, value)| Number(value * units.of(parameter)).to_string();
     cut.values(value).map(cell).collect::<Vec<_>>().join(",")
 }
 
-/// A number, or an empty cell where there is none.
+/// The text of a number; empty for a number that is not finite.
 fn finite(x: f64) -> String {
     if x.is_finite() { Number(x).to_string() } else { String::new() }
 }

@@ -1,4 +1,4 @@
-//! Curves of events in a plane of two parameters: one row a point.
+//! Curves of events in a plane of two parameters: one row for each point.
 
 use super::Table;
 use super::branch::cells;
@@ -19,7 +19,7 @@ fn columns(plan: &CurvePlan) -> String {
     format!("{p},{q},physical,event,re_1,im_1,re_2,im_2,phases,velocities")
 }
 
-/// One row a point, from one end to the other.
+/// One row for each point, from one end to the other.
 fn rows<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -> impl Iterator<Item = String> + 'a {
     found.points.iter().map(move |point| {
         let [p, q] = values(point, plan, units);

@@ -1,4 +1,4 @@
-//! An orbit diagram: one row a point.
+//! An orbit diagram: one row for each point.
 
 use super::Table;
 use crate::Units;
@@ -11,7 +11,7 @@ use vibroimpact_study::{Parameter, PlanError, Span};
 /// The table of `vibro diagram`.
 ///
 /// # Errors
-/// [`PlanError`] where the values of the parameter leave the range of numbers in these units.
+/// [`PlanError`] if a value of the parameter overflows in these units.
 pub fn table(found: &Diagram, units: Units) -> Result<Table<'_>, PlanError> {
     let over = shown_span(&found.plan.over, units.of(found.plan.vary))?;
     Ok(Table::new(columns(found).join(","), rows(found, over, units)))
@@ -27,15 +27,15 @@ pub fn columns(found: &Diagram) -> Vec<&'static str> {
     found.plan.cut().parameters().map(Parameter::name).chain(shown.iter().copied()).collect()
 }
 
-/// One row a point; one row with empty places for a motion that has none to show. Values of the parameter are the very
-/// numbers of the question.
+/// One row for each point; a motion without points has one row with empty cells. Values of the parameter are exactly
+/// the numbers of the question.
 fn rows(found: &Diagram, over: Span, units: Units) -> impl Iterator<Item = String> + '_ {
     let none = match found.plan.show {
         Show::Velocity => ",,",
         Show::Strobe => ",",
     };
     found.steps.iter().flat_map(move |step| {
-        // that of the first parameter as it was given
+        // the value of the second parameter, without rounding by a conversion of the first
         let also = found.plan.values(step.index).nth(1);
         let also = also.map_or_else(String::new, |(p, value)| format!(",{}", Number(value * units.of(p))));
         let head = format!("{}{also},{}", Number(over.at(step.index)), sweep(step.sweep));

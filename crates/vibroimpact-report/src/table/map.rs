@@ -1,10 +1,10 @@
-//! A map: one row a motion at a point.
+//! A map: one row for each motion at each point.
 
 use super::Table;
 use crate::number::Number;
 use vibroimpact_study::RegionMap;
 
-/// The table of `vibro map`: what varies, the label, and its share of the starts.
+/// The table of `vibro map`: the quantities that vary, the label, and its share of the starts.
 #[must_use]
 pub fn table(found: &RegionMap) -> Table<'_> {
     let names: Vec<&str> = found.plan.axes.iter().map(|axis| axis.vary.name()).collect();

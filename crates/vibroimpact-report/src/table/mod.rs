@@ -1,4 +1,5 @@
-//! Tables: a header, commas, a line feed after each row; numbers in the shortest form that reads back as the same double.
+//! Tables with a header, commas, and a line feed after each row. Numbers have the shortest form that reads back as the
+//! same double.
 
 pub mod attractors;
 pub mod basin;
@@ -13,23 +14,23 @@ pub mod waveform;
 use core::fmt;
 use std::io::{self, Write};
 
-/// A table that is made row by row.
+/// A table whose rows are made one by one.
 pub struct Table<'a> {
-    /// Names of the columns, commas between.
+    /// The names of the columns, separated by commas.
     pub header: String,
-    /// The rows, commas between the cells of each.
+    /// The rows, with cells separated by commas.
     pub rows: Box<dyn Iterator<Item = String> + 'a>,
 }
 
 impl<'a> Table<'a> {
-    /// The same with its rows in memory, where what they are made from does not last.
+    /// The same table with its rows in memory, for data that are dropped before the table.
     #[must_use]
     pub fn kept(self) -> Table<'static> {
         let rows: Vec<String> = self.rows.collect();
         Table { header: self.header, rows: Box::new(rows.into_iter()) }
     }
 
-    /// Of a header and rows.
+    /// A table with a header and rows.
     #[must_use]
     pub fn new(header: String, rows: impl Iterator<Item = String> + 'a) -> Self {
         Self { header, rows: Box::new(rows) }
@@ -38,7 +39,7 @@ impl<'a> Table<'a> {
     /// Writes the header and all rows.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// The errors of `out`.
     pub fn write(self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{}", self.header)?;
         for row in self.rows {

@@ -1,4 +1,4 @@
-//! Regions of existence and stability: one row a vertex.
+//! Regions of existence and stability: one row for each vertex.
 
 use super::Table;
 use crate::Units;
@@ -24,7 +24,7 @@ fn columns(plan: &RegionPlan) -> String {
     format!("region,polygon,hole,sheet,{},{},bound", plan.across.parameter.name(), plan.up.parameter.name())
 }
 
-/// One row a vertex.
+/// One row for each vertex.
 fn rows<'a>(found: &'a Regions, plan: &RegionPlan, units: &Units) -> impl Iterator<Item = String> + 'a {
     let (x, y) = unit(plan, units);
     both(found).into_iter().flat_map(move |(name, region)| {

@@ -1,4 +1,4 @@
-//! Both sections of an attractor: one row a point.
+//! Both sections of an attractor: one row for each point.
 
 use super::Table;
 use crate::Units;
@@ -16,7 +16,7 @@ pub fn table<'a>(points: &'a Section, osc: &'a Oscillator, units: Units) -> Tabl
 /// The columns of the table of both sections.
 const COLUMNS: &str = "section,side,phase,x,v";
 
-/// One row a point, the impacts first.
+/// One row for each point, the impacts first.
 fn rows<'a>(points: &'a Section, osc: &'a Oscillator, units: Units) -> impl Iterator<Item = String> + 'a {
     let state = move |phase, x: f64, v: f64| {
         format!("{},{},{}", Number(phase), Number(x * units.length()), Number(v * units.velocity()))

@@ -1,4 +1,4 @@
-//! A motion over time: one row a point.
+//! A motion over time: one row for each point.
 
 use super::Table;
 use crate::figure;
@@ -8,10 +8,10 @@ use vibroimpact::motion::sample;
 use vibroimpact::verdict::Settled;
 use vibroimpact::{Oscillator, Start};
 
-/// Points of a waveform at most.
+/// Maximum number of points of a waveform.
 const MOST_POINTS: f64 = 1e7;
 
-/// The table of `vibro simulate`: the motion from a start until a time, a step apart, and at its events.
+/// The table of `vibro simulate`: the motion from a start until a time, at equal steps and at its events.
 ///
 /// # Errors
 /// [`ReportError::Points`] for more than ten million points.
@@ -37,7 +37,8 @@ pub fn table(
     Ok(Table::new("t,x,v".to_owned(), rows))
 }
 
-/// The table of `vibro settle`: the steady motion from its last event before it was recognised, for as long as the figure shows it.
+/// The table of `vibro settle`: the settled motion, from its last event before it was recognised, for the duration
+/// shown in the figure.
 ///
 /// # Errors
 /// [`ReportError::Points`] for more than ten million points.

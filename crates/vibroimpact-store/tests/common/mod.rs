@@ -1,4 +1,4 @@
-//! What the tests of stores share.
+//! Common parts of the tests of stores.
 
 #![allow(clippy::unwrap_used, unreachable_pub)]
 
@@ -31,7 +31,7 @@ pub fn open(folder: &Path, plan: &Plan) -> Store {
     Store::create(Arc::new(Folder::new(folder)), plan).unwrap()
 }
 
-/// Runs with that many threads.
+/// A control with this number of threads.
 pub fn control(threads: usize) -> Control<'static> {
     Control { threads, ..Control::default() }
 }
@@ -53,7 +53,7 @@ pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     found
 }
 
-/// The store of a plan computed by one thread without a break.
+/// The store of a plan, computed by one thread without interruption.
 pub fn whole(plan: &Plan) -> (tempfile::TempDir, BTreeMap<String, Vec<u8>>) {
     let folder = tempfile::tempdir().unwrap();
     let store = open(folder.path(), plan);

@@ -1,4 +1,4 @@
-//! Which motion each start of a plane leads to.
+//! The motion to which each start of a plane leads.
 
 mod plan;
 
@@ -8,14 +8,14 @@ use crate::axis;
 use vibroimpact::verdict::CountedMotion;
 use vibroimpact::{Oscillator, Start};
 
-/// The motions of a basin and, for every start, which of them it leads to.
+/// The result of a basin: the motions, and for each start the motion to which it leads.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basin {
-    /// The starts.
+    /// The plan of the starts.
     pub plan: BasinPlan,
-    /// The motions, in order of first appearance.
+    /// The motions, in the order of their first start.
     pub motions: Vec<CountedMotion>,
-    /// The motion of each start as an index into `motions`, the first axis running fastest.
+    /// The motion of each start as an index into `motions`; the first axis varies fastest.
     pub cells: Vec<u16>,
 }
 
@@ -47,12 +47,12 @@ pub fn start(osc: &Oscillator, plan: &BasinPlan, k: u64) -> Start {
     start_at(osc, plan, |k| place[k])
 }
 
-/// The start at a point of the axes, of the oscillator there.
+/// The start at a point of the axes, given the oscillator at that point.
 pub(crate) fn start_at(osc: &Oscillator, plan: &BasinPlan, place: impl Fn(usize) -> usize) -> Start {
     let given = axis::start_at(&plan.start, &plan.axes, place);
     let (lowest, highest) = Start::room(osc);
     Start {
-        // the ends are within the stops; rounding in between must not leave them
+        // the ends of an axis lie within the stops; the clamp keeps rounded values between them within the stops too
         x: given.x.unwrap_or_else(|| Start::at_rest(osc).x).clamp(lowest, highest),
         v: given.v,
         phase: vibroimpact::system::phase::wrap(given.phase),

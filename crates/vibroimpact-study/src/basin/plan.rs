@@ -1,4 +1,4 @@
-//! What a basin asks: over which starts, and of which systems.
+//! The plan of a basin: the starts and the systems.
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::map::{check_impacts, check_refine};
@@ -25,7 +25,7 @@ pub struct BasinPlan {
     pub impacts: Option<u32>,
 }
 
-/// Most axes.
+/// Maximum number of axes.
 const MOST_AXES: usize = 4;
 
 impl BasinPlan {
@@ -36,11 +36,11 @@ impl BasinPlan {
         Self { axes, start: StartPlan { phase, ..StartPlan::default() }, refine: None, impacts: None }
     }
 
-    /// Checks everything that can be checked without running it.
+    /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense: axes that are none, a start beyond a stop, or a corner
-    /// that is no legal system.
+    /// [`PlanError`] names the first invalid value: invalid axes, a start beyond a stop, or a corner that is no valid
+    /// system.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let allowed = (|_| true) as fn(Coordinate) -> bool;
         axis::check("basin", &self.axes, (1, MOST_AXES), (allowed, "anything"))?;
@@ -56,19 +56,19 @@ impl BasinPlan {
         Ok(())
     }
 
-    /// How far each start is followed.
+    /// The options with which each start is followed.
     #[must_use]
     pub fn options(&self) -> SettleOptions {
         self.impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
     }
 
-    /// Starts in all.
+    /// Total number of starts.
     #[must_use]
     pub fn starts(&self) -> u64 {
         axis::points(&self.axes)
     }
 
-    /// Whether all starts are of one system.
+    /// Whether all starts belong to one system, that is, no axis varies a parameter.
     #[must_use]
     pub fn one_system(&self) -> bool {
         self.axes.iter().all(|axis| axis.vary.is_start())
@@ -92,7 +92,7 @@ mod tests {
         for (plan, sentence) in [
             (BasinPlan::plane(span("-3:0.8:4"), span("-1:1:3"), 0.0), "start x = 0.8 lies beyond the stop"),
             (BasinPlan::plane(span("-3:0.75:4"), span("-1:1:3"), f64::NAN), "start phase = NaN"),
-            // with the smallest gap the largest position is beyond the stop
+            // with the smallest gap the largest position lies beyond the stop
             (with(Axis::parameter(Parameter::Gap, span("0.5:2:3"))), "start x = 0.75 lies beyond the stop"),
             (with(Axis::new(Coordinate::X, span("0:0.5:2"))), "x and x do not span a plane"),
             (

@@ -1,19 +1,19 @@
-//! What following one motion gives: the points to show, of what kind they are, and where it was left.
+//! The result of following one motion: its kind, the points to show and its last state.
 
 use vibroimpact::verdict::SettleOptions;
 use vibroimpact::{Oscillator, Side, Start};
 
-/// What the motion at one value turned out to be, after the transient.
+/// The kind of the motion at one value after the transient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionKind {
-    /// It strikes.
+    /// The motion has impacts.
     Impacts,
-    /// It strikes no more: for ever, for as long as was searched (a thousand periods at least), or, in a stroboscopic
-    /// diagram, in the periods shown.
+    /// There are no more impacts: for ever, for at least a thousand periods, or, in a stroboscopic diagram, within the
+    /// periods shown.
     NoImpact,
-    /// At rest on a stop for ever.
+    /// The mass rests on a stop for ever.
     Stuck,
-    /// It was not followed to the end: the budget of search steps ran out.
+    /// Undecided: the budget of search steps was used up.
     Undecided,
 }
 
@@ -24,16 +24,17 @@ pub enum DiagramPoint {
     Impact {
         /// Phase of the force.
         phase: f64,
-        /// Speed of arrival.
+        /// Speed before the impact.
         velocity: f64,
-        /// Which stop.
+        /// The stop that is hit.
         side: Side,
     },
-    /// The end of a complete chatter: infinitely many impacts, ever slower, lie between the last impact and this.
+    /// The end of a complete chatter: infinitely many impacts of decreasing speed lie between the last impact and this
+    /// point.
     Chatter {
         /// Phase of the force.
         phase: f64,
-        /// Which stop.
+        /// The stop.
         side: Side,
     },
     /// The state at phase 0 of the force.
@@ -45,26 +46,28 @@ pub enum DiagramPoint {
     },
 }
 
-/// A motion followed.
+/// A motion after its transient.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct AfterTransient {
     pub(super) kind: MotionKind,
     pub(super) points: Vec<DiagramPoint>,
-    /// Its state at the end.
+    /// The last state.
     pub(super) last: Start,
 }
 
-/// Two points closer than this (phases in radians, speeds relative to themselves, states to their size) are one point
-/// come back: far above what rounding does to a cycle, far below what an eye sees.
+/// Two points closer than this (phases in radians, speeds relative to their size, states relative to their size) are
+/// the same point, and the motion repeats itself. The value is far above the rounding errors of a cycle and far below
+/// the resolution of a figure.
 pub(super) const SAME: f64 = 1e-9;
 
-/// Search steps and events a motion may take: those of a verdict, and a thousand for each impact or period asked for.
+/// Maximum number of search steps and events of a motion: the budget of a verdict plus 1000 for each requested impact
+/// or period.
 pub(super) fn budget(transient: u64, keep: u64) -> u64 {
     SettleOptions::default().max_steps + 1000 * (transient + keep)
 }
 
-/// The state `from` of the oscillator `before` as a start of `osc`: what is on a stop stays on it, what a stop has moved
-/// over is on that stop.
+/// The state `from` of the oscillator `before` as a start of `osc`. A mass on a stop stays on it. If a moved stop has
+/// passed the mass, the mass is placed on that stop.
 pub(super) fn carried(from: Start, before: &Oscillator, osc: &Oscillator) -> Start {
     let (was_lowest, was_highest) = Start::room(before);
     let (lowest, highest) = Start::room(osc);

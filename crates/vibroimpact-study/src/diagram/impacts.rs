@@ -1,4 +1,4 @@
-//! The impacts of a motion once its transient is over.
+//! The impacts of a motion after its transient.
 
 use super::follow::{AfterTransient, DiagramPoint, MotionKind, SAME, budget};
 use vibroimpact::flight::SearchLimits;
@@ -7,8 +7,8 @@ use vibroimpact::system::phase;
 use vibroimpact::verdict::graze_limit::Fading;
 use vibroimpact::{Oscillator, Start};
 
-/// Follows the motion of `osc` from `start` for `transient` impacts and keeps the `keep` after them, fewer if they repeat
-/// themselves; a motion that ends has none to show.
+/// Follows the motion of `osc` from `start` for `transient` impacts and returns the next `keep` impacts, or fewer if
+/// they repeat. A motion that ends has no points.
 pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, keep: u64) -> AfterTransient {
     let budget = budget(transient, keep);
     let mut motion = Motion::new(osc, start);
@@ -67,14 +67,15 @@ fn same(a: &DiagramPoint, b: &DiagramPoint) -> bool {
     }
 }
 
-/// Nothing comes any more: why, and the state some time into the flight or rest without end.
+/// The result of a motion without further events: its kind, and its state after `transient` periods of the last flight
+/// or rest.
 fn ended(osc: &Oscillator, motion: &Motion<'_>, start: Start, transient: u64) -> AfterTransient {
     #[allow(clippy::cast_precision_loss)] // at most 1e6
     let later = transient.max(1) as f64 * osc.period();
     let (kind, later) = match motion.end() {
         Some(End::Never(_)) => (MotionKind::NoImpact, later),
         Some(End::Stuck(_)) => (MotionKind::Stuck, later),
-        // a search that reached its horizon, or one that ran out of steps before
+        // the search reached its horizon; the next case is a search that used up its steps before
         Some(End::NoneFor(time)) if time >= 0.999 * SearchLimits::default().horizon(osc) => {
             (MotionKind::NoImpact, later.min(time))
         }
@@ -85,7 +86,7 @@ fn ended(osc: &Oscillator, motion: &Motion<'_>, start: Start, transient: u64) ->
     AfterTransient { kind, points: Vec::new(), last }
 }
 
-/// Followed no further; the state is that halfway to the next event.
+/// Stops following the motion. The last state is half-way to the next event.
 fn halfway(osc: &Oscillator, mut motion: Motion<'_>, start: Start, kind: MotionKind) -> AfterTransient {
     let part = if motion.next().is_some() { 0.5 } else { 0.0 };
     let last = motion.leg().map_or(start, |leg| leg.start(osc, if part > 0.0 { part * leg.duration } else { 0.0 }));
@@ -110,7 +111,7 @@ mod tests {
         list
     }
 
-    /// The cycles at S, found by Newton's method (`vibro orbit`) and known from the closed form of 1/1.
+    /// The cycles at S, found by Newton's method (`vibro orbit`); 1/1 is also known in closed form.
     #[test]
     fn a_cycle_is_shown_once_with_its_very_velocities() {
         let osc = scenario::S.oscillator();
@@ -125,7 +126,7 @@ mod tests {
         }
         let DiagramPoint::Impact { phase, .. } = one.points[0] else { panic!() };
         assert!((phase - 1.190_509_613_787_888_5).abs() < 1e-12);
-        // and from where it was left it goes on as the same motion
+        // the motion started from the last state is the same motion
         assert_eq!(velocities(&after_transients(&osc, one.last, 0, 64)).len(), 1);
     }
 
@@ -137,22 +138,22 @@ mod tests {
 
     #[test]
     fn ends_are_results() {
-        // the amplitudes stay short of the stop
+        // the amplitude of the motion is smaller than the gap
         let free = Oscillator::new(1.0 / 0.7, 4.0, 0.5).unwrap();
         let found = after_transients(&free, Start::at_rest(&free), 500, 64);
         assert_eq!((found.kind, found.points.len()), (MotionKind::NoImpact, 0));
-        // pressed for ever, from a start that flies first
+        // the force presses the mass onto the stop for ever; the start is away from the stop
         let pressed = Oscillator::new(0.9, -1.5, 0.5).unwrap();
         let found = after_transients(&pressed, Start { x: -3.0, v: 0.0, phase: 0.0 }, 0, 64);
         assert_eq!((found.kind, found.points.len(), found.last.x, found.last.v), (MotionKind::Stuck, 0, -1.5, 0.0));
-        // touches without impacts
+        // a motion that only grazes
         let grazing = Oscillator::new(2.0, 3.0, 0.5).unwrap();
         let found = after_transients(&grazing, Start { x: 3.0, v: 0.0, phase: 2.0 }, 0, 64);
         assert_eq!(found.kind, MotionKind::NoImpact);
         assert!(found.last.x < 3.0);
     }
 
-    /// Ever gentler impacts end as "no impact", not as impacts of 1e-5, however short the transient.
+    /// Impacts of ever smaller speed give "no impact", however short the transient, and not impacts of 1e-5.
     #[test]
     fn impacts_that_fade_away_are_none() {
         let osc = scenario::Q.oscillator();
@@ -169,7 +170,7 @@ mod tests {
         assert!(none > 20, "{none}");
     }
 
-    /// A complete chatter in each forcing period: falling speeds, and the end of it at speed 0.
+    /// A complete chatter in each forcing period: decreasing speeds, and the end of the chatter at speed 0.
     #[test]
     fn a_chatter_has_its_end() {
         let osc = Oscillator::from_inverse_beta(1.11, -0.5, 0.5).unwrap();

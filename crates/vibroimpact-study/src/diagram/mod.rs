@@ -1,10 +1,10 @@
-//! The orbit diagram: the motion after its transient, at each value of a parameter, or along a line through two.
+//! The orbit diagram: the motion after its transient, at each value of a parameter or along a line through two.
 //!
-//! A sweep carries the state: the one in which a value left the motion is the start at the next value, as in a machine
-//! that is slowly turned up or down; its first value starts at rest. A state on a stop stays on it when the gap changes,
-//! one that a stop has moved over is put on that stop. A motion without impacts is carried on like any other, from a
-//! point of its flight as many forcing periods later as the transient is long. So a sweep is sequential and one tile;
-//! sweeps in both directions and scattered starts run over threads.
+//! A sweep carries the state: the last state at one value is the start at the next value, as in a machine whose speed
+//! is slowly raised or lowered. The first value starts at rest. When the gap changes, a mass on a stop stays on it, and
+//! a mass that a stop has passed is placed on that stop. A motion without impacts is carried on too, from the state as
+//! many forcing periods later as the transient is long. A sweep is therefore sequential and forms one tile. The two
+//! directions of a sweep, and scattered starts, are computed in parallel.
 
 mod follow;
 mod impacts;
@@ -19,44 +19,44 @@ use follow::AfterTransient;
 use vibroimpact::verdict::{StartBox, scattered_starts};
 use vibroimpact::{Oscillator, Start};
 
-/// Which of the motions at one value.
+/// Identifies a motion among those at one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Sweep {
-    /// That of the sweep with rising values.
+    /// The motion of the sweep with rising values.
     Up,
-    /// That of the sweep with falling values.
+    /// The motion of the sweep with falling values.
     Down,
-    /// That from scattered start number k, counted from 0.
+    /// The motion from scattered start number k, counted from 0.
     Start(u64),
 }
 
 /// A motion at one value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DiagramStep {
-    /// Which value of the range, counted from 0.
+    /// Number of the value in the range, counted from 0.
     pub index: u32,
-    /// Which motion.
+    /// The sweep or start of the motion.
     pub sweep: Sweep,
-    /// What it is.
+    /// The kind of the motion.
     pub kind: MotionKind,
-    /// What there is to show of it, in order of time.
+    /// The points to show, in order of time.
     pub points: Vec<DiagramPoint>,
 }
 
-/// The motions of a sweep in the order of the sweep, one sweep after another; of scattered starts, value by value.
+/// The motions: for sweeps in the order of the sweep, one sweep after another; for scattered starts value by value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagram {
-    /// What was asked.
+    /// The plan.
     pub plan: DiagramPlan,
     /// The motions.
     pub steps: Vec<DiagramStep>,
 }
 
-/// Step number `j` of sweep number `row`: at which value, and in which direction.
+/// The number of the value, and the direction, at step `j` of sweep number `row`.
 pub(crate) fn carried(plan: &DiagramPlan, row: u64, j: u32) -> (u32, Sweep) {
     let count = plan.over.count();
     let (first, last) = plan.over.ends();
-    // number j of the values in rising order
+    // index of value number j in rising order
     let rising = |j: u32| if first <= last { j } else { count - 1 - j };
     match plan.direction {
         SweepDirection::Down => (rising(count - 1 - j), Sweep::Down),
@@ -65,7 +65,7 @@ pub(crate) fn carried(plan: &DiagramPlan, row: u64, j: u32) -> (u32, Sweep) {
     }
 }
 
-/// The motion at one value, and the oscillator and state to carry on.
+/// The motion at one value, with the oscillator and the state to carry to the next value.
 pub(crate) fn step(
     system: &SystemPlan,
     plan: &DiagramPlan,

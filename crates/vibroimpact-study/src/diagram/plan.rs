@@ -1,13 +1,13 @@
-//! What an orbit diagram asks: which parameter varies over what, from which starts, and what is shown.
+//! The plan of an orbit diagram: the parameter and its values, the starts, and the points to show.
 
 use crate::limits::{MOST_STARTS, starts};
 use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 
-/// Impacts or forcing periods that are followed before anything is shown, where no number is given.
+/// Default number of impacts or forcing periods before the points shown.
 pub const DEFAULT_TRANSIENT: u64 = 500;
-/// Impacts or states shown at each value, where no number is given.
+/// Default number of impacts or states shown at each value.
 pub const DEFAULT_KEEP: u64 = 64;
 
 /// One parameter over a range, and what is shown of the motion at each value.
@@ -78,18 +78,18 @@ pub enum SweepDirection {
     },
 }
 
-/// Most impacts or periods of a transient: a few seconds at each value.
+/// Maximum number of impacts or periods of a transient; it takes a few seconds for each value.
 const MOST_TRANSIENT: u64 = 1_000_000;
-/// Most impacts or states kept at a value.
+/// Maximum number of impacts or states shown at a value.
 const MOST_KEPT: u64 = 100_000;
-/// The most points one run keeps in memory.
+/// Maximum number of points that one run keeps in memory.
 const MOST_POINTS: u64 = 20_000_000;
 
 impl DiagramPlan {
-    /// Checks everything that can be checked without running it.
+    /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense.
+    /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         self.cut().check(system)?;
         if self.transient > MOST_TRANSIENT {
@@ -108,14 +108,14 @@ impl DiagramPlan {
         Ok(())
     }
 
-    /// The line along which it lies.
+    /// The line of parameters of the diagram.
     #[must_use]
     pub const fn cut(&self) -> Cut {
         Cut { vary: self.vary, ends: self.over.ends(), also: self.also }
     }
 
-    /// What varies, at value number `k`. Evenly spaced values go with evenly spaced ones of the second parameter, as they would be
-    /// written.
+    /// The values of the parameters at value number `k`. If the values are evenly spaced, those of the second parameter
+    /// are too, rounded as a range of that parameter would be.
     pub fn values(&self, k: u32) -> impl Iterator<Item = (Parameter, f64)> + use<> {
         let value = self.over.at(k);
         let even = self.also.filter(|_| !self.over.is_logarithmic());
@@ -126,15 +126,15 @@ impl DiagramPlan {
         })
     }
 
-    /// The oscillator at value number `k`; what does not vary is as in `system`.
+    /// The oscillator at value number `k`. Parameters that do not vary are those of `system`.
     ///
     /// # Errors
-    /// [`PlanError`] for a value that gives no legal system.
+    /// [`PlanError`] for a value that gives no valid system.
     pub fn oscillator(&self, system: &SystemPlan, k: u32) -> Result<Oscillator, PlanError> {
         self.values(k).try_fold(*system, |system, (parameter, value)| system.with(parameter, value))?.oscillator()
     }
 
-    /// Motions followed at each value.
+    /// Number of motions followed at each value.
     #[must_use]
     pub const fn runs(&self) -> u64 {
         match self.direction {

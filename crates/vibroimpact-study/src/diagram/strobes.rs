@@ -1,4 +1,4 @@
-//! The states of a motion once in every forcing period, at phase 0, once its transient is over.
+//! The states of a motion at phase 0 of each forcing period, after its transient.
 
 use super::follow::{AfterTransient, DiagramPoint, MotionKind, SAME, budget};
 use core::f64::consts::TAU;
@@ -6,10 +6,10 @@ use vibroimpact::flight::SearchLimits;
 use vibroimpact::motion::{End, EventKind, Motion, Path};
 use vibroimpact::{Oscillator, Start};
 
-/// Follows the motion of `osc` from `start` for `transient` forcing periods and keeps the `keep` states at phase 0 after
-/// them, fewer if they repeat themselves.
+/// Follows the motion of `osc` from `start` for `transient` forcing periods and returns the next `keep` states at phase
+/// 0, or fewer if they repeat.
 ///
-/// One motion throughout, not one period after another: a long flight is searched once.
+/// The motion is followed as one, and not period by period, so that a long flight is searched only once.
 #[allow(clippy::cast_precision_loss)] // counts of at most 1.1e6
 pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, keep: u64) -> AfterTransient {
     let (budget, period) = (budget(transient, keep), osc.period());
@@ -49,7 +49,7 @@ pub(super) fn after_transients(osc: &Oscillator, start: Start, transient: u64, k
     AfterTransient { kind: MotionKind::Undecided, points: Vec::new(), last }
 }
 
-/// The states kept, and what happened meanwhile.
+/// The states to show, and what happened while they were collected.
 #[derive(Default)]
 struct Shown {
     points: Vec<DiagramPoint>,
@@ -58,7 +58,7 @@ struct Shown {
 }
 
 impl Shown {
-    /// Takes note of a state; says whether it is the first one again.
+    /// Adds a state. Returns whether it equals the first one.
     fn see(&mut self, state: Start, rests: bool) -> bool {
         self.flew |= !rests;
         let same = |a: f64, b: f64| (a - b).abs() <= SAME * (1.0 + a.abs());
@@ -97,7 +97,7 @@ mod tests {
             .collect()
     }
 
-    /// Period by period with the map of the core: another way to the same states.
+    /// The same states computed in another way, period by period with the map of the core.
     #[test]
     fn as_the_stroboscopic_map() {
         let osc = scenario::U.oscillator();

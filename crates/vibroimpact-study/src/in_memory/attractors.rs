@@ -1,13 +1,13 @@
-//! The motions of one system from many scattered starts, over threads.
+//! The motions of one system from many scattered starts, computed by several threads.
 
 use crate::study::{BasinFill, tiles_of};
 use crate::{Control, RunError, SystemPlan};
 use vibroimpact::verdict::Census;
 
-/// Starts of a tile.
+/// Number of starts of a tile.
 const TILE: u32 = 1024;
-/// Settles scattered starts of the natural box of the system and counts the distinct motions; the same as
-/// [`vibroimpact::verdict::attractors`], but over threads.
+/// Settles scattered starts of the natural box of the system and counts the distinct motions. The result is that of
+/// [`vibroimpact::verdict::attractors`], but it is computed by several threads.
 pub(crate) fn attractors(
     system: &SystemPlan,
     (starts, seed): (u64, u64),

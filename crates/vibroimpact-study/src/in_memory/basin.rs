@@ -1,4 +1,4 @@
-//! A basin in memory: its tiles put together, the motions in the order of the first start that leads to each.
+//! A basin in memory: its tiles are joined, and the motions are in the order of the first start that leads to each.
 
 use crate::basin::{Basin, BasinPlan, start};
 use crate::limits::MOST_CELLS;
@@ -6,13 +6,14 @@ use crate::study::{BasinFill, Cell, tiles_of};
 use crate::{Control, PlanError, RunError, SystemPlan, axis};
 use vibroimpact::verdict::{Census, CountedMotion, settle};
 
-/// Starts of a tile, about: large enough that merging costs nothing, small enough to stop quickly and share evenly.
+/// Approximate number of starts of a tile: large enough that joining takes no noticeable time, small enough to stop
+/// quickly and to use all threads.
 const TILE: u32 = 8192;
 
-/// Settles every start of the basin of one system; all of them, without refinement.
+/// Settles every start of the basin of one system, without refinement.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense or varies parameters too, or when stopped.
+/// [`RunError`] for an invalid plan, for a plan that varies parameters, or when stopped.
 pub(crate) fn basin(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>) -> Result<Basin, RunError> {
     in_tiles(system, plan, control, TILE)
 }
@@ -35,7 +36,7 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
     let whole = axis::whole(&plan.axes);
     let mut merged = Census::default();
     let mut cells = vec![u16::MAX; whole.points()];
-    // of each motion the start whose verdict the census has
+    // for each motion, the start whose verdict is in the census
     let mut sources: Vec<usize> = Vec::new();
     for (block, tile) in tiles_of(&task, control)? {
         let numbers: Vec<usize> = tile.met.motions().iter().map(|found| merged.add_found(found)).collect();
@@ -61,7 +62,7 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
     }
     let motions = order.into_iter().map(|(number, first)| {
         let found = &merged.motions()[number];
-        // the verdict is that of the first start, whatever the tiles are
+        // the verdict is that of the first start, so it does not depend on the tiles
         let verdict = if sources[number] == first {
             found.verdict.clone()
         } else {
@@ -94,7 +95,7 @@ mod tests {
         }
     }
 
-    /// As one start after another, without lanes and traps.
+    /// The same result when the starts are settled one after another, without lanes and trapping regions.
     #[test]
     fn the_same_as_one_by_one() {
         let system = SystemPlan { inverse_beta: Some(1.7), gap: 2.25, restitution: 0.5, ..SystemPlan::default() };

@@ -1,23 +1,23 @@
-//! An orbit diagram in memory: its tiles put together.
+//! An orbit diagram in memory: its tiles are joined.
 
 use crate::diagram::{Diagram, DiagramPlan, SweepDirection};
 use crate::study::{DiagramFill, tiles_of};
 use crate::{Control, RunError, SystemPlan};
 
-/// Scattered starts of a tile, and values.
+/// Number of scattered starts, and of values, in a tile.
 const TILE: u32 = 4;
 
 /// Follows the motions at all values.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense, or when stopped.
+/// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
     plan.check(system)?;
     let task = DiagramFill::new(system, plan, Some(TILE));
     let parts = tiles_of(&task, control)?;
     let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
     if let SweepDirection::Scatter { .. } = plan.direction {
-        // tiles hold several starts at several values: value by value, at each the starts in order
+        // a tile holds several starts at several values; sort by value, and at each value by start
         steps.sort_by_key(|step| (step.index, step.sweep));
     }
     Ok(Diagram { plan: *plan, steps })
@@ -79,7 +79,8 @@ mod tests {
         assert_eq!(written("0:3:7"), written("3:0:7"));
     }
 
-    /// At S of the 1971 paper 1/1 and 2/1 coexist. Coming from where only one of them exists, a sweep stays on it.
+    /// At S of the 1971 paper, 1/1 and 2/1 coexist. A sweep that begins where only one of them exists stays on that
+    /// one.
     #[test]
     fn a_carried_sweep_shows_hysteresis() {
         let plan = plan("0:2:81");
@@ -112,7 +113,7 @@ mod tests {
         assert_eq!(found.steps[7].sweep, Sweep::Start(7));
     }
 
-    /// Along a line through two parameters each motion is that of the system there.
+    /// Along a line through two parameters each motion is that of the system at its point.
     #[test]
     fn a_line_through_two_parameters() {
         let also = Stretch { parameter: Parameter::InverseBeta, from: 1.1, to: 1.5 };
@@ -131,13 +132,13 @@ mod tests {
             let here: Vec<_> = found.steps.iter().filter(|step| step.index == k).map(|step| &step.points).collect();
             assert_eq!(here, alone.steps.iter().map(|step| &step.points).collect::<Vec<_>>(), "at {value}");
         }
-        // carried over a frequency that changes as well
+        // the state is also carried when the frequency changes
         let carried = run(&S, &DiagramPlan { direction: SweepDirection::Both, ..line });
         assert!(carried.steps.iter().all(|step| step.kind != MotionKind::Undecided));
     }
 
-    /// Damped, below resonance: from a large gap the motion without impacts is carried down to the gap it just clears, and
-    /// up again only further out.
+    /// With damping and below resonance: a sweep from a large gap stays on the motion without impacts down to the gap
+    /// where it grazes. The opposite sweep reaches that motion only at a larger gap.
     #[test]
     fn a_motion_without_impacts_is_carried_too() {
         let system = SystemPlan { inverse_beta: Some(0.7), restitution: 0.8, damping: 0.01, ..S };

@@ -1,14 +1,14 @@
-//! A map in memory: its tiles put together.
+//! A map in memory: its tiles are joined.
 
 use crate::limits::MOST_CELLS;
 use crate::map::{MapPlan, MapPoint, RegionMap};
 use crate::study::{Cell, MapFill, on_axis, tiles_of};
 use crate::{Control, RunError, SystemPlan, axis};
 
-/// Settles several starts at every point of the plane; all of them, without refinement.
+/// Settles several starts at every point of the plane, without refinement.
 ///
 /// # Errors
-/// [`RunError`] for a plan that makes no sense, or when stopped.
+/// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn map(system: &SystemPlan, plan: &MapPlan, control: &Control<'_>) -> Result<RegionMap, RunError> {
     plan.check(system)?;
     if plan.points() > MOST_CELLS {

@@ -1,4 +1,4 @@
-//! The results of tasks over a grid, in memory: the tiles that a store would be filled with, put together.
+//! The results of tasks over a grid, in memory. They are joined from the same tiles that fill a store.
 
 mod attractors;
 mod basin;

@@ -1,4 +1,4 @@
-//! Which motions there are at each point of a parameter plane.
+//! The motions at each point of a parameter plane.
 
 mod plan;
 
@@ -11,34 +11,34 @@ use vibroimpact::verdict::{
     CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
 };
 
-/// A motion at a point, and the share of starts that led to it.
+/// A motion at a point, with the share of starts that lead to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Share {
     /// The motion.
     pub verdict: Verdict,
-    /// Its share of the starts.
+    /// The share of starts that lead to it, from 0 to 1.
     pub share: f64,
 }
 
 /// A point of the map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapPoint {
-    /// Its values on the axes, in their order.
+    /// The values of the axes at this point, in the order of the axes.
     pub at: Vec<f64>,
     /// The distinct motions, the most frequent first.
     pub motions: Vec<Share>,
 }
 
-/// All points, the first axis running fastest.
+/// All points; the first axis varies fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionMap {
-    /// The points asked for.
+    /// The plan of the map.
     pub plan: MapPlan,
-    /// Their motions.
+    /// The points with their motions.
     pub points: Vec<MapPoint>,
 }
 
-/// The motions at one point, the most frequent first, and their shares of the starts.
+/// The motions at one point, the most frequent first, with their shares of the starts.
 pub(crate) fn motions(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions) -> Vec<Share> {
     let area = StartBox::natural(osc);
     let start = |index: u64| scattered_starts(osc, area, plan.seed, index);

@@ -1,4 +1,4 @@
-//! What a map asks: over which parameters, with how many starts at each point.
+//! The plan of a map: the parameters and the number of starts at each point.
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::limits::starts;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::SettleOptions;
 
-/// Starts at one point: each thread holds the verdict on every start of its point.
+/// Maximum number of starts at one point. A thread keeps the verdicts on all starts of its point in memory.
 const MOST_AT_A_POINT: u64 = 10_000_000;
 
 /// The points of a map: a grid over two parameters or more, several starts each.
@@ -31,15 +31,15 @@ pub struct MapPlan {
     pub impacts: Option<u32>,
 }
 
-/// Most axes.
+/// Maximum number of axes.
 const MOST_AXES: usize = 4;
-/// Coarsest grid to begin with.
+/// Maximum distance between the points of the coarse grid.
 const MOST_REFINE: u32 = 64;
 
-/// Checks the distance of the points of a coarse grid.
+/// Checks the distance between the points of the coarse grid.
 ///
 /// # Errors
-/// [`PlanError::Refine`] for one that is none.
+/// [`PlanError::Refine`] for an invalid distance.
 pub(crate) fn check_refine(refine: Option<u32>) -> Result<(), PlanError> {
     match refine.filter(|step| !(2..=MOST_REFINE).contains(step)) {
         Some(given) => Err(PlanError::Refine { given, most: MOST_REFINE }),
@@ -47,13 +47,13 @@ pub(crate) fn check_refine(refine: Option<u32>) -> Result<(), PlanError> {
     }
 }
 
-/// Most impacts to follow a start for.
+/// Maximum number of impacts for which a start is followed.
 const MOST_IMPACTS: u32 = 1_000_000;
 
-/// Checks how many impacts each start is followed for.
+/// Checks the number of impacts for which each start is followed.
 ///
 /// # Errors
-/// [`PlanError::Budget`] for none, or more than a million.
+/// [`PlanError::Budget`] for 0 or more than a million.
 pub(crate) fn check_impacts(impacts: Option<u32>) -> Result<(), PlanError> {
     match impacts.filter(|impacts| !(1..=MOST_IMPACTS).contains(impacts)) {
         Some(given) => Err(PlanError::Budget { given, most: MOST_IMPACTS }),
@@ -62,17 +62,17 @@ pub(crate) fn check_impacts(impacts: Option<u32>) -> Result<(), PlanError> {
 }
 
 impl MapPlan {
-    /// A map over inverse frequency and gap, the plane of the 1971 paper.
+    /// A map over inverse frequency ratio and gap, the plane of the 1971 paper.
     #[must_use]
     pub fn plane(inverse_beta: Span, gap: Span, starts: u64, seed: u64) -> Self {
         let axes = vec![Axis::parameter(Parameter::InverseBeta, inverse_beta), Axis::parameter(Parameter::Gap, gap)];
         Self { axes, starts, seed, refine: None, impacts: None }
     }
 
-    /// Checks everything that can be checked without running it.
+    /// Checks everything that can be checked without running the plan.
     ///
     /// # Errors
-    /// [`PlanError`] names the first value that makes no sense: axes that are none, or a corner that is no legal system.
+    /// [`PlanError`] names the first invalid value: invalid axes, or a corner that is no valid system.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let allowed = (|c: Coordinate| !c.is_start()) as fn(Coordinate) -> bool;
         axis::check("map", &self.axes, (1, MOST_AXES), (allowed, "the parameters of the system"))?;
@@ -85,22 +85,22 @@ impl MapPlan {
         Ok(())
     }
 
-    /// How far each start is followed.
+    /// The options with which each start is followed.
     #[must_use]
     pub fn options(&self) -> SettleOptions {
         self.impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
     }
 
-    /// Points in all.
+    /// Total number of points.
     #[must_use]
     pub fn points(&self) -> u64 {
         axis::points(&self.axes)
     }
 
-    /// The oscillator at a point, given by the place on each axis; everything else as in `system`.
+    /// The oscillator at a point, given by its place on each axis. Other parameters are those of `system`.
     ///
     /// # Errors
-    /// [`PlanError`] for a point that is no legal system.
+    /// [`PlanError`] for a point that is no valid system.
     pub fn oscillator(&self, system: &SystemPlan, place: impl Fn(usize) -> usize) -> Result<Oscillator, PlanError> {
         axis::system_at(system, &self.axes, place)?.oscillator()
     }

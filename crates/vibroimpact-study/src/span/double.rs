@@ -1,13 +1,14 @@
-//! Numbers of some 105 bits: a double and the part of the value that it lacks (Dekker 1971, doi:10.1007/BF01397083).
+//! Numbers of about 105 bits: a double and a second one that holds its rounding error (Dekker 1971,
+//! doi:10.1007/BF01397083).
 
-/// `high + low`, the second no more than the rounding error of the first.
+/// The number `high + low`, where `low` is at most the rounding error of `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Double {
     pub(super) high: f64,
     pub(super) low: f64,
 }
 
-/// The exact product. The fused multiplication is libm's own, the same on every machine.
+/// The exact product. It uses the fused multiply-add of `libm`, whose result is the same on every machine.
 pub(super) fn product(a: f64, b: f64) -> Double {
     let high = a * b;
     Double { high, low: libm::fma(a, b, -high) }
@@ -15,9 +16,9 @@ pub(super) fn product(a: f64, b: f64) -> Double {
 
 /// The natural logarithm of 2.
 const LN_2: Double = Double { high: core::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
-/// An exponent is divided by two so often before its series is summed.
+/// Number of times an exponent is halved before its series is summed.
 const HALVINGS: i32 = 9;
-/// Terms of the series: the next is less than 1e-32 of the sum for exponents of ln 2 / 2^10.
+/// Number of terms of the series. The next term is less than 1e-32 of the sum for exponents up to ln 2 / 2^10.
 const TERMS: u32 = 8;
 
 impl Double {
@@ -53,13 +54,13 @@ impl Double {
         Self { high, low: low + (self.high * other.low + self.low * other.high) }.settled()
     }
 
-    /// The same value, its first part the nearest double.
+    /// The same value, normalised so that `high` is the double nearest to it.
     fn settled(self) -> Self {
         let high = self.high + self.low;
         Self { high, low: self.low - (high - self.high) }
     }
 
-    /// The exponential without its factor of two to a whole power, and that power.
+    /// The exponential as a factor and a power of two.
     fn exp_parts(self) -> (Self, i32) {
         #[allow(clippy::cast_possible_truncation)] // of logarithms of doubles: at most some thousands
         let twos = (self.high / LN_2.high).round() as i32;
@@ -100,7 +101,7 @@ mod tests {
         Double { high, low: 0.0 }
     }
 
-    /// Digits of OEIS A002162 (ln 2), A002392 (ln 10) and A001113 (e), as double and rest.
+    /// Digits of OEIS A002162 (ln 2), A002392 (ln 10) and A001113 (e), as `high` and `low`.
     #[test]
     fn known_digits() {
         for (found, high, rest) in [
@@ -110,7 +111,7 @@ mod tests {
             (of(1e-300).ln().over(-300.0), core::f64::consts::LN_10, -2.170_756_223_382_249_4e-16),
         ] {
             let off = (found.high - high) + (found.low - rest);
-            // 1e-300 is no power of ten by some 1e-17, a 300th of which is left
+            // the double 1e-300 differs from the power of ten by a relative 1e-17, of which a 300th remains
             assert!(off.abs() < 1e-19, "{found:?} {high} {rest}: {off:e}");
         }
         let (e, twos) = of(1.0).exp_parts();

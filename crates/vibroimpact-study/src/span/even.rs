@@ -1,37 +1,37 @@
-//! Values between the two ends of a range: as near to the exact ones as a double can be.
+//! The values between the two ends of a range, as close to the exact ones as doubles allow.
 //!
 //! $$`x_k = \frac{(n - k)\,a + k\,b}{n}, \qquad x_k = a\,(b/a)^{k/n}, \qquad k = 0 \dots n`$$
 //!
-//! The ends are numbers as they were written, decimal ones. Where both are whole multiples of a power of ten that is small
-//! enough, the first formula is a quotient of two whole numbers, each of them a double, and its division rounds once: `0.4:2:33`
-//! passes through the very 0.45 and 1.2 that a reader would type, and `-0.1:0.3:5` through 0. Otherwise sums and products
-//! carry their rounding errors along. So the values never fall where the exact ones rise.
+//! The ends are decimal numbers. If both are integer multiples of a sufficiently small power of ten, the first formula
+//! is a quotient of two integers that are doubles, and its division rounds only once. So `0.4:2:33` contains exactly
+//! the 0.45 and 1.2 that a user would type, and `-0.1:0.3:5` contains 0. In other cases sums and products carry their
+//! rounding errors along, so rising exact values never give falling computed values.
 
 use super::double::{Double, product};
 
-/// How the values between the ends are formed.
+/// The way in which values between the ends are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rule {
-    /// At equal distances, of ends that are `a / unit` and `b / unit`.
+    /// Evenly spaced, for the ends `a / unit` and `b / unit`.
     Decimal { a: i64, b: i64, unit: f64 },
-    /// At equal distances, of any ends.
+    /// Evenly spaced, for any ends.
     Weighted,
-    /// In equal ratios: the logarithms of the first end and of the ratio of both.
+    /// With a constant ratio, given by the logarithms of the first end and of the ratio of both ends.
     Geometric { first: Double, ratio: Double },
 }
 
-/// The largest whole number up to which all are doubles.
+/// All integers up to this one are doubles.
 const WHOLE: i64 = 1 << 53;
 /// Powers of ten up to this one are doubles.
 const TENS: i32 = 22;
 
 impl Rule {
-    /// For `steps + 1` values at equal distances.
+    /// The rule for `steps + 1` evenly spaced values.
     pub(super) fn even(first: f64, last: f64, steps: u32) -> Self {
         decimal(first, last, steps).unwrap_or(Self::Weighted)
     }
 
-    /// For values in equal ratios between two positive ends.
+    /// The rule for values with a constant ratio between two positive ends.
     pub(super) fn geometric(first: f64, last: f64) -> Self {
         let first = as_written(first).ln();
         Self::Geometric { first, ratio: as_written(last).ln().plus(first.negative()) }
@@ -41,7 +41,7 @@ impl Rule {
     pub(super) fn at(&self, first: f64, last: f64, k: u32, steps: u32) -> f64 {
         let (low, high) = (first.min(last), first.max(last));
         let value = match self {
-            // as small as the rule was made for
+            // the product fits, because `decimal` has checked its size
             #[allow(clippy::cast_precision_loss)]
             Self::Decimal { a, b, unit } => (i64::from(steps - k) * a + i64::from(k) * b) as f64 / unit,
             Self::Weighted => weighted(first, last, k, steps),
@@ -51,7 +51,7 @@ impl Rule {
     }
 }
 
-/// The quotient of whole numbers, where all of them are doubles.
+/// The rule with a quotient of integers, if all of them are doubles.
 fn decimal(first: f64, last: f64, steps: u32) -> Option<Rule> {
     let ((a, ten), (b, other)) = (digits(first)?, digits(last)?);
     let least = ten.min(other).min(0);
@@ -67,7 +67,7 @@ fn decimal(first: f64, last: f64, steps: u32) -> Option<Rule> {
     (a.abs() <= most && b.abs() <= most && unit <= WHOLE).then(|| rule(unit))
 }
 
-/// A number as it is written with the fewest digits: a whole number and a power of ten.
+/// A number in its shortest decimal form: an integer and a power of ten.
 fn digits(value: f64) -> Option<(i64, i32)> {
     let text = format!("{value:e}");
     let (mantissa, power) = text.split_once('e')?;
@@ -76,7 +76,8 @@ fn digits(value: f64) -> Option<(i64, i32)> {
     Some((format!("{whole}{part}").parse().ok()?, power - i32::try_from(part.len()).ok()?))
 }
 
-/// A number as it is written, with the part of it that its double lacks, where both come from small enough whole numbers.
+/// A number in its shortest decimal form as a double-double: the double, and its difference from the decimal number.
+/// Without the difference if the integer or the power of ten is too large.
 fn as_written(value: f64) -> Double {
     let rest = digits(value).filter(|(whole, ten)| whole.abs() <= WHOLE && ten.abs() <= TENS).map(|(whole, ten)| {
         let power = libm::pow(10.0, f64::from(ten.abs()));
@@ -87,10 +88,10 @@ fn as_written(value: f64) -> Double {
     Double { high: value, low: rest.unwrap_or(0.0) }
 }
 
-/// The weighted mean with the rounding errors of its products and its sum.
+/// The weighted mean, with the rounding errors of its products and its sum taken into account.
 fn weighted(first: f64, last: f64, k: u32, steps: u32) -> f64 {
     let (k, n) = (f64::from(k), f64::from(steps));
-    // a power of two that keeps products of the largest and of the smallest numbers within range
+    // a power of two that prevents overflow and underflow of the products
     let scale = match first.abs().max(last.abs()) {
         large if large > 1e200 => 2.0_f64.powi(-200),
         small if small < 1e-200 => 2.0_f64.powi(200),

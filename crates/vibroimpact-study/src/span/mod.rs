@@ -1,7 +1,7 @@
-//! `A:B:N`: N values from A to B, both included; `A:B:N:log` spaced evenly in their logarithms.
+//! `A:B:N`: N evenly spaced values from A to B, both included. `A:B:N:log`: N values with a constant ratio.
 //!
-//! These are the values of every grid: of the command, of plans, of the Python package and of the page, which all send the text
-//! and leave the numbers to [`Span::at`].
+//! All grids use these values. The command, plans, the Python package and the page pass on the text, and [`Span::at`]
+//! computes the values.
 
 mod double;
 mod even;
@@ -12,7 +12,7 @@ use core::str::FromStr;
 use even::Rule;
 use serde::{Deserialize, Serialize};
 
-/// Evenly spaced values, or values in equal ratios, both ends included.
+/// Evenly spaced values, or values with a constant ratio. Both ends are included.
 ///
 /// ```
 /// use vibroimpact_study::Span;
@@ -32,23 +32,23 @@ pub struct Span {
     rule: Rule,
 }
 
-/// The most values on one axis.
+/// Maximum number of values on one axis.
 const MOST: u64 = 1_000_000;
 
 impl Span {
     /// `count` values from `first` to `last`.
     ///
     /// # Errors
-    /// [`PlanError`] for ends that are not finite or equal (with more than one value) and for a count outside
-    /// 1 to 1 000 000.
+    /// [`PlanError`] for ends that are not finite, for equal ends with more than one value, and for a count outside 1
+    /// to 1 000 000.
     pub fn new(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
         Self::checked(first, last, count, false)
     }
 
-    /// `count` values from `first` to `last`, neighbours in equal ratios.
+    /// `count` values from `first` to `last` with a constant ratio.
     ///
     /// # Errors
-    /// As for [`Span::new`], and [`PlanError::Logarithmic`] for ends that are not both positive.
+    /// As for [`Span::new`]; and [`PlanError::Logarithmic`] if an end is not positive.
     pub fn logarithmic(first: f64, last: f64, count: u32) -> Result<Self, PlanError> {
         Self::checked(first, last, count, true)
     }
@@ -61,7 +61,7 @@ impl Span {
         if logarithmic && (first <= 0.0 || last <= 0.0) {
             return Err(PlanError::Logarithmic { given: given() });
         }
-        // one value over a distance, or many at one place, is a slip of the pen
+        // one value over a distance, or several at one place, is an error of the user
         let many = u64::from(count);
         if !(1..=MOST).contains(&many) || (count == 1) != (first == last) {
             return Err(PlanError::Count { given: given(), count: many, most: MOST });
@@ -70,8 +70,8 @@ impl Span {
         Ok(Self { first, last, count, rule })
     }
 
-    /// Value number `k`, counted from 0. The first and the last are exactly the ends, those between the nearest doubles to the
-    /// exact values between the ends as they are written; so the one in the middle is exact where a double is.
+    /// Value number `k`, counted from 0. The first and the last value are exactly the ends. The others are the doubles
+    /// nearest to the exact values between the ends in their decimal form, so a middle value that is a double is exact.
     #[must_use]
     pub fn at(&self, k: u32) -> f64 {
         let steps = self.count - 1;
@@ -82,39 +82,39 @@ impl Span {
         }
     }
 
-    /// How many values.
+    /// The number of values.
     #[must_use]
     pub const fn count(&self) -> u32 {
         self.count
     }
 
-    /// Whether neighbours are in equal ratios rather than at equal distances.
+    /// Whether the values have a constant ratio (as opposed to even spacing).
     #[must_use]
     pub const fn is_logarithmic(&self) -> bool {
         matches!(self.rule, Rule::Geometric { .. })
     }
 
-    /// The same number of values, spaced in the same way, with both ends divided by `unit`.
+    /// The same number of values with the same kind of spacing; both ends are divided by `unit`.
     ///
     /// # Errors
-    /// [`PlanError`] where that leaves the range of numbers.
+    /// [`PlanError`] if an end overflows or the ends become equal.
     pub fn scaled(&self, unit: f64) -> Result<Self, PlanError> {
         Self::checked(self.first / unit, self.last / unit, self.count, self.is_logarithmic())
     }
 
-    /// The two ends.
+    /// The two ends, in the given order.
     #[must_use]
     pub const fn ends(&self) -> (f64, f64) {
         (self.first, self.last)
     }
 
-    /// All values.
+    /// All values, in order.
     pub fn values(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.count).map(|k| self.at(k))
     }
 }
 
-/// A range as it is written.
+/// The text of a range.
 fn written(first: f64, last: f64, count: u32, logarithmic: bool) -> String {
     format!("{first}:{last}:{count}{}", if logarithmic { ":log" } else { "" })
 }

@@ -1,12 +1,12 @@
-//! Ranges against long division: exact ends, the nearest double in between, and never a step back.
+//! Tests ranges against long division: exact ends, nearest doubles in between, and values that never step back.
 
 use super::*;
 
-/// A sequence of numbers that is the same everywhere.
+/// A sequence of pseudorandom numbers that is the same on every machine.
 struct Chance(u64);
 
 impl Chance {
-    /// Less than `most`.
+    /// The next number, less than `most`.
     fn next(&mut self, most: u64) -> u64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) % most
@@ -17,7 +17,8 @@ impl Chance {
     }
 }
 
-/// The double nearest to a quotient of whole numbers: seventy decimal places by long division, read by the standard library.
+/// The double nearest to a quotient of integers: seventy decimal places by long division, parsed by the standard
+/// library.
 fn quotient(above: i128, below: i128) -> f64 {
     let (size, mut rest) = (above.unsigned_abs() / below.unsigned_abs(), above.unsigned_abs() % below.unsigned_abs());
     let mut text = format!("{}{size}.", if above < 0 { "-" } else { "" });
@@ -35,7 +36,7 @@ fn check_order(span: &Span) {
     assert_eq!((values[0].to_bits(), values[values.len() - 1].to_bits()), (first.to_bits(), last.to_bits()), "{span}");
     let rises = first < last;
     assert!(values.windows(2).all(|pair| if rises { pair[0] <= pair[1] } else { pair[0] >= pair[1] }), "{span}");
-    // the same values from the other end
+    // the same values counted from the other end
     let (low, high, count) = (last, first, span.count());
     let back =
         if span.is_logarithmic() { Span::logarithmic(low, high, count) } else { Span::new(low, high, count) }.unwrap();
@@ -81,7 +82,7 @@ fn f07b_any_ends_are_exact_and_values_the_nearest() {
         let steps = i128::from(count - 1);
         for k in (0..count).step_by(7) {
             let want = quotient((steps - i128::from(k)) * a + i128::from(k) * b, steps) / (1_u64 << 52) as f64;
-            // the ends as they are written differ from their doubles by half of a last place at most
+            // the decimal ends differ from their doubles by at most half a unit in the last place
             let off = (span.at(k) - want).abs();
             assert!(off <= f64::EPSILON, "{span} at {k}: {off:e}");
         }

@@ -1,11 +1,11 @@
-//! The arrays of a study over its whole grid, wherever they are kept.
+//! Access to the arrays of a study over its whole grid, independent of where they are stored.
 
 use super::Study;
 use crate::{Column, Plan};
 
-/// Reads the arrays of a study; a store implements it.
+/// Read access to the arrays of a study; implemented by stores.
 pub trait StudyArrays {
-    /// Why an array cannot be read.
+    /// The error of a failed read.
     type Error;
 
     /// The plan of the study.
@@ -14,13 +14,13 @@ pub trait StudyArrays {
     /// The study.
     fn study(&self) -> &Study;
 
-    /// The whole array of a field, the first of the dimensions slowest.
+    /// The whole array of a field, in row-major order (the first dimension slowest).
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If the array cannot be read.
     fn array(&self, field: usize) -> Result<Column, Self::Error>;
 
-    /// The number of the field of this name.
+    /// The number of the field with this name.
     fn field_number(&self, name: &str) -> Option<usize> {
         self.study().fields().iter().position(|field| field.name == name)
     }

@@ -1,4 +1,4 @@
-//! The tiles of a basin: for each start the motion it leads to.
+//! The tiles of a basin: for each start, the motion to which it leads.
 
 use super::code;
 use super::cycles::{self, Numbering};
@@ -19,24 +19,25 @@ use vibroimpact::verdict::{
 };
 use vibroimpact::{Oscillator, Start};
 
-/// Points of a tile along each of two axes where no number is given; a tenth of a second of work.
+/// Default number of points of a tile along each of two axes; a tile takes about a tenth of a second.
 const TILE: usize = 256;
-/// Starts settled beforehand, spread over the grid, to know its cycles.
+/// Number of starts, spread over the grid, that are settled in the survey, before the first tile, to find the cycles of
+/// the system.
 const SURVEY: u64 = 96;
-/// Of these the ones whose cycles' traps are used.
+/// Number of these starts whose cycles get trapping regions.
 const TRAPS: u64 = 24;
 
-/// Where the starts are.
+/// The position of the starts.
 enum Starts {
     /// At the points of the axes.
     Grid(BasinPlan),
-    /// Scattered, with this seed.
+    /// Scattered over an area, by the sequence with this seed.
     Scattered { area: StartBox, seed: u64 },
 }
 
 pub(crate) struct BasinFill {
     system: SystemPlan,
-    /// The oscillator, where all starts are of one.
+    /// The oscillator, if all starts belong to one.
     one: Option<Surveyed>,
     starts: Starts,
     grid: Grid,
@@ -44,28 +45,29 @@ pub(crate) struct BasinFill {
     options: SettleOptions,
 }
 
-/// An oscillator and what is known of it beforehand.
+/// An oscillator and the result of the survey.
 struct Surveyed {
     osc: Oscillator,
     survey: KnownAttractors,
-    /// The cycles that are numbered in all tiles alike; worked out when a tile is stored.
+    /// The cycles with the same numbers in all tiles; computed when the first tile is stored.
     cycles: OnceLock<Vec<Verdict>>,
 }
 
-/// The motions of a tile.
+/// The motions of one tile.
 pub(crate) struct BasinTile {
-    /// Of one oscillator, the motions that were met, in the order of the first start that was settled into each.
+    /// For a basin of one oscillator: the motions of the tile, in the order of the first start that was settled into
+    /// each.
     pub(crate) met: Census,
-    /// Where parameters vary too, the codes that were met.
+    /// For a basin that also varies parameters: the codes of the labels in the tile.
     codes: Vec<i32>,
-    /// For each point the number of its motion in `met`, or of its code.
+    /// For each point, the index of its motion in `met` or of its code in `codes`.
     pub(crate) cells: Vec<Cell<u32>>,
 }
 
-/// What a start leads to: the code of its label, and the number of its cycle.
+/// The result of a start as it is stored: the code of its label and the number of its cycle.
 type Leads = (i32, i32);
 
-/// Where so few starts are to be settled, none is settled beforehand.
+/// A basin with fewer starts than this has no survey.
 const WORTH_A_SURVEY: u64 = 500;
 
 impl BasinFill {
@@ -102,7 +104,7 @@ impl BasinFill {
         Self { one, ..self }
     }
 
-    /// Numbers of points spread evenly over the grid.
+    /// Numbers of `count` points spread evenly over the grid.
     fn spread(&self, count: u64) -> impl Iterator<Item = u64> + use<> {
         let total = self.grid.points();
         let count = count.min(total);
@@ -114,7 +116,7 @@ impl BasinFill {
         self.start(osc, &self.grid.whole().index(usize::try_from(k).unwrap_or(0)))
     }
 
-    /// The cycles of a survey, which every tile can repeat.
+    /// The cycles of the survey. Every tile computes the same ones.
     fn cycles<'a>(&self, one: &'a Surveyed) -> &'a [Verdict] {
         one.cycles.get_or_init(|| {
             let numbers: Vec<u64> = self.spread(SURVEY).collect();
@@ -129,7 +131,7 @@ impl BasinFill {
         })
     }
 
-    /// The same as if the survey had met nothing.
+    /// The same basin with an empty survey.
     #[cfg(test)]
     pub(super) fn forgetful(self) -> Self {
         Self { one: self.one.map(|one| Surveyed { cycles: OnceLock::from(Vec::new()), ..one }), ..self }
@@ -143,13 +145,13 @@ impl BasinFill {
         }
     }
 
-    /// The oscillator at a point of the grid; the corners were checked.
+    /// The oscillator at a point of the grid. The corners have been checked, so this fails only between valid corners.
     fn oscillator(&self, index: &[usize]) -> Option<Oscillator> {
         let Starts::Grid(plan) = &self.starts else { return None };
         axis::system_at(&self.system, &plan.axes, |k| on_axis(index, k)).ok()?.oscillator().ok()
     }
 
-    /// Settles these points of a tile: for each the number of its motion or code in the tile.
+    /// Settles the given points of a tile. Returns for each point the index of its motion or code in the tile.
     fn settled(
         &self,
         block: &Block,
@@ -162,7 +164,7 @@ impl BasinFill {
         let Some(one) = &self.one else {
             let alone = |k: &usize| {
                 let index = block.index(*k);
-                // the corners were checked, and a point between legal ones that is none is undecided
+                // the corners are valid; a point between them that is not is undecided
                 let found = self.oscillator(&index).map_or(super::UNDECIDED, |osc| {
                     code(&vibroimpact::verdict::settle(&osc, self.start(&osc, &index), &options).verdict)
                 });
@@ -187,7 +189,7 @@ impl BasinFill {
         Some(settlement.cells.iter().map(|cell| numbers[*cell as usize]).collect())
     }
 
-    /// What each motion of a tile is stored as, and the cycles that the survey has not met.
+    /// The stored result of each motion of a tile, and the cycles that the survey has not found.
     fn leads(&self, tile: &BasinTile) -> (Vec<Leads>, Census) {
         let mut unknown = Census::default();
         let Some(one) = &self.one else {
@@ -198,7 +200,8 @@ impl BasinFill {
         (tile.met.motions().iter().map(leads).collect(), unknown)
     }
 
-    /// Whether two numbers of a tile stand for one motion, or for two that have one label and no cycle.
+    /// Whether two indices of a tile stand for the same motion, or for two motions with the same label that are no
+    /// cycles.
     fn alike(&self, met: &Census, a: u32, b: u32) -> bool {
         let label = |number: u32| met.motions().get(number as usize).map(|found| &found.verdict);
         let plain = |of: Option<&Verdict>| of.filter(|verdict| !matches!(verdict, Verdict::Periodic(_))).map(code);

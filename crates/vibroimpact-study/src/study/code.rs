@@ -1,20 +1,21 @@
-//! Labels as whole numbers, the same for every tile and machine: m/n is 10000 m + n.
+//! Labels as integers, the same in every tile and on every machine: m/n is 10000 m + n.
 //!
-//! So 1/1 is 10001, 3/2 is 30002; with a complete chatter 1 000 000 000 + n; without impacts 0. What is no periodic motion
-//! is negative. A number of periods above 9999 does not fit and is left out (0), one of impacts above 99 999 is that.
+//! For example 1/1 is 10001 and 3/2 is 30002. A motion with a complete chatter is 1 000 000 000 + n, a motion without
+//! impacts is 0. Results that are no periodic motion are negative. A number of periods above 9999 is stored as 0, a
+//! number of impacts above 99 999 as 99 999.
 
 use vibroimpact::Label;
 use vibroimpact::verdict::{Count, Verdict};
 
-/// Nothing was computed here.
+/// The point has not been computed.
 pub const NOT_COMPUTED: i32 = -9;
-/// There is no further motion here.
+/// The point has no further motion.
 pub const NO_MOTION: i32 = -1;
-/// Chaotic.
+/// Chaotic motion.
 pub const CHAOTIC: i32 = -2;
 /// At rest on a stop for ever.
 pub const STUCK: i32 = -3;
-/// None of these could be shown within the budget.
+/// Undecided within the budget.
 pub const UNDECIDED: i32 = -4;
 /// No more impacts.
 pub const NO_IMPACT: i32 = 0;
@@ -22,7 +23,7 @@ pub const NO_IMPACT: i32 = 0;
 const PER_IMPACT: u32 = 10_000;
 const CHATTER: u32 = 1_000_000_000;
 
-/// Values that stand for something, and what, for those that have no m and n.
+/// Special values without m and n, and their meanings.
 pub(super) const FLAGS: [(i32, &str); 6] = [
     (NOT_COMPUTED, "not_computed"),
     (UNDECIDED, "undecided"),
@@ -35,7 +36,7 @@ pub(super) const FLAGS: [(i32, &str); 6] = [
 pub(super) const COMMENT: &str = "10000 m + n for a motion m/n with m impacts in n forcing periods, 1000000000 + n for \
                                   inf/n with a complete chatter; n = 0 stands for more than 9999 periods";
 
-/// The number that stands for a motion.
+/// The code of a motion.
 #[must_use]
 pub fn code(verdict: &Verdict) -> i32 {
     match verdict {
@@ -57,7 +58,7 @@ fn of(label: Label) -> i32 {
     i32::try_from(m + n).unwrap_or(UNDECIDED)
 }
 
-/// The label that a number stands for, as text; `None` where there is no motion.
+/// The label of a code as text; `None` if the code stands for no motion.
 ///
 /// ```
 /// use vibroimpact_study::study::label_of;
@@ -92,7 +93,7 @@ mod tests {
     fn labels_come_back() {
         for text in ["1/1", "2/1", "1/9999", "99999/3", "inf/1", "inf/17", "0"] {
             let label = |text: &str| -> Label {
-                // 99999 impacts are more than a label that is typed may have
+                // a label that is parsed may not have 99999 impacts
                 let (m, n) = text.split_once('/').unwrap_or(("0", "1"));
                 let impacts = m.parse().map_or(Count::Infinite, Count::Finite);
                 Label { impacts, periods: n.parse().unwrap() }

@@ -1,20 +1,21 @@
 //! Numbers for the cycles of one system, the same in all tiles.
 //!
-//! Labels do not tell two motions 1/1 apart. A survey beforehand, which every tile can repeat, numbers the cycles it meets.
-//! A tile that meets another one numbers it for itself, below [`NONE`]; when all tiles are there these few are computed
-//! again, and numbered in their order.
+//! Two different motions may have the same label, such as 1/1. A survey before the first tile, which every tile repeats
+//! with the same result, numbers the cycles that it finds. A tile that finds another cycle gives it a preliminary
+//! number below [`NONE`]. When all tiles are complete, these few cycles are computed again and numbered in the order of
+//! the tiles.
 
 use super::tables::{Cells, StudyTable, Tiles};
 use crate::field::Column;
 use crate::grid::Grid;
 use vibroimpact::verdict::{Census, CountedMotion, Verdict};
 
-/// The motion is no cycle.
+/// Number of a motion that is no cycle.
 pub(super) const NONE: i32 = -1;
-/// The first cycle that only this tile has met; the next are below it.
+/// Preliminary number of the first cycle that only this tile has found; further ones count downwards.
 const UNKNOWN: i32 = -2;
 
-/// The number of a motion in a tile; `unknown` collects those that the survey has not met.
+/// The number of a motion in a tile. Cycles that the survey has not found are added to `unknown`.
 pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &CountedMotion) -> i32 {
     if !matches!(found.verdict, Verdict::Periodic(_)) {
         return NONE;
@@ -26,22 +27,22 @@ pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &CountedMot
     }
 }
 
-/// Two cycles closer than this are one; as in a census.
+/// Two cycles closer than this are the same one, as in a census.
 const SAME: f64 = 1e-6;
 
-/// The cycles of a survey.
+/// The cycles found by a survey.
 pub(super) fn survey(found: &Census) -> Vec<Verdict> {
     let cycles = found.motions().iter().filter(|found| matches!(found.verdict, Verdict::Periodic(_)));
     cycles.map(|found| found.verdict.clone()).collect()
 }
 
-/// What is needed to number what the survey has not met.
+/// The data needed to number the cycles that the survey has not found.
 pub(crate) struct Numbering<'a> {
-    /// Which field holds the numbers.
+    /// Index of the field that contains the numbers.
     pub(super) field: usize,
     /// The cycles of the survey.
     pub(super) known: &'a [Verdict],
-    /// The cycles that only this tile has met, in the order of their numbers.
+    /// The cycles that only the given tile has found, in the order of their preliminary numbers.
     pub(super) unknown: Box<dyn Fn(u64) -> Census + 'a>,
 }
 
@@ -81,7 +82,7 @@ impl Numbering<'_> {
         Ok(self.tables(&cycles, &starts, grid.points()))
     }
 
-    /// The cycles: their names, how many starts lead to each, their stability, and their impacts.
+    /// The table of the cycles: labels, numbers of starts that lead to each, stability, and impacts.
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     fn tables(&self, cycles: &[Verdict], starts: &[i64], total: u64) -> Vec<StudyTable> {
         let cycle = |verdict: &Verdict| if let Verdict::Periodic(cycle) = verdict { Some(cycle.clone()) } else { None };

@@ -1,4 +1,4 @@
-//! The tiles of an orbit diagram: a carried sweep is one tile, scattered starts are many.
+//! The tiles of an orbit diagram. A carried sweep is one tile; scattered starts have many.
 
 use super::fill::{Along, Fill};
 use crate::axis::Coordinate;
@@ -8,7 +8,7 @@ use crate::grid::{Block, Dimension, Grid};
 use crate::{DiagramPlan, PlanError, SystemPlan};
 use vibroimpact::Side;
 
-/// Starts and values of a tile of scattered starts.
+/// Number of starts and of values in a tile of scattered starts.
 const TILE: (usize, usize) = (16, 64);
 
 pub(crate) struct DiagramFill {
@@ -29,7 +29,7 @@ impl DiagramFill {
             SweepDirection::Scatter { .. } => {
                 vec![dimension("start", runs, side(TILE.0)), dimension(name, values, side(TILE.1))]
             }
-            // each value begins where the one before left off
+            // a sweep is one tile, because each value starts from the last state at the value before
             _ => vec![dimension("sweep", runs, 1), dimension(name, values, values)],
         };
         let keep = usize::try_from(plan.keep).unwrap_or(usize::MAX);
@@ -38,7 +38,7 @@ impl DiagramFill {
 }
 
 impl Fill for DiagramFill {
-    /// The motions of the rows one after another, each in the order of its sweep.
+    /// The motions of the rows, one row after another, each in the order of its sweep.
     type Tile = Vec<Result<DiagramStep, PlanError>>;
 
     fn grid(&self) -> &Grid {
@@ -47,7 +47,7 @@ impl Fill for DiagramFill {
 
     fn coordinates(&self) -> Vec<Along> {
         let cut = self.plan.cut();
-        // the second parameter lies along the dimension of the first
+        // the values of the second parameter are a second coordinate of the same dimension
         let values = cut.parameters().enumerate().map(|(k, parameter)| {
             let value = |index: u32| self.plan.values(index).nth(k).map_or(f64::NAN, |(_, value)| value);
             let parameter = Coordinate::Parameter(parameter);
@@ -139,7 +139,7 @@ impl Fill for DiagramFill {
     fn columns(&self, block: &Block, steps: Self::Tile) -> Vec<Column> {
         let values = &block.ranges[1];
         let mut tile = Tile::empty(block.points(), self.keep);
-        // the ends were checked, and a value between legal ones is legal
+        // the ends were checked, and every value between two valid ends is valid
         for (k, step) in steps.iter().enumerate().filter_map(|(k, step)| Some((k, step.as_ref().ok()?))) {
             let row = k / values.len();
             tile.put(row * values.len() + (step.index as usize - values.start), step, self.keep);
@@ -153,9 +153,9 @@ impl Fill for DiagramFill {
     }
 }
 
-/// The diagram that the columns of its study hold, motions in the order of [`Diagram`].
+/// The diagram from the columns of its study, with the motions in the order of [`Diagram`].
 ///
-/// Motions of tiles that are not done are left out.
+/// Motions of tiles that are not complete are left out.
 #[must_use]
 pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
     let (count, keep) = (plan.over.count() as usize, usize::try_from(plan.keep).unwrap_or(usize::MAX));

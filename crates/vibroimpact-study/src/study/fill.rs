@@ -1,36 +1,36 @@
-//! What a kind of study fills: its grid, what runs along it, its tiles and the tables they conclude in.
+//! The interface of a task over a grid: its grid, its coordinates, its tiles and its final tables.
 
 use super::cycles;
 use crate::grid::Dimension;
 use crate::{Axis, Block, Column, Field, Grid};
 
-/// Positions along a dimension of the grid.
+/// The coordinate values along a dimension of the grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Along {
-    /// What it is called: as its dimension, or, beside that one, otherwise.
+    /// Name of the coordinate: that of the dimension, or another name for a second coordinate of the same dimension.
     pub name: String,
-    /// The dimension.
+    /// Name of the dimension.
     pub dimension: String,
-    /// A value for each index.
+    /// The value at each index.
     pub values: Vec<f64>,
-    /// A sentence that says what it is.
+    /// One line of text that describes the coordinate.
     pub long_name: &'static str,
     /// Its unit.
     pub units: &'static str,
 }
 
-/// A task over a grid: what a tile of it computes, and how that is stored.
+/// A task over a grid: how a tile is computed and stored.
 pub(crate) trait Fill: Send + Sync {
-    /// The results of a tile.
+    /// The results of one tile.
     type Tile: Send;
 
     /// The grid and its tiles.
     fn grid(&self) -> &Grid;
 
-    /// The values along its dimensions, where they have any.
+    /// The coordinate values of the dimensions that have any.
     fn coordinates(&self) -> Vec<Along>;
 
-    /// The arrays.
+    /// The fields (arrays) of the task.
     fn fields(&self) -> Vec<Field>;
 
     /// Computes a tile; `None` if stopped. `tick` is called for each point and returns whether to stop.
@@ -39,13 +39,13 @@ pub(crate) trait Fill: Send + Sync {
     /// The columns of a tile, one for each field.
     fn columns(&self, block: &Block, tile: Self::Tile) -> Vec<Column>;
 
-    /// The field that numbers cycles, and the cycles known beforehand, where there is such a field.
+    /// The field with the numbers of cycles and the cycles of the survey, if the task has such a field.
     fn numbered(&self) -> Option<cycles::Numbering<'_>> {
         None
     }
 }
 
-/// A [`Fill`] whose results are known as columns only, so that a study can hold any of them.
+/// A [`Fill`] whose tiles are available only as columns, so that a study can contain any task.
 pub(super) trait Columns: Send + Sync {
     fn grid(&self) -> &Grid;
     fn coordinates(&self) -> Vec<Along>;
@@ -76,11 +76,12 @@ impl<F: Fill> Columns for F {
     }
 }
 
-/// Tiles along an axis there are at least, so that all processors have something to do and little is lost in a break.
+/// Minimum number of tiles along an axis, so that all processors have work and little is lost when a run is
+/// interrupted.
 const FEWEST: usize = 16;
 
-/// The grid of some axes, the first running fastest. Tiles have the given side; by default `side` or, on short axes,
-/// less, but no less than a quarter of it.
+/// The grid over some axes; the first axis varies fastest. Tiles have the side `asked`, or by default `side`. On short
+/// axes the default is smaller, but at least a quarter of `side`.
 pub(super) fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
     let dimension = |axis: &Axis| {
         let count = axis.over.count();
@@ -91,7 +92,7 @@ pub(super) fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
     Grid { dimensions: axes.iter().rev().map(dimension).collect() }
 }
 
-/// The values along the axes.
+/// The coordinate values of the axes.
 pub(super) fn along(axes: &[Axis]) -> Vec<Along> {
     let one = |axis: &Axis| Along {
         name: axis.vary.name().to_owned(),
@@ -103,7 +104,7 @@ pub(super) fn along(axes: &[Axis]) -> Vec<Along> {
     axes.iter().rev().map(one).collect()
 }
 
-/// The place on axis number `k` of a point with these indices in the grid.
+/// The place on axis number `k` of the point with these indices in the grid.
 pub(crate) fn on_axis(index: &[usize], k: usize) -> usize {
     index[index.len() - 1 - k]
 }

@@ -1,4 +1,4 @@
-//! The tiles of a study of Lyapunov exponents: at each point both, and what they say.
+//! The tiles of a study of Lyapunov exponents: at each point both exponents and the kind of the motion.
 
 use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::map::side;
@@ -8,7 +8,7 @@ use crate::{Block, Grid, LyapunovPlan, PlanError, SystemPlan};
 use vibroimpact::Oscillator;
 use vibroimpact::chaos::{Grounds, Measured, exponents};
 
-/// Points of a tile along each of two axes where no number is given; some seconds of work.
+/// Default number of points of a tile along each of two axes; a tile takes some seconds.
 const TILE: usize = 8;
 
 pub(super) struct LyapunovFill {
@@ -91,7 +91,7 @@ impl Fill for LyapunovFill {
         for (k, why) in why.iter_mut().enumerate() {
             let index = block.index(k);
             let (place, axes) = (|axis: usize| on_axis(&index, axis), &self.plan.axes);
-            // the corners were checked; where a point between them makes no sense, nothing is known
+            // the corners are valid; a point between them that is not has no result
             let osc = axis::system_at(&self.system, axes, place).and_then(|system| system.oscillator());
             let start = |osc: Oscillator| Ok((osc, axis::start_at(&self.plan.start, axes, place).start(&osc)?));
             let question: Result<_, PlanError> = osc.and_then(start);

@@ -1,4 +1,4 @@
-//! The tiles of a map: at each point its motions, the most frequent first.
+//! The tiles of a map: the motions at each point, the most frequent first.
 
 use super::code;
 use super::fill::{Along, Fill, along, grid_of, on_axis};
@@ -9,9 +9,9 @@ use crate::{Block, Grid, MapPlan, PlanError, Share, SystemPlan};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{SettleOptions, Verdict};
 
-/// Motions kept at a point, at most: more than have been seen to coexist in practice.
+/// Maximum number of motions stored for a point; more have not been observed to coexist in practice.
 const MOST_MOTIONS: usize = 8;
-/// Points of a tile along each of two axes where no number is given; some seconds of work.
+/// Default number of points of a tile along each of two axes; a tile takes some seconds.
 const TILE: usize = 64;
 
 pub(crate) struct MapFill {
@@ -22,7 +22,7 @@ pub(crate) struct MapFill {
     kept: usize,
 }
 
-/// Points of a tile along each axis, so that tiles are of a like size for any number of axes.
+/// The side of a tile, chosen so that tiles have a similar number of points for any number of axes.
 pub(super) const fn side(plane: usize, axes: usize) -> usize {
     let points = plane * plane;
     match axes {
@@ -40,7 +40,7 @@ impl MapFill {
         Self { system: *system, plan: plan.clone(), options: plan.options(), grid, kept }
     }
 
-    /// The oscillator at a point; only the corners of the grid were checked.
+    /// The oscillator at a point. Only the corners of the grid have been checked.
     fn oscillator(&self, index: &[usize]) -> Result<Oscillator, PlanError> {
         self.plan.oscillator(&self.system, |k| on_axis(index, k))
     }
@@ -50,31 +50,31 @@ impl MapFill {
         Ok(motions(&self.oscillator(index)?, &self.plan, &self.options))
     }
 
-    /// The labels of the motions that are kept of a point, in order.
+    /// The labels of the stored motions of a point, in order.
     fn labels(&self, point: &MapTilePoint) -> Vec<i32> {
         let mut labels: Vec<i32> = self.kept(point).iter().map(|found| code(&found.verdict)).collect();
         labels.sort_unstable();
         labels
     }
 
-    /// The motions that are kept of a point; none where it is no legal system.
+    /// The stored motions of a point; empty if the point is no valid system.
     fn kept<'a>(&self, point: &'a MapTilePoint) -> &'a [Share] {
         let all = point.as_deref().unwrap_or(&[]);
         &all[..all.len().min(self.kept)]
     }
 }
 
-/// The largest speed of arrival of a cycle.
+/// The largest speed before an impact of a cycle.
 fn speed(verdict: &Verdict) -> f64 {
     if let Verdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN }
 }
 
-/// The larger modulus of the multipliers.
+/// The larger modulus of the two multipliers.
 fn multiplier(verdict: &Verdict, osc: &Oscillator) -> f64 {
     verdict.multipliers(osc).map_or(f64::NAN, |[a, b]| a.modulus().max(b.modulus()))
 }
 
-/// The motions at a point, the most frequent first, or why there is no system.
+/// The motions at a point, the most frequent first, or the error if the point is no valid system.
 type MapTilePoint = Result<Vec<Share>, PlanError>;
 
 impl Fill for MapFill {
@@ -131,7 +131,7 @@ impl Fill for MapFill {
         };
         match self.plan.refine {
             None => Some(points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect()),
-            // the same motions by name, in whatever order
+            // corners agree if they have the same labels, in any order
             Some(step) => refine::fill(block, step as usize, points, |a, b| self.labels(a) == self.labels(b)),
         }
     }
@@ -145,7 +145,7 @@ impl Fill for MapFill {
                 Cell::Computed(point) => (point, true),
                 Cell::Like(corner) => match &cells[*corner] {
                     Cell::Computed(point) => (point, false),
-                    // corners are computed
+                    // only computed points have numbers of their own
                     Cell::Like(_) => continue,
                 },
             };
@@ -154,7 +154,7 @@ impl Fill for MapFill {
                 let at = k * self.kept + i;
                 label[at] = code(&found.verdict);
                 numbers[0][at] = found.share;
-                // numbers of another point would be wrong here, its labels are what was found to agree
+                // the labels are those of the corner that agreed, but the other numbers would be those of another point
                 if let Some(osc) = &osc {
                     (numbers[1][at], numbers[2][at]) = (speed(&found.verdict), multiplier(&found.verdict, osc));
                 }
@@ -169,7 +169,7 @@ impl Fill for MapFill {
     }
 }
 
-/// The field that says which points were computed.
+/// The field that marks the points that were computed.
 pub(super) fn computed() -> Field {
     Field {
         name: "computed",

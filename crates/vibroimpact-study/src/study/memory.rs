@@ -1,4 +1,4 @@
-//! A study computed in memory, whole: for grids that fit it.
+//! A whole study computed in memory, for grids that fit.
 
 use super::fill::Fill;
 use super::{Study, StudyTable, Tiles};
@@ -15,14 +15,14 @@ pub struct Sheet {
     pub fields: Vec<Field>,
     /// The array of each field over the whole grid, in row-major order.
     pub columns: Vec<Column>,
-    /// What only the whole could say.
+    /// The final tables.
     pub tables: Vec<StudyTable>,
 }
 
-/// Computes all tiles and puts them together.
+/// Computes all tiles of a study and joins them.
 ///
 /// # Errors
-/// [`RunError`] when stopped, or for more points than memory should hold.
+/// [`RunError`] when stopped, or for more numbers than one run keeps in memory.
 pub fn in_memory(study: Study, control: &Control<'_>) -> Result<Sheet, RunError> {
     let (fields, grid) = (study.fields(), study.grid().clone());
     let numbers = fields.iter().map(|field| field.width() as u64).sum::<u64>().saturating_mul(grid.points());
@@ -50,14 +50,14 @@ pub(crate) fn tiles_of<F: Fill>(task: &F, control: &Control<'_>) -> Result<Vec<(
     Ok(blocks.zip(each_tile(grid, control, |k, tick| task.compute(&grid.tile(k), tick))?).collect())
 }
 
-/// Computes the tiles of a grid over threads. Progress is reported in points.
+/// Computes the tiles of a grid by several threads. Progress is reported in points.
 fn each_tile<T: Send>(
     grid: &Grid,
     control: &Control<'_>,
     compute: impl Fn(u64, &(dyn Fn() -> bool + Sync)) -> Option<T> + Sync,
 ) -> Result<Vec<T>, Stopped> {
     let meter = Meter::new(control, 0, grid.points());
-    // one tile of the grid is one unit of work, but points are reported
+    // `tiles` counts tiles, but progress is reported in points, so its own report is silenced
     let silent = Control { progress: &|_| {}, ..*control };
     let parts = tiles(grid.tiles(), 1, &silent, |range, finished| {
         let part = meter.tile(grid.tile(range.start).points() as u64);

@@ -1,7 +1,6 @@
-//! A plan that fills a grid, tile by tile: what is stored, and what one tile of it holds.
-//!
-//! A tile depends on the plan and its own place only, so that tiles may be computed in any order, twice, and on any
-//! machine. What only the whole can say, such as how many starts led to each motion, is worked out [at the
+//! A plan that fills a grid tile by tile: the arrays that are stored, and how a tile is computed. ! A tile depends only
+//! on the plan and its own place, so tiles may be computed in any order, more than once, and on any machine. Results
+//! that need the whole grid, such as the number of starts that lead to each motion, are computed [at the
 //! end](Study::conclude) from all tiles.
 
 mod arrays;
@@ -40,7 +39,7 @@ impl Study {
     /// The study of a plan.
     ///
     /// # Errors
-    /// [`PlanError`] for a plan that makes no sense, or one that fills no grid.
+    /// [`PlanError`] for an invalid plan, or for a task without a grid.
     pub fn new(plan: &Plan) -> Result<Self, PlanError> {
         plan.check()?;
         let tile = plan.tile;
@@ -66,30 +65,30 @@ impl Study {
         self.fill.grid()
     }
 
-    /// The values along its dimensions, where they have any.
+    /// The coordinate values of the dimensions that have any.
     #[must_use]
     pub fn coordinates(&self) -> Vec<Along> {
         self.fill.coordinates()
     }
 
-    /// The arrays.
+    /// The fields (arrays) of the study.
     #[must_use]
     pub fn fields(&self) -> Vec<Field> {
         self.fill.fields()
     }
 
-    /// The columns of tile number `k`, one for each field; `None` if stopped. `tick` is called for each point and says
-    /// whether to stop.
+    /// The columns of tile number `k`, one for each field; `None` if stopped. `tick` is called for each point and
+    /// returns whether to stop.
     #[must_use]
     pub fn tile(&self, k: u64, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>> {
         self.fill.fill(&self.grid().tile(k), tick)
     }
 
-    /// The tables of the whole study, once all tiles are there. Tiles with cycles that were unknown when they were computed
-    /// are written again; doing it twice changes nothing.
+    /// The tables of the whole study, when all tiles are complete. Cycles with preliminary numbers are numbered, and
+    /// the tiles that contain them are written again. A second call changes nothing.
     ///
     /// # Errors
-    /// When tiles cannot be read or written.
+    /// If tiles cannot be read or written.
     pub fn conclude<T: Tiles>(&self, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
         match self.fill.numbered() {
             Some(numbering) => numbering.conclude(self.grid(), tiles),

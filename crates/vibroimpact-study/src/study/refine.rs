@@ -1,26 +1,27 @@
-//! A coarse grid first, and finer only where neighbours differ.
+//! Refinement: a coarse grid is computed first, and finer points only where its points differ.
 //!
-//! A block is divided into boxes of `step` points a side. A box whose corners all agree is taken to agree inside; others
-//! are halved in every direction until nothing is left between the corners. So a point that was computed has the very
-//! result of the full grid; what is missed is a feature that touches no corner of a box, finer than `step`.
+//! A block is divided into boxes with sides of `step` points. If all corners of a box have the same result, its inner
+//! points are given that result. Other boxes are halved in every direction, until there are no points between their
+//! corners. So every computed point has exactly the result of the full grid. A feature is missed only if it touches no
+//! corner of a box, that is, if it is finer than `step`.
 
 use crate::Block;
 use std::collections::HashSet;
 
-/// What a point was given.
+/// The result of a point.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Cell<T> {
-    /// Its own result.
+    /// The point was computed.
     Computed(T),
-    /// That of the corner of a box, its point number ...
+    /// The point is given the result of a corner of its box, which is the point with this number.
     Like(usize),
 }
 
 /// A box: the lowest and highest index of each dimension within the block.
 type Cuboid = Vec<(usize, usize)>;
 
-/// Fills a block. `compute` gets numbers of points and returns their results, or `None` if stopped; `same` says whether
-/// two results agree.
+/// Fills a block. `compute` is called with numbers of points and returns their results, or `None` if stopped. `same`
+/// returns whether two results agree.
 pub(super) fn fill<T>(
     block: &Block,
     step: usize,
@@ -61,7 +62,7 @@ pub(super) fn fill<T>(
     cells.into_iter().collect()
 }
 
-/// Boxes of `step` points a side that cover everything, sharing their faces.
+/// Boxes with sides of `step` points that cover the block; neighbours share a face.
 fn coarse(lengths: &[usize], step: usize) -> Vec<Cuboid> {
     let sides = lengths.iter().map(|n| {
         let mut edges: Vec<usize> = (0..*n).step_by(step).collect();
@@ -76,7 +77,7 @@ fn coarse(lengths: &[usize], step: usize) -> Vec<Cuboid> {
     product(&sides.collect::<Vec<_>>())
 }
 
-/// The box halved in every direction in which something lies between its corners; nothing where nothing does.
+/// The parts of a box halved in every direction that has points between its corners; empty if no direction has.
 fn halves(cuboid: &Cuboid) -> Vec<Cuboid> {
     if cuboid.iter().all(|(low, high)| high - low < 2) {
         return Vec::new();
@@ -97,7 +98,7 @@ fn within(cuboid: &Cuboid) -> impl Iterator<Item = Vec<usize>> {
     product(&cuboid.iter().map(|(low, high)| (*low..=*high).collect()).collect::<Vec<Vec<_>>>()).into_iter()
 }
 
-/// All combinations, the last factor fastest.
+/// The Cartesian product; the last factor varies fastest.
 fn product<T: Clone>(factors: &[Vec<T>]) -> Vec<Vec<T>> {
     factors.iter().fold(vec![Vec::new()], |done, factor| {
         let with = |head: &Vec<T>| {
@@ -145,7 +146,7 @@ mod tests {
         for ranges in [&[(0, 1), (0, 9)][..], &[(3, 4), (7, 8)], &[(0, 2), (0, 2), (0, 5)], &[(4, 9)]] {
             let block = Block { ranges: ranges.iter().copied().map(along).collect() };
             let cells = fill(&block, 4, |points| Some(points.to_vec()), |a, b| a == b).unwrap();
-            // nothing agrees, so everything is computed
+            // no results agree, so every point is computed
             let want: Vec<_> = (0..block.points()).map(Cell::Computed).collect();
             assert_eq!(cells, want);
             assert!(fill(&block, 4, |_| None::<Vec<u8>>, |a, b| a == b).is_none());

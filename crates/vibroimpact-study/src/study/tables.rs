@@ -1,13 +1,13 @@
-//! What a study concludes in: tables of its cycles, from tiles that are read once more.
+//! The final tables of a study, computed from the complete tiles.
 
 use crate::Column;
 
-/// A small array about the whole, over dimensions of its own.
+/// A small array about the whole study, with dimensions of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyTable {
     /// Its name.
     pub name: &'static str,
-    /// A sentence that says what it is.
+    /// One line of text that describes it.
     pub long_name: &'static str,
     /// Its unit.
     pub units: &'static str,
@@ -22,24 +22,24 @@ pub struct StudyTable {
 pub enum Cells {
     /// Numbers.
     Numbers(Column),
-    /// Words.
+    /// Texts.
     Text(Vec<String>),
 }
 
-/// The finished tiles of a study, wherever they are kept.
+/// Access to the complete tiles of a study, independent of where they are stored.
 pub trait Tiles {
-    /// Why they cannot be read or written.
+    /// The error of a failed read or write.
     type Error;
 
     /// Field number `field` of tile number `tile`.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// If it cannot be read.
     fn read(&mut self, tile: u64, field: usize) -> Result<Column, Self::Error>;
 
     /// Replaces field number `field` of tile number `tile`.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     fn write(&mut self, tile: u64, field: usize, column: &Column) -> Result<(), Self::Error>;
 }

@@ -1,4 +1,4 @@
-//! Studies against the questions asked one by one.
+//! Compares studies with the same questions computed point by point.
 
 use super::*;
 use crate::Axis;
@@ -30,7 +30,7 @@ fn a_basin_is_that_of_the_starts_one_by_one() {
     let labels: Vec<String> = columns(&found, "label").whole().iter().map(|c| label_of(*c).unwrap()).collect();
     let want: Vec<String> = (0..37 * 29).map(|k| direct.label(k).into_owned()).collect();
     assert_eq!(labels, want);
-    // the numbers tell the same motions apart, and the table counts them
+    // the numbers distinguish motions with the same label, and the table counts their starts
     let cycles = columns(&found, "cycle").whole();
     let number = |motion: u16| cycles[direct.cells.iter().position(|m| *m == motion).unwrap()];
     assert!(direct.cells.iter().zip(cycles).all(|(motion, cycle)| *cycle == number(*motion)));
@@ -47,7 +47,7 @@ fn a_basin_is_that_of_the_starts_one_by_one() {
     }
 }
 
-/// A survey that has met nothing leaves all numbers to the end.
+/// With an empty survey all cycles are numbered at the end.
 #[test]
 fn cycles_that_nobody_knew_of_are_numbered_at_the_end() {
     let task = Task::Basin(BasinPlan::plane(span("-4:0.75:20"), span("-4:4:20"), 0.0));
@@ -58,7 +58,7 @@ fn cycles_that_nobody_knew_of_are_numbered_at_the_end() {
     let untold = in_memory(Study { fill: Box::new(untold) }, &Control::default()).unwrap();
     let (a, b) = (columns(&told, "cycle").whole(), columns(&untold, "cycle").whole());
     assert!(b.iter().all(|n| (0..2).contains(n)), "{b:?}");
-    // the same motions, though perhaps in another order
+    // the same motions, possibly in another order
     let swapped = a[0] != b[0];
     assert!(a.iter().zip(b).all(|(a, b)| (a == b) != swapped));
 }
@@ -82,7 +82,7 @@ fn a_map_is_that_of_its_points() {
     assert_eq!(along[1].values[1], 0.7);
 }
 
-/// What was computed is what the full grid has; here nothing was missed either.
+/// Computed points have the results of the full grid; in this example the other points have too.
 #[test]
 fn refinement_computes_less_and_the_same() {
     let plan = BasinPlan::plane(span("-4:0.75:200"), span("-4:4:200"), 0.0);
@@ -135,7 +135,7 @@ fn scattered_starts_exponents_and_three_axes() {
     let found = sheet(u, Task::Lyapunov(plan), None, 2);
     let exponents = columns(&found, "exponent").real();
     assert_eq!(exponents.len(), 12);
-    // rows of rising velocity, gaps 3 (chaos at U) and 2 (1/2 at T) in each
+    // each row is one velocity, with gap 3 (chaos at U) and gap 2 (1/2 at T)
     for row in exponents.chunks(4) {
         assert!(row[0] > 0.005 && row[2] < -0.005, "{row:?}");
     }

@@ -1,4 +1,4 @@
-//! What the page needs to know before it asks.
+//! The data that the page needs before its first request.
 
 use crate::bounds::{MOST_IMPACTS, MOST_POINTS, MOST_STARTS};
 use crate::packed::Named;
@@ -13,7 +13,7 @@ pub(super) struct About {
     version: &'static str,
     threads: usize,
     limits: Limits,
-    /// The points the 1971 paper discusses.
+    /// The points discussed in the 1971 paper.
     points: Vec<Point>,
     /// Every group of labels in the order of a legend.
     groups: Vec<Named>,

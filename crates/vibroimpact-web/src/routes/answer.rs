@@ -1,4 +1,4 @@
-//! What the command prints, writes and draws for a plan, and the command line itself.
+//! The output of the command for a plan (JSON, table and figure), and the command line itself.
 
 use super::asked::{PlanRequest, Query, bytes, wants_events};
 use crate::Explorer;
@@ -19,7 +19,7 @@ use vibroimpact_report::scene::View;
 use vibroimpact_report::{AnswerError, Shown, Units, answer as ask};
 use vibroimpact_study::Control;
 
-/// The object that `--json` prints; with progress events where the page asks for them.
+/// The object that `--json` prints, with progress events if the page requests them.
 pub(super) async fn answer(
     State(explorer): State<Explorer>,
     headers: HeaderMap,
@@ -61,8 +61,8 @@ pub(super) async fn table(
     Ok(bytes("text/csv; charset=utf-8", body))
 }
 
-/// What to type for the same in a shell and in Python, and for the figure of one view of a settled motion where one is named; `null`
-/// where there are no words for it.
+/// The command line and the call in Python for the same result; and for the figure of one view of a settled motion, if
+/// one is named. `null` if there is none.
 pub(super) async fn command(Query(wanted): Query<Wanted>, asked: PlanRequest) -> Json<Value> {
     let plan = &asked.plan;
     let (vibro, python) = match wanted.kind {
@@ -72,14 +72,14 @@ pub(super) async fn command(Query(wanted): Query<Wanted>, asked: PlanRequest) ->
     Json(json!({ "vibro": vibro, "python": python }))
 }
 
-/// How a figure is wanted; sizes in its units, of which a text is 20 high.
+/// The options of a figure. Sizes are in units in which text is 20 high.
 #[derive(Deserialize)]
 pub(super) struct Wanted {
     #[serde(default)]
     format: Format,
     width: Option<f64>,
     height: Option<f64>,
-    /// What is shown of a settled motion; without it what `--plot` draws.
+    /// The view of a settled motion; by default that of `--plot`.
     kind: Option<View>,
 }
 
@@ -91,9 +91,9 @@ enum Format {
     Png,
 }
 
-/// Sizes of figures, in their units.
+/// Allowed sizes of figures, in their units.
 const SIZES: core::ops::RangeInclusive<f64> = 200.0..=4000.0;
-/// Pixels of a PNG to a unit.
+/// Pixels of a PNG for each unit.
 const SHARPNESS: f64 = 2.0;
 
 impl Wanted {
@@ -126,7 +126,7 @@ impl Wanted {
     }
 }
 
-/// The figure that `--plot` draws, or one of the kinds.
+/// The figure that `--plot` draws, or another view.
 pub(super) async fn figure(
     State(explorer): State<Explorer>,
     Query(wanted): Query<Wanted>,

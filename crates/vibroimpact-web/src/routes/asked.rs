@@ -1,4 +1,4 @@
-//! What a request asks, read and checked, and bytes as an answer.
+//! The parsing and checking of requests, and answers in bytes.
 
 use crate::bounds;
 use crate::refusal::Refusal;
@@ -11,14 +11,14 @@ use core::time::Duration;
 use serde::de::DeserializeOwned;
 use vibroimpact_study::{Plan, PlanError};
 
-/// A plan that makes sense and is not too much.
+/// A plan that is valid and within the limits.
 pub(crate) struct PlanRequest {
     pub(crate) plan: Plan,
-    /// Its points, for progress.
+    /// The number of its points, for progress reports.
     pub(crate) points: u64,
 }
 
-/// What a query asks for; one that does not read is refused as a plan that does not.
+/// The parameters of a query. Invalid ones are refused like an invalid plan.
 pub(crate) struct Query<T>(pub(crate) T);
 
 impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
@@ -28,14 +28,14 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
         let read = axum::extract::Query::<T>::from_request_parts(parts, state).await;
         read.map(|query| Self(query.0)).map_err(|refused| {
             let why = refused.body_text();
-            // what the parser was at is in the first words of ours
+            // our own message already begins with what was parsed
             let why = why.strip_prefix("Failed to deserialize query string: ").unwrap_or(&why);
             Refusal::bad(format!("the query `{}` does not read: {why}", parts.uri.query().unwrap_or_default()))
         })
     }
 }
 
-/// How long a client may take to send a plan.
+/// Time limit for a client to send a plan.
 const SENDING: Duration = Duration::from_secs(10);
 
 impl<S: Send + Sync> FromRequest<S> for PlanRequest {
@@ -57,17 +57,17 @@ impl<S: Send + Sync> FromRequest<S> for PlanRequest {
     }
 }
 
-/// Whether the page asks for progress events.
+/// Whether the page requests progress events.
 pub(super) fn wants_events(headers: &HeaderMap) -> bool {
     headers.get(header::ACCEPT).is_some_and(|kind| kind.as_bytes().starts_with(b"text/event-stream"))
 }
 
-/// Labels with commas between.
+/// Labels separated by commas.
 pub(super) fn listed(labels: &str) -> Vec<String> {
     labels.split(',').map(|label| label.trim().to_owned()).collect()
 }
 
-/// Bytes of a kind; nothing is kept by the browser but what the page keeps.
+/// An answer with bytes of a content type. The browser does not cache it; the page keeps what it needs.
 pub(super) fn bytes(kind: &'static str, body: Bytes) -> Response {
     ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, "no-store")], body).into_response()
 }

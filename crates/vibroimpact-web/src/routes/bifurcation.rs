@@ -1,4 +1,4 @@
-//! The bifurcation diagram along a line: the orbit diagram, and the branches of its motions over it.
+//! The bifurcation diagram along a line: the orbit diagram, with the branches of its motions.
 
 use super::answer::Wanted;
 use super::asked::{PlanRequest, Query, bytes, listed, wants_events};
@@ -16,12 +16,12 @@ use vibroimpact_report::Units;
 use vibroimpact_report::scene::{bifurcation, labels};
 use vibroimpact_study::Task;
 
-/// Values along the line at which its motions are looked for.
+/// Number of values along the line at which motions are searched.
 const LOOKS: u32 = 24;
-/// Number of motions whose branches are followed by default: those that most starts lead to.
+/// Default number of motions whose branches are followed: those of most starts.
 const MOST_LABELS: usize = 6;
 
-/// Motions with commas between; those found on the line where there are none.
+/// Labels of motions separated by commas. Default: those found on the line.
 #[derive(Deserialize)]
 pub(super) struct Which {
     labels: Option<String>,
@@ -39,7 +39,7 @@ pub(super) async fn diagram(
         return Err(Refusal::bad("a bifurcation diagram is drawn along the line of a diagram"));
     };
     let (done, points) = (Done::default(), asked.points);
-    // what varies has its first value
+    // parameters that vary have their first value
     let system = asked.plan.canonical()?.system;
     let asked = vibroimpact_report::Asked { system, units: Units::default() };
     let told = done.clone();

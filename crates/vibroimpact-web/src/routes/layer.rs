@@ -1,4 +1,5 @@
-//! Lines over a plane: the edges of the regions in which motions are stable, and where the motion without stops touches one.
+//! Lines over a plane: the boundaries of the regions of stability of motions, and the line where the motion without
+//! impacts grazes a stop.
 
 use super::asked::{PlanRequest, Query, listed, wants_events};
 use crate::Explorer;
@@ -16,11 +17,11 @@ use serde_json::{Value, json};
 use vibroimpact::continuation::{Polygon, Region};
 use vibroimpact_study::{Axis, Control, Coordinate, MapPlan, Parameter, Stretch, SystemPlan, Task, stability_regions};
 
-/// Motions whose regions are drawn by default: those of the 1971 paper, and what they double into.
+/// Motions whose regions are drawn by default: those of the 1971 paper, and those that begin at their flips.
 const LABELS: [&str; 9] = ["1/1", "2/1", "3/1", "4/1", "1/2", "1/3", "2/2", "3/2", "2/4"];
-/// Points of the grid at which orbits are looked for.
+/// Number of grid points, in each direction, at which orbits are searched.
 const GRID: u32 = 20;
-/// Points of a line.
+/// Number of points of a line.
 const POINTS: u32 = 600;
 
 #[derive(Clone, Copy, Deserialize)]
@@ -33,7 +34,7 @@ enum Kind {
 #[derive(Deserialize)]
 pub(super) struct Wanted {
     kind: Kind,
-    /// Motions with commas between, whose regions are wanted.
+    /// The labels, separated by commas, of the motions whose regions are requested.
     labels: Option<String>,
 }
 
@@ -106,7 +107,7 @@ fn edges(plane: &Plane, labels: &[String], control: &Control<'_>) -> Result<Valu
     Ok(json!({ "regions": edges.collect::<Vec<_>>() }))
 }
 
-/// Where the gap equals the amplitude of the motion without stops: lines over a plane with a gap axis.
+/// The lines where the gap equals the amplitude of the motion without impacts, in a plane with a gap axis.
 fn amplitude(plane: &Plane) -> Vec<Vec<(f64, f64)>> {
     let (gap, other, upwards) = match (plane.across.parameter, plane.up.parameter) {
         (_, Parameter::Gap) => (&plane.up, &plane.across, true),
@@ -119,7 +120,7 @@ fn amplitude(plane: &Plane) -> Vec<Vec<(f64, f64)>> {
         let at = other.from + (other.to - other.from) * f64::from(k) / f64::from(POINTS);
         let osc = plane.system.with(other.parameter, at).and_then(|system| system.oscillator());
         let amplitude = osc.map_or(f64::INFINITY, |osc| osc.free_amplitude());
-        // a little beyond the frame, so that the line reaches it
+        // slightly beyond the frame, so that the line reaches it
         if amplitude >= low - (high - low) && amplitude <= high + (high - low) {
             let point = if upwards { (at, amplitude) } else { (amplitude, at) };
             lines.last_mut().into_iter().for_each(|line| line.push(point));

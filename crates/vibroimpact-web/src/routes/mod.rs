@@ -1,4 +1,4 @@
-//! The requests. Each is a plan, and some say in what form its answer is wanted.
+//! The requests. Each one is a plan; some have options for the form of the answer.
 
 mod about;
 mod answer;
@@ -14,7 +14,7 @@ use axum::Router;
 use axum::http::StatusCode;
 use axum::routing::{get, post};
 
-/// All of them.
+/// The routes of all requests.
 pub(crate) fn all() -> Router<Explorer> {
     Router::new()
         .route("/", get(page::index))

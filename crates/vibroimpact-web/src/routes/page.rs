@@ -1,4 +1,4 @@
-//! The page and what it consists of, inside the program.
+//! The files of the page, which are contained in the program.
 
 use crate::refusal::Refusal;
 use axum::body::Bytes;
@@ -17,7 +17,7 @@ pub(super) async fn index(headers: HeaderMap) -> Result<Response, Refusal> {
 }
 
 pub(super) async fn asset(path: Result<Path<String>, PathRejection>, headers: HeaderMap) -> Result<Response, Refusal> {
-    // what is no text names no part
+    // a path that is not valid text names no file
     let Path(path) = path.map_err(|_| nothing())?;
     file(&path, &headers)
 }

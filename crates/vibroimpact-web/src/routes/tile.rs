@@ -1,4 +1,4 @@
-//! A piece of a plane: of a map, or of a basin.
+//! A tile of a map or a basin.
 
 use super::asked::{PlanRequest, bytes};
 use crate::refusal::Refusal;
@@ -10,12 +10,13 @@ use axum::response::Response;
 use vibroimpact_study::study::in_memory;
 use vibroimpact_study::{Control, Study, Task};
 
-/// Points from which a piece is worth more than one thread: several tiles of this size are made side by side anyway. With a budget
-/// beyond the smaller ones any piece is, as it may take a minute of work.
+/// Number of points above which a tile is computed by more than one thread. Smaller tiles use one thread, because the
+/// page requests several at a time. A tile whose budget is not small is always computed by several threads, because it
+/// may take a minute.
 const LARGE: u64 = 17_000;
 /// Budgets of impacts up to this one are small.
 const BRIEF: u32 = 1000;
-/// Points of a tile that one thread makes, where several do.
+/// Side of the part of a tile that one thread computes, if there are several threads.
 const SIDE: u32 = 32;
 
 pub(super) async fn tile(State(explorer): State<Explorer>, asked: PlanRequest) -> Result<Response, Refusal> {
@@ -26,7 +27,7 @@ pub(super) async fn tile(State(explorer): State<Explorer>, asked: PlanRequest) -
         _ => return Err(Refusal::bad("a tile is a piece of a map or of a basin")),
     };
     let name = format!("tile {}", plan.hash());
-    // points of one thread are refined together; those without refinement may be divided as one likes
+    // the points of one thread are refined together; a tile without refinement may be divided in any way
     let brief = impacts.is_some_and(|impacts| impacts <= BRIEF);
     let alone = refine.is_some() && brief && points <= LARGE;
     plan.tile = plan.tile.or(Some(if alone { 4096 } else { SIDE }));

@@ -1,25 +1,26 @@
-//! The Kaplan-Yorke dimension: how much of the plane the exponents let an attractor fill.
+//! The Kaplan-Yorke dimension of an attractor, computed from its exponents.
 //!
 //! For the stroboscopic section, a map of the plane with exponents $`\lambda_1 > 0 > \lambda_1 + \lambda_2`$,
 //!
 //! $$`D = 1 + \frac{\lambda_1}{|\lambda_2|}`$$
 //!
-//! (J. L. Kaplan and J. A. Yorke, Lect. Notes Math. 730 (1979) 204-227, doi:10.1007/BFb0064319). With both exponents negative it is 0: finitely
-//! many points. Where area is kept (restitution 1, no damping) it is 2, though nothing attracts there. The flow in the extended phase
-//! space of position, velocity and phase has a third exponent 0, along itself, and the dimension $`D + 1`$. It is the
-//! dimension that the measure on the attractor has if the conjecture of its authors holds, not a count of boxes.
+//! (J. L. Kaplan and J. A. Yorke, Lect. Notes Math. 730 (1979) 204-227, doi:10.1007/BFb0064319). If both exponents are
+//! negative, it is 0: the section is a finite number of points. If area is preserved (restitution 1, no damping) it is
+//! 2, although there is no attractor. The flow in the extended phase space of position, velocity and phase has a third
+//! exponent 0, along itself, and the dimension $`D + 1`$. This is the dimension of the measure on the attractor if the
+//! conjecture of its authors holds; it is not a box-counting dimension.
 
 use crate::lyapunov::Measured;
 use crate::lyapunov::blocks::{Block, MEASURE, quotient};
 
-/// Of the section, from exponents and the blocks they were measured over; `None` where the larger exponent is not known
-/// to differ from 0.
+/// The dimension of the section, from the exponents and the blocks over which they were measured; `None` if the larger
+/// exponent is not known to differ from 0.
 pub(super) fn of_section(exponents: &[Measured; 2], blocks: &[Block]) -> Option<Measured> {
     let [one, two] = exponents;
     if one.value < -one.error {
         return Some(Measured::default());
     }
-    // not a number is not above its error either
+    // NaN does not exceed its error either
     if !(one.value > one.error && two.value < 0.0) {
         return None;
     }

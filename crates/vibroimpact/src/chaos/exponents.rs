@@ -1,15 +1,18 @@
-//! The exponents of the motion from a start, through whatever happens to it.
+//! The Lyapunov exponents of the motion from a start, through impacts, chatter and sticking.
 //!
-//! The transient is passed first, the tangent vectors carried along all the while: they start anyhow and turn into their
-//! directions meanwhile. Then the given number of impacts is measured, in [blocks](super) that give the error bars.
+//! First the transient is passed. The tangent vectors begin in arbitrary directions and converge to their own during
+//! the transient. Then the given number of impacts is measured, in [blocks](super) from which the error bars are
+//! computed.
 //!
-//! The motion is watched as [`settle`](crate::verdict::settle()) watches it, for cycles, rests and fading impacts, however long it is
-//! followed; what it is shown to settle into stands beside the exponents ([`Exponents::motion`]), and they are of that motion: where it
-//! settles after the measurement has begun, the measurement begins again. So a transient that was chaotic is not mixed with what it ended in.
+//! The motion is checked for cycles, sticking and fading impacts as by [`settle`](crate::verdict::settle()), as long as
+//! it is followed. The verdict is reported with the exponents ([`Exponents::motion`]), and they belong to that motion:
+//! if it settles after the measurement has begun, the measurement begins again. So a chaotic transient and the motion
+//! after it are not mixed.
 //!
-//! A stick ends everything that was measured: the release is one state, so nothing before it matters, and transient and
-//! measurement begin again from there. A second stick on the same stop shows that the motion is periodic and sticks in
-//! each turn, so that both exponents are $`-\infty`$. So a motion is begun again at most once for each stop.
+//! When the mass sticks, the measurement is discarded: the release is one state, so the motion after it does not depend
+//! on what was before, and transient and measurement begin again. If it sticks on the same stop a second time, the
+//! motion is periodic and sticks in every period, so both exponents are $`-\infty`$. So a measurement is begun again at
+//! most once for each stop.
 
 use super::dimension;
 use super::run::Run;
@@ -20,26 +23,26 @@ use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Side, Start};
 use crate::verdict::{Chaos, Follow, NoImpact, Releases, SettleOptions, Undecided, Verdict, ended};
 
-/// Impacts measured where no number is given.
+/// The default number of impacts that are measured.
 pub const DEFAULT_IMPACTS: u64 = 100_000;
-/// Impacts of the transient where no number is given.
+/// The default number of impacts of the transient.
 pub const DEFAULT_TRANSIENT: u64 = 1_000;
 
-/// How long to follow a motion.
+/// How long a motion is followed for its exponents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentOptions {
-    /// Impacts to measure over; fewer than a few thousand say little.
+    /// The number of impacts that are measured; with fewer than a few thousand the error bars are wide.
     pub impacts: u64,
-    /// Impacts to pass before; 100 are passed in any case.
+    /// The number of impacts of the transient before the measurement; at least 100 are used.
     pub transient: u64,
-    /// How far each flight is searched.
+    /// The limits of the search for the first contact of each flight.
     pub limits: SearchLimits,
-    /// Search steps over all flights before giving up: what bounds the time where every flight is long.
+    /// The largest number of search steps of all flights together; it limits the time if every flight is long.
     pub max_steps: u64,
 }
 
 impl ExponentOptions {
-    /// Measures `impacts` after `transient`, with two hundred search steps for each: ordinary flights take ten.
+    /// Measures `impacts` after `transient`, with two hundred search steps for each impact; ordinary flights take ten.
     #[must_use]
     pub const fn new(impacts: u64, transient: u64) -> Self {
         let max_steps = impacts.saturating_add(transient).saturating_mul(200).saturating_add(2_000_000);
@@ -54,31 +57,31 @@ impl Default for ExponentOptions {
     }
 }
 
-/// Where the exponents come from.
+/// How the exponents were obtained.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grounds {
     /// Measured over `impacts` impacts, after `transient` others.
     Measured {
-        /// Impacts measured over.
+        /// Impacts measured.
         impacts: u64,
-        /// Impacts passed before.
+        /// Impacts of the transient.
         transient: u64,
-        /// Time measured over.
+        /// Time of the measurement.
         time: f64,
-        /// Blocks it was divided into.
+        /// Number of blocks.
         blocks: u32,
     },
-    /// No more impacts: those of the flight, exact.
+    /// There are no more impacts: the exponents of the free oscillator, exact.
     Flight(NoImpact),
-    /// It comes to rest on this stop again and again, once in each turn of a cycle: minus infinity, exact.
+    /// The mass sticks on this stop again and again, once in each period of a cycle: minus infinity, exact.
     Sticks(Side),
-    /// At rest on this stop for ever: minus infinity, exact.
+    /// The mass sticks on this stop for ever: minus infinity, exact.
     Stuck(Side),
-    /// It touches a stop again and again with no speed, or ever less: there is no derivative and no exponent.
+    /// The mass grazes a stop again and again, or its impacts fade away: there is no derivative and no exponent.
     Touches(NoImpact),
-    /// The search ran out of steps before enough impacts were seen.
+    /// The search steps were used up before enough impacts were found.
     Undecided {
-        /// Impacts seen.
+        /// Impacts found.
         impacts: u64,
     },
 }
@@ -86,26 +89,27 @@ pub enum Grounds {
 /// The exponents of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Exponents {
-    /// What the motion settles into, as far as it was followed for the exponents: chaos where the larger exponent excludes 0 and nothing
-    /// else was shown.
+    /// The verdict on the motion, as far as it was followed for the exponents: chaos if the larger exponent excludes 0
+    /// and nothing else was shown.
     pub motion: Verdict,
-    /// Lyapunov exponents per unit of (nondimensional) time, the larger first; errors are three standard errors, and no less than
-    /// 1 over the time measured. Minus infinity where everything is forgotten, not a
-    /// number where there are none or none were found; see [`Grounds`].
+    /// Lyapunov exponents per unit of (nondimensional) time, the larger first. Errors are three standard errors, and at
+    /// least 1 over the measured time. Minus infinity for a motion that sticks, NaN if there are none or none were
+    /// found; see [`Grounds`].
     pub exponents: [Measured; 2],
-    /// The sum of both, measured: its error is smaller than theirs, which are correlated.
+    /// The measured sum of both. Its error is smaller than theirs, because they are correlated.
     pub sum: Measured,
-    /// What the sum must be: $`2\,\overline{\ln\varepsilon}\,\nu - 2\zeta`$ with the impacts that were measured over. The difference
-    /// is what the measurement lost to rounding.
+    /// The exact sum: $`2\,\overline{\ln\varepsilon}\,\nu - 2\zeta`$ with the impacts that were measured. The
+    /// difference from `sum` is the rounding error of the measurement.
     pub identity: f64,
-    /// Impacts per forcing period; infinite with a complete chatter in each turn of a cycle, not a number where impacts fade away.
+    /// Impacts per forcing period; infinite with a complete chatter in each period of a cycle, NaN if impacts fade
+    /// away.
     pub impacts_per_period: Measured,
-    /// Kaplan-Yorke dimension of the stroboscopic section, 0 to 2; `None` where the larger exponent is not known to differ
+    /// Kaplan-Yorke dimension of the stroboscopic section, 0 to 2; `None` if the larger exponent is not known to differ
     /// from 0. That of the flow, in the space of position, velocity and phase, is larger by 1.
     pub section_dimension: Option<Measured>,
     /// The forcing period.
     pub period: f64,
-    /// Where all this comes from.
+    /// How the exponents were obtained.
     pub grounds: Grounds,
 }
 
@@ -116,13 +120,14 @@ impl Exponents {
         self.exponents.map(|m| Measured { value: m.value * self.period, error: m.error * self.period })
     }
 
-    /// Kaplan-Yorke dimension of the flow in the space of position, velocity and phase, 1 to 3.
+    /// Kaplan-Yorke dimension of the flow in the space of position, velocity and phase, 1 to 3; `None` as for the
+    /// section.
     #[must_use]
     pub fn flow_dimension(&self) -> Option<Measured> {
         self.section_dimension.map(|d| Measured { value: d.value + 1.0, error: d.error })
     }
 
-    /// Exact ones.
+    /// Exponents that are known exactly.
     fn exact(osc: &Oscillator, values: [f64; 2], rate: f64, (motion, grounds): (Verdict, Grounds)) -> Self {
         let exact = |value| Measured { value, error: 0.0 };
         let exponents = values.map(exact);
@@ -139,13 +144,14 @@ impl Exponents {
         }
     }
 
+    /// The exponents of a completed measurement.
     fn measured(osc: &Oscillator, run: &Run, settled: Option<Verdict>, last: ImpactState) -> Self {
         let (blocks, transient) = (run.blocks.as_slice(), run.transient);
         let total = blocks.iter().fold(Block::default(), |sum, block| sum.plus(block));
         let rate = |least: f64, of: &dyn Fn(&Block) -> f64| quotient(blocks, least, of, |block| block.time);
         let mut exponents = [0, 1].map(|k| rate(MEASURE, &|b| b.stretch[k]));
         if exponents[0].value < exponents[1].value {
-            // equal but for noise
+            // equal to within their errors
             exponents.swap(0, 1);
         }
         let impacts = rate(0.0, &|b| b.impacts);
@@ -190,11 +196,12 @@ impl Exponents {
 /// ```
 #[must_use]
 pub fn exponents(osc: &Oscillator, start: Start, options: &ExponentOptions) -> Exponents {
-    // nothing stops it
+    // it is never stopped
     exponents_while(osc, start, options, || true).unwrap_or_else(|| spent(osc, options, None, 0))
 }
 
-/// The same as [`exponents`], as long as `go_on` says yes when asked, which it is at every event; `None` once it said no.
+/// The same as [`exponents`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every
+/// event.
 #[must_use]
 pub fn exponents_while(
     osc: &Oscillator,
@@ -258,17 +265,17 @@ pub fn exponents_while(
     Some(spent(osc, options, settled, run.seen))
 }
 
-/// The exponents of a motion whose search ran out.
+/// The exponents of a motion whose search steps were used up.
 fn spent(osc: &Oscillator, options: &ExponentOptions, settled: Option<Verdict>, impacts: u64) -> Exponents {
     let motion = settled.unwrap_or_else(|| ended(osc, None, options.limits));
     Exponents::exact(osc, [f64::NAN; 2], f64::NAN, (motion, Grounds::Undecided { impacts }))
 }
 
-/// The exponents of a motion that ends so.
+/// The exponents of a motion with no further event.
 fn at_the_end(osc: &Oscillator, end: Verdict, impacts: u64) -> Exponents {
     let (values, rate, grounds) = match &end {
         Verdict::NoImpact(why @ NoImpact::Grazing { .. }) => ([f64::NAN; 2], 0.0, Grounds::Touches(*why)),
-        // ever gentler impacts, but impacts all the same
+        // the impacts become ever gentler but do not end
         Verdict::NoImpact(why @ NoImpact::GrazeLimit { .. }) => ([f64::NAN; 2], f64::NAN, Grounds::Touches(*why)),
         Verdict::NoImpact(why) => (of_flight(osc.damping()), 0.0, Grounds::Flight(*why)),
         Verdict::Stuck(side) => ([f64::NEG_INFINITY; 2], 0.0, Grounds::Stuck(*side)),
@@ -280,7 +287,7 @@ fn at_the_end(osc: &Oscillator, end: Verdict, impacts: u64) -> Exponents {
 /// The real parts of the characteristic exponents.
 fn of_flight(damping: f64) -> [f64; 2] {
     if damping < 1.0 {
-        // zero has no sign here
+        // adding to 0 avoids a negative zero
         return [0.0 - damping; 2];
     }
     let fast = damping + (damping - 1.0).sqrt() * (damping + 1.0).sqrt();

@@ -1,14 +1,14 @@
-//! A measurement under way, fed event by event.
+//! A measurement in progress; events are added one by one.
 
 use crate::lyapunov::blocks::{BLOCKS, Block};
 use crate::lyapunov::tangent::Frame;
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, Side};
 
-/// Impacts passed in any case, for the tangent vectors to turn.
+/// The least number of impacts of the transient, in which the tangent vectors converge to their directions.
 const TURNING: u64 = 100;
 
-/// A motion under way.
+/// The state of a measurement.
 pub(super) struct Run {
     impacts: u64,
     pub(super) transient: u64,
@@ -17,12 +17,12 @@ pub(super) struct Run {
     pub(super) since: f64,
     /// Impacts since the last release.
     passed: u64,
-    /// Impacts and sticks after a chatter since the start.
+    /// The number of impacts since the start.
     pub(super) seen: u64,
     chatters: u64,
     block: Block,
     pub(super) blocks: Vec<Block>,
-    /// When each stop was stuck to, and the impacts and chatters until then.
+    /// When the mass last stuck on each stop, with the numbers of impacts and chatters until then.
     stuck: [Option<(f64, u64, u64)>; 2],
 }
 
@@ -42,13 +42,14 @@ impl Run {
         }
     }
 
+    /// Adds an impact to the transient or to the measurement.
     pub(super) fn impact(&mut self, osc: &Oscillator, state: ImpactState) {
         let interval = core::mem::take(&mut self.since);
         let area = self.frame.through(osc, interval, &state);
         (self.seen, self.passed) = (self.seen + 1, self.passed + 1);
         let Some(measured) = self.passed.checked_sub(self.transient) else { return };
         if measured == 0 {
-            // the vectors have turned: from here on it counts
+            // the transient has ended; the stretches so far are discarded
             self.frame.take();
             return;
         }
@@ -71,7 +72,7 @@ impl Run {
         self.passed > self.transient
     }
 
-    /// At rest on a stop; the second time, how many impacts there are in a forcing period.
+    /// Records that the mass sticks on a stop; the second time, the number of impacts per forcing period.
     pub(super) fn stick(&mut self, osc: &Oscillator, side: Side, time: f64, chatter: bool) -> Option<f64> {
         self.chatters += u64::from(chatter);
         let now = (time, self.seen, self.chatters);
@@ -82,7 +83,7 @@ impl Run {
         Some(if self.chatters > chatters { f64::INFINITY } else { impacts / periods })
     }
 
-    /// Nothing before matters: the motion was released, or has settled after the measurement had begun.
+    /// Begins again: the mass was released, or the motion has settled after the measurement had begun.
     pub(super) fn begin_again(&mut self) {
         (self.frame, self.since, self.passed, self.block) = (Frame::default(), 0.0, 0, Block::default());
         self.blocks.clear();

@@ -4,7 +4,7 @@ use super::ExponentOptions;
 use crate::motion::{EventKind, ImpactState, MAX_TOUCHES, Motion, Strobes};
 use crate::system::{Oscillator, Start};
 
-/// What a motion leaves in the two sections, in the order of time.
+/// The points of a motion in the two sections, in the order of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// Its impacts: the section of the impact map.
@@ -13,11 +13,13 @@ pub struct Section {
     pub strobes: Vec<Start>,
 }
 
-/// Events in a row that add no point before nothing more is expected: a stick, a release and the touches between two impacts.
+/// The number of successive events without an impact after which no impact is expected: sticking, a release and the
+/// grazing contacts between two impacts.
 const IDLE: u32 = MAX_TOUCHES + 4;
 
-/// The motion of `osc` from `start` in both sections: `points` impacts after `transient` impacts, and `points` states after
-/// `transient` forcing periods. Fewer where the motion strikes no more, or where nothing is known of it so far ahead.
+/// The motion of `osc` from `start` in both sections: `points` impacts after `transient` impacts, and `points` states
+/// after `transient` forcing periods. There are fewer points if the motion has no more impacts, or if the search limits
+/// are reached.
 ///
 /// ```
 /// use vibroimpact::{Start, chaos::section, scenario};
@@ -28,11 +30,12 @@ const IDLE: u32 = MAX_TOUCHES + 4;
 /// ```
 #[must_use]
 pub fn section(osc: &Oscillator, start: Start, transient: u64, points: u64) -> Section {
-    // nothing stops it
+    // it is never stopped
     section_while(osc, start, transient, points, || true).unwrap_or_default()
 }
 
-/// The same as [`section`], as long as `go_on` says yes when asked, which it is at every impact and state; `None` once it said no.
+/// The same as [`section`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every impact
+/// and state.
 #[must_use]
 pub fn section_while(
     osc: &Oscillator,
@@ -41,7 +44,7 @@ pub fn section_while(
     points: u64,
     go_on: impl Fn() -> bool,
 ) -> Option<Section> {
-    // as far as exponents over as many impacts would be followed
+    // with the same limit as for exponents over this number of impacts
     let most_steps = ExponentOptions::new(points, transient).max_steps;
     let impacts = impacts(osc, start, most_steps).take_while(|_| go_on());
     let impacts = impacts.skip(whole(transient)).take(whole(points)).collect();
@@ -54,7 +57,7 @@ fn whole(count: u64) -> usize {
     usize::try_from(count).unwrap_or(usize::MAX)
 }
 
-/// The impacts of a motion, until nothing but touches is left of it.
+/// The impacts of a motion, until only grazing contacts are left.
 fn impacts(osc: &Oscillator, start: Start, most_steps: u64) -> impl Iterator<Item = ImpactState> {
     let mut motion = Motion::new(osc, start);
     core::iter::from_fn(move || {
@@ -102,13 +105,13 @@ mod tests {
 
     #[test]
     fn motions_that_end_leave_what_they_have() {
-        // pressed against the stop: a few impacts, then rest at every strobe
+        // pressed against the stop: a few impacts, then at rest in every period
         let stuck = Oscillator::new(0.9, -1.5, 0.5).unwrap();
         let found = section(&stuck, Start { x: -3.0, v: 0.0, phase: 1.0 }, 0, 100);
         assert!((3..60).contains(&found.impacts.len()) && found.impacts[0].side == Side::Upper);
         assert_eq!(found.strobes.len(), 100);
         assert_eq!((found.strobes[99].x, found.strobes[99].v), (-1.5, 0.0));
-        // back for a touch after every natural period, for ever
+        // it grazes the stop after every natural period, for ever
         let touching = Oscillator::new(2.0, 3.0, 0.5).unwrap();
         let found = section(&touching, Start { x: 3.0, v: 0.0, phase: 2.0 }, 0, 10);
         assert_eq!((found.impacts.len(), found.strobes.len()), (0, 10));

@@ -1,8 +1,8 @@
-//! The end of a chatter: infinitely many impacts in finite time, summed.
+//! The completion of a chatter: infinitely many impacts in finite time, summed.
 //!
-//! After an impact with rebound speed $`w`$ at phase $`\theta`$, let $`a = \sin\theta - \delta > 0`$ be the acceleration into
-//! the stop, $`j = \beta\cos\theta`$ and $`q = -\beta^2\sin\theta`$ its first two time derivatives. The flight
-//! $`y(s) = -ws + \tfrac12(a + 2\zeta w)s^2 + \dots`$ returns after
+//! After an impact with rebound speed $`w`$ at phase $`\theta`$, let $`a = \sin\theta - \delta > 0`$ be the
+//! acceleration into the stop, and $`j = \beta\cos\theta`$ and $`q = -\beta^2\sin\theta`$ its first two time
+//! derivatives. The flight $`y(s) = -ws + \tfrac12(a + 2\zeta w)s^2 + \dots`$ returns after
 //!
 //! $$`s = \frac{2w}{a} - \frac{4(j+\zeta a)}{3a^3}w^2
 //!      + \frac{2\,(8j^2 + 10\zeta aj + 8\zeta^2a^2 - 3a^2 - 3aq)}{9a^5}w^3 + O(w^4)`$$
@@ -12,18 +12,19 @@
 //! $$`u = w - \frac{2(2\zeta a - j)}{3a^2}w^2 + \frac{2\,(8\zeta^2a^2 - 2\zeta aj - 4j^2 + 3aq)}{9a^4}w^3 + O(w^4).`$$
 //!
 //! The time $`\tau_\infty(\theta, w)`$ to the accumulation point satisfies
-//! $`\tau_\infty(\theta, w) = s + \tau_\infty(\theta + \beta s, \varepsilon u)`$. Inserting a power series in $`w`$ whose
-//! coefficients depend on $`\theta`$ through $`a, j, q`$, and comparing powers, gives with $`r = 1 - \varepsilon`$
+//! $`\tau_\infty(\theta, w) = s + \tau_\infty(\theta + \beta s, \varepsilon u)`$. A power series in $`w`$, with
+//! coefficients that depend on $`\theta`$ through $`a, j, q`$, is inserted and powers are compared. With
+//! $`r = 1 - \varepsilon`$ this gives
 //!
 //! $$`\tau_\infty = \frac{2w}{ar} - \frac{4(j + \zeta a)}{3a^3r^2}w^2 +
 //!   \frac{8(2+3\varepsilon+2\varepsilon^2)j^2 - 6(1+\varepsilon)^2aq + 4(5+6\varepsilon+5\varepsilon^2)\zeta aj
 //!         + 16(1+\varepsilon^2)\zeta^2a^2 - 6r^2a^2}{9\,a^5r^3(1+\varepsilon+\varepsilon^2)}w^3 + O(w^4).`$$
 //!
 //! The first two terms are those of A. B. Nordmark and P. T. Piiroinen, "Simulation and stability analysis of impacting
-//! systems with complete chattering", Nonlinear Dyn. 58 (2009) 85-106, doi:10.1007/s11071-008-9463-y. The series
-//! proceeds in powers of one small number, estimated as $`\rho = \max(|\tau_2|/\tau_1, \sqrt{|\tau_3|/\tau_1})`$; the sum is
-//! used only when $`\rho \le 10^{-4}`$, and its error is then at most about $`10\,\tau_1\rho^3 \le 10^{-11}\tau_1`$.
-//! The same smallness proves that the chatter completes: over $`\tau_\infty`$ the force changes by a fraction of order
+//! systems with complete chattering", Nonlinear Dyn. 58 (2009) 85-106, doi:10.1007/s11071-008-9463-y. The series is one
+//! in powers of a small number, estimated as $`\rho = \max(|\tau_2|/\tau_1, \sqrt{|\tau_3|/\tau_1})`$. The sum is used
+//! only if $`\rho \le 10^{-4}`$, and its error is then at most about $`10\,\tau_1\rho^3 \le 10^{-11}\tau_1`$. A small
+//! $`\rho`$ also shows that the chatter is complete: during $`\tau_\infty`$ the force changes by a fraction of order
 //! $`\rho`$, and each rebound is smaller than the one before.
 
 use super::mirrored;
@@ -35,20 +36,22 @@ use crate::system::{Oscillator, Side};
 pub struct Completion {
     /// Time from the impact to the accumulation point.
     pub duration: f64,
-    /// Bound on the error of `duration`.
+    /// Estimated bound of the error of `duration`.
     pub error: f64,
 }
 
-/// Small parameter up to which the third-order sum is used: the error is of its cube, so a few parts in 1e12. Larger
-/// values save impacts (each factor of 10 some three of them at restitution 1/2) and cost accuracy.
+/// The largest small parameter for which the third-order sum is used. The error is of the order of its cube, a few
+/// parts in 1e12. A larger value saves impacts (about three for each factor of 10 at restitution 1/2) and loses
+/// accuracy.
 pub const DEFAULT_SMALLNESS: f64 = 1e-4;
 
-/// A rebound faster than this times the acceleration into the stop is never summed: the small parameter is of the order of
-/// their quotient, and where it vanishes by coincidence it is no measure.
+/// A chatter is not summed if the rebound speed exceeds this times the acceleration into the stop. The small parameter
+/// is of the order of this quotient; if it is smaller by a coincidence of parameters, it does not measure the error.
 pub(crate) const SLOW: f64 = 0.01;
 
-/// The accumulation of the chatter that follows an impact with `rebound` speed on the stop at `side`; `None` while it
-/// is not certain that there is one, or when it is too far off for the sum to be accurate.
+/// The accumulation of the chatter that follows an impact with rebound speed `rebound` on the stop at `side`; `None` if
+/// it is not certain that the chatter is complete, or if the accumulation point is too far away for the sum to be
+/// accurate.
 #[must_use]
 pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smallness: f64) -> Option<Completion> {
     let stop = osc.stop(side)?;
@@ -59,7 +62,8 @@ pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smalln
     if !(a > 0.0 && r > 0.0 && w < SLOW * a) {
         return None;
     }
-    // all terms over the first, in products that do not underflow while the force a, and with it the speed w, is tiny
+    // all terms divided by the first, as products that do not underflow if the force a, and with it the speed w, is
+    // tiny
     let k = w / a;
     let (jerk, snap, drag) = (j / a * k, q / a * k * k, zeta * k);
     let first = 2.0 * k / r;
@@ -69,7 +73,7 @@ pub fn completion(osc: &Oscillator, side: Side, phase: f64, rebound: f64, smalln
         + 16.0 * (1.0 + eps * eps) * drag * drag
         - 6.0 * r * r * k * k;
     let third = sum / (18.0 * r * r * (1.0 + eps + eps * eps));
-    // next to the smallest doubles j / a is infinite: then nothing is known of the sum
+    // near the smallest doubles j / a is infinite, and then nothing is known of the sum
     let rho = second.abs().max(third.abs().sqrt());
     (second.is_finite() && third.is_finite() && rho <= smallness)
         .then_some(Completion { duration: first * (1.0 + second + third), error: 10.0 * first * rho * rho * rho })
@@ -81,7 +85,7 @@ mod tests {
     use crate::flight::{Contact, Flight, SearchLimits, first_contact};
     use crate::system::{Start, phase};
 
-    /// Impact by impact until nothing is left to add.
+    /// Summed impact by impact until the time no longer changes.
     fn summed(osc: &Oscillator, mut theta: f64, mut w: f64) -> f64 {
         let mut total = 0.0;
         while w > 1e-200 {
@@ -112,7 +116,7 @@ mod tests {
             let osc = Oscillator::new(beta, gap, eps).unwrap().with_damping(zeta).unwrap();
             for theta in [0.4, 1.1, 1.9, 2.4] {
                 for smallness in [1e-2, 1e-3, 1e-4] {
-                    // the largest rebound the bound allows
+                    // the largest rebound for which the sum is used
                     let mut w = 0.1;
                     let sum = loop {
                         match completion(&osc, Side::Upper, theta, w, smallness) {
@@ -135,7 +139,8 @@ mod tests {
         assert_eq!(checked, 60);
     }
 
-    /// The fourth power of the force and the square of the speed are zero in doubles here, and their quotient was NaN.
+    /// The fourth power of the force and the square of the speed are zero in doubles here; their quotient was NaN in an
+    /// earlier version.
     #[test]
     fn tiny_forces_have_a_sum() {
         for (gap, w) in [(-1e-60, 1e-130), (-1e-85, 1e-180), (-1e-150, 1e-305)] {

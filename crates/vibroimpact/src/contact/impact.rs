@@ -1,4 +1,4 @@
-//! An impact: how the mass arrives at a stop, and how it leaves, $`u_+ = -\varepsilon u_-`$ (eq. 9).
+//! An impact: the arrival of the mass at a stop, and its rebound, $`u_+ = -\varepsilon u_-`$ (eq. 9).
 
 use crate::system::{Oscillator, Side, Start};
 
@@ -9,12 +9,12 @@ pub struct ImpactState {
     pub phase: f64,
     /// Speed of arrival, towards the stop, not negative.
     pub velocity: f64,
-    /// Which stop.
+    /// The stop.
     pub side: Side,
 }
 
 impl ImpactState {
-    /// The start that leaves the stop after this impact.
+    /// The state that leaves the stop after this impact.
     #[must_use]
     pub fn rebound(&self, osc: &Oscillator) -> Start {
         let (sign, stop) = (self.side.sign(), osc.stop(self.side));

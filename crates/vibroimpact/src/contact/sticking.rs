@@ -1,23 +1,23 @@
-//! Sticking: at rest on a stop while the force presses, released when it changes sign.
+//! Sticking: the mass is at rest on a stop while the force presses it, and is released when the force changes sign.
 //!
-//! At rest on the upper stop the contact force is $`\sin\theta - \delta`$. It holds the mass while $`\sin\theta \ge \delta`$, that is
-//! for $`\theta`$ between $`\arcsin\delta`$ and
+//! At rest on the upper stop the contact force is $`\sin\theta - \delta`$. It holds the mass while
+//! $`\sin\theta \ge \delta`$, that is, for $`\theta`$ between $`\arcsin\delta`$ and
 //!
 //! $$`\theta_r = \pi - \arcsin\delta,`$$
 //!
-//! where the mass leaves with zero velocity and zero acceleration. So for $`|\delta| < 1`$ every motion after a release is
-//! the same one, and a cycle that sticks is superstable. For $`\delta \le -1`$ the force never changes sign (at most it
-//! touches zero) and the mass rests for ever; for $`\delta > 1`$ it is never held.
+//! where the mass leaves with zero velocity and zero acceleration. So for $`|\delta| < 1`$ the motion after a
+//! release is always the same, and a cycle that sticks is superstable. For $`\delta \le -1`$ the force never changes
+//! sign (it is zero at most for a moment) and the mass sticks for ever. For $`\delta > 1`$ it never sticks.
 
 use super::mirrored;
 use crate::math::asin;
 use crate::system::{Oscillator, Side, phase};
 use core::f64::consts::PI;
 
-/// How long a mass at rest on a stop stays there.
+/// How long a mass that is at rest on a stop stays there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rest {
-    /// Until a release, this much later and at this phase.
+    /// Until a release.
     Until {
         /// Time from now to the release.
         time: f64,
@@ -35,15 +35,15 @@ pub fn release_phase(osc: &Oscillator, side: Side) -> Option<f64> {
     (gap.abs() < 1.0).then(|| phase::wrap(mirrored(side, PI - asin(gap))))
 }
 
-/// Whether a mass at rest on that stop at that phase is pressed against it: acceleration into the stop, before contact
-/// forces.
+/// The acceleration into the stop of a mass at rest on that stop at that phase, without the contact force. If it is
+/// positive, the mass is pressed against the stop.
 #[must_use]
 pub fn pressure(osc: &Oscillator, side: Side, phase: f64) -> f64 {
     let gap = osc.stop(side).map_or(f64::INFINITY, |stop| stop.gap);
     crate::math::sin_cos(mirrored(side, phase)).0 - gap
 }
 
-/// How long a mass stays that is at rest on the stop at `side`, held there at `phase`.
+/// How long a mass stays that is at rest on the stop at `side` at the phase `phase`.
 #[must_use]
 pub fn rest(osc: &Oscillator, side: Side, phase: f64) -> Rest {
     let Some(release) = release_phase(osc, side) else {
@@ -52,7 +52,7 @@ pub fn rest(osc: &Oscillator, side: Side, phase: f64) -> Rest {
     };
     let gap = osc.stop(side).map_or(0.0, |stop| stop.gap);
     let ahead = phase::wrap(release - phase);
-    // held between asin(gap) and pi - asin(gap); a phase outside by rounding is at the nearer end
+    // it is held from asin(gap) to pi - asin(gap); a phase outside by rounding counts as the nearer end
     let held = PI - 2.0 * asin(gap);
     if ahead <= held {
         Rest::Until { time: ahead / osc.beta(), phase: release }

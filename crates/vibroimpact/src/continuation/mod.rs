@@ -1,12 +1,12 @@
-//! Continuation: how a cycle changes with a parameter, and what ends or changes it on the way.
+//! Continuation: how a cycle changes with a parameter, and at which events it changes its kind or ends.
 //!
 //! | idea | folder |
 //! |---|---|
-//! | one step after another along a curve of solutions, and the zeros of test functions on it | `trace` |
-//! | the equations of cycles with one parameter or two among the unknowns | `equations` |
+//! | tracing a curve of solutions step by step, and locating the zeros of test functions on it | `trace` |
+//! | the equations of cycles with one or two parameters among the unknowns | `equations` |
 //! | branches: how a cycle changes with one parameter | [`Branch`], [`BranchEvent`], [`SolutionPoint`] |
 //! | curves of folds, flips and grazing impacts in a plane of two parameters | [`Curve`], [`CurvePoint`], [`Frame`] |
-//! | where in such a plane a motion exists or is stable, as polygons along these curves | [`region`], [`Region`] |
+//! | where in such a plane an orbit exists or is stable, as polygons bounded by these curves | [`region`], [`Region`] |
 
 mod branches;
 mod curves;

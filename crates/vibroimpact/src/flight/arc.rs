@@ -1,13 +1,13 @@
-//! One flight: the closed-form arc of the mass from a state until a stop is reached.
+//! One flight: the closed-form motion of the mass from a state until it reaches a stop.
 //!
-//! Positions are reported as displacements from the start, so that the gap left to a stop loses no digits when the
-//! flight begins on that stop and is short - the regime of chattering, where flights of $`10^{-9}`$ still have to be right
-//! to their last bits. There the arc is summed as its Taylor series,
+//! Positions are computed as displacements from the start. So the distance from a stop loses no digits if the flight
+//! begins on that stop and is short. Chatter needs this: flights of $`10^{-9}`$ must be correct to their last bits. For
+//! such flights the arc is summed as its Taylor series,
 //!
 //! $$`x^{(k+2)} = \beta^k \sin(\varphi + k\pi/2) - x^{(k)} - 2\zeta x^{(k+1)},`$$
 //!
-//! while $`\mu s`$ is small, $`\mu = \max(\beta, 1 + 2\zeta)`$ being the fastest rate in the system; beyond that it is
-//! taken from [`Response`](super::Response).
+//! while $`\mu s`$ is small, where $`\mu = \max(\beta, 1 + 2\zeta)`$ is the fastest rate in the system. Otherwise it is
+//! computed from [`Response`](super::Response).
 
 use crate::math::sin_cos;
 use crate::system::Response;
@@ -20,7 +20,7 @@ pub struct FlightPoint {
     pub displacement: f64,
     /// Position.
     pub x: f64,
-    /// Whether the start is forgotten so far that the position is known better than the displacement.
+    /// Whether the free part has changed so much that the position is more accurate than the displacement.
     pub(super) far: bool,
     /// Velocity.
     pub v: f64,
@@ -28,12 +28,11 @@ pub struct FlightPoint {
     pub a: f64,
     /// Third derivative.
     pub j: f64,
-    /// How far rounding may have moved `displacement`: a bound on the error of this evaluation, from the size of its
-    /// terms and of its arguments.
+    /// A bound on the rounding error of `displacement`, from the size of its terms and of its arguments.
     pub rounding: f64,
 }
 
-/// The closed-form motion from a state, as long as no stop is struck.
+/// The closed-form motion from a state, as long as no stop is reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flight {
     response: Response,
@@ -43,7 +42,7 @@ pub struct Flight {
     pub v: f64,
     /// Phase of the force at the beginning.
     pub phase: f64,
-    /// Sine and cosine of it.
+    /// Sine and cosine of this phase.
     pub(crate) sin: f64,
     pub(crate) cos: f64,
     /// Acceleration at the beginning.
@@ -51,17 +50,17 @@ pub struct Flight {
     pub(super) fastest: f64,
 }
 
-/// The most terms of the Taylor series, and the reach in $`\mu s`$ for which they suffice: the first one left out is below
-/// $`2^{-64}`$ of the leading ones.
+/// The largest number of terms of the Taylor series, and the largest $`\mu s`$ for which it suffices: the first omitted
+/// term is below $`2^{-64}`$ of the leading ones.
 const TERMS: usize = 32;
 const LONG_REACH: f64 = 3.0;
-/// Twelve terms suffice up to here.
+/// Up to this value twelve terms suffice.
 const SHORT_TERMS: usize = 12;
 const SHORT_REACH: f64 = 0.25;
-/// Below this speed the closed form, whose terms are of the size of the time flown, would cost digits of the
-/// displacement, so the series is used as far as it reaches; above, only where it is cheap.
+/// The terms of the closed form are of the size of the time of flight, so at speeds below this it would lose digits of
+/// the displacement. The series is then used as far as it is accurate; at higher speeds only where it is cheap.
 const SLOW: f64 = 0.125;
-/// 1/k.
+/// 1/k for each index k.
 const INVERSE: [f64; TERMS + 2] = {
     let mut inverse = [0.0; TERMS + 2];
     let (mut k, mut real) = (1, 1.0);
@@ -95,8 +94,8 @@ impl Flight {
         }
     }
 
-    /// The flight that follows a release from the stop on `side`: at rest on it, the force just changing sign, so the
-    /// acceleration is exactly zero whatever rounding made of $`\sin\theta - \delta`$.
+    /// The flight after a release from the stop on `side`: at rest on it, at the phase at which the force changes sign.
+    /// The acceleration is set to exactly zero, without the rounding error of $`\sin\theta - \delta`$.
     #[must_use]
     pub fn release(osc: &Oscillator, side: Side, phase: f64) -> Self {
         let x = osc.stop(side).map_or(0.0, |stop| side.sign() * stop.gap);
@@ -117,6 +116,7 @@ impl Flight {
         }
     }
 
+    /// The point by the closed form.
     fn by_response(&self, s: f64) -> FlightPoint {
         let (beta, zeta) = (self.response.beta(), self.response.damping());
         let p = self.response.at(s);
@@ -128,10 +128,10 @@ impl Flight {
         let a = force - (self.x + displacement) - 2.0 * zeta * v;
         let force_rate = self.cos * p.cos_turn - self.sin * p.sin_turn;
         let j = beta * force_rate - v - 2.0 * zeta * a;
-        // past a quarter of a free swing the position itself has the smaller terms
+        // after a quarter of a free oscillation the terms of the position itself are smaller
         let far = p.c < 0.5;
         let x = if far { self.x * p.c + self.v * p.s + forced } else { self.x + displacement };
-        // each term carries a few roundings; an angle that was rounded moves the free part too
+        // each term has a few rounding errors; the rounding error of an angle also affects the free part
         let (x0, v0, s_abs) = (self.x.abs(), self.v.abs(), p.s.abs());
         let start = x0 * if far { p.c.abs() } else { p.free_size };
         let terms = start + v0 * s_abs + p.forced_size;
@@ -140,11 +140,12 @@ impl Flight {
         FlightPoint { displacement, x, far, v, a, j, rounding }
     }
 
+    /// The point by the Taylor series with this number of terms.
     #[inline(never)]
     fn by_series(&self, s: f64, terms: usize) -> FlightPoint {
         let zeta2 = 2.0 * self.response.damping();
         let beta = self.response.beta();
-        // c[k] = x^(k) / k!; the force's own series runs through sin, cos, -sin, -cos with a factor beta / k each
+        // c[k] = x^(k) / k!; the derivatives of the force are sin, cos, -sin, -cos in turn, with a factor beta / k each
         let mut c = [0.0; TERMS + 1];
         (c[1], c[2]) = (self.v, 0.5 * self.a);
         let (mut sine, mut cosine) = (self.sin, self.cos);
@@ -157,7 +158,7 @@ impl Flight {
             real += 1.0;
         }
         let (mut x, mut v, mut a, mut j, mut size) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        real += 1.0; // = terms, as a number
+        real += 1.0; // = terms, as a float
         for k in (1..=terms).rev() {
             x = x * s + c[k];
             size = size * s + c[k].abs();
@@ -174,7 +175,7 @@ impl Flight {
         FlightPoint { displacement, x: self.x + displacement, far: false, v, a, j, rounding: HALF_ULP * 4.0 * size * s }
     }
 
-    /// Rate and bounds need the response too.
+    /// The response, from which the bounds of a flight are computed.
     #[inline]
     #[must_use]
     pub(super) const fn response(&self) -> &Response {

@@ -1,30 +1,32 @@
-//! How far a flight can go before it could possibly touch: proven bounds.
+//! Times for which a flight cannot reach a stop: proven bounds.
 //!
-//! Let $`y = \sigma x - \delta_\sigma \le 0`$ be the (negative) distance to a stop, $`p = \dot y`$, $`q = \ddot y`$. The energy
-//! radius $`r = \sqrt{x^2 + v^2}`$ obeys $`\dot r = (v\sin\theta - 2\zeta v^2)/r \le 1`$, so over a window of length $`H`$
+//! Let $`y = \sigma x - \delta_\sigma \le 0`$ be the (negative) distance from a stop, $`p = \dot y`$, $`q = \ddot y`$.
+//! The energy radius $`r = \sqrt{x^2 + v^2}`$ satisfies $`\dot r = (v\sin\theta - 2\zeta v^2)/r \le 1`$. So over a
+//! window of length $`H`$
 //!
 //! $$`|x| \le r + H, \quad |v| \le V = \min\bigl(r + H,\ |v_0| + (1 + (r+H)(1+2\zeta))H\bigr),`$$
 //! $$`|\ddot x| \le B_2 = 1 + (r+H) + 2\zeta V, \quad |\dddot x| \le B_3 = \beta + V + 2\zeta B_2,`$$
 //! $$`|x^{(4)}| \le B_4 = \beta^2 + B_2 + 2\zeta B_3, \quad |x^{(5)}| \le B_5 = \beta^3 + B_3 + 2\zeta B_4.`$$
 //!
-//! These hold for every $`\beta`$ and $`\zeta`$ and stay small through resonance, where the textbook amplitudes blow up.
-//! With $`c = q + \max(0, \min(B_3 H, \dddot y_0 H + \tfrac12 B_4 H^2))`$, at most $`B_2`$, an upper bound of
-//! $`\ddot y`$ in the window,
+//! These bounds hold for every $`\beta`$ and $`\zeta`$. They stay small at resonance, where bounds from the amplitudes
+//! of the free and the forced part grow without limit. With
+//! $`c = q + \max(0, \min(B_3 H, \dddot y_0 H + \tfrac12 B_4 H^2))`$, at most $`B_2`$, as an upper bound of $`\ddot y`$
+//! in the window,
 //!
 //! $$`y(h) \le y + p h + \tfrac12 c h^2 \qquad (0 \le h \le H),`$$
 //!
-//! and as long as the right side is negative the stop has not been reached. Close to a transversal contact the first
-//! zero of this bound approaches the contact quadratically, always from before.
+//! and as long as the right side is negative, the stop has not been reached. Near a transversal contact the first zero of
+//! this bound converges to the contact quadratically and is always before it.
 
 use super::Flight;
 use crate::math::hypot;
 use crate::system::Side;
 
-/// One stop seen from a point of the flight, as if it were the upper one.
+/// The state of the flight relative to one stop, mirrored if it is the lower one.
 #[derive(Clone, Copy)]
 pub(super) struct View {
     pub(super) side: Side,
-    /// Distance left.
+    /// Distance from the stop.
     pub(super) g: f64,
     /// Velocity, acceleration and third derivative towards the stop.
     pub(super) p: f64,
@@ -32,7 +34,7 @@ pub(super) struct View {
     pub(super) j: f64,
 }
 
-/// Bounds on the derivatives of `x` over a window from a state.
+/// Bounds of the derivatives of `x` over a window that begins at a state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     pub(super) b2: f64,
@@ -40,7 +42,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Over a time `span` from a state with energy radius `r` and speed `speed`.
+    /// The bounds over a time `span` from a state with energy radius `r` and speed `speed`.
     #[inline]
     pub(super) fn new(flight: &Flight, r: f64, speed: f64, span: f64) -> Self {
         let (beta, zeta2) = (flight.response().beta(), 2.0 * flight.response().damping());
@@ -61,7 +63,7 @@ impl Window {
     }
 }
 
-/// The first positive zero of $`-g + p h + c h^2/2`$ for `g > 0`, or infinity.
+/// The first positive zero of $`-g + p h + c h^2/2`$ for `g > 0`, or infinity if there is none.
 #[inline]
 pub(super) fn first_zero(g: f64, p: f64, c: f64) -> f64 {
     let disc = p * p + 2.0 * c * g;
@@ -78,15 +80,15 @@ pub(super) fn first_zero(g: f64, p: f64, c: f64) -> f64 {
     }
 }
 
-/// A time over which the stop at distance `g > 0` cannot be reached, from the state with velocity `p`, acceleration `q`
-/// and third derivative `j` towards it and energy radius `r`; `reach` is the window to try first.
+/// A time in which the stop at distance `g > 0` cannot be reached, from the state with velocity `p`, acceleration `q`
+/// and third derivative `j` towards the stop and energy radius `r`. `reach` is the length of the window that is tried.
 #[inline]
 pub(super) fn safe_time(flight: &Flight, View { g, p, q, j, .. }: View, r: f64, reach: f64) -> f64 {
     let near = Window::new(flight, r, p.abs(), reach);
     // the largest y'' in the window: q + max(0, j h + B4 h^2/2)
     let rise = (reach * (j + 0.5 * near.b4(flight) * reach)).max(0.0).min(near.b3 * reach);
     let by_third = first_zero(g, p, (q + rise).min(near.b2)).min(reach);
-    // the second-derivative bound alone needs no short window: for fast forcing it goes further
+    // the bound by the second derivative alone needs no short window; for fast forcing it gives a longer time
     let by_second = first_zero(g, p, Window::new(flight, r, p.abs(), FAR).b2).min(FAR);
     by_third.max(by_second)
 }
@@ -94,10 +96,12 @@ pub(super) fn safe_time(flight: &Flight, View { g, p, q, j, .. }: View, r: f64, 
 /// Window of the bound by the second derivative alone.
 const FAR: f64 = 1.0;
 
-/// For a flight that begins on a stop: a time over which it stays off it, with the contact at `s = 0` divided out.
+/// For a flight that begins on a stop: a time in which it does not return to it, with the contact at `s = 0` divided
+/// out.
 ///
-/// $`y(h)/h \le p + q h/2 + (\dddot y_0 + B_4 H) h^2/6`$, whose first positive zero is returned (at most the window). At
-/// rest ($`p = 0`$) the next order decides, and so on to the fourth: `None` says the mass does not leave the stop.
+/// The bound is $`y(h)/h \le p + q h/2 + (\dddot y_0 + B_4 H) h^2/6`$; its first positive zero is returned, but at most
+/// the window. At rest ($`p = 0`$) the next order is used, and so on up to the fourth. `None` means that the mass does
+/// not leave the stop.
 pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option<f64> {
     let (p, q) = (sign * flight.v, sign * flight.a);
     let (j, k) = (sign * flight.jerk(), sign * flight.snap());
@@ -122,12 +126,13 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option
         return Some(zero.min(window));
     }
     if gap >= 1.0 {
-        // the force never presses: g'' + 2 zeta g' + g = gap - sin >= 0 from rest keeps g >= 0 while S >= 0, half a
-        // natural period at least, whatever rounding makes of the derivatives at a force that just balances
+        // the force never presses: g'' + 2 zeta g' + g = gap - sin >= 0 from rest keeps g >= 0 while S >= 0, which is
+        // at least half a natural period, whatever the rounding errors of the derivatives are when the force is zero
         return Some(window);
     }
     if gap <= -1.0 {
-        // the force never pulls, at most it vanishes for a moment, as at gap -1 and phase 3 pi/2: held for ever
+        // the force never pulls, at most it is zero for a moment, as at gap -1 and phase 3 pi/2: the mass sticks for
+        // ever
         return None;
     }
     let bounds = Window::new(flight, r, p.abs(), window);
@@ -145,8 +150,9 @@ pub(super) fn leave_time(flight: &Flight, sign: f64, gap: f64, r: f64) -> Option
     None
 }
 
-/// A proof that a single transversal contact lies within `(0, span]`: the velocity towards the stop stays positive
-/// and the lower bound of `y` ends up beyond the stop by more than `rounding`.
+/// Proves that exactly one transversal contact lies within `(0, span]`, and returns `span`: the velocity towards the
+/// stop stays positive, and a lower bound of `y` at `span` is beyond the stop by more than `rounding`. `None` if this
+/// is not proven.
 #[inline]
 pub(super) fn single_contact_within(flight: &Flight, View { g, p, q, .. }: View, r: f64, rounding: f64) -> Option<f64> {
     if p <= 0.0 {
@@ -162,10 +168,10 @@ pub(super) fn single_contact_within(flight: &Flight, View { g, p, q, .. }: View,
     (p + lowest * span > 0.0 && g + 0.5 * lowest * span * span > rounding).then_some(span)
 }
 
-/// Energy radius of a state.
+/// The energy radius of a state.
 #[inline]
 pub(super) fn radius(x: f64, v: f64) -> f64 {
     let square = x * x + v * v;
-    // the square overflows only for legal but huge states
+    // the square overflows only for valid but very large states
     if square < 1e300 { square.sqrt() } else { hypot(x, v) }
 }

@@ -1,36 +1,37 @@
-//! What a flight meets first.
+//! The first contact of a flight.
 
 use super::Horizon;
 use crate::system::Side;
 
-/// How a flight first meets a stop.
+/// The first contact of a flight with a stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Contact {
-    /// It strikes a stop.
+    /// An impact on a stop.
     Impact {
         /// Time since the beginning of the flight.
         time: f64,
-        /// Which stop.
+        /// The stop.
         side: Side,
         /// Speed of arrival, towards the stop.
         velocity: f64,
     },
-    /// It touches a stop tangentially, to within what rounding can tell.
+    /// A grazing contact: tangential to within rounding errors.
     Grazing {
         /// Time since the beginning of the flight.
         time: f64,
-        /// Which stop.
+        /// The stop.
         side: Side,
-        /// What is computed of the distance left at the closest point: positive short of the stop, negative beyond.
+        /// The computed distance from the stop at the closest point: positive before the stop, negative beyond it.
         depth: f64,
     },
-    /// It never meets a stop, for ever, and why.
+    /// The flight never reaches a stop, for the reason given.
     Never(Horizon),
-    /// No contact up to this time since the beginning; beyond it nothing was decided.
+    /// No contact up to this time since the beginning; nothing is known beyond.
     NoneUntil(f64),
-    /// It begins on this stop and does not leave it: it arrives there, or rests there under a force into the stop.
+    /// The flight begins on this stop and does not leave it: it arrives there, or is at rest there under a force into
+    /// the stop.
     Contact {
-        /// Which stop.
+        /// The stop.
         side: Side,
     },
 }

@@ -1,28 +1,30 @@
-//! The first contact of a flight with a stop, which cannot be missed.
+//! The first contact of a flight with a stop, with a guarantee that none is missed.
 //!
 //! # What is guaranteed
-//! The search advances only over times during which a proven upper bound of the distance $`y`$ to each stop stays
-//! negative ([`bounds`](super), 2nd and 3rd derivative over a window), so no contact can lie in what it has passed. It
-//! ends in one of five ways:
+//! The search advances only over times for which a proven upper bound of the distance $`y`$ from each stop stays
+//! negative ([`bounds`](super), by the 2nd and 3rd derivative over a window). So no contact lies in the time that it
+//! has passed. It ends in one of five ways:
 //!
-//! - a **transversal impact**: once the velocity towards the stop is proven positive and the stop proven passed within
-//!   a short interval, that interval holds exactly one contact, and the third-order iteration
-//!   $`s \leftarrow s + 2g/(p + \sqrt{p^2 + 2qg})`$ refines it to the last bits;
-//! - a **grazing contact**: a maximum of $`y`$ closer to zero than the rounding of its own evaluation, a bound of which
-//!   every evaluation carries. Nothing computed in double precision can tell it from a touch. Its depth is reported;
-//! - **never**, by the amplitudes or by commensurability ([`Horizon`]);
-//! - **none until** a stated time: the limits of the search;
-//! - **contact** already at `s = 0`: the mass is on the stop and does not leave it.
+//! - a **transversal impact**: the velocity towards the stop is proven positive, and the mass is proven beyond the stop
+//!   at the end of a short interval. So the interval contains exactly one contact, and the third-order iteration
+//!   $`s \leftarrow s + 2g/(p + \sqrt{p^2 + 2qg})`$ converges to it to the last bits;
+//! - a **grazing contact**: a maximum of $`y`$ that differs from zero by less than the bound of its rounding error,
+//!   which every evaluation returns. In double precision it cannot be distinguished from a tangential contact. Its
+//!   depth is reported;
+//! - **never**, because of the amplitudes or a common period ([`Horizon`]);
+//! - **none until** a stated time, because the limits of the search were reached;
+//! - **contact** at `s = 0`: the mass is on the stop and does not leave it.
 //!
-//! The contact a flight starts from is divided out (`bounds::leave_time`), not stepped over: there is neither a nudge nor a
-//! cool-down, and flights of $`10^{-12}`$ are found like any other.
+//! The contact from which a flight starts is divided out (`bounds::leave_time`). So no displacement of the start and no
+//! cool-down is needed, and flights of $`10^{-12}`$ are found like any other.
 //!
-//! Bounds are evaluated in rounded arithmetic. They are used with a relative slack of $`10^{-12}`$, far above the
-//! rounding of their few operations and far below anything that costs a step. What rounding can do to the *values* is
-//! covered from both sides: a distance that rounding may hide counts as gone, so nothing within it is stepped over, and an
-//! impact is only claimed where the mass is proven beyond the stop by more than rounding. A maximum within it is called
-//! grazing, one above it is an impact, one below it is passed. An undamped flight that began on a stop is back on it
-//! after the common period, if there is one: where nothing came before, that is a touch.
+//! Bounds are evaluated in rounded arithmetic. They are used with a relative slack of $`10^{-12}`$. This is far above
+//! the rounding errors of their few operations, and too small to cost a step. Rounding errors of the *values* are taken
+//! into account in both directions. The distance from a stop is reduced by its rounding error before a step is
+//! computed. An impact is reported only if the mass is proven beyond the stop by more than the rounding error. A
+//! maximum that differs from the stop by less is called grazing, one above is an impact, and one below is passed. An
+//! undamped flight that began on a stop returns to it after the common period, if there is one; if there was no contact
+//! before, this is a grazing contact.
 
 use super::horizon::Outlook;
 use super::reach::Reach;
@@ -46,14 +48,15 @@ pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) ->
     counted(osc, flight, limits, 0.0).0
 }
 
-/// The first contact where it is known that there is none up to the time `clear`, if that is not 0; and the steps it took to find.
+/// The first contact, if it is known that there is none before the time `clear` (0 for unknown), and the number of
+/// search steps.
 pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits, clear: f64) -> (Contact, u32) {
     let mut search = match Search::begin(osc, flight) {
         Ok(search) => search,
         Err(contact) => return (contact, 0),
     };
     search.stride_to(clear);
-    // most flights end within a few steps: what needs arctangents waits until then
+    // most flights end within a few steps, so bounds that need arctangents are computed only after them
     let (quick, patient) = if clear > 0.0 { (0, 0) } else { (QUICK, PATIENT) };
     let mut outlook: Option<Outlook> = None;
     let mut reaches = [None; 2];
@@ -93,7 +96,7 @@ pub(crate) fn counted(osc: &Oscillator, flight: &Flight, limits: SearchLimits, c
     (Contact::NoneUntil(search.s), limits.steps)
 }
 
-/// Steps after which the outlook of the whole flight is worked out.
+/// The number of steps after which the bounds of the whole flight are computed.
 const QUICK: u32 = 12;
-/// Steps after which strides are tried.
+/// The number of steps after which strides are tried.
 const PATIENT: u32 = 64;

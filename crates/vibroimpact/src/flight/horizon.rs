@@ -1,26 +1,27 @@
-//! What can be said of a flight before searching it: that it never touches, or how far one has to look.
+//! What is known of a flight before it is searched: that it never reaches a stop, or how far the search must go.
 //!
-//! A flight is a free part, which decays like $`\rho e^{-\kappa s}`$ or keeps its amplitude $`\rho`$, and the steady motion of
-//! amplitude $`|f|`$. Three decisions need no time-out:
+//! A flight is the sum of a free part, which decays like $`\rho e^{-\kappa s}`$ or keeps its amplitude $`\rho`$, and
+//! the steady motion of amplitude $`|f|`$. Three cases are decided without a time limit:
 //!
-//! 1. $`\rho e^{-\kappa s} + |f| < \delta`$ from some time on: never again after it (at once when it holds at $`s = 0`$).
-//! 2. Undamped with $`\beta = p/q`$: the flight repeats after $`2\pi q`$, so one common period without contact is for ever.
-//!    [`Oscillator::fraction`] says which numbers count as fractions.
-//!    At resonance, 1/1, the flight grows instead of repeating, and the rule does not apply.
-//! 3. Otherwise contact is only a matter of time ($`\rho + |f| \ge \delta`$, phases incommensurate or $`|f| > \delta`$), and a search
-//!    that ends at its limit says so: none until then.
+//! 1. $`\rho e^{-\kappa s} + |f| < \delta`$ from some time on: no contact after it (at once if this holds at
+//!    $`s = 0`$).
+//! 2. Undamped with $`\beta = p/q`$: the flight repeats after $`2\pi q`$, so one common period without contact means no
+//!    contact for ever. [`Oscillator::fraction`] decides which numbers count as fractions. At resonance, 1/1, the
+//!    flight grows instead of repeating, and the rule does not apply.
+//! 3. Otherwise there will be a contact at some time ($`\rho + |f| \ge \delta`$, phases incommensurate or
+//!    $`|f| > \delta`$). A search that reaches its limit returns that there is none until then.
 
 use super::Flight;
 use crate::math::{atan2, hypot, ln, sin_cos};
 use crate::system::Oscillator;
 use core::f64::consts::{E, TAU};
 
-/// Why a flight never touches a stop.
+/// Why a flight never reaches a stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Horizon {
-    /// The amplitudes of its free and steady parts together stay short of the stops: for ever.
+    /// The amplitudes of its free and steady parts together do not reach the stops.
     Amplitude,
-    /// $`\beta = p/q`$ and one common period of force and oscillator, `2 pi q`, passed without contact: for ever.
+    /// $`\beta = p/q`$, and one common period of force and oscillator, `2 pi q`, passed without contact.
     CommonPeriod {
         /// Forcing periods in the common period.
         p: u32,
@@ -29,49 +30,49 @@ pub enum Horizon {
     },
 }
 
-/// How far a search for the next contact goes before it answers that there is none until then.
+/// The limits of the search for the next contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchLimits {
-    /// Periods to look ahead, of the force or of the oscillator, whichever is slower.
+    /// The time searched, in periods of the force or of the oscillator, whichever is slower.
     pub periods: f64,
-    /// Steps of one search: evaluations of the flight, and strides over times at which the stops are out of its reach. An ordinary flight
-    /// takes about ten.
+    /// The number of steps of one search: evaluations of the flight, and strides over times in which it cannot reach
+    /// the stops. An ordinary flight takes about ten.
     pub steps: u32,
 }
 
 impl Default for SearchLimits {
-    /// A thousand periods, a hundred thousand steps (a few milliseconds).
+    /// A thousand periods, and a hundred thousand steps (a few milliseconds).
     fn default() -> Self {
         Self { periods: 1000.0, steps: 100_000 }
     }
 }
 
 impl SearchLimits {
-    /// The time a search looks ahead, unless its steps run out before.
+    /// The time that is searched, unless the steps are used up before.
     #[must_use]
     pub fn horizon(&self, osc: &Oscillator) -> f64 {
         self.periods * osc.period().max(TAU)
     }
 }
 
-/// Free and steady part of a flight, as amplitudes and angles.
+/// The free and the steady part of a flight, as amplitudes and angles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Envelope {
     /// Amplitude of the steady part.
     pub(super) steady: f64,
     /// Angle of the steady part at the beginning: it is `steady * sin(angle + beta s)`.
     pub(super) steady_angle: f64,
-    /// Bound of the free part at the beginning ...
+    /// A bound of the free part at the beginning,
     pub(super) rho: f64,
-    /// ... and its rate of decay.
+    /// and its rate of decay.
     pub(super) kappa: f64,
-    /// Undamped: the free part is `rho * sin(free_angle + s)`.
+    /// Without damping the free part is `rho * sin(free_angle + s)`.
     pub(super) free_angle: f64,
     pub(super) beta: f64,
 }
 
 impl Envelope {
-    /// `None` at undamped resonance, where there is no steady part.
+    /// The parts of a flight; `None` at undamped resonance, where there is no steady part.
     pub(super) fn new(flight: &Flight) -> Option<Self> {
         let (beta, zeta) = (flight.response().beta(), flight.response().damping());
         let (zr, zi) = ((1.0 - beta) * (1.0 + beta), 2.0 * zeta * beta);
@@ -100,9 +101,10 @@ impl Envelope {
         Some(Self { steady, steady_angle, rho, kappa, free_angle: atan2(xf, vf), beta })
     }
 
-    /// From this time on the flight stays short of a stop at distance `gap` from the rest position.
+    /// The time from which on the flight does not reach a stop at distance `gap` from the rest position; `None` if it
+    /// is not known.
     pub(super) fn clear_from(&self, gap: f64) -> Option<f64> {
-        // rounding of the amplitudes themselves; at |f| = gap exactly nothing is claimed
+        // the slack covers the rounding errors of the amplitudes; if |f| = gap exactly, nothing is claimed
         let slack = gap - self.steady - 1e-14 * (self.rho + self.steady + gap.abs());
         if slack > self.rho {
             Some(0.0)
@@ -119,17 +121,18 @@ fn slow_root(zeta: f64) -> f64 {
     1.0 / (zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt())
 }
 
-/// What is known in advance about the whole flight.
+/// What is known in advance of the whole flight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outlook {
-    /// Search until here ...
+    /// The search ends at this time,
     pub(super) until: f64,
-    /// ... and if nothing came by then, this is why nothing ever will; `None`: no more is known.
+    /// and if there was no contact before, this is why there will be none; `None`: nothing more is known.
     pub(super) never: Option<Horizon>,
     pub(super) envelope: Option<Envelope>,
 }
 
 impl Outlook {
+    /// Decides how far a flight must be searched: by its amplitudes, by a common period, or up to the limits.
     pub(super) fn new(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Self {
         let envelope = Envelope::new(flight);
         let mut outlook = Self { until: limits.horizon(osc), never: None, envelope };

@@ -1,13 +1,13 @@
-//! Flight: the motion between impacts, and when it ends.
+//! Flight: the motion between impacts, and its end.
 //!
 //! | idea | file |
 //! |---|---|
 //! | free and forced response for every $`\beta`$ and $`\zeta`$ | [`Response`], in `system` |
 //! | the arc from a state | [`Flight`] |
-//! | what it meets first | [`Contact`] |
-//! | what can be said before searching: never, or how far to look | [`Horizon`] |
-//! | when it can reach a stop at all | `reach` |
-//! | the first contact, never missed, and the search for it | [`first_contact`], `search` |
+//! | the first contact | [`Contact`] |
+//! | what is known before the search: no contact for ever, or how far to search | [`Horizon`] |
+//! | the times at which it can reach a stop | `reach` |
+//! | the search for the first contact, which misses none | [`first_contact`], `search` |
 
 mod arc;
 mod bounds;

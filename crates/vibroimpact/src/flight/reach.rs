@@ -1,25 +1,26 @@
-//! When a flight can reach a stop at all: what lets a search cross long flights in strides.
+//! The times at which a flight can reach a stop, so that a search can skip the times between them.
 //!
-//! A flight is a steady part $`|f|\sin\theta_s`$ and a free part, without damping $`\rho\sin\theta_f`$. It can be beyond a stop at
-//! $`\delta`$ only while
+//! A flight is the sum of a steady part $`|f|\sin\theta_s`$ and a free part, without damping $`\rho\sin\theta_f`$. It
+//! can be beyond a stop at $`\delta`$ only while
 //!
-//! - the steady part reaches what the free part at its largest leaves: $`|f|\sin\theta_s \ge \delta - \rho`$;
-//! - the free part, what the steady one leaves: $`\rho\sin\theta_f \ge \delta - |f|`$;
-//! - both are in step: their amplitude together is $`\sqrt{\rho^2 + |f|^2 + 2\rho|f|\cos(\theta_f - \theta_s)} \ge \delta`$.
+//! - the steady part is above the gap less the amplitude of the free part: $`|f|\sin\theta_s \ge \delta - \rho`$;
+//! - the free part is above the gap less the amplitude of the steady part: $`\rho\sin\theta_f \ge \delta - |f|`$;
+//! - the amplitude of both together is above the gap:
+//!   $`\sqrt{\rho^2 + |f|^2 + 2\rho|f|\cos(\theta_f - \theta_s)} \ge \delta`$.
 //!
-//! Each is a sine that grows steadily beyond a level, so that the time until it does is a difference of angles. Between two
-//! beats, or where the force is slow, nothing has to be evaluated. With damping only the first is used.
+//! Each condition is a sine of a steadily increasing angle above a level, so the time until it holds is a difference of
+//! angles, and the flight need not be evaluated before. With damping only the first condition is used.
 
 use super::horizon::Envelope;
 use crate::math::{asin, exp};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Relative slack of the amplitudes, far above the rounding of their few operations.
+/// Relative slack of the amplitudes, far above the rounding errors of their few operations.
 const MARGIN: f64 = 1e-12;
-/// Strides in a row without a look at the flight itself.
+/// The largest number of successive strides before the flight is evaluated again.
 const ROW: u32 = 64;
 
-/// The times at which `sin(angle + rate s)` is beyond `sin(opens)`.
+/// The times at which `sin(angle + rate s)` is above `sin(opens)`.
 #[derive(Clone, Copy, Debug)]
 struct Window {
     angle: f64,
@@ -28,42 +29,44 @@ struct Window {
 }
 
 impl Window {
-    /// Where `amplitude * sin(angle + rate s)` is beyond `level`; `None` if that is always or never so, of which nothing is claimed.
+    /// The times at which `amplitude * sin(angle + rate s)` is above `level`; `None` if that holds always or never, and
+    /// then no time is excluded.
     fn new(level: f64, amplitude: f64, angle: f64, rate: f64) -> Option<Self> {
-        // the sine of a falling angle is that of a rising one, half a turn on
+        // sin of a decreasing angle = sin of an increasing one
         let (angle, rate) = if rate < 0.0 { (PI - angle, -rate) } else { (angle, rate) };
         (rate > 0.0 && level.abs() < amplitude).then(|| Self { angle, rate, opens: asin(level / amplitude) })
     }
 
-    /// How long from `s` on until it is open.
+    /// The time from `s` until the window is open.
     fn wait(&self, s: f64) -> f64 {
         let ahead = self.opens - (self.angle + self.rate * s);
         let ahead = ahead - TAU * floor(ahead * (1.0 / TAU));
-        // open from `opens` to half a turn less `opens`
+        // it is open from `opens` to pi - `opens`
         if ahead > 2.0 * self.opens + PI { 0.0 } else { ahead / self.rate }
     }
 }
 
-/// The whole number at or below, of a number up to some 1e15: without a call where the processor has no instruction for it.
+/// The largest whole number at or below `x`, for numbers up to about 1e15. It needs no call of a function on processors
+/// without an instruction for it.
 fn floor(x: f64) -> f64 {
     const WHOLE: f64 = 3.0 * (1_u64 << 51) as f64;
     let nearest = (x + WHOLE) - WHOLE;
     if nearest > x { nearest - 1.0 } else { nearest }
 }
 
-/// When a flight can reach one stop.
+/// The times at which a flight can reach one stop.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     envelope: Envelope,
     gap: f64,
-    /// What turns the stop into an upper one.
+    /// The angle that mirrors the lower stop: pi, or 0 for the upper one.
     turned: f64,
-    /// Without damping.
+    /// The three conditions without damping.
     windows: [Option<Window>; 3],
 }
 
 impl Reach {
-    /// For a stop at a distance `gap` from the position of rest; `sign` is +1 for the upper one.
+    /// For a stop at the distance `gap` from the rest position; `sign` is +1 for the upper stop.
     pub(super) fn new(envelope: Envelope, sign: f64, gap: f64) -> Self {
         let turned = if sign > 0.0 { 0.0 } else { PI };
         let mut reach = Self { envelope, gap, turned, windows: [None; 3] };
@@ -79,14 +82,15 @@ impl Reach {
         reach
     }
 
-    /// For the steady part, with the free one at most `rho` from now on.
+    /// The condition for the steady part if the amplitude of the free part is at most `rho` from now on.
     fn steady(&self, rho: f64) -> Option<Window> {
         let Envelope { steady, steady_angle, beta, .. } = self.envelope;
         let margin = MARGIN * (rho + steady + self.gap.abs());
         Window::new(self.gap - rho - margin, steady, steady_angle + self.turned, beta)
     }
 
-    /// A time not before `s`, nor far beyond `until`, before which the stop cannot be reached; and the strides made.
+    /// A time not before `s`, and not far beyond `until`, before which the stop cannot be reached; and the number of
+    /// strides.
     pub(super) fn next(&self, mut s: f64, until: f64) -> (f64, u32) {
         let Envelope { rho, kappa, .. } = self.envelope;
         if kappa > 0.0 {
@@ -94,7 +98,7 @@ impl Reach {
         }
         for strides in 0..ROW {
             let open = self.windows.iter().flatten().fold(s, |s, window| s + window.wait(s));
-            // the angles are as good as the time
+            // the rounding error of the angles is that of the time
             let next = open - 8.0 * f64::EPSILON * open;
             if next <= s || s >= until {
                 return (s, strides);
@@ -121,14 +125,14 @@ mod tests {
         assert!((wait(-0.5, 4.5) - (2.0 * PI - asin(0.5) - 4.5)).abs() < 1e-14);
         assert_eq!(wait(-0.5, 0.0), 0.0);
         assert_eq!(wait(2.0, 0.0), 0.0);
-        // falling: sin(1 - s) is beyond 1/2 again after 1 + pi + asin(1/2)
+        // decreasing angle: sin(1 - s) is above 1/2 again after 1 + pi + asin(1/2)
         let falling = Window::new(0.5, 1.0, 1.0, -1.0).unwrap();
         assert_eq!(falling.wait(0.0), 0.0);
         assert!((falling.wait(1.0) - (PI + asin(0.5))).abs() < 1e-14);
     }
 
     proptest! {
-        /// Nothing that a stride leaves out is beyond the stop.
+        /// At no time within a stride is the flight beyond the stop.
         #[test]
         fn no_stride_passes_a_stop(
             beta in prop_oneof![0.05..4.0, 0.99..1.01_f64],

@@ -1,29 +1,31 @@
-//! The search for a first contact, step by step: [`first_contact`](super::first_contact) says what is guaranteed and why.
+//! The steps of the search for a first contact. [`first_contact`](super::first_contact) states its guarantee and the
+//! reasons.
 
 use super::bounds::{View, leave_time, radius, safe_time, single_contact_within};
 use super::horizon::Outlook;
 use super::{Contact, Flight, FlightPoint, Horizon};
 use crate::system::{Oscillator, Side, Stop};
 
-/// Bounds are used up to this fraction, so that their own rounding cannot matter.
+/// Bounds are used up to this fraction, so that their own rounding errors have no effect.
 const SLACK: f64 = 1.0 - 1e-12;
 
-/// A search under way: nothing was touched up to the present point.
+/// The state of a search: there is no contact up to the current point.
 pub(super) struct Search<'a> {
     osc: &'a Oscillator,
     flight: &'a Flight,
-    /// Distance from the start to each stop, exact: `gap - sign x0`.
+    /// Distance of the start from each stop, exact: `gap - sign x0`.
     room: [f64; 2],
     /// Distance of each stop from the rest position.
     gap: [f64; 2],
-    /// Time of the present point.
+    /// Time of the current point.
     pub(super) s: f64,
     point: FlightPoint,
     reach: f64,
 }
 
 impl<'a> Search<'a> {
-    /// The search from the beginning of a flight; the contact there, if the mass is on a stop and does not leave it.
+    /// The search from the beginning of a flight; an error with the contact there if the mass is on a stop and does not
+    /// leave it.
     pub(super) fn begin(osc: &'a Oscillator, flight: &'a Flight) -> Result<Self, Contact> {
         let (mut room, mut gap) = ([f64::INFINITY; 2], [f64::INFINITY; 2]);
         let mut leave = f64::INFINITY;
@@ -47,7 +49,7 @@ impl<'a> Search<'a> {
         };
         let mut search = Self { osc, flight, room, gap, s: 0.0, point: start, reach };
         if leave.is_finite() {
-            // the other stop must not be reached in the meantime
+            // the other stop must not be reached during this time
             let other = search.views().filter(|view| view.g > 0.0);
             let safe = other.map(|v| safe_time(flight, v, r, reach)).fold(leave, f64::min);
             search.move_to(safe * SLACK);
@@ -55,10 +57,10 @@ impl<'a> Search<'a> {
         Ok(search)
     }
 
-    /// The answer when nothing was met as far as one has to look.
+    /// The result when there was no contact up to the time at which the search may end.
     pub(super) fn ended(&self, known: &Outlook) -> Contact {
         match known.never {
-            // a flight that began on a stop is back on it after the common period: at most a touch
+            // a flight that began on a stop is back on it after the common period, which is at most a grazing contact
             Some(Horizon::CommonPeriod { .. }) => {
                 let back = self.osc.stops().find(|(side, _)| self.room[index(*side)] <= 0.0);
                 match back {
@@ -71,7 +73,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Each stop and the sign that turns it into an upper one.
+    /// Each stop, with the sign that mirrors the lower one.
     pub(super) fn walls(&self) -> impl Iterator<Item = (f64, Stop)> {
         self.osc.stops().map(|(side, stop)| (side.sign(), stop))
     }
@@ -80,6 +82,7 @@ impl<'a> Search<'a> {
         self.osc.stops().map(|(side, _)| self.view(side, &self.point))
     }
 
+    /// The state of the flight relative to a stop, with the distance in the more accurate of its two forms.
     #[inline]
     fn view(&self, side: Side, point: &FlightPoint) -> View {
         let (sign, k) = (side.sign(), index(side));
@@ -93,14 +96,14 @@ impl<'a> Search<'a> {
         self.point = self.flight.at(s);
     }
 
-    /// Goes on to `s`, if that is ahead, up to where contact is known to be impossible.
+    /// Advances to `s`, if that is ahead; it must be known that there is no contact before.
     pub(super) fn stride_to(&mut self, s: f64) {
         if s > self.s {
             self.move_to(s);
         }
     }
 
-    /// One safe step, or the contact it found.
+    /// Takes one safe step, or returns the contact.
     #[inline]
     pub(super) fn advance(&mut self) -> Option<Contact> {
         let r = radius(self.point.x, self.point.v);
@@ -111,7 +114,7 @@ impl<'a> Search<'a> {
             if view.g <= GRAZING_ZONE * self.point.rounding {
                 return self.at_rounding(view, r);
             }
-            // what rounding may hide counts as gone
+            // the distance is reduced by its rounding error
             let seen = View { g: view.g - self.point.rounding, ..view };
             let time = safe_time(self.flight, seen, r, self.reach);
             if time < safe {
@@ -128,7 +131,7 @@ impl<'a> Search<'a> {
         self.reach = if step >= self.reach { 2.0 * step } else { 1.25 * step };
         let next = self.s + step;
         if next <= self.s {
-            // the bound no longer moves the clock: the contact is here, to the last bit
+            // the step is below the resolution of the time: the contact is here, to the last bit
             return nearest.and_then(|view| self.at_rounding(view, r));
         }
         self.move_to(next);
@@ -139,7 +142,7 @@ impl<'a> Search<'a> {
         self.views().filter(|other| other.side != side).all(|other| safe_time(self.flight, other, r, span) >= span)
     }
 
-    /// The single contact in `(self.s, end]`, by a third-order iteration kept in the bracket.
+    /// The only contact in `(self.s, end]`, by a third-order iteration that stays in the bracket.
     fn refine(&self, side: Side, end: f64) -> Contact {
         let (mut low, mut high) = (self.s, end);
         let (mut s, mut view) = (self.s, self.view(side, &self.point));
@@ -150,7 +153,7 @@ impl<'a> Search<'a> {
             if !(next >= low && next <= high) {
                 next = 0.5 * (low + high);
             }
-            // the step is already as good as the next evaluation could judge
+            // the next evaluation could not improve this step
             if step.abs() <= CONVERGED * next {
                 return Contact::Impact { time: next, side, velocity: (view.p + view.q * (next - s)).max(0.0) };
             }
@@ -166,17 +169,18 @@ impl<'a> Search<'a> {
         Contact::Impact { time: s, side, velocity: view.p.max(0.0) }
     }
 
-    /// The distance to this stop is down to rounding: decide what kind of contact it is, or pass.
+    /// The distance from this stop is within its rounding error: determines the kind of contact, or advances if there
+    /// is none.
     #[cold]
     fn at_rounding(&mut self, view: View, r: f64) -> Option<Contact> {
         let rounding = self.point.rounding.max(f64::MIN_POSITIVE);
-        // transversal: the velocity carries it through the zone of rounding within a time too short to matter
+        // transversal: the velocity carries the mass through the rounding error in a negligible time
         let curvature = 1.0 + r * (1.0 + 2.0 * self.flight.response().damping());
         if view.p > 0.0 && view.p * view.p > 16.0 * curvature * rounding {
             let width = 4.0 * GRAZING_ZONE * rounding / view.p;
             return Some(self.refine_freely(view, width));
         }
-        // tangential: find the extremum of y nearby, y' = 0
+        // tangential: find the nearby extremum of y, where y' = 0
         let (mut s, mut here) = (self.s, view);
         for _ in 0..MAX_REFINEMENTS {
             if here.q == 0.0 {
@@ -200,7 +204,7 @@ impl<'a> Search<'a> {
         let zone = GRAZING_ZONE * apex.rounding.max(rounding);
         if here.q < 0.0 && s >= self.s {
             if depth > zone {
-                // clear after all: go on from the closest point
+                // no contact: continue from the closest point
                 self.s = s;
                 self.point = apex;
                 self.reach = FIRST_REACH;
@@ -209,18 +213,18 @@ impl<'a> Search<'a> {
             if depth >= -zone {
                 return Some(Contact::Grazing { time: s, side: view.side, depth });
             }
-            // it does pass the stop: the contact lies between here and the apex
+            // it passes the stop: the contact lies between here and the maximum
             return Some(self.bisect(view.side, self.s, s));
         }
         if view.p < 0.0 && here.q <= 0.0 {
-            // leaving: the closest point was passed within rounding
+            // leaving the stop: the closest point was passed, within its rounding error
             return Some(Contact::Grazing { time: self.s, side: view.side, depth: view.g });
         }
-        // approaching with the force behind it: contact is imminent
+        // approaching with an acceleration towards the stop: contact follows at once
         Some(self.refine_freely(view, 1e-6))
     }
 
-    /// Contact right here, to within `width`.
+    /// The contact at the current point, to within `width`.
     fn refine_freely(&self, view: View, width: f64) -> Contact {
         let (mut s, mut here) = (self.s, view);
         for _ in 0..4 {
@@ -237,7 +241,7 @@ impl<'a> Search<'a> {
         Contact::Impact { time: s, side: view.side, velocity: here.p.max(0.0) }
     }
 
-    /// The contact between `low`, short of the stop, and `high`, beyond it and at the extremum.
+    /// The contact between `low`, before the stop, and `high`, the maximum beyond it.
     fn bisect(&self, side: Side, mut low: f64, mut high: f64) -> Contact {
         for _ in 0..200 {
             let middle = 0.5 * (low + high);
@@ -254,13 +258,14 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Window of the first step.
+/// The window of the first step.
 const FIRST_REACH: f64 = 0.7;
-/// A maximum within this many times the rounding of its evaluation counts as grazing.
+/// A maximum within this number of rounding errors of the stop counts as grazing.
 const GRAZING_ZONE: f64 = 1.0;
-/// Relative step at which a root is refined: one more third-order step would move it by less than its last bit.
+/// The relative step at which the iteration ends: another third-order step would change the root by less than its last
+/// bit.
 const CONVERGED: f64 = 1e-9;
-/// The iteration converges in two or three steps; this caps it.
+/// The largest number of iterations; two or three usually suffice.
 const MAX_REFINEMENTS: u32 = 60;
 
 #[inline]

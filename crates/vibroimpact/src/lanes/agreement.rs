@@ -1,13 +1,13 @@
-//! Every operation of every lane type against the same operation on one number: to the bit, with ties, zeros of both signs, infinities
-//! and NaN.
+//! Compares every operation of every lane type with the same operation on one number, to the bit, including ties, zeros
+//! of both signs, infinities and NaN.
 
 use super::pack::Pack;
 use crate::math::{Lane, Mask, Numbers, Single};
 
-/// Numbers that operations treat differently, and ordinary ones.
+/// Special and ordinary numbers.
 const NUMBERS: [f64; 12] = [0.0, -0.0, 1.0, -1.0, 1.5, 2.5, -2.5, 0.1, 1e-300, 7.25e5, f64::INFINITY, f64::NAN];
 
-/// All pairs of them, `width` at a time.
+/// All pairs of these numbers, `width` at a time.
 fn pairs(width: usize) -> impl Iterator<Item = (Vec<f64>, Vec<f64>)> {
     let all: Vec<(f64, f64)> = NUMBERS.iter().flat_map(|a| NUMBERS.iter().map(move |b| (*a, *b))).collect();
     (0..all.len()).map(move |first| (0..width).map(|k| all[(first + k) % all.len()]).unzip())
@@ -25,7 +25,7 @@ fn roughly<N: Single>(lanes: N) -> Vec<f32> {
     all
 }
 
-/// The same bits; one NaN is as good as another.
+/// Whether the bits are equal; all NaN are equal.
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
@@ -55,7 +55,7 @@ fn check<L: Lane>() {
         assert_eq!(x.less(y).bits(), bits(&less), "{a:?} < {b:?}");
         assert_eq!(x.less(y).and(y.less(x)).bits(), 0);
         assert_eq!(x.less(y).or(y.less(x)).bits(), bits(&|k| a[k] < b[k] || b[k] < a[k]));
-        // those that are less, moved to the front
+        // the numbers that are less, moved to the front
         let some = bits(&less);
         let mut front = vec![0.0_f32; L::WIDTH + 16];
         x.rounded().store_some(some, &mut front);

@@ -1,9 +1,9 @@
 //! The lane type of x86-64 with AVX2: four numbers in a register.
 //!
 //! # Safety
-//! All `unsafe` here is the same: an intrinsic that needs AVX (or an unaligned load or store within a slice whose length
-//! was checked). A value of this type exists only below [`super::width`]'s entry for AVX2, which is taken
-//! after the processor was asked, so the instructions are there.
+//! Every `unsafe` block here contains an intrinsic that needs AVX, or an unaligned load or store within a slice whose
+//! length was checked. A value of this type exists only below the entry of [`super::width`] for AVX2. This entry is
+//! called only on a processor that has these instructions.
 #![allow(unsafe_code)]
 
 use super::pack::Pack;
@@ -24,7 +24,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 #[derive(Clone, Copy)]
 pub(super) struct Four(__m256d);
 
-/// Four truth values: all bits of a place, or none.
+/// Four truth values; all bits of an element are set, or none.
 #[derive(Clone, Copy)]
 pub(super) struct FourMask(__m256d);
 
@@ -75,7 +75,7 @@ impl Numbers for Four {
     fn abs(self) -> Self {
         Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
     }
-    // `maxpd` and `minpd` give the second operand unless the first is greater (less): what the trait asks
+    // `maxpd` and `minpd` return the second operand unless the first is greater (less), as the trait requires
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self(unsafe { _mm256_max_pd(self.0, other.0) })
@@ -154,7 +154,7 @@ impl Lane for Four {
         let (row_a, row_b) = (&table[at[0] as usize], &table[at[1] as usize]);
         let (row_c, row_d) = (&table[at[2] as usize], &table[at[3] as usize]);
         let mut columns = [Self::splat(0.0); N];
-        // four columns at a time: load a quarter of each row, then transpose
+        // four columns at a time: load four elements of each row, then transpose
         let mut first = 0;
         while first < N {
             let (a, b) = (Self::load(&row_a[first..]).0, Self::load(&row_b[first..]).0);
@@ -187,7 +187,7 @@ impl Lane for Four {
     fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
         unsafe {
             let bits = _mm256_castpd_si256(quarters.0);
-            // a blend goes by the first bit
+            // a blend uses the first bit of each element
             let odd = _mm256_castsi256_pd(_mm256_slli_epi64::<63>(bits));
             let half = _mm256_castsi256_pd(_mm256_slli_epi64::<62>(bits));
             let (a, b) = (_mm256_blendv_pd(sin.0, cos.0, odd), _mm256_blendv_pd(cos.0, sin.0, odd));
@@ -198,7 +198,7 @@ impl Lane for Four {
     }
 }
 
-/// Rows as columns.
+/// Transposes rows to columns.
 #[inline(always)]
 fn transposed(a: __m256d, b: __m256d, c: __m256d, d: __m256d) -> [__m256d; 4] {
     unsafe {

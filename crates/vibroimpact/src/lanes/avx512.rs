@@ -1,8 +1,9 @@
 //! The lane type of x86-64 with AVX-512: eight numbers in a register, truth values in a mask register.
 //!
 //! # Safety
-//! As in `avx2`: a value of this type exists only below [`Width`](super::Width)'s entry for AVX-512, which is taken after the
-//! processor was asked, so the instructions are there; loads and stores stay within a slice whose length was checked.
+//! As in `avx2`: a value of this type exists only below the entry of [`Width`](super::Width) for AVX-512, which is
+//! called only on a processor that has these instructions. Loads and stores stay within a slice whose length was
+//! checked.
 #![allow(unsafe_code)]
 
 use super::pair::{Half, Pair};
@@ -72,7 +73,7 @@ impl Numbers for Eight {
     fn abs(self) -> Self {
         Self(unsafe { _mm512_abs_pd(self.0) })
     }
-    // `maxpd` and `minpd` give the second operand unless the first is greater (less): what the trait asks
+    // `maxpd` and `minpd` return the second operand unless the first is greater (less), as the trait requires
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self(unsafe { _mm512_max_pd(self.0, other.0) })
@@ -138,7 +139,7 @@ impl Lane for Eight {
     #[inline(always)]
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N] {
         let mut columns = [Self::splat(0.0); N];
-        // eight columns at a time: load an eighth-wide piece of each row, then transpose by pairs, quarters and halves
+        // eight columns at a time: load eight elements of each row, then transpose by pairs, quarters and halves
         let mut first = 0;
         while first < N {
             let (a, b) = (Self::load(&table[at[0] as usize][first..]).0, Self::load(&table[at[1] as usize][first..]).0);
@@ -185,7 +186,7 @@ impl Lane for Eight {
     }
 }
 
-/// Rows as columns.
+/// Transposes rows to columns.
 #[inline(always)]
 fn transposed([a, b, c, d, e, f, g, h]: [__m512d; 8]) -> [__m512d; 8] {
     unsafe {

@@ -1,11 +1,11 @@
-//! A batch: many motions of one oscillator, impact after impact, none waiting for another.
+//! A batch: many motions of one oscillator, from impact to impact, without waiting for each other.
 //!
-//! Every flight has a slot. A round takes one step of every flight; where a contact is found the slot is launched
-//! again from the stop at once, so that all lanes are at work in every step, whatever the lengths of the flights. The
-//! contacts are guaranteed to be the first ([`hull`](super)). What the lanes do not claim - grazes, flights that may never
-//! end, starts at rest on a stop - is listed as rare and left to [`Batch::carefully`], the search of
-//! [`flight`](crate::flight) from the launch, which is what a scalar [`Motion`](crate::motion::Motion) does in the same cases. So the
-//! impacts of a slot are those of a motion bit for bit, whatever the width of the lanes.
+//! Every flight has a slot. A round takes one step of every flight. When a contact is found, the slot is launched again
+//! from the stop at once, so all lanes are used in every step, whatever the lengths of the flights. The contacts are
+//! proven to be the first ([`hull`](super)). The slots whose contact the lanes cannot prove are listed as rare: grazing
+//! contacts, flights that may never end, starts at rest on a stop. They are left to [`Batch::carefully`], the search of
+//! [`flight`](crate::flight) from the launch, which a scalar [`Motion`](crate::motion::Motion) uses in the same cases.
+//! So the impacts of a slot are those of a motion bit for bit, whatever the width of the lanes.
 
 use super::flight::{Hit, Progress};
 use super::slots::{ARRIVAL, COS, INTERVAL, Lists, PHASE, SIDE, SIN, Slots, V, X, rebound, row};
@@ -17,11 +17,11 @@ use crate::contact::chatter;
 use crate::flight::{Contact, Flight, SearchLimits, counted};
 use crate::system::{Oscillator, Side, Start};
 
-/// Motions under way at once that keep the lanes full and stay in the nearer caches: what [`Batch::new`] is best given where there
-/// are so many.
+/// A number of motions for which the lanes are full and the data fit the nearer caches. It is the best capacity for
+/// [`Batch::new`] if there are that many motions.
 pub const ABREAST: usize = 1024;
 
-/// Motions of one oscillator under way.
+/// Motions of one oscillator, followed side by side.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Start, lanes::{Batch, Width}};
@@ -52,8 +52,9 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// For at most `capacity` motions of `osc`. `None` for oscillators whose flights the lanes do not fly: restitution
-    /// 0, forcing or damping some hundred times faster than the oscillator, stops a million static deflections away.
+    /// A batch for at most `capacity` motions of `osc`. `None` for oscillators whose flights the lanes cannot follow:
+    /// restitution 0, forcing or damping some hundred times faster than the oscillator, stops a million static
+    /// deflections away.
     #[must_use]
     pub fn new(osc: &Oscillator, capacity: usize, width: Width) -> Option<Self> {
         let stride = Stride::new(osc)?;
@@ -70,19 +71,19 @@ impl Batch {
         })
     }
 
-    /// How many motions are under way.
+    /// The number of motions.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.slots.count
     }
 
-    /// Whether there are none.
+    /// Whether the batch has no motions.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.slots.count == 0
     }
 
-    /// The longest flight that lanes find the end of.
+    /// The longest flight whose end the lanes can find.
     #[must_use]
     pub fn longest(&self) -> f64 {
         f64::from(NODES + 3) * self.stride.pace.h
@@ -91,23 +92,23 @@ impl Batch {
     /// Adds a motion, in the next slot.
     ///
     /// # Panics
-    /// Beyond the capacity.
+    /// If the batch has `capacity` motions already.
     pub fn push(&mut self, start: Start) {
         self.slots.count += 1;
         self.slots.launch(self.slots.count - 1, row(start));
     }
 
-    /// Puts another motion in a slot.
+    /// Replaces the motion in a slot.
     pub fn launch(&mut self, slot: u32, start: Start) {
         self.slots.launch(slot as usize, row(start));
     }
 
-    /// Takes a motion out; the one in the last slot moves into its place.
+    /// Removes a motion; the one in the last slot moves to this slot.
     pub fn remove(&mut self, slot: u32) {
         self.slots.remove(slot as usize);
     }
 
-    /// One step of every flight.
+    /// Takes one step of every flight.
     pub fn round(&mut self) {
         self.lists.clear();
         self.rare.clear();
@@ -122,26 +123,26 @@ impl Batch {
         }
     }
 
-    /// The slots that struck in the last round, each once.
+    /// The slots with an impact in the last round, each once.
     #[must_use]
     pub fn struck(&self) -> &[u32] {
         &self.lists.struck
     }
 
-    /// Those of them whose next leg is not a flight: the chatter completes, or the rebound is nothing. They have to be removed or
-    /// launched anew.
+    /// Those of them whose next leg is not a flight, because the chatter is complete or the rebound speed is zero. They
+    /// must be removed or launched again.
     #[must_use]
     pub fn settling(&self) -> &[u32] {
         &self.settling
     }
 
-    /// The slots whose flight was left to [`Batch::carefully`]. They have to be treated so, removed or launched anew.
+    /// The slots whose flight needs [`Batch::carefully`]. They must be passed to it, removed or launched again.
     #[must_use]
     pub fn rare(&self) -> &[u32] {
         &self.rare
     }
 
-    /// The last arrival of a slot that struck, and the time since the launch before it.
+    /// The last arrival of a slot that had an impact, and the time since the launch before it.
     #[must_use]
     pub fn arrival(&self, slot: u32) -> (ImpactState, f64) {
         let row = &self.slots.launches[slot as usize];
@@ -149,15 +150,16 @@ impl Batch {
         (ImpactState { phase: row[PHASE], velocity: row[ARRIVAL], side }, row[INTERVAL])
     }
 
-    /// The state a slot was last launched from.
+    /// The state from which a slot was last launched.
     #[must_use]
     pub fn launched(&self, slot: u32) -> Start {
         let row = &self.slots.launches[slot as usize];
         Start { x: row[X], v: row[V], phase: row[PHASE] }
     }
 
-    /// The contact of a rare flight, by the search that decides every case, and its steps. An impact launches the slot
-    /// again, as if it had struck; anything else is left as it is.
+    /// The contact of a rare flight by the careful search, which decides every case, and the number of its steps. After
+    /// an impact the slot is launched again, as after an impact in a round; after any other contact it is left as it
+    /// is.
     pub fn carefully(&mut self, slot: u32, limits: SearchLimits) -> (Contact, u32) {
         let flight = Flight::new(&self.osc, self.launched(slot));
         let clear = f64::from(self.slots.state(slot as usize).s);
@@ -168,7 +170,7 @@ impl Batch {
         (contact, steps)
     }
 
-    /// Whether the leg that follows an impact is not a flight.
+    /// Whether the leg after an impact is not a flight.
     #[must_use]
     pub fn settles_after(&self, state: &ImpactState) -> bool {
         let rebound = state.rebound(&self.osc).v.abs();
@@ -176,6 +178,7 @@ impl Batch {
             || chatter::completion(&self.osc, state.side, state.phase, rebound, chatter::DEFAULT_SMALLNESS).is_some()
     }
 
+    /// Examines a step that the lanes could not decide, in halved steps.
     fn refine(&mut self, slot: u32) {
         let row = &self.slots.launches[slot as usize];
         let launch = Launch { x: row[X], v: row[V], sin: row[SIN], cos: row[COS] };
@@ -195,12 +198,14 @@ impl Batch {
         }
     }
 
+    /// Launches a slot again after its contact.
     fn struck_at(&mut self, slot: u32, Hit { time, velocity, side }: Hit) {
         let phase = self.slots.launches[slot as usize][PHASE];
         let next = rebound(&self.stride, phase, (time, velocity, side));
         self.slots.launch(slot as usize, next);
     }
 
+    /// Lists a slot as settling if the leg after its impact is not a flight.
     fn sum_chatter(&mut self, slot: u32) {
         if self.settles_after(&self.arrival(slot).0) {
             self.settling.push(slot);

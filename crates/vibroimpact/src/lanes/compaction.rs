@@ -1,6 +1,6 @@
-//! Moving some of eight places to the front, without a branch that could be guessed wrong.
+//! Moving the selected ones of eight elements to the front, without branches that depend on data.
 
-/// The places of the bits that are set, in order, for every byte.
+/// For every byte, the positions of its set bits, in order.
 pub(super) const PLACES_OF_BITS: [[u8; 8]; 256] = {
     let mut table = [[0; 8]; 256];
     let mut byte = 0;
@@ -18,8 +18,8 @@ pub(super) const PLACES_OF_BITS: [[u8; 8]; 256] = {
     table
 };
 
-/// Writes the slots whose bits are set, of sixteen counted from `first`, to the beginning of `places`, which has room for all, and
-/// returns how many.
+/// Writes the slots whose bits are set, of sixteen slots counted from `first`, to the beginning of `places`, which must
+/// have room for sixteen, and returns their number.
 #[inline(always)]
 pub(super) fn list(bits: u32, first: usize, places: &mut [u32]) -> usize {
     let low = eight(bits, first, places);

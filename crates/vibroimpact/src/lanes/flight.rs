@@ -1,5 +1,6 @@
-//! A flight from its launch to its first contact: steps that are proven clear, then a strike; where neither can be proven,
-//! halved steps; where halving does not help, nothing is claimed.
+//! A flight from its launch to its first contact: steps that are proven clear, then a contact that is proven to be the
+//! first. Where neither can be proven, steps are halved; where this does not help, the flight is left to the careful
+//! search.
 
 use super::hull::MARGIN;
 use super::stride::{LEVELS, NODES, Propagators, State, Stride};
@@ -8,15 +9,15 @@ use crate::flight::{Contact, Flight, SearchLimits, counted};
 use crate::math::Numbers;
 use crate::system::{Oscillator, Side};
 
-/// The first contact of `flight` with the stops of `osc`, as a [`Motion`](crate::motion::Motion) gets it: by strides where they
-/// can prove it, else by the careful search [`flight::first_contact`](crate::flight::first_contact), which says what the answers mean
-/// and what `limits` are.
+/// The first contact of `flight` with the stops of `osc`, as in a [`Motion`](crate::motion::Motion): by strides where
+/// they can prove it, otherwise by the careful search [`flight::first_contact`](crate::flight::first_contact), which
+/// documents the results and `limits`.
 #[must_use]
 pub fn first_contact(osc: &Oscillator, flight: &Flight, limits: SearchLimits) -> Contact {
     found(Stride::new(osc).as_ref(), osc, flight, limits).0
 }
 
-/// The same with the oscillator's strides at hand; and the steps it took.
+/// The same with the strides of the oscillator given, if it has any; returns also the number of steps.
 pub(crate) fn found(
     stride: Option<&Stride>,
     osc: &Oscillator,
@@ -35,28 +36,30 @@ pub(crate) fn found(
 pub(crate) struct Hit {
     /// Time since the launch.
     pub(crate) time: f64,
-    /// Speed of arrival.
+    /// Arrival speed.
     pub(crate) velocity: f64,
     /// +1 at the upper stop, -1 at the lower.
     pub(crate) side: f64,
 }
 
-/// How a stretch of a flight went.
+/// The result of a step that was examined.
 pub(super) enum Progress {
-    /// Struck.
+    /// There is a contact.
     Hit(Hit),
-    /// The step that was in doubt is clear; the flight goes on from here.
+    /// The step is clear; the flight continues from here.
     Clear(State<f32>),
     /// Left to the careful search.
     Rare,
 }
 
 impl Stride {
-    /// The first contact of a flight; where it takes the careful search to tell, the time up to which there is none.
+    /// The first contact of a flight. If only the careful search can decide, an error with the time up to which there
+    /// is no contact.
     pub(crate) fn first_contact(&self, flight: &Flight) -> Result<Hit, f64> {
         self.fly(&Launch { x: flight.x, v: flight.v, sin: flight.sin, cos: flight.cos })
     }
 
+    /// Takes steps from the launch until one is not proven clear, and examines that one.
     fn fly(&self, launch: &Launch<f64>) -> Result<Hit, f64> {
         let mut state = launch.state().rough();
         loop {
@@ -82,13 +85,14 @@ impl Stride {
         }
     }
 
-    /// Past the last step that lanes fly.
+    /// Whether the time is past the last step that lanes take.
     #[inline(always)]
     pub(super) fn late<L: Numbers>(&self, s: L) -> L::Mask {
         L::splat(f64::from(NODES) * self.pace.h).less(s)
     }
 
-    /// The level at which a flight that is pressed back at once, and returns after some 2v/a, may be proven to.
+    /// For a flight that is pressed back and returns after about 2v/a: the number of halvings with which its contact
+    /// may be proven.
     fn promising(&self, state: &State<f64>) -> usize {
         let a = self.end(state).a;
         let back = if state.v * a < 0.0 { -4.0 * state.v / a } else { f64::INFINITY };
@@ -101,8 +105,8 @@ impl Stride {
         level
     }
 
-    /// Goes on from the beginning of a step in doubt in halved steps, halved again where they are in doubt too, to its end or to
-    /// a contact.
+    /// Continues from the beginning of a step that was not proven clear, in halved steps, which are halved again where
+    /// necessary, to the end of that step or to a contact.
     pub(super) fn refine(
         &self,
         launch: &Launch<f64>,
@@ -119,13 +123,13 @@ impl Stride {
             let swing = self.swing(&pace.scale, &ends.1, &ends.2, MARGIN);
             if swing.clear {
                 state = next;
-                // lengths are dyadic fractions: the sums are exact
+                // lengths are dyadic fractions, so the sums are exact
                 if state.s >= end {
                     return Progress::Clear(state.rough());
                 }
                 continue;
             }
-            // from the whole step a contact was guessed before
+            // for the whole step the guess of a contact was tried before
             if swing.above || level > 0 {
                 let guess = if swing.above {
                     self.guess_near(pace.h, &ends, &swing)
@@ -169,7 +173,8 @@ mod tests {
     use crate::system::Start;
     use crate::verdict::{StartBox, scattered_starts};
 
-    /// The contacts that are flown, against the careful search; how many were left.
+    /// Compares the contacts that the lanes prove with the careful search; returns the number of flights left to that
+    /// search.
     fn compare(osc: &Oscillator, starts: impl Iterator<Item = Start>) -> u32 {
         let stride = Stride::new(osc).unwrap();
         let mut rare = 0;

@@ -1,26 +1,28 @@
-//! A proof that a step stays clear of the stops: the Bernstein hull of its Hermite interpolant, with the error term.
+//! Proves that a step stays clear of the stops, by the Bernstein hull of its Hermite interpolant, with the error term.
 //!
-//! Over a step $`s = s_0 + ht`$, $`0 \le t \le 1`$, position, velocity and acceleration at both ends fix a quintic $`q`$ with
+//! Over a step $`s = s_0 + ht`$, $`0 \le t \le 1`$, position, velocity and acceleration at both ends determine a
+//! quintic $`q`$ with
 //!
 //! $$`x(s) - q(t) = \frac{x^{(6)}(\xi)}{720}\,h^6\,t^3(t-1)^3, \qquad
 //!   |x - q| \le \frac{B_6 h^6}{14\,400}\,\binom63 t^3(1-t)^3 ,`$$
 //!
-//! so the error is a multiple of the middle Bernstein polynomial of degree 6. Written in that degree the quintic has the
+//! so the error is a multiple of the middle Bernstein polynomial of degree 6. In this degree the quintic has the
 //! coefficients
 //!
 //! $$`x_0,\ x_0 + \tfrac h6 v_0,\ x_0 + \tfrac h3 v_0 + \tfrac{h^2}{30} a_0,\
 //!   \tfrac12(b_2 + b_3),\ x_1 - \tfrac h3 v_1 + \tfrac{h^2}{30} a_1,\ x_1 - \tfrac h6 v_1,\ x_1,`$$
 //!
-//! $`b_{2,3} = x_{0,1} \pm \tfrac{2h}5 v_{0,1} + \tfrac{h^2}{20}a_{0,1}`$, and the arc lies in their convex hull, the middle one moved by
-//! the error. If all but the first are below the stop, the stop is not reached for $`0 < t \le 1`$ - also when the step begins
-//! on it: the known contact at $`t = 0`$ is the first coefficient and is divided out by leaving it aside.
+//! with $`b_{2,3} = x_{0,1} \pm \tfrac{2h}5 v_{0,1} + \tfrac{h^2}{20}a_{0,1}`$. The arc lies in their convex hull, with
+//! the middle one changed by the error. If all but the first are below the stop, the stop is not reached for
+//! $`0 < t \le 1`$. This holds also for a step that begins on the stop: the known contact at $`t = 0`$ is the first
+//! coefficient, and it is divided out by omitting this coefficient.
 //!
-//! $`B_6`$ grows with the energy radius (`flight/bounds.rs`); $`\sqrt{x^2+v^2} \le |x| + |v|`$.
+//! $`B_6`$ grows with the energy radius (`flight/bounds.rs`), for which $`\sqrt{x^2+v^2} \le |x| + |v|`$.
 
 use super::stride::{HullScale, State, Stride};
 use crate::math::{Mask, Numbers};
 
-/// Motion at an end of the arc.
+/// The motion at an end of the arc.
 #[derive(Clone, Copy)]
 pub(super) struct End<L> {
     pub(super) x: L,
@@ -28,28 +30,29 @@ pub(super) struct End<L> {
     pub(super) a: L,
 }
 
-/// What rounding may do to a coefficient, relative to 1 + |gap| + |x| + |v|, where the step begins with a state of double precision: far
-/// above the few dozen roundings it is made with.
+/// A bound of the rounding error of a coefficient, relative to 1 + |gap| + |x| + |v|, if the step begins at a state in
+/// double precision. It is far above the few dozen rounding errors of a coefficient.
 pub(super) const MARGIN: f64 = 1e-12;
-/// The same for a state that was passed on in single precision, for each step taken. With $`u = 2^{-24}`$ a step adds at most
-/// $`6u`$ to sine and cosine and $`11u\,(|x| + |v| + 3/2)`$ to position and velocity, which the free motion passes on
-/// without growth but for a factor $`\sqrt2`$ between the two; an error of the force adds up to itself at each step, near
-/// resonance in step with the motion, and makes $`3u n^2`$ of $`n`$ steps. Over the 64 steps at most that is below
-/// $`230u\,n\,(1 + |x| + |v|)`$. One step more is counted than was taken: for the step itself, and for the hull of the launch, some
-/// $`50u`$ in single precision.
+/// The same for each step taken in single precision. With $`u = 2^{-24}`$ a step adds at most $`6u`$ to sine and cosine
+/// and $`11u\,(|x| + |v| + 3/2)`$ to position and velocity. The free motion preserves these errors up to a factor
+/// $`\sqrt2`$ between the two. An error of the force is added at each step, near resonance in phase with the motion,
+/// and becomes $`3u n^2`$ after $`n`$ steps. For at most 64 steps the sum is below $`230u\,n\,(1 + |x| + |v|)`$. One
+/// step more is counted than was taken: for the step itself, and for the hull of the launch, which has about $`50u`$ in
+/// single precision.
 const ROUGH: f64 = 1.4e-5;
 
-/// What an arc is made of, its ends left aside.
+/// The coefficients of an arc, without those at its ends.
 pub(super) struct Hull<L> {
-    /// |x| + |v| where it begins.
+    /// |x| + |v| at its beginning.
     pub(super) size: L,
-    /// By how much the middle coefficient may be off.
+    /// The bound of the error of the middle coefficient.
     pub(super) error: L,
-    /// The five between the ends.
+    /// The five coefficients between the ends.
     pub(super) coefficients: [L; 5],
 }
 
 impl<L: Numbers> Hull<L> {
+    /// The hull of the arc between two ends, by the coefficients in the documentation of this file.
     #[inline(always)]
     pub(super) fn of(scale: &HullScale<L>, from: &End<L>, to: &End<L>) -> Self {
         let size = from.x.abs() + from.v.abs();
@@ -67,7 +70,7 @@ impl<L: Numbers> Hull<L> {
 }
 
 impl Stride {
-    /// The end of an arc at a state of the way.
+    /// The motion at a state, with its acceleration.
     #[inline(always)]
     pub(super) fn end<L: Numbers>(&self, state: &State<L>) -> End<L> {
         let force = state.sin - state.x;
@@ -75,13 +78,14 @@ impl Stride {
         End { x: state.x, v: state.v, a }
     }
 
-    /// The margin for a state a time `s` after the launch: nothing was passed on at the launch itself.
+    /// The relative margin for a state a time `s` after the launch; the launch itself counts as one step.
     #[inline(always)]
     pub(super) fn margin<L: Numbers>(&self, s: L) -> L {
         L::splat(ROUGH) + L::splat(ROUGH / self.pace.h) * s
     }
 
-    /// Where the arc is proven clear of the stops, its beginning left aside; `margin` is relative.
+    /// Whether the arc is proven clear of the stops, except at its beginning; `margin` is relative. If `arrives` is
+    /// set, its end is excepted too.
     #[inline(always)]
     pub(super) fn clear<L: Numbers>(
         &self,

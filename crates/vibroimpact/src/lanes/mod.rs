@@ -1,21 +1,21 @@
-//! Many flights side by side, to the same bits as one alone.
+//! Many flights side by side, with the same bits as a single flight.
 //!
 //! | idea | file |
 //! |---|---|
-//! | the constants of an oscillator's flights: steps instead of sines | `stride` |
+//! | the constants of the flights of an oscillator: steps with a constant matrix | `stride` |
 //! | a step proven clear of the stops | `hull` |
-//! | a step that swings close to a stop and back | `swing` |
-//! | a contact found, refined, proven to be the first | `strike` |
+//! | a step that comes close to a stop and turns back | `swing` |
+//! | a contact that is found, refined and proven to be the first | `strike` |
 //! | one flight from launch to contact | [`first_contact`] |
-//! | where the flights of a batch are kept, and their passes | `slots` |
-//! | many motions, none waiting for another | [`Batch`] |
-//! | how many side by side, and on what processor | [`Width`] |
-//! | steps in doubt, side by side; moving some of them to the front | `uncertain`, `compaction` |
+//! | the flights of a batch in memory, and the stages of a round | `slots` |
+//! | many motions that do not wait for each other | [`Batch`] |
+//! | the number of flights side by side, and the choice by processor | [`Width`] |
+//! | steps that are not proven clear, side by side; moving selected elements to the front | `uncertain`, `compaction` |
 //! | the lane types | `pack` (portable), `avx2` and `single`, `avx512`, `pair` |
 //!
 //! The algorithm is written once, generic over the lane type of [`math`](crate::math). A single
-//! [`Motion`](crate::motion::Motion) runs on its scalar instance. Lanes and scalar agree bit for bit, because every lane
-//! operation is one IEEE operation on each number by itself.
+//! [`Motion`](crate::motion::Motion) uses its scalar instance. Lanes and scalar agree bit for bit, because every lane
+//! operation is one IEEE operation on each number separately.
 
 #[cfg(test)]
 mod agreement;

@@ -1,5 +1,5 @@
-//! The portable lane type: an array, operated on place by place, which the compiler turns into whatever vector
-//! instructions the target has (NEON on ARM, SSE2 on any x86-64).
+//! The portable lane type: an array with operations on each element. The compiler uses the vector instructions of the
+//! target (NEON on ARM, SSE2 on any x86-64).
 
 use crate::math::{Lane, Mask, Numbers, Single, sin_cos_lanes, turned};
 use core::array::from_fn;

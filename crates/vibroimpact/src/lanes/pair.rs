@@ -1,20 +1,20 @@
-//! Two lanes side by side: twice the independent work between one result and the next that needs it.
+//! A pair of lanes, so that there are more independent operations while a result is awaited.
 
 use crate::math::{Lane, Mask, Numbers, Single, sin_cos_lanes};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A lane type of which two make one of a single-precision type.
+/// A lane type of which two correspond to one of a single-precision type.
 pub(super) trait Half: Lane {
-    /// Single precision, twice as many.
+    /// The type of single precision with twice the width.
     type Double: Single;
 
-    /// In double precision, the first ones and the others.
+    /// Converts to double precision: the first half and the second half.
     fn both_widened(from: Self::Double) -> (Self, Self);
-    /// Two rounded to single precision.
+    /// Rounds two lanes to single precision.
     fn both_rounded(self, second: Self) -> Self::Double;
 }
 
-/// Two of the same.
+/// Two lanes of the same type.
 #[derive(Clone, Copy)]
 pub(super) struct Pair<T>(pub(super) T, pub(super) T);
 
@@ -39,7 +39,7 @@ impl<L: Numbers> Neg for Pair<L> {
     }
 }
 
-/// The truth values of a pair, and how many the first has.
+/// The truth values of a pair, and the width of the first.
 #[derive(Clone, Copy)]
 pub(super) struct PairMask<M>(M, M, usize);
 

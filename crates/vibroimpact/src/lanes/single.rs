@@ -1,4 +1,4 @@
-//! Single precision on x86-64 with AVX2: eight numbers in a register. Flights are marched in it.
+//! Single precision on x86-64 with AVX2: eight numbers in a register. Steps of flights are taken in this type.
 //!
 //! # Safety
 //! As in `avx2`.

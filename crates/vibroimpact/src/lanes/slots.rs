@@ -1,4 +1,4 @@
-//! Where the flights of a batch are kept: a slot each, in arrays that lanes run along.
+//! The flights of a batch: each has a slot in arrays that are read by lanes.
 
 use super::compaction::list;
 use super::hull::MARGIN;
@@ -19,20 +19,20 @@ pub(super) const ARRIVAL: usize = 5;
 pub(super) const INTERVAL: usize = 6;
 pub(super) const SIDE: usize = 7;
 
-/// What became of the flights in a round.
+/// The slots of a round by the result of their step.
 #[derive(Clone, Debug)]
 pub(super) struct Lists {
-    /// Not proven clear in this step.
+    /// The step was not proven clear.
     pub(super) doubts: Box<UncertainSteps>,
-    /// Flown for longer than lanes fly.
+    /// The flight is longer than the lanes can follow.
     pub(super) late: Vec<u32>,
-    /// Struck and launched again.
+    /// There was an impact, and the slot was launched again.
     pub(super) struck: Vec<u32>,
-    /// Of those struck, the ones so gentle that the rest of a chatter may have to be summed.
+    /// Those of `struck` whose impact is so gentle that the rest of a chatter may have to be summed.
     pub(super) gentle: Vec<u32>,
-    /// In doubt, and not proven to strike.
+    /// The step was not proven clear, and no contact was proven.
     pub(super) open: Vec<u32>,
-    /// Not settled by a closer look either.
+    /// Not decided in full precision either.
     pub(super) left: Vec<u32>,
 }
 
@@ -49,10 +49,10 @@ impl Lists {
     }
 }
 
-/// The states of sixteen flights on their way, in single precision: s, x, v, sin, cos, side by side.
+/// The states of sixteen flights in single precision: s, x, v, sin, cos, side by side.
 type Block = [[f32; WIDEST]; 5];
 
-/// Flights under way.
+/// The flights of a batch.
 #[derive(Clone, Debug)]
 pub(super) struct Slots {
     pub(super) count: usize,
@@ -80,14 +80,14 @@ impl Slots {
         State { s, x, v, sin, cos }
     }
 
-    /// Launches `slot`; the row holds everything.
+    /// Launches `slot` with this row.
     #[inline(always)]
     pub(super) fn launch(&mut self, slot: usize, row: [f64; 8]) {
         self.launches[slot] = row;
         self.put(slot, State { s: 0.0, x: row[X], v: row[V], sin: row[SIN], cos: row[COS] }.rough());
     }
 
-    /// Moves the last slot into this one.
+    /// Removes this slot; the last slot moves to its place.
     pub(super) fn remove(&mut self, slot: usize) {
         self.count -= 1;
         let last = self.count;
@@ -96,7 +96,8 @@ impl Slots {
         self.put(last, State { s: 0.0, x: 0.0, v: 0.0, sin: 0.0, cos: 0.0 });
     }
 
-    /// One step of every flight of a segment of slots; those whose step is not proven clear stay where they are and are in doubt.
+    /// Takes one step of every flight in a segment of slots. Flights whose step is not proven clear keep their state
+    /// and are added to `doubts`.
     #[inline(always)]
     pub(super) fn march<N: Single>(&mut self, segment: usize, stride: &Stride, lists: &mut Lists) {
         let Lists { doubts, late, .. } = lists;
@@ -123,7 +124,7 @@ impl Slots {
                 N::choose(clear, next.v, state.v).store(&mut v[lane..]);
                 N::choose(clear, next.sin, state.sin).store(&mut sin[lane..]);
                 N::choose(clear, next.cos, state.cos).store(&mut cos[lane..]);
-                // what lies beyond the last slot is marched along, to no effect
+                // lanes beyond the last slot are computed too, without effect
                 let rest = last.saturating_sub(first + lane);
                 let valid = if rest < N::WIDTH { (1 << rest) - 1 } else { (1 << N::WIDTH) - 1 };
                 let doubtful = !clear.bits() & valid;
@@ -142,8 +143,8 @@ impl Slots {
         }
     }
 
-    /// Strikes where a strike can be proven, and launches those slots again from the stop. Each slot in doubt is struck or
-    /// left open.
+    /// Proves contacts for the steps in `doubts`, and launches those slots again from the stop. Every other slot in
+    /// `doubts` is added to `open`.
     #[inline(always)]
     pub(super) fn strike<L: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
         let h = L::Rough::splat(stride.pace.h);
@@ -154,7 +155,8 @@ impl Slots {
         let mut first = 0;
         let count = lists.doubts.len();
         while first < count {
-            // stage by stage, so that a group's work fills the time another one waits for its own results
+            // stage by stage, so that the operations of one group fill the time in which another one waits for its
+            // results
             let groups = (count - first).div_ceil(L::WIDTH).min(BLOCK);
             for (k, guess) in guess.iter_mut().enumerate().take(groups) {
                 let (s, from, to) = lists.doubts.steps::<L::Rough>(first + k * L::WIDTH);
@@ -182,8 +184,8 @@ impl Slots {
         }
     }
 
-    /// A closer look, in full precision, at the steps left open: those that only swing up to a stop go on, those that strike it
-    /// where it was not guessed are launched again. What this does not settle is left.
+    /// Examines the steps in `open` in full precision. Those that come close to a stop and turn back continue. Those
+    /// with a contact that was not guessed before are launched again. All others are added to `left`.
     #[inline(always)]
     pub(super) fn look_closer<L: Lane>(&mut self, stride: &Stride, table: &Table, lists: &mut Lists) {
         let mut open = core::mem::take(&mut lists.open);
@@ -221,7 +223,7 @@ impl Slots {
         lists.open = open;
     }
 
-    /// Launches those of these slots again from the stop whose bits are set in `proven`, and lists them.
+    /// Launches those of these slots again from the stop whose bits are set in `proven`, and adds them to `struck`.
     #[inline(always)]
     fn relaunch<L: Lane>(
         &mut self,
@@ -253,7 +255,7 @@ impl Slots {
     }
 }
 
-/// Does something for each bit that is set, by its place.
+/// Calls `f` with the position of each set bit.
 #[inline(always)]
 fn each(mut bits: u32, mut f: impl FnMut(usize)) {
     while bits != 0 {
@@ -262,16 +264,16 @@ fn each(mut bits: u32, mut f: impl FnMut(usize)) {
     }
 }
 
-/// A few slots, the first of them repeated to fill all lanes.
+/// A few slots; the first one is repeated to fill all lanes.
 #[inline(always)]
 fn padded(few: &[u32]) -> [u32; WIDEST] {
     core::array::from_fn(|k| few[if k < few.len() { k } else { 0 }])
 }
 
-/// Groups of lanes that are struck together.
+/// The number of groups of lanes that are processed together.
 const BLOCK: usize = 4;
 
-/// The launch that follows a contact, from the phase of the last one.
+/// The launch after a contact, from the phase of the last launch.
 #[inline(always)]
 pub(super) fn rebound<L: Lane>(stride: &Stride, phase: L, (time, velocity, side): (L, L, L)) -> [L; 8] {
     let phase = phase::advance_lanes(phase, L::splat(stride.beta), time);

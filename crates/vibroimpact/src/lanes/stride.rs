@@ -1,36 +1,39 @@
-//! What an oscillator's flights are marched with: everything that does not depend on the flight, worked out once.
+//! The constants of the flights of an oscillator, which do not depend on the flight.
 //!
-//! A flight is crossed in steps of one length $`h`$. Over a step the state $`(x, v, \sin\theta, \cos\theta)`$ is multiplied
-//! by a constant matrix, the propagator of [`Response`](crate::flight::Response) at $`h`$ and the rotation by $`\beta h`$: no
-//! sine is evaluated on the way, and no formula divides by $`1 - \beta^2`$. These steps only pass time, in single
-//! precision: the hull of each keeps a margin for it ([`hull`](super::hull)), and a contact takes no more than its first guess
-//! from them. In double precision, with damping, the state at any time is composed of the propagator at the nearest whole step,
-//! applied to the launch, and of the one over the rest, at most half a step, whose four functions
+//! A flight is followed in steps of one length $`h`$. Over a step the state $`(x, v, \sin\theta, \cos\theta)`$ is
+//! multiplied by a constant matrix: the propagator of [`Response`](crate::flight::Response) at $`h`$ and the rotation
+//! by $`\beta h`$. So no sine is evaluated, and no formula divides by $`1 - \beta^2`$. These steps are taken in single
+//! precision and only show over which times there is no contact: the hull of each keeps a margin for the rounding
+//! errors ([`hull`](super::hull)), and a contact uses them only for its first guess. In double precision, with damping,
+//! the state at any time is computed with two propagators. The one at the nearest whole step is applied to the launch,
+//! and then the one over the rest, at most half a step, whose four functions
 //!
 //! $$`1 - C(t),\quad S(t),\quad K_c(t),\quad K_s(t) \qquad (|t| \le h/2)`$$
 //!
-//! are power series with coefficients from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$. The step obeys
-//! $`\mu h \le 3/2`$, $`\mu = \max(\beta, 1 + 2\zeta)`$, so that nine terms of each parity leave out less than $`2^{-60}`$.
+//! are power series with coefficients from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$. The step satisfies
+//! $`\mu h \le 3/2`$, $`\mu = \max(\beta, 1 + 2\zeta)`$, so nine terms of each parity leave an error below $`2^{-60}`$.
 
 use crate::flight::Response;
 use crate::math::{Lane, Mask, Numbers};
 use crate::system::{Oscillator, Side};
 
-/// Times a step may be halved before a flight is handed to the careful search.
+/// The number of step lengths, each half of the one before. If the shortest does not suffice, the flight is left to the
+/// careful search.
 pub(super) const LEVELS: usize = 16;
-/// Whole steps from a launch after which a flight is handed over: those that may last for ever are decided there.
+/// The number of whole steps after which a flight is left to the careful search, which decides flights that may last
+/// for ever.
 pub(super) const NODES: u32 = 64;
-/// Terms of each parity of the series.
+/// The number of terms of each parity of the series.
 const TERMS: usize = 9;
-/// The longest step, the most of $`\mu h`$. Longer ones swing above a stop and back unseen by the first guess too often, and with damping the
-/// series over half a step costs digits as it grows.
+/// The largest $`\mu h`$ of a step. On longer steps the first guess too often misses an arc that rises above a stop and
+/// returns. With damping, the series over half a step would lose digits.
 const LONGEST: f64 = 1.5;
-/// Shorter steps than this are not worth it (forcing, or damping, a hundred times faster than the oscillator).
+/// Shorter steps save no time (forcing or damping a hundred times faster than the oscillator).
 const SHORTEST: f64 = 1.0 / 64.0;
-/// Steps are multiples of this, so that their multiples are exact.
+/// Steps are multiples of this, so that multiples of a step are exact.
 const GRAIN: f64 = 1.0 / 1024.0;
 
-/// The numbers of one step length: a row that lanes can broadcast or gather.
+/// The constants of one step length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace<L> {
     pub(super) h: L,
@@ -46,7 +49,7 @@ pub(super) struct Pace<L> {
     pub(super) scale: HullScale<L>,
 }
 
-/// The multiples of the step that the hull is made with.
+/// The multiples of the step length for the coefficients of the hull.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HullScale<L> {
     /// h/6.
@@ -62,41 +65,42 @@ pub(super) struct HullScale<L> {
     pub(super) error_rate: L,
 }
 
-/// Coefficients of the four functions, by parity: `even` in powers of t^2 from t^2, `odd` from t (K: from t^3).
+/// The coefficients of one of the four functions, by parity: `even` in powers of t^2 from t^2 on, `odd` from t on (for
+/// K from t^3 on).
 #[derive(Clone, Copy, Debug)]
 struct Coefficients {
     even: [f64; TERMS],
     odd: [f64; TERMS],
 }
 
-/// The propagator over a time, as eight columns: 1 - C, C, S, S', Kc, Ks, sin, cos of the force's turn.
+/// The propagator over a time, as eight columns: 1 - C, C, S, S', Kc, Ks, and sin and cos of beta t.
 pub(super) type Row<L> = [L; 8];
 
-/// The constants of an oscillator's flights.
+/// The constants of the flights of an oscillator.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stride {
     pub(super) beta: f64,
     /// 2 zeta.
     pub(super) drag: f64,
-    /// The stops: upper, lower; infinite where there is none.
+    /// The gaps of the upper and the lower stop; infinite where there is none.
     pub(super) gap: [f64; 2],
     pub(super) restitution: [f64; 2],
     pub(super) two_stops: bool,
-    /// A whole step.
+    /// The constants of a whole step.
     pub(super) pace: Pace<f64>,
-    /// The same in single precision, to pass time.
+    /// The same in single precision.
     pub(super) rough: Pace<f32>,
-    /// B6 over a window from a state with |x| + |v| = 0, and its growth with that.
+    /// B6 over a window from a state with |x| + |v| = 0, and its increase with |x| + |v|.
     bound: [f64; 2],
-    /// The sixth derivative from acceleration and position (without damping), times h^6/720.
+    /// The coefficients of acceleration and position in the sixth derivative (without damping), times h^6/720.
     pub(super) sixth: [f64; 2],
-    /// 1 - C, S, Kc, Ks.
+    /// The series of 1 - C, S, Kc and Ks.
     series: [Coefficients; 4],
     response: Response,
 }
 
 impl Stride {
-    /// For oscillators whose flights the lanes can fly; `None`: all of them go to the careful search.
+    /// The constants for `osc`; `None` if the lanes cannot follow its flights, and all of them need the careful search.
     pub(crate) fn new(osc: &Oscillator) -> Option<Self> {
         let (beta, zeta) = (osc.beta(), osc.damping());
         let fastest = beta.max(1.0 + 2.0 * zeta);
@@ -132,7 +136,7 @@ impl Stride {
         })
     }
 
-    /// The propagator over a time of either sign, at most half a step.
+    /// The propagator over a time of either sign, at most half a step, by the series.
     #[inline(always)]
     pub(super) fn rest<L: Lane>(&self, t: L) -> Row<L> {
         let (beta, drag) = (L::splat(self.beta), L::splat(self.drag));
@@ -150,7 +154,7 @@ impl Stride {
         }
         let c = L::splat(1.0) - omc;
         let s_rate = c - drag * s;
-        // the force's own turn follows from K'' + 2 zeta K' + K = e^{i beta t}
+        // cos and sin of beta t follow from K'' + 2 zeta K' + K = e^{i beta t}
         let detuning = L::splat((1.0 - self.beta) * (1.0 + self.beta));
         let cross = drag * beta;
         let (cos, sin) = if self.drag == 0.0 {
@@ -161,8 +165,8 @@ impl Stride {
         [omc, c, s, s_rate, kc, ks, sin, cos]
     }
 
-    /// The propagator without damping over any time from 0 on, to the last bits: by the series over the first half step, where
-    /// differences are small, else by the closed form.
+    /// The propagator without damping over any time from 0 on, accurate to the last bits: by the series over the first
+    /// half step, where differences are small, otherwise by the closed form.
     #[inline(always)]
     pub(super) fn whole<L: Lane>(&self, time: L) -> Row<L> {
         let p = self.response.undamped(time);
@@ -181,22 +185,22 @@ impl Stride {
         chosen
     }
 
-    /// The multiples of a step of any length that the hull is made with.
+    /// The multiples of a step of any length for the coefficients of the hull.
     #[inline(always)]
     pub(super) fn scale<L: Numbers>(&self, h: L) -> HullScale<L> {
         HullScale::new(h, [L::splat(self.bound[0]), L::splat(self.bound[1])])
     }
 }
 
-/// Where the propagators come from that are not always needed.
+/// The propagators that are not needed in every step.
 pub(super) trait Propagators<L> {
-    /// Over `k` whole steps.
+    /// The propagator over `k` whole steps.
     fn node(&self, k: L) -> Row<L>;
-    /// Over a step halved `level` times.
+    /// The constants of a step halved `level` times.
     fn pace(&self, level: usize) -> Pace<f64>;
 }
 
-/// A motion alone works them out as it needs them.
+/// A single motion computes them when it needs them.
 impl Propagators<f64> for Stride {
     #[inline]
     fn node(&self, k: f64) -> Row<f64> {
@@ -213,7 +217,7 @@ impl Propagators<f64> for Stride {
     }
 }
 
-/// A batch works them out once: a table.
+/// A batch computes them once, as a table.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
     nodes: Vec<Row<f64>>,
@@ -241,7 +245,7 @@ impl<L: Lane> Propagators<L> for Table {
         k.store(&mut numbers);
         let mut which = [0; WIDEST];
         for (which, k) in which.iter_mut().zip(numbers) {
-            // whole numbers of a few dozen; nonsense saturates
+            // whole numbers up to a few dozen; invalid values saturate
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
             let k = k as u32;
             *which = k.min(NODES + 3);
@@ -254,9 +258,9 @@ impl<L: Lane> Propagators<L> for Table {
     }
 }
 
-/// The widest lanes there are: arrays are padded to a multiple of it.
+/// The largest width of a lane type; arrays are padded to a multiple of it.
 pub(super) const WIDEST: usize = 16;
-/// Positions of stops beyond this are left to the careful search, whose bounds are relative.
+/// Oscillators with a stop further away than this need the careful search, whose bounds are relative.
 const FAR: f64 = 1e6;
 
 impl<L: Numbers> HullScale<L> {
@@ -270,7 +274,7 @@ impl<L: Numbers> HullScale<L> {
             thirtieth: hh * L::splat(1.0 / 30.0),
             two_fifths: h * L::splat(0.4),
             twentieth: hh * L::splat(0.05),
-            // |x| + |v| grows by at most the window's length
+            // |x| + |v| increases by at most the length of the window
             error: rest * power + error_rate * h,
             error_rate,
         }
@@ -322,7 +326,7 @@ impl Pace<f64> {
     }
 }
 
-/// A state on the way.
+/// A state of a flight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct State<L> {
     /// Time since the launch.
@@ -334,7 +338,7 @@ pub(super) struct State<L> {
 }
 
 impl<L: Numbers> Pace<L> {
-    /// The state one step on.
+    /// The state one step later.
     #[inline(always)]
     pub(super) fn step(&self, from: State<L>) -> State<L> {
         let State { s, x, v, sin, cos } = from;
@@ -348,7 +352,7 @@ impl<L: Numbers> Pace<L> {
     }
 }
 
-/// The sum of one parity, in pairs, so that neighbouring terms do not wait for each other.
+/// The sum of one parity, in pairs, so that neighbouring terms are independent.
 #[inline(always)]
 fn sum<L: Lane>(c: &[f64; TERMS], z: L, zz: L) -> L {
     let first = L::splat(c[0]) + L::splat(c[1]) * z;
@@ -359,7 +363,7 @@ fn sum<L: Lane>(c: &[f64; TERMS], z: L, zz: L) -> L {
 }
 
 impl State<f64> {
-    /// In single precision; whole steps stay exact.
+    /// In single precision; times of whole steps stay exact.
     pub(super) fn rough(&self) -> State<f32> {
         State {
             s: Numbers::splat(self.s),
@@ -371,8 +375,8 @@ impl State<f64> {
     }
 }
 
-/// A bound of the sixth derivative, $`B_6 = p + q R`$ where $`R`$ bounds the energy radius in the window: the recursion of
-/// `flight/bounds.rs` with $`|v| \le R`$.
+/// A bound of the sixth derivative, $`B_6 = p + q R`$, where $`R`$ bounds the energy radius in the window. It is the
+/// recursion of `flight/bounds.rs` with $`|v| \le R`$.
 fn sixth_derivative(beta: f64, drag: f64) -> [f64; 2] {
     let derivatives = |r: f64| {
         let (mut before, mut b, mut force) = (r, 1.0 + r + drag * r, 1.0);
@@ -387,7 +391,7 @@ fn sixth_derivative(beta: f64, drag: f64) -> [f64; 2] {
     [rest * (1.0 + 1e-12), (derivatives(1.0) - rest) * (1.0 + 1e-12)]
 }
 
-/// 1/k!.
+/// 1/k! for each index k.
 const OVER_FACTORIAL: [f64; 2 * TERMS + 4] = {
     let mut over = [1.0; 2 * TERMS + 4];
     let (mut k, mut factorial) = (1, 1.0);
@@ -399,8 +403,8 @@ const OVER_FACTORIAL: [f64; 2 * TERMS + 4] = {
     over
 };
 
-/// The four series side by side, from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$; $`f^{(k)}`$ are the derivatives
-/// of $`\cos\beta t`$ and $`\sin\beta t`$ at 0.
+/// The four series, from $`y^{(k+2)} = f^{(k)} - y^{(k)} - 2\zeta y^{(k+1)}`$, where $`f^{(k)}`$ are the derivatives of
+/// $`\cos\beta t`$ and $`\sin\beta t`$ at 0.
 fn series(beta: f64, drag: f64) -> [Coefficients; 4] {
     let mut c = [[0.0; 4]; 2 * TERMS + 4];
     let (mut y, mut rate) = ([1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]);
@@ -449,7 +453,8 @@ mod tests {
                     (sin, p.sin_turn),
                     (cos, p.cos_turn),
                 ] {
-                    // the closed form itself loses digits of the small ones: its terms are of the size of t
+                    // the closed form itself loses digits of the small functions, because its terms are of the size of
+                    // t
                     let close = 4e-16 * t.max(want.abs());
                     assert!((got - want).abs() <= close, "beta {beta} zeta {zeta} t {t}: {got} {want}");
                 }

@@ -1,21 +1,24 @@
-//! The contact at the end of a step that may hold one: found, refined to the last bits, and proven to be the first.
+//! The contact at the end of a step that may contain one: it is found, refined to the last bits, and proven to be the
+//! first.
 //!
-//! 1. The root of the quintic interpolant of the step, from the values at its quarters by Halley's iteration: a guess, good to the error
-//!    of the interpolant.
-//! 2. The state there, the only one that a flight needs in full precision: by the closed form, or, damped, composed of the
-//!    propagator to the nearest whole step and of the one over the rest ([`Stride`]).
-//! 3. The root of the Taylor polynomial of degree 6 about it, which the equation of motion gives for nothing. The
-//!    guess being within $`2^{-8}/\mu`$, what is left out is below $`2^{-68}`$ of the position and $`2^{-57}`$ of the speed.
-//! 4. A [hull](super::hull) over the arc from the beginning of the step to the contact found: no other lies before it.
+//! 1. A guess: the root of the quintic interpolant of the step, by Halley's iteration from its values at the quarters
+//!    of the step. It is accurate to the error of the interpolant.
+//! 2. The state there, the only one of a flight that is needed in full precision: by the closed form or, with damping,
+//!    from the propagator to the nearest whole step and the one over the rest ([`Stride`]).
+//! 3. The root of the Taylor polynomial of degree 6 about this state, whose coefficients follow from the equation of
+//!    motion. As the guess is within $`2^{-8}/\mu`$, the remainder is below $`2^{-68}`$ of the position and $`2^{-57}`$
+//!    of the speed.
+//! 4. A [hull](super::hull) over the arc from the beginning of the step to the contact, which proves that there is no
+//!    contact before.
 //!
-//! Where one of these fails the answer is no, and the step is halved.
+//! If one of these fails, no contact is reported, and the step is halved.
 
 use super::hull::{End, MARGIN};
 use super::stride::{Propagators, Row, State, Stride};
 use super::swing::Swing;
 use crate::math::{Lane, Mask, Numbers};
 
-/// A launch: the state a flight begins with.
+/// A launch: the state at the beginning of a flight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Launch<L> {
     pub(super) x: L,
@@ -24,22 +27,22 @@ pub(super) struct Launch<L> {
     pub(super) cos: L,
 }
 
-/// A contact found, not yet proven to be the first.
+/// A contact that is not yet proven to be the first.
 #[derive(Clone, Copy)]
 pub(super) struct Strike<L: Lane> {
-    /// Whether the contact is there, to the last bits.
+    /// Whether the contact is accurate to the last bits.
     settled: L::Mask,
     /// Time since the launch.
     pub(super) time: L,
-    /// Speed of arrival.
+    /// Arrival speed.
     pub(super) velocity: L,
-    /// Acceleration on arrival, towards the stop.
+    /// Acceleration at the arrival, towards the stop.
     acceleration: L,
     /// +1 at the upper stop, -1 at the lower one.
     pub(super) side: L,
 }
 
-/// The stop a step may strike, seen as the upper one.
+/// The stop of a possible contact; the lower one is mirrored to an upper one.
 #[derive(Clone, Copy)]
 struct Mirror<L> {
     two_stops: bool,
@@ -48,7 +51,7 @@ struct Mirror<L> {
 }
 
 impl<L: Numbers> Mirror<L> {
-    /// The stop on a side.
+    /// The stop on this side.
     #[inline(always)]
     fn at(stride: &Stride, side: L) -> Self {
         let upper = L::splat(stride.gap[0]);
@@ -65,16 +68,18 @@ impl<L: Numbers> Mirror<L> {
     }
 }
 
-/// How far the guess may be from the contact, over the slowest time $`1/\mu`$.
+/// The largest distance of the guess from the contact, in units of the shortest time scale $`1/\mu`$.
 const NEAR: f64 = 1.0 / 256.0;
-/// Gentler arrivals than this, while being slowed down, are left to the careful search, which knows about rounding.
+/// Arrivals slower than this while the mass is being slowed down are left to the careful search, which takes rounding
+/// errors into account.
 const GENTLE: f64 = 1e-3;
-/// With damping, where the state is composed of two: it costs a few last places of the position.
+/// The same with damping. There the state is computed with two propagators, which costs a few last digits of the
+/// position.
 const GENTLE_DAMPED: f64 = 1.0 / 64.0;
-/// The same while being sped up, when the stop is passed for certain.
+/// The same while the mass is being accelerated towards the stop, which it then passes for certain.
 const SLOWEST: f64 = 1e-6;
 
-/// Where a contact is expected.
+/// The guess of a contact.
 #[derive(Clone, Copy)]
 pub(super) struct Guess<N> {
     /// Time since the launch.
@@ -82,16 +87,16 @@ pub(super) struct Guess<N> {
     side: N,
 }
 
-/// The motion at the time of a guess, seen from the stop.
+/// The motion at the time of a guess, mirrored to the upper stop.
 #[derive(Clone, Copy)]
 pub(super) struct Approach<L> {
-    /// Distance left to the stop, in full precision.
+    /// Distance from the stop, in full precision.
     room: L,
     state: Launch<L>,
 }
 
 impl<N: Numbers> Guess<N> {
-    /// To be filled in.
+    /// A placeholder.
     #[inline(always)]
     pub(super) fn nowhere() -> Self {
         Self { time: N::splat(0.0), side: N::splat(0.0) }
@@ -99,7 +104,7 @@ impl<N: Numbers> Guess<N> {
 }
 
 impl<L: Lane> Guess<L> {
-    /// In double precision.
+    /// The guess in double precision.
     #[inline(always)]
     pub(super) fn of(rough: &Guess<L::Rough>) -> Self {
         Self { time: L::widened(rough.time), side: L::widened(rough.side) }
@@ -107,7 +112,7 @@ impl<L: Lane> Guess<L> {
 }
 
 impl<L: Lane> Approach<L> {
-    /// To be filled in.
+    /// A placeholder.
     #[inline(always)]
     pub(super) fn nowhere() -> Self {
         let zero = L::splat(0.0);
@@ -116,7 +121,7 @@ impl<L: Lane> Approach<L> {
 }
 
 impl<L: Lane> Strike<L> {
-    /// To be filled in.
+    /// A placeholder.
     #[inline(always)]
     pub(super) fn nowhere() -> Self {
         let zero = L::splat(0.0);
@@ -125,7 +130,7 @@ impl<L: Lane> Strike<L> {
 }
 
 impl Stride {
-    /// Step 1: where the interpolant of the step meets a stop.
+    /// Step 1: the guess, where the interpolant of the step reaches a stop.
     #[inline(always)]
     pub(super) fn guess<N: Numbers>(&self, h: N, s: N, from: &End<N>, to: &End<N>) -> Guess<N> {
         let mut side = N::splat(1.0);
@@ -139,14 +144,14 @@ impl Stride {
         Guess { time: s + h * t, side }
     }
 
-    /// Step 1: the same from the estimate of a swing.
+    /// Step 1: the guess from the estimate of a swing.
     #[inline(always)]
     pub(super) fn guess_near<L: Lane>(&self, h: L, (s, from, to): &(L, End<L>, End<L>), swing: &Swing<L>) -> Guess<L> {
         let quintic = Quintic::of(h, from, to, Mirror::at(self, swing.side));
         Guess { time: *s + h * quintic.root(swing.estimate, [L::splat(0.0); 2]), side: swing.side }
     }
 
-    /// Step 2: the motion there.
+    /// Step 2: the motion at the guess.
     #[inline(always)]
     pub(super) fn approach<L: Lane>(
         &self,
@@ -167,7 +172,7 @@ impl Stride {
         Approach { room: room - self.moved(&node, &rest), state }
     }
 
-    /// Step 3: the contact.
+    /// Step 3: the contact, from the Taylor polynomial at the guess.
     #[inline(always)]
     pub(super) fn polish<L: Lane>(&self, guess: &Guess<L>, approach: &Approach<L>) -> Strike<L> {
         let Approach { room: g, state: Launch { x, v: p, sin, cos } } = *approach;
@@ -183,8 +188,8 @@ impl Stride {
         let pop = L::splat(self.beta * self.beta) * force - snap;
         let pop = if damped { pop - drag * crackle } else { pop };
 
-        // g = p t + q t^2/2 + j t^3/6 + ... + pop t^6/720: the series of its inverse to the third order, then a step
-        // of Newton's with the slope found there
+        // g = p t + q t^2/2 + j t^3/6 + ... + pop t^6/720: the series of its inverse to the third order, then one
+        // Newton step with the slope at that point
         let half = L::splat(0.5);
         let (j6, snap24) = (L::splat(1.0 / 6.0) * j, L::splat(1.0 / 24.0) * snap);
         let (crackle120, pop720) = (L::splat(1.0 / 120.0) * crackle, L::splat(1.0 / 720.0) * pop);
@@ -193,7 +198,7 @@ impl Stride {
         let bent = half * (bend * first);
         let series = first - first * (bent - (first * first) * (half * (bend * bend) - twist));
         let taylor = [p, half * q, j6, snap24, crackle120, pop720];
-        // the slope there is p (1 + turn)
+        // the slope at that point is p (1 + turn)
         let tt = series * series;
         let turn = bend * series + tt * (L::splat(3.0) * twist + (L::splat(4.0) * (snap24 * over)) * series);
         let newton = over * ((L::splat(1.0) - turn) + turn * turn);
@@ -205,12 +210,12 @@ impl Stride {
             + ss * ((L::splat(3.0) * j6 + L::splat(4.0) * (snap24 * shift))
                 + ss * (L::splat(5.0) * crackle120 + L::splat(6.0) * (pop720 * shift)));
 
-        // near enough for the polynomial, and what the correction leaves is no more than rounding
+        // close enough for the polynomial, and the remainder after the correction is within rounding
         let reach = time.min(L::splat(1.0 / self.beta.max(1.0 + self.drag)));
         let near = shift.abs().less(L::splat(NEAR) * reach);
         let left = (turn * turn * turn).abs() + (bend * correction).abs();
         let settled = (correction.abs() * left).less(L::splat(0.25 * f64::EPSILON) * time);
-        // an arrival that is being slowed down may be all but a graze
+        // an arrival that is being slowed down can be almost a grazing contact
         let gentlest = if damped {
             L::splat(GENTLE_DAMPED)
         } else {
@@ -221,8 +226,8 @@ impl Stride {
         Strike { settled, time, velocity, acceleration, side: guess.side }
     }
 
-    /// Step 4: whether it is proven to be the first since the step began at `s`: as bits. Single precision does, unless the arc is very
-    /// short.
+    /// Step 4: whether the contact is proven to be the first since the beginning of the step at `s`, as bits. Single
+    /// precision suffices unless the arc is very short.
     #[inline(always)]
     pub(super) fn first_roughly<L: Lane>(&self, strike: &Strike<L>, s: L::Rough, from: &End<L::Rough>) -> u32 {
         let h = (strike.time - L::widened(s)).rounded();
@@ -230,14 +235,14 @@ impl Stride {
         strike.settled.bits() & self.reaches(h, from, (strike.side.rounded(), v, a), self.margin(s)).bits()
     }
 
-    /// Step 4: the same in double precision.
+    /// Step 4 in double precision.
     #[inline(always)]
     pub(super) fn first<L: Lane>(&self, strike: &Strike<L>, s: L, from: &End<L>) -> L::Mask {
         let arrival = (strike.side, strike.velocity, strike.acceleration);
         strike.settled.and(self.reaches(strike.time - s, from, arrival, L::splat(MARGIN)))
     }
 
-    /// Where no stop is reached before this arrival.
+    /// Whether no stop is reached before this arrival.
     #[inline(always)]
     fn reaches<N: Numbers>(&self, h: N, from: &End<N>, (side, v, a): (N, N, N), margin: N) -> N::Mask {
         let mirror = Mirror::at(self, side);
@@ -253,14 +258,14 @@ impl Stride {
         State { s, x: there.x, v: there.v, sin: there.sin, cos: there.cos }
     }
 
-    /// The state that a propagator carries another one to, and the distance to the stop there.
+    /// The state that a propagator gives from another state, and its distance from the stop.
     #[inline(always)]
     fn carried<L: Lane>(&self, from: &Launch<L>, over: &Row<L>, gap: L) -> (L, Launch<L>) {
         let beta = L::splat(self.beta);
         let [_, c, s, s_rate, kc, ks, st, ct] = *over;
         let forced = from.sin * kc + from.cos * ks;
         let displacement = self.moved(from, over);
-        // past a quarter of a free swing the position itself has the smaller terms
+        // after a quarter of a free oscillation the terms of the position itself are smaller
         let far = (from.x * c + from.v * s) + forced;
         let is_far = c.less(L::splat(0.5));
         let x = L::choose(is_far, far, from.x + displacement);
@@ -269,7 +274,7 @@ impl Stride {
         (L::choose(is_far, gap - far, (gap - from.x) - displacement), Launch { x, v, sin, cos })
     }
 
-    /// How far a propagator moves the mass.
+    /// The displacement that a propagator gives.
     #[inline(always)]
     fn moved<L: Lane>(&self, from: &Launch<L>, over: &Row<L>) -> L {
         let [omc, _, s, _, kc, ks, _, _] = *over;
@@ -278,14 +283,14 @@ impl Stride {
 }
 
 impl<L: Lane> Launch<L> {
-    /// Seen from the stop it may strike.
+    /// Mirrored to the upper stop.
     #[inline(always)]
     fn mirrored(&self, mirror: Mirror<L>) -> Self {
         Self { x: mirror.of(self.x), v: mirror.of(self.v), sin: mirror.of(self.sin), cos: mirror.of(self.cos) }
     }
 }
 
-/// A polynomial without constant term.
+/// The value of a polynomial without constant term.
 #[inline(always)]
 fn sum<L: Lane>(c: [L; 6], t: L) -> L {
     let tt = t * t;
@@ -293,14 +298,14 @@ fn sum<L: Lane>(c: [L; 6], t: L) -> L {
 }
 
 impl<N: Numbers> End<N> {
-    /// Position less the gap, velocity and acceleration, over a unit of time.
+    /// Position less the gap, velocity and acceleration, in units in which the step has length 1.
     #[inline(always)]
     fn scaled(&self, h: N, mirror: Mirror<N>) -> [N; 3] {
         [mirror.of(self.x) - mirror.gap, mirror.of(self.v) * h, mirror.of(self.a) * (h * h)]
     }
 }
 
-/// What a quintic is made of: position less the gap, velocity and acceleration at its ends, over a unit of time.
+/// A quintic by position less the gap, velocity and acceleration at its ends, in units in which the step has length 1.
 #[derive(Clone, Copy)]
 struct Quintic<N>([N; 3], [N; 3]);
 
@@ -310,7 +315,7 @@ impl<N: Numbers> Quintic<N> {
         Self(begin.scaled(h, mirror), end.scaled(h, mirror))
     }
 
-    /// The first crossing from below, to an eighth, by the values at the quarters.
+    /// The first crossing from below, to within an eighth, from the values at the quarters.
     #[inline(always)]
     fn first_crossing(self) -> N {
         let zero = N::splat(0.0);
@@ -321,7 +326,7 @@ impl<N: Numbers> Quintic<N> {
         N::choose(first, N::splat(0.125), N::choose(second, N::splat(0.375), late))
     }
 
-    /// The root in (0, 1] from an estimate; nonsense if there is none.
+    /// The root in (0, 1] near an estimate; meaningless if there is none.
     #[inline(always)]
     fn root(self, mut t: N, sixth: [N; 2]) -> N {
         let Self([x0, v0, a0], [x1, v1, a1]) = self;
@@ -350,7 +355,7 @@ impl<N: Numbers> Quintic<N> {
     }
 }
 
-/// The quintic at so many quarters, less one.
+/// The value of the quintic at (K + 1)/4.
 #[inline(always)]
 fn between<L: Numbers, const K: usize>([x0, v0, a0]: [L; 3], [x1, v1, a1]: [L; 3]) -> L {
     let ([bx, bv, ba], [ex, ev, ea]) = (BETWEEN[K], BETWEEN[2 - K]);
@@ -358,7 +363,8 @@ fn between<L: Numbers, const K: usize>([x0, v0, a0]: [L; 3], [x1, v1, a1]: [L; 3
         + (L::splat(ba) * a0 + L::splat(ea) * a1)
 }
 
-/// The quintic at 1/4, 1/2 and 3/4 from position, velocity and acceleration at its beginning; from its end by symmetry.
+/// The coefficients of position, velocity and acceleration at the beginning for the values at 1/4, 1/2 and 3/4; those
+/// at the end follow by symmetry.
 const BETWEEN: [[f64; 3]; 3] = [
     [918.0 / 1024.0, 189.0 / 1024.0, 13.5 / 1024.0],
     [0.5, 5.0 / 32.0, 1.0 / 64.0],

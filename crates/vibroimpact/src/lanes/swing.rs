@@ -1,33 +1,34 @@
-//! A proof for a step that swings up to a stop and back without reaching it: its [hull](super::hull) is split where the arc is
-//! highest.
+//! Proves for a step that comes close to a stop and turns back that it does not reach the stop: its [hull](super::hull)
+//! is divided at the highest point of the arc.
 //!
-//! The control polygon of a Bernstein polynomial stands above its summit by some $`|a| h^2/24`$, which halving the step brings down only by
-//! four. Divided at the summit (de Casteljau) each part is all but monotone and its polygon ends there, so what is left between
-//! the polygon and the arc is the error term. An arc that rises above the stop only for a moment shows there too, and where. The place of the summit need not be exact: the parts are a hull wherever the
-//! division is made.
+//! The control polygon of a Bernstein polynomial lies above its maximum by about $`|a| h^2/24`$, and halving the step
+//! reduces this only by a factor of four. If the polynomial is divided at its maximum (de Casteljau), each part is
+//! nearly monotone and its polygon ends at the maximum, so only the error term remains. This also shows an arc that
+//! rises above the stop for a short time, and where it does. The place of the maximum need not be exact: the parts are
+//! a hull wherever the polynomial is divided.
 
 use super::hull::{End, Hull, room};
 use super::stride::{HullScale, Stride};
 use crate::math::{Lane, Mask};
 
-/// Steps of Newton's method to the summit: from a parabola it takes no more.
+/// The number of Newton steps to the maximum, beginning at that of a parabola.
 const ITERATIONS: usize = 3;
 
-/// What is found of steps in doubt.
+/// The result for a step that was not proven clear.
 #[derive(Clone, Copy)]
 pub(super) struct Swing<L: Lane> {
-    /// Where it is proven clear of the stops.
+    /// Whether it is proven clear of the stops.
     pub(super) clear: L::Mask,
-    /// Where it seems to rise above a stop and to return,
+    /// Whether it seems to rise above a stop and to return,
     pub(super) above: L::Mask,
-    /// first at this fraction of the step,
+    /// for the first time at this fraction of the step,
     pub(super) estimate: L,
-    /// on this side.
+    /// on the stop on this side.
     pub(super) side: L,
 }
 
 impl Stride {
-    /// What the arc of a step does whose hull as a whole is not clear; its beginning is left aside, `margin` is relative.
+    /// Examines the arc of a step whose hull as a whole is not clear, except at its beginning; `margin` is relative.
     #[inline(always)]
     pub(super) fn swing<L: Lane>(&self, scale: &HullScale<L>, from: &End<L>, to: &End<L>, margin: L) -> Swing<L> {
         let Hull { size, error, coefficients: [c1, c2, c3, c4, c5] } = Hull::of(scale, from, to);
@@ -48,8 +49,8 @@ impl Stride {
     }
 }
 
-/// Whether both parts of the polynomial with these Bernstein coefficients, divided at its summit, lie below `room`, but for its
-/// beginning; if not, where it rises above by more than its `error`.
+/// Whether both parts of the polynomial with these Bernstein coefficients, divided at its maximum, lie below `room`,
+/// except at its beginning; if not, whether it rises above `room` by more than a quarter of `error`, and where.
 #[inline(always)]
 fn split<L: Lane>(mut arc: [L; 7], room: L, error: L, side: L) -> Swing<L> {
     let end = arc[6];
@@ -58,7 +59,7 @@ fn split<L: Lane>(mut arc: [L; 7], room: L, error: L, side: L) -> Swing<L> {
         return Swing { clear: whole, above: room.less(room), estimate: room, side };
     }
     let (t, bend) = summit(&arc);
-    // the left part's coefficients are the first of each row, the right part's remain
+    // the coefficients of the left part are the first of each row, and those of the right part remain
     let mut highest = end;
     let mut row = arc.len() - 1;
     while row > 0 {
@@ -71,14 +72,14 @@ fn split<L: Lane>(mut arc: [L; 7], room: L, error: L, side: L) -> Swing<L> {
         row -= 1;
     }
     let clear = highest.less(room);
-    // the way back from the summit, down a parabola; not of a summit that may be an error
+    // the crossing before the maximum, from a parabola; only if the height is above the error
     let height = arc[0] - room;
     let estimate = t - (L::splat(2.0) * height / -bend).sqrt();
     let above = (L::splat(0.25) * error).less(height).and(L::splat(0.0).less(estimate)).and(end.less(room));
     Swing { clear: whole.or(clear), above, estimate, side }
 }
 
-/// About where it is highest, as a fraction, and its second derivative there.
+/// The approximate place of the maximum, as a fraction, and the second derivative there.
 #[inline(always)]
 fn summit<L: Lane>(arc: &[L; 7]) -> (L, L) {
     let (zero, one) = (L::splat(0.0), L::splat(1.0));
@@ -102,7 +103,7 @@ fn summit<L: Lane>(arc: &[L; 7]) -> (L, L) {
             }
             row -= 1;
         }
-        // what is left is the tangent at t, in two coefficients
+        // the remaining two coefficients are the tangent at t
         let rise = rows[1] - rows[0];
         t = (t - (rows[0] + t * rise) / (L::splat(5.0) * rise)).max(zero).min(one);
         bend = L::splat(30.0) * rise;
@@ -115,7 +116,7 @@ fn summit<L: Lane>(arc: &[L; 7]) -> (L, L) {
 mod tests {
     use super::*;
 
-    /// Bernstein coefficients of c - (t - u)^2 in degree 6.
+    /// The Bernstein coefficients of c - (t - u)^2 in degree 6.
     fn parabola(c: f64, u: f64) -> [f64; 7] {
         core::array::from_fn(|k| {
             let k = k as f64;
@@ -129,7 +130,7 @@ mod tests {
             let arc = parabola(0.0, u);
             let (t, bend) = summit(&arc);
             assert!((t - u).abs() < 1e-12 && (bend + 2.0).abs() < 1e-12);
-            // the undivided hull stands well above the summit
+            // the undivided hull lies well above the maximum
             assert!(arc.iter().any(|c| *c > 0.01));
             assert!(split(arc, 1e-12, 0.0, 1.0).clear);
             let swing = split(arc, -1e-4, 0.0, 1.0);
@@ -140,9 +141,9 @@ mod tests {
     #[test]
     fn ends_count_but_for_the_beginning() {
         let open = |swing: Swing<f64>| !swing.clear && !swing.above;
-        // falls from 0
+        // decreases from 0
         assert!(split([0.0, -1.0, -2.0, -3.0, -4.0, -5.0, -6.0], -1e-9, 0.0, 1.0).clear);
-        // rises to 0
+        // increases to 0
         assert!(open(split([-6.0, -5.0, -4.0, -3.0, -2.0, -1.0, 0.0], -1e-9, 0.0, 1.0)));
         assert!(open(split([f64::NAN; 7], 1.0, 0.0, 1.0)));
     }

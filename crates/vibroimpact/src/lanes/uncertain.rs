@@ -1,11 +1,12 @@
-//! Steps in doubt, side by side as the march met them: the slot of the flight, when the step begins, and the motion at both ends.
+//! Steps that are not proven clear, side by side: the slot of the flight, the time at the beginning, and the motion at
+//! both ends.
 
 use super::compaction::list;
 use super::hull::End;
 use super::stride::WIDEST;
 use crate::math::Single;
 
-/// Slots that are marched before those in doubt are struck.
+/// The number of slots whose steps are taken before contacts are looked for.
 pub(super) const SEGMENT: usize = 1024;
 /// Room for all of them, and for a whole register past the last.
 const ROOM: usize = SEGMENT + WIDEST;
@@ -24,16 +25,16 @@ impl UncertainSteps {
         Box::new(Self { count: 0, slots: [0; ROOM], columns: [[0.0; ROOM]; 7] })
     }
 
-    /// Forgets all.
+    /// Removes all steps.
     #[inline(always)]
     pub(super) fn clear(&mut self) {
         self.count = 0;
     }
 
-    /// Adds the steps whose bits are set; the first of the lanes has the slot `first`.
+    /// Adds the steps whose bits are set; the first lane has the slot `first`.
     #[inline(always)]
     pub(super) fn add<N: Single>(&mut self, bits: u32, first: usize, s: N, from: &End<N>, to: &End<N>) {
-        // never more; said for the compiler
+        // the count is never larger; this only removes bounds checks
         let at = self.count.min(SEGMENT);
         let values = [s, from.x, from.v, from.a, to.x, to.v, to.a];
         for (column, value) in self.columns.iter_mut().zip(values) {
@@ -42,19 +43,19 @@ impl UncertainSteps {
         self.count = at + list(bits, first, &mut self.slots[at..at + WIDEST]);
     }
 
-    /// How many there are.
+    /// The number of steps.
     #[inline(always)]
     pub(super) const fn len(&self) -> usize {
         self.count
     }
 
-    /// Sixteen slots from the `first` on; those past the last are of no meaning, but there.
+    /// Sixteen slots from index `first` on; those past the last step are meaningless.
     #[inline(always)]
     pub(super) fn slots(&self, first: usize) -> &[u32; WIDEST] {
         self.slots[first.min(SEGMENT)..].first_chunk().unwrap_or(&[0; WIDEST])
     }
 
-    /// As many steps from the `first` on: when they begin, and their ends.
+    /// The steps from index `first` on, one for each lane: the times at the beginning, and the ends.
     #[inline(always)]
     pub(super) fn steps<N: Single>(&self, first: usize) -> (N, End<N>, End<N>) {
         let first = first.min(SEGMENT);

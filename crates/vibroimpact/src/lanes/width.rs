@@ -1,4 +1,4 @@
-//! How many flights are flown side by side, and the one place where the processor is asked.
+//! The number of flights side by side, and the choice of instructions by processor.
 
 use super::pack::Pack;
 use super::slots::{Lists, Slots};
@@ -14,24 +14,24 @@ use super::pair::Pair;
 #[cfg(target_arch = "x86_64")]
 use super::single::EightSingle;
 
-/// How many flights are flown side by side. The results are the same bits for all.
+/// The number of flights side by side. The results have the same bits for all widths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
-    /// One after another: what the others are compared with.
+    /// One flight at a time; the other widths are compared with it.
     Scalar,
-    /// Four, in whatever vectors the target has at compile time.
+    /// Four, in the vector instructions of the target at compile time.
     Portable,
-    /// Sixteen as four registers of four; needs AVX2, and the bit instructions that came with it.
+    /// Sixteen in four registers of four numbers; needs AVX2, BMI1, BMI2 and POPCNT.
     Avx2,
-    /// Sixteen as two registers of eight; needs AVX-512 (F, DQ, VL).
+    /// Sixteen in two registers of eight numbers; needs AVX-512 (F, DQ, VL).
     Avx512,
 }
 
 impl Width {
-    /// All of them, whether this machine has them or not.
+    /// All widths, whether this machine has them or not.
     pub const ALL: [Self; 4] = [Self::Scalar, Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// Whether this machine has it.
+    /// Whether this machine has the instructions.
     #[must_use]
     pub fn available(self) -> bool {
         match self {
@@ -55,13 +55,13 @@ impl Width {
         }
     }
 
-    /// The fastest this machine has.
+    /// The fastest width that this machine has.
     #[must_use]
     pub fn best() -> Self {
         [Self::Avx512, Self::Avx2].into_iter().find(|width| width.available()).unwrap_or(Self::Portable)
     }
 
-    /// One step of every flight, and the strikes it leads to.
+    /// Takes one step of every flight, and processes the contacts that it leads to.
     pub(super) fn round(self, slots: &mut Slots, stride: &Stride, table: &Table, lists: &mut Lists) {
         for segment in 0..slots.count.div_ceil(SEGMENT) {
             match self {
@@ -71,7 +71,7 @@ impl Width {
                     slots.look_closer::<f64>(stride, table, lists);
                 }
                 #[cfg(target_arch = "x86_64")]
-                // the processor was asked
+                // available() has asked the processor
                 Self::Avx2 if self.available() => {
                     #[allow(unsafe_code)]
                     unsafe {

@@ -1,44 +1,45 @@
-//! Quotients of sums over a run, with an error bar that knows of correlation.
+//! Quotients of sums over a run, with error bars that take account of correlation.
 //!
-//! A run is cut into blocks of equally many impacts, and a number per unit of time is $`r = \sum A_k/\sum B_k`$ over them. With the
-//! deviations $`d_k = A_k - rB_k`$ of $`n`$ blocks its standard error is
+//! A run is divided into blocks of equal numbers of impacts. A number per unit of time is $`r = \sum A_k/\sum B_k`$
+//! over the blocks. With the deviations $`d_k = A_k - rB_k`$ of $`n`$ blocks its standard error is
 //!
 //! $$`\frac{1}{|\sum B_k|}\sqrt{\frac{n}{n-1}\sum d_k^2}`$$
 //!
-//! if the blocks are independent. Where neighbours are correlated it is too small, and grows when blocks are joined in pairs
-//! until they are long enough (H. Flyvbjerg and H. G. Petersen, J. Chem. Phys. 91 (1989) 461-466, doi:10.1063/1.457480). So it is
-//! taken for 128, 64 and 32 blocks, and the largest of the three counts. What is correlated over more than a 32nd of the run no error bar
-//! from that run can know.
+//! if the blocks are independent. If neighbouring blocks are correlated, this is too small, and it increases when
+//! blocks are joined in pairs until they are long enough (H. Flyvbjerg and H. G. Petersen, J. Chem. Phys. 91 (1989)
+//! 461-466, doi:10.1063/1.457480). So it is computed for 128, 64 and 32 blocks, and the largest of the three is used.
+//! Correlation over more than a 32nd of the run cannot be detected from that run.
 //!
-//! Nor is the exponent of a run of time $`t`$ better defined than to about $`1/t`$: another measure of length would multiply the
-//! stretch by a number of order 1. So the bar of a sum of such logarithms is never less than 1 over $`|\sum B_k|`$.
+//! The exponent of a run of time $`t`$ is not defined better than to about $`1/t`$, because another measure of length
+//! would multiply the stretch by a factor of order 1. So the error bar of a sum of such logarithms is at least 1 over
+//! $`|\sum B_k|`$.
 
 use super::Measured;
 
-/// Blocks a run is cut into.
+/// The number of blocks of a run.
 pub(crate) const BLOCKS: u64 = 128;
-/// Fewer blocks say too little about their own scatter.
+/// The smallest number of blocks from which a standard error is computed.
 const FEWEST: usize = 32;
-/// Sums are not known better than this, in parts of the sum of their absolute values.
+/// The rounding error of a sum, relative to the sum of the absolute values.
 const ROUNDING: f64 = 1e-13;
-/// What another measure of length would change a logarithm of a stretch by.
+/// The change of the logarithm of a stretch if another measure of length is used.
 pub(crate) const MEASURE: f64 = 1.0;
 
-/// What is summed over a block.
+/// The sums over a block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Block {
-    /// Logarithms of both stretches.
+    /// The logarithms of both stretches.
     pub(crate) stretch: [f64; 2],
-    /// Logarithm of the area's change, exact.
+    /// The logarithm of the change of area, exact.
     pub(crate) area: f64,
-    /// Its length.
+    /// The time.
     pub(crate) time: f64,
-    /// Its impacts.
+    /// The number of impacts.
     pub(crate) impacts: f64,
 }
 
 impl Block {
-    /// Both one after the other.
+    /// The sums over both blocks together.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             stretch: [self.stretch[0] + other.stretch[0], self.stretch[1] + other.stretch[1]],
@@ -49,8 +50,8 @@ impl Block {
     }
 }
 
-/// The quotient of two sums and three standard errors of it, the upper sum being known to within `least` at best. Infinite sums
-/// have an infinite quotient without error.
+/// The quotient of two sums, with three standard errors. The error of the upper sum is at least `least`. An infinite
+/// quotient has no error.
 pub(crate) fn quotient(
     blocks: &[Block],
     least: f64,
@@ -69,7 +70,7 @@ pub(crate) fn quotient(
         #[allow(clippy::cast_precision_loss)] // at most 128
         let n = deviations.len() as f64;
         let square: f64 = deviations.iter().map(|d| d * d).sum();
-        // one block alone has no scatter
+        // a single block has no deviation from the mean
         error = error.max(if n > 1.0 { 3.0 * (n / (n - 1.0) * square).sqrt() } else { f64::INFINITY });
         if deviations.len() < 2 * FEWEST {
             return Measured { value, error: error / b.abs() };
@@ -82,14 +83,14 @@ pub(crate) fn quotient(
 mod tests {
     use super::*;
 
-    /// Numbers between -1/2 and 1/2 that look like chance.
+    /// Pseudorandom numbers between -1/2 and 1/2.
     fn noise(seed: &mut u64) -> f64 {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         f64::from(u32::try_from(*seed >> 32).unwrap()) / f64::from(u32::MAX) - 0.5
     }
 
-    /// Runs of blocks whose values remember their neighbour with this weight; how often the true mean lies within the bar,
-    /// and how wide the bar is on average.
+    /// Runs of blocks whose values are correlated with the value before with this weight: how often the true mean lies
+    /// within the error bar, and the mean width of the bar.
     fn coverage(memory: f64) -> (f64, f64) {
         let (mut seed, mut within, mut width) = (7, 0, 0.0);
         for _ in 0..400 {

@@ -1,15 +1,16 @@
-//! Exponents along an orbit of impacts, with little ado: what a verdict needs, side by side with many others.
+//! Lyapunov exponents along the impacts of a motion, as verdicts need them for many motions side by side.
 //!
-//! The tangent vectors are those of phase and arrival speed, whose area is distorted by $`U_0/U_1`$: over a run the sum of the
-//! exponents misses the identity by $`\ln(U_0/U_1)/t`$. The error bar is three standard errors of the mean of 25 blocks. For numbers
-//! to publish there is [`exponents`](super::exponents()); the bits here stay as they are, because verdicts depend on them.
+//! The tangent vectors are those of phase and arrival speed, whose area also changes by $`U_0/U_1`$. So over a run the
+//! sum of the exponents differs from the identity by $`\ln(U_0/U_1)/t`$. The error bar is three standard errors of the
+//! mean of 25 blocks. For numbers to publish use [`exponents`](crate::chaos::exponents()). The bits computed here must
+//! not change, because verdicts depend on them.
 
 use crate::flight::SearchLimits;
 use crate::math::{Sum, ln};
 use crate::motion::{ImpactState, Mapped, derivative, impact_map};
 use crate::system::Oscillator;
 
-/// A measured number and its error bar.
+/// A measured number with its error bar.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measured {
     /// The estimate.
@@ -18,48 +19,50 @@ pub struct Measured {
     pub error: f64,
 }
 
-/// The exponents of a motion.
+/// The Lyapunov exponents of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spectrum {
     /// Lyapunov exponents per unit of (nondimensional) time, the larger first.
     pub exponents: [Measured; 2],
     /// Impacts per forcing period.
     pub impacts_per_period: Measured,
-    /// How long the run was.
+    /// The time of the run.
     pub time: f64,
-    /// Where it ended.
+    /// The last impact of the run.
     pub last: ImpactState,
 }
 
-/// The most that a transient can have stretched: from a distance of one rounding, $`2^{-53}`$ (a factor $`e^{36.7}`$), to the size of
-/// the motion, and a little. A motion that leaves an unstable cycle slowly diverges for as long as that takes, steadily enough
-/// for a narrow error bar.
+/// The logarithm of the largest stretch during a transient: from a distance of one rounding error, $`2^{-53}`$ (a
+/// factor $`e^{36.7}`$), to the size of the motion, and a margin. A motion that leaves an unstable cycle slowly
+/// diverges for that long, so steadily that its error bar is narrow.
 const TRANSIENT: f64 = 40.0;
 
 impl Spectrum {
-    /// Whether neighbours part: the larger exponent exceeds its error bar.
+    /// Whether neighbours separate: the larger exponent exceeds its error bar.
     #[must_use]
     pub fn diverges(&self) -> bool {
         self.exponents[0].value > self.exponents[0].error
     }
 
-    /// Whether they part for good: by more, over the whole run, than a motion can on its way from an unstable cycle to a stable one.
+    /// Whether neighbours separate, over the whole run, by more than is possible on the way from an unstable cycle to a
+    /// stable one.
     #[must_use]
     pub fn chaotic(&self) -> bool {
         self.diverges() && self.exponents[0].value * self.time > TRANSIENT
     }
 }
 
-/// How far each flight is followed: a motion with longer ones is not one whose exponents can be measured.
+/// The limits of the search of each flight; the exponents of a motion with longer flights are not measured.
 const LIMITS: SearchLimits = SearchLimits { periods: 1000.0, steps: 2_000 };
-/// Blocks the run is divided into.
+/// The number of blocks of the run.
 const BLOCKS: u32 = 25;
-/// Fewer blocks say too little about their own scatter; and so many at the end have to diverge by themselves, or the divergence may
-/// be over.
+/// The smallest number of blocks from which a standard error is computed. The same number of blocks at the end of the
+/// run must diverge by themselves; otherwise the divergence may have ended.
 const FEWEST: usize = 5;
 
-/// The Lyapunov exponents along the motion that arrives at `from`, over `impacts` further impacts; `None` if the motion
-/// sticks (then it forgets everything and the larger exponent is minus infinity) or stops striking.
+/// The Lyapunov exponents along the motion that arrives at `from`, over `impacts` further impacts. `None` if the motion
+/// sticks (then the larger exponent is minus infinity), if it has no further impact, or if the larger exponent is not
+/// finite.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Side, chaos::lyapunov, motion::ImpactState};
@@ -81,7 +84,7 @@ pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spe
     measure.spectrum(osc)
 }
 
-/// A measurement under way, fed impact by impact.
+/// A measurement in progress; impacts are added one by one.
 #[derive(Clone, Debug)]
 pub(crate) struct Measure {
     /// The last impact.
@@ -89,17 +92,17 @@ pub(crate) struct Measure {
     u: [f64; 2],
     w: [f64; 2],
     per_block: u32,
-    /// Impacts of the present block.
+    /// The number of impacts of the current block.
     count: u32,
     time: Sum,
     one: LogSum,
     two: LogSum,
-    /// Per block: mean of both exponents and of the impacts per unit of time, and the time.
+    /// For each block: the means of both exponents and of the number of impacts per unit of time, and the time.
     blocks: Vec<([f64; 3], f64)>,
 }
 
 impl Measure {
-    /// From an impact on, over this number of further ones.
+    /// A measurement from an impact on, over this number of further impacts.
     pub(crate) fn new(from: ImpactState, impacts: u32) -> Self {
         Self {
             state: from,
@@ -114,24 +117,24 @@ impl Measure {
         }
     }
 
-    /// Whether all impacts are in.
+    /// Whether all impacts have been added.
     pub(crate) fn complete(&self) -> bool {
         self.blocks.len() >= BLOCKS as usize
     }
 
-    /// Impacts still to come.
+    /// The number of impacts that are still missing.
     pub(crate) fn left(&self) -> u32 {
         let blocks = BLOCKS - u32::try_from(self.blocks.len()).unwrap_or(BLOCKS).min(BLOCKS);
         (blocks * self.per_block).saturating_sub(self.count)
     }
 
-    /// The next impact, `interval` after the last one.
+    /// Adds the next impact, `interval` after the last one.
     pub(crate) fn impact(&mut self, osc: &Oscillator, next: ImpactState, interval: f64) {
         let d = derivative(osc, &self.state, &next, interval);
         let (u, w) = (d.apply(self.u), d.apply(self.w));
         let along = (u[0] * u[0] + u[1] * u[1]).sqrt();
         self.u = [u[0] / along, u[1] / along];
-        // the part of w across u is the area over the length
+        // the part of w perpendicular to u is the area divided by the length
         let across = (self.u[0] * w[1] - self.u[1] * w[0]).abs();
         self.w = [-self.u[1], self.u[0]];
         self.one.multiply(along);
@@ -148,15 +151,16 @@ impl Measure {
         }
     }
 
-    /// Whether the motion is chaotic by this measurement: [`Spectrum::chaotic`], and the last fifth of it diverges too. `None` for
-    /// fewer than [`FEWEST`] blocks, or where restitution 0 contracts one direction to nothing.
+    /// The exponents, and whether the motion is chaotic by this measurement: [`Spectrum::chaotic`] holds, and the last
+    /// fifth of the measurement diverges too. `None` for fewer than [`FEWEST`] blocks, or if the larger exponent is not
+    /// finite.
     pub(crate) fn chaos(&self, osc: &Oscillator) -> Option<(Spectrum, bool)> {
         let spectrum = self.spectrum(osc).filter(|_| self.blocks.len() >= FEWEST)?;
         let last: f64 = self.blocks.iter().rev().take(FEWEST).map(|(means, t)| means[0] * t).sum();
         Some((spectrum, spectrum.chaotic() && last > 0.0))
     }
 
-    /// The exponents of all complete blocks; `None` where restitution 0 contracts one direction to nothing.
+    /// The exponents of all complete blocks; `None` if the larger exponent is not finite.
     pub(crate) fn spectrum(&self, osc: &Oscillator) -> Option<Spectrum> {
         let of = |k: usize, scale: f64| {
             let values: Vec<(f64, f64)> = self.blocks.iter().map(|(means, t)| (means[k] * scale, *t)).collect();
@@ -169,7 +173,8 @@ impl Measure {
     }
 }
 
-/// The logarithm of a product of many factors: they are multiplied as long as the product stays a number of ordinary size.
+/// The logarithm of a product of many factors. They are multiplied as long as the product neither overflows nor
+/// underflows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LogSum {
     product: f64,
@@ -183,6 +188,7 @@ impl Default for LogSum {
 }
 
 impl LogSum {
+    /// Multiplies the product by `factor`, which must not be negative.
     pub(crate) fn multiply(&mut self, factor: f64) {
         let product = self.product * factor;
         if (1e-100..=1e100).contains(&product) {
@@ -193,7 +199,7 @@ impl LogSum {
         }
     }
 
-    /// A factor given by its logarithm.
+    /// Adds a factor given by its logarithm.
     pub(crate) fn add(&mut self, logarithm: f64) {
         self.sum.add(logarithm);
     }
@@ -204,7 +210,7 @@ impl LogSum {
     }
 }
 
-/// The time-weighted mean of the blocks and three standard errors of it.
+/// The time-weighted mean of the blocks, with three standard errors.
 fn mean(blocks: &[(f64, f64)]) -> Measured {
     let total: f64 = blocks.iter().map(|(_, t)| t).sum();
     let value = blocks.iter().map(|(x, t)| x * t).sum::<f64>() / total;
@@ -234,7 +240,7 @@ mod tests {
             let [one, two] = spectrum.exponents;
             let rate = spectrum.impacts_per_period.value / osc.period();
             let identity = 2.0 * eps.ln() * rate - 2.0 * zeta;
-            // the area is distorted by U0/U1, which telescopes over the run: 1/t of a bounded number
+            // the area changes by U0/U1, which leaves a bounded number over t in the sum
             let end = (from.velocity / spectrum.last.velocity).ln().abs() / (20_000.0 / rate);
             assert!((one.value + two.value - identity).abs() <= 1e-9 + 1.01 * end, "{one:?} {two:?} {identity}");
         }

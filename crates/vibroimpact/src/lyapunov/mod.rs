@@ -1,10 +1,10 @@
-//! Lyapunov exponents along impacts: how small differences grow.
+//! Lyapunov exponents along impacts: the growth of small differences.
 //!
 //! | idea | file |
 //! |---|---|
-//! | how neighbours move: flight and saltation | [`tangent`] |
+//! | how neighbouring motions separate: flight and saltation | [`tangent`] |
 //! | error bars of a correlated run | `blocks` |
-//! | exponents along impacts, as verdicts measure them | [`lyapunov`] |
+//! | exponents along impacts, as measured for verdicts | [`lyapunov`] |
 
 pub(crate) mod blocks;
 mod measure;

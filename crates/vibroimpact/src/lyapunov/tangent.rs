@@ -1,37 +1,41 @@
-//! How neighbours of a motion move: the flight's derivative, the jump of it at an impact, two vectors carried along.
+//! The motion of neighbours: the derivative of a flight, its jump at an impact, and two tangent vectors.
 //!
-//! A neighbour is described by its distance $`(\mathrm dx, \mathrm dv)`$ at the same moment. In flight the force cancels, and
+//! A neighbour is described by its difference $`(\mathrm dx, \mathrm dv)`$ at the same time. In flight the force
+//! cancels, and
 //!
 //! $$`\Phi(s) = \begin{pmatrix} C & S \\ -S & C - 2\zeta S \end{pmatrix}, \qquad \det\Phi = e^{-2\zeta s}.`$$
 //!
-//! At an impact on the stop at $`x = \sigma\delta`$ the neighbour is late by $`\mathrm dt = -\mathrm dx_-/v_-`$. It arrives with
-//! $`v_- + \mathrm dv_- + a_-\,\mathrm dt`$, leaves with $`-\varepsilon`$ times that, and is compared at the moment of the impact
-//! again, $`\mathrm dt`$ back along the rebound, whose acceleration is $`a_+`$. As $`a_+ + \varepsilon a_- = (1+\varepsilon)(\sin\theta -
-//! \sigma\delta)`$, the damper's part cancels and the *saltation matrix* is
+//! At an impact on the stop at $`x = \sigma\delta`$ the neighbour is late by $`\mathrm dt = -\mathrm dx_-/v_-`$. It
+//! arrives with $`v_- + \mathrm dv_- + a_-\,\mathrm dt`$ and leaves with $`-\varepsilon`$ times this velocity. It is
+//! compared at the time of the impact again, $`\mathrm dt`$ back along the rebound, whose acceleration is $`a_+`$. As
+//! $`a_+ + \varepsilon a_- = (1+\varepsilon)(\sin\theta - \sigma\delta)`$, the damping cancels, and the *saltation
+//! matrix* is
 //!
 //! $$`\mathsf S = \begin{pmatrix} -\varepsilon & 0 \\ (1+\varepsilon)\,\dfrac{\sin\theta - \sigma\delta}{v_-} & -\varepsilon
 //!   \end{pmatrix}, \qquad \det\mathsf S = \varepsilon^2`$$
 //!
-//! (P. Müller, Chaos Solitons Fractals 5 (1995) 1671-1681, doi:10.1016/0960-0779(94)00170-U). Both determinants are exact from impact
-//! to impact: nothing has to telescope, and a gentle impact stretches without making the coordinates themselves singular, as
-//! phase and speed of arrival become at grazing. A graze has no derivative at all ($`v_- \to 0`$) and no effect on the motion; it is
-//! passed as flight. A stick forgets everything: the derivative beyond it is zero.
+//! (P. Müller, Chaos Solitons Fractals 5 (1995) 1671-1681, doi:10.1016/0960-0779(94)00170-U). Both determinants are
+//! exact from impact to impact. A gentle impact has a large stretch, but the coordinates stay regular, whereas phase and
+//! arrival speed are singular at grazing. At a grazing contact there is no derivative ($`v_- \to 0`$) and no effect on the
+//! motion; it is passed as a part of the flight. When the mass sticks, all neighbours become the same motion, and the
+//! derivative beyond is zero.
 
 use super::measure::LogSum;
 use crate::math::{Matrix2, ln, sin_cos};
 use crate::motion::ImpactState;
 use crate::system::Oscillator;
 
-/// $`\Phi(s)`$: the derivative of a state `(x, v)` after a flight of length `s` by that at its beginning.
+/// $`\Phi(s)`$: the derivative of the state `(x, v)` after a flight of time `s` with respect to the state at its
+/// beginning.
 #[must_use]
 pub fn flight(osc: &Oscillator, s: f64) -> Matrix2 {
     let p = osc.response().at(s);
     Matrix2([[p.c, p.s], [-p.s, p.s_rate]])
 }
 
-/// The saltation matrix: the derivative of `(x, v)` just after the impact `at` by that just before.
+/// The saltation matrix: the derivative of `(x, v)` just after the impact `at` with respect to that just before.
 ///
-/// Infinite or not a number at speed 0, where there is none.
+/// At speed 0 the derivative does not exist, and elements are infinite or NaN.
 #[must_use]
 pub fn saltation(osc: &Oscillator, at: &ImpactState) -> Matrix2 {
     let (sign, stop) = (at.side.sign(), osc.stop(at.side));
@@ -40,20 +44,20 @@ pub fn saltation(osc: &Oscillator, at: &ImpactState) -> Matrix2 {
     Matrix2([[-eps, 0.0], [(1.0 + eps) * force / (sign * at.velocity), -eps]])
 }
 
-/// The longest piece of flight taken in one step: over it the slower of two decays, at most $`e^{-s}`$, stays far above
-/// the smallest number.
+/// The longest piece of a flight that is taken in one step. Over it the more slowly decaying of two exponentials, at
+/// most $`e^{-s}`$, stays far above the smallest number.
 const LONGEST: f64 = 300.0;
-/// Most pieces of a flight: a search ends after a thousand periods, so more are needed only where the force is slower than the
-/// oscillator by a factor of a thousand.
+/// The largest number of pieces of a flight. A search ends after a thousand periods, so more are needed only if the
+/// force is slower than the oscillator by a factor of a thousand.
 const MOST_PIECES: f64 = 1000.0;
-/// Below this quotient of the two stretches the smaller one, got from the area between nearly parallel vectors, has lost ten
-/// of its digits, and the area that is known takes over.
+/// If the quotient of the two stretches is below this, the smaller one, computed from the area between nearly parallel
+/// vectors, has lost ten of its digits. It is then computed from the exact change of area.
 const NARROW: f64 = 1e-10;
 
-/// Two vectors at right angles that are carried along, and the logarithms of how they were stretched.
+/// Two perpendicular tangent vectors along a motion, and the logarithms of their stretches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
-    /// The first vector; the second stands upright on it, to the left.
+    /// The first vector; the second is perpendicular to it, counterclockwise.
     first: [f64; 2],
     stretch: [LogSum; 2],
     /// Whether a stretch was by 0.
@@ -67,7 +71,7 @@ impl Default for Frame {
 }
 
 impl Frame {
-    /// Through a flight of length `s` and the impact `at` its end; returns the logarithm of the area's exact change.
+    /// Passes a flight of time `s` and the impact `at` at its end; returns the logarithm of the exact change of area.
     pub(crate) fn through(&mut self, osc: &Oscillator, s: f64, at: &ImpactState) -> f64 {
         let pieces = (s / LONGEST).ceil().clamp(1.0, MOST_PIECES);
         let length = s / pieces;
@@ -87,13 +91,13 @@ impl Frame {
         area + decay * pieces
     }
 
-    /// Through a linear map of known area (its logarithm).
+    /// Applies a linear map whose change of area is known; `area` is its logarithm.
     fn carry(&mut self, map: Matrix2, area: f64) {
         let [a, b] = self.first;
         let (u, w) = (map.apply([a, b]), map.apply([-b, a]));
         let along = (u[0] * u[0] + u[1] * u[1]).sqrt();
         if along == 0.0 || !along.is_finite() {
-            // nothing is left, or more than there are numbers for
+            // the vector is zero, or not finite
             (self.lost, self.first) = ([true; 2], [1.0, 0.0]);
             return;
         }
@@ -109,7 +113,7 @@ impl Frame {
         }
     }
 
-    /// The logarithms of both stretches since the last call, minus infinity for a stretch by 0.
+    /// The logarithms of both stretches since the last call; minus infinity for a stretch by 0.
     pub(crate) fn take(&mut self) -> [f64; 2] {
         let (stretch, lost) = (core::mem::take(&mut self.stretch), core::mem::take(&mut self.lost));
         [0, 1].map(|k| if lost[k] { f64::NEG_INFINITY } else { stretch[k].value() })
@@ -129,7 +133,7 @@ mod tests {
         [osc(0.9, 2.0, 0.5, 0.0), two, osc(1.3, 0.2, 0.9, 1.2)]
     }
 
-    /// State a time `span` after `start`, one impact in between.
+    /// The state a time `span` after `start`, with one impact between.
     fn later(osc: &Oscillator, start: Start, span: f64) -> [f64; 2] {
         let mut motion = Motion::new(osc, start);
         let mut impacts = 0;
@@ -145,7 +149,7 @@ mod tests {
         }
     }
 
-    /// Flight, saltation, flight against differences of whole motions, which know nothing of either matrix.
+    /// Flight, saltation and flight, compared with differences of whole motions, which use neither matrix.
     #[test]
     fn neighbours_move_as_the_matrices_say() {
         for osc in systems() {
@@ -173,7 +177,7 @@ mod tests {
         }
     }
 
-    /// The same neighbours described by phase and speed of arrival: another route to the derivative.
+    /// The same neighbours described by phase and arrival speed: a second derivation of the derivative.
     #[test]
     fn the_impact_map_has_the_same_derivative() {
         for osc in systems() {
@@ -195,7 +199,7 @@ mod tests {
         }
     }
 
-    /// Under heavy damping the two vectors are parallel to all digits, and after long flights nothing is left of either; the
+    /// Under heavy damping the two vectors are parallel to all digits, and after long flights both underflow. The
     /// stretches are still those of the two real exponents.
     #[test]
     fn stretches_far_below_rounding_are_kept() {

@@ -1,4 +1,4 @@
-//! Error-free transformations: sums and products that keep what rounding would lose (Dekker 1971, doi:10.1007/BF01397083).
+//! Error-free transformations: sums and products with their rounding errors (Dekker 1971, doi:10.1007/BF01397083).
 
 use super::lane::Lane;
 
@@ -12,7 +12,7 @@ pub(crate) fn two_sum<L: Lane>(a: L, b: L) -> (L, L) {
 
 /// `a * b` as a rounded product and its exact error, for magnitudes below about 1e291.
 ///
-/// Veltkamp splitting: no fused multiply-add, so every machine does the same operations.
+/// Veltkamp splitting is used and no fused multiply-add, so every machine does the same operations.
 #[inline(always)]
 pub(crate) fn two_prod<L: Lane>(a: L, b: L) -> (L, L) {
     let (ah, al) = split(a);
@@ -21,6 +21,7 @@ pub(crate) fn two_prod<L: Lane>(a: L, b: L) -> (L, L) {
     (p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
 }
 
+/// Splits a number into two parts of at most 26 bits, whose products are exact.
 #[inline(always)]
 fn split<L: Lane>(a: L) -> (L, L) {
     let t = L::splat(134_217_729.0) * a; // 2^27 + 1
@@ -28,7 +29,7 @@ fn split<L: Lane>(a: L) -> (L, L) {
     (hi, a - hi)
 }
 
-/// A running sum that carries its rounding error, so that 1e9 flight times add up without losing digits.
+/// A running sum with its rounding error, so that the sum of 1e9 times of flight loses no digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sum {
     hi: f64,

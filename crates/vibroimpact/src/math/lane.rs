@@ -1,16 +1,17 @@
-//! A lane type: one number or several side by side, with the few operations the flights of a batch are made of.
+//! A lane type: one number or several side by side, with the operations used for the flights of a batch.
 //!
-//! What lanes compute is written once, generic over [`Lane`]. Every operation acts on each number by itself and is one IEEE
-//! operation (or a choice between two numbers), so a number's result does not depend on what lies beside it or on how
-//! many there are: **scalar and lanes agree bit for bit**. There is no fused multiply-add, no approximate reciprocal and
-//! no sum across lanes in the trait, because each would break that.
+//! The algorithms of lanes are written once, generic over [`Lane`]. Every operation acts on each number separately and
+//! is one IEEE operation (or a choice between two numbers). So the result for a number depends neither on the other
+//! numbers nor on how many there are: **scalar and lanes agree bit for bit**. The trait has no fused multiply-add, no
+//! approximate reciprocal and no sum across lanes, because each would break this.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// 1.5 * 2^52: a number of magnitude below 2^51 added to it is rounded to a whole one, which stands in the last bits.
+/// 1.5 * 2^52: the sum of it and a number of magnitude below 2^51 is rounded to a whole number, which is in the last
+/// bits.
 pub(crate) const SHIFT: f64 = 6_755_399_441_055_744.0;
 
-/// [`Lane::turned`] of one number.
+/// [`Lane::turned`] for one number.
 #[inline(always)]
 pub(crate) fn turned(quarters: f64, sin: f64, cos: f64) -> (f64, f64) {
     let bits = quarters.to_bits();
@@ -23,20 +24,20 @@ pub(crate) fn turned(quarters: f64, sin: f64, cos: f64) -> (f64, f64) {
 pub(crate) trait Numbers:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// One truth value a number.
+    /// One truth value for each number.
     type Mask: Mask;
-    /// How many numbers.
+    /// The number of numbers.
     const WIDTH: usize;
 
-    /// The same number everywhere, rounded to the precision.
+    /// The same number in every lane, rounded to the precision.
     fn splat(x: f64) -> Self;
-    /// Magnitude.
+    /// Absolute value.
     fn abs(self) -> Self;
     /// `self` where it is greater than `other`, else `other`.
     fn max(self, other: Self) -> Self;
     /// `self` where it is less than `other`, else `other`.
     fn min(self, other: Self) -> Self;
-    /// Square root; NaN of what is negative.
+    /// Square root; NaN for a negative number.
     fn sqrt(self) -> Self;
     /// `self < other`; false for NaN.
     fn less(self, other: Self) -> Self::Mask;
@@ -44,20 +45,20 @@ pub(crate) trait Numbers:
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
 }
 
-/// Numbers of single precision: enough to pass time in, where what they say is only used with a margin.
+/// Numbers of single precision. They suffice for steps whose results are only used with a margin.
 pub(crate) trait Single: Numbers {
     /// The first numbers of a slice.
     fn load(from: &[f32]) -> Self;
     /// Writes them to the beginning of a slice.
     fn store(self, to: &mut [f32]);
-    /// Writes those whose bits are set to the beginning of a slice that has room for all, in their order; what follows them there
-    /// is of no meaning.
+    /// Writes the numbers whose bits are set to the beginning of a slice, in their order. The slice must have room for
+    /// all numbers; the content after those written is undefined.
     fn store_some(self, bits: u32, to: &mut [f32]);
 }
 
 /// Several `f64` side by side.
 pub(crate) trait Lane: Numbers {
-    /// As many numbers of single precision.
+    /// The same number of numbers in single precision.
     type Rough: Single;
 
     /// The same numbers in double precision.
@@ -68,13 +69,13 @@ pub(crate) trait Lane: Numbers {
     fn load(from: &[f64]) -> Self;
     /// Writes them to the beginning of a slice.
     fn store(self, to: &mut [f64]);
-    /// The columns of the rows at these places.
+    /// The columns of the rows with these indices.
     fn rows<const N: usize>(table: &[[f64; N]], at: &[u32]) -> [Self; N];
     /// Writes columns as rows, one for each number.
     fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]);
     /// Sine and cosine, for arguments of at most 1e6 in magnitude.
     fn sine_and_cosine(self) -> (Self, Self);
-    /// The largest whole number not above.
+    /// The largest whole number not above the number.
     fn floor(self) -> Self;
     /// The nearest whole number, ties to even, for magnitudes below 2^51.
     #[inline(always)]
@@ -82,8 +83,8 @@ pub(crate) trait Lane: Numbers {
         let shift = Self::splat(SHIFT);
         (self + shift) - shift
     }
-    /// Sine and cosine of an angle that is so many quarter turns more, their number being shifted by [`SHIFT`]: its last two bits
-    /// say which of the two is which, and their signs.
+    /// Sine and cosine of an angle that is larger by a number of quarter turns. This number is given with [`SHIFT`]
+    /// added; its last two bits determine which result is the sine, and the signs.
     fn turned(quarters: Self, sin: Self, cos: Self) -> (Self, Self);
 }
 
@@ -91,7 +92,7 @@ pub(crate) trait Lane: Numbers {
 pub(crate) trait Mask: Copy {
     /// Both.
     fn and(self, other: Self) -> Self;
-    /// One of them, or both.
+    /// At least one of them.
     fn or(self, other: Self) -> Self;
     /// As bits, the first lane lowest.
     fn bits(self) -> u32;

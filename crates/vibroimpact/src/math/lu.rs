@@ -1,17 +1,17 @@
 //! Small dense linear systems: LU factors with partial pivoting.
 
-/// The factors of a square matrix, from which any number of right sides are solved.
+/// The factors of a square matrix, for any number of right sides.
 #[derive(Clone, Debug)]
 pub(crate) struct Lu {
     n: usize,
-    /// Row by row: below the diagonal the multipliers, on and above it the upper factor.
+    /// By rows: the multipliers below the diagonal, the upper factor on and above it.
     rows: Vec<f64>,
-    /// Which row came up at each step.
+    /// The row used as pivot at each step.
     pivots: Vec<usize>,
 }
 
 impl Lu {
-    /// Factors the `n` x `n` matrix `rows`, given row by row; `None` when a pivot vanishes or is no number.
+    /// Factors the `n` x `n` matrix `rows`, given by rows; `None` if a pivot is zero or not finite.
     pub(crate) fn new(mut rows: Vec<f64>, n: usize) -> Option<Self> {
         debug_assert_eq!(rows.len(), n * n);
         let mut pivots = Vec::with_capacity(n);

@@ -1,8 +1,8 @@
-//! Two-by-two matrices: the derivative of an impact map, and the multipliers of a product of them.
+//! Two-by-two matrices: derivatives of the impact map, and multipliers of their products.
 
 use super::hypot;
 
-/// A real 2 x 2 matrix, row by row.
+/// A real 2 x 2 matrix, by rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matrix2(pub [[f64; 2]; 2]);
 
@@ -10,7 +10,7 @@ impl Matrix2 {
     /// The identity.
     pub const IDENTITY: Self = Self([[1.0, 0.0], [0.0, 1.0]]);
 
-    /// The product `self * other`: first `other`, then `self`.
+    /// The product `self * other`: `other` is applied first.
     #[must_use]
     pub fn times(self, other: Self) -> Self {
         let ([[a, b], [c, d]], [[e, f], [g, h]]) = (self.0, other.0);
@@ -37,7 +37,7 @@ impl Matrix2 {
         a * d - b * c
     }
 
-    /// The solution `x` of `self * x = v`, or `None` when the matrix is singular to working precision.
+    /// The solution `x` of `self * x = v`, or `None` if the matrix is singular to working precision.
     #[must_use]
     pub fn solve(self, v: [f64; 2]) -> Option<[f64; 2]> {
         let [[a, b], [c, d]] = self.0;
@@ -50,7 +50,7 @@ impl Matrix2 {
     }
 }
 
-/// An eigenvalue, real and imaginary part.
+/// An eigenvalue, with real and imaginary part.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Multiplier {
     /// Real part.
@@ -67,8 +67,8 @@ impl Multiplier {
     }
 }
 
-/// The two eigenvalues of a matrix of known trace and determinant, the larger first; the smaller is the determinant
-/// over the larger, so that it keeps its digits when it is tiny.
+/// The two eigenvalues of a matrix with this trace and determinant, the larger first. The smaller is computed as the
+/// determinant over the larger, so it keeps its digits even if it is very small.
 #[must_use]
 pub fn eigenvalues(trace: f64, determinant: f64) -> [Multiplier; 2] {
     let half = 0.5 * trace;

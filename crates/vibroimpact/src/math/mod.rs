@@ -1,9 +1,9 @@
-//! The elementary functions of the core: one sequence of IEEE operations, hence the same bits on every platform.
+//! The elementary functions of the core: fixed sequences of IEEE operations, with the same bits on every platform.
 //!
-//! A platform's own `sin` may differ in its last bit from the next platform's, and a chaotic motion makes that bit
-//! visible after fifty impacts. So the core evaluates sine and cosine itself ([`sin_cos`]) and takes the rarer functions
-//! from `libm`, which is plain Rust. No fused multiply-add is used anywhere: on machines without it a fused operation
-//! would be a slow library call, and using it on some machines only would change the bits.
+//! The `sin` of one platform may differ in its last bit from that of another, and in a chaotic motion this difference
+//! is visible after fifty impacts. So the core has its own sine and cosine ([`sin_cos`]) and uses `libm`, which is
+//! plain Rust, for rarer functions. No fused multiply-add is used. On machines without it, it is a slow library call,
+//! and if only some machines used it, the bits would differ.
 
 mod exact;
 mod lane;

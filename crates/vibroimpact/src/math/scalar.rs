@@ -58,7 +58,7 @@ macro_rules! one_number {
 }
 one_number!(f64, f32);
 
-/// The scalar instance: what the lanes are compared with, and what a single motion runs on.
+/// The scalar instance: lanes are compared with it, and single motions use it.
 impl Lane for f64 {
     type Rough = f32;
 
@@ -86,7 +86,7 @@ impl Lane for f64 {
     fn store_rows(columns: [Self; 8], rows: &mut [[f64; 8]]) {
         rows[0] = columns;
     }
-    /// Of any size; the same bits.
+    /// For arguments of any size, with the same bits.
     #[inline(always)]
     fn sine_and_cosine(self) -> (Self, Self) {
         sin_cos(self)

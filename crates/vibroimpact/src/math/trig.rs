@@ -1,9 +1,9 @@
-//! Sine and cosine, together, to better than one unit in the last place.
+//! Sine and cosine together, with an error below one unit in the last place.
 //!
-//! The argument is reduced to $`|r| \le \pi/4`$ plus a low part: for $`|n| < 2^{20}`$ quarter turns by three 33-bit pieces of
-//! $`\pi/2`$, whose products with $`n`$ are exact (Cody & Waite), above that by exact products with a 160-bit $`\pi/2`$. The
-//! two polynomials are the minimax ones of Sun's fdlibm (`k_sin.c`, `k_cos.c`, freely usable), with the low part of the
-//! reduced argument carried through.
+//! The argument is reduced to $`|r| \le \pi/4`$ plus a low part. For $`|n| < 2^{20}`$ quarter turns this uses three
+//! 33-bit pieces of $`\pi/2`$, whose products with $`n`$ are exact (Cody & Waite), and for more quarter turns exact
+//! products with a 160-bit $`\pi/2`$. The two polynomials are the minimax polynomials of Sun's fdlibm (`k_sin.c`,
+//! `k_cos.c`, freely usable), including the low part of the reduced argument.
 
 use super::lane::SHIFT;
 use super::{Lane, two_prod, two_sum};
@@ -18,10 +18,10 @@ const Q1: f64 = core::f64::consts::FRAC_PI_2;
 const Q2: f64 = 6.123_233_995_736_766e-17;
 const Q3: f64 = -1.497_384_904_859_169_8e-33;
 
-/// Up to here the fast reduction is exact.
+/// The largest argument for which the fast reduction is exact.
 const FAST: f64 = 1_000_000.0;
-/// From here on neighbouring numbers are more than a radian apart and a sine means nothing; the argument is taken as
-/// it is, modulo the double nearest 2π, so that the answer is at least finite and repeatable.
+/// From this value on neighbouring numbers are more than a radian apart and a sine has no meaning. The argument is
+/// reduced modulo the double nearest 2π, so that the result is finite and reproducible.
 const MEANINGLESS: f64 = 9_007_199_254_740_992.0;
 
 /// `(sin x, cos x)`, each within 1 ulp for |x| < 2^53; NaN for a NaN or infinite `x`.
@@ -58,22 +58,23 @@ fn reduce_fast(x: f64) -> (f64, f64, f64) {
     (shifted - SHIFT, r, lo)
 }
 
-/// The number of quarter turns, shifted; and the rest as high and low part.
+/// The number of quarter turns with [`SHIFT`] added, and the remainder as high and low part.
 #[inline(always)]
 fn reduce_shifted<L: Lane>(x: L) -> (L, L, L) {
     let shift = L::splat(SHIFT);
     let shifted = x * L::splat(FRAC_2_PI) + shift;
     let n = shifted - shift;
-    // exact; the second piece is the smaller, unless x is all but a multiple and what is left over is exact again
+    // exact: the second piece is the smaller one, or x is so close to a multiple that the difference is exact
     let (first, second) = (x - n * L::splat(P1), n * L::splat(P2));
     let hi = first - second;
     (shifted, hi, ((first - hi) - second) - n * L::splat(P3))
 }
 
+/// The number of quarter turns, and the remainder as high and low part, for large arguments.
 #[cold]
 fn reduce_large(x: f64) -> (f64, f64, f64) {
     let x = if x.abs() < MEANINGLESS { x } else { x % core::f64::consts::TAU };
-    // the product is rounded, so near a half-integer it may choose the wrong neighbour: look once more
+    // the product is rounded, so near a half-integer n may be wrong by 1: it is corrected
     let n = (x * FRAC_2_PI).round();
     let n = n + (subtract_quarters(x, n).0 * FRAC_2_PI).round();
     let (hi, lo) = subtract_quarters(x, n);
@@ -108,6 +109,7 @@ const C: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
+/// The sine of `x + lo` for |x| <= pi/4.
 #[inline(always)]
 fn kernel_sin<L: Lane>(x: L, lo: L) -> L {
     let z = x * x;
@@ -117,6 +119,7 @@ fn kernel_sin<L: Lane>(x: L, lo: L) -> L {
     x - ((z * (L::splat(0.5) * lo - v * r) - lo) - v * L::splat(S[0]))
 }
 
+/// The cosine of `x + lo` for |x| <= pi/4.
 #[inline(always)]
 fn kernel_cos<L: Lane>(x: L, lo: L) -> L {
     let one = L::splat(1.0);
@@ -133,7 +136,7 @@ fn kernel_cos<L: Lane>(x: L, lo: L) -> L {
 mod tests {
     use super::*;
 
-    /// Distance in units of the last place of `want`.
+    /// The distance in units of the last place of `want`.
     fn ulps(got: f64, want: f64) -> f64 {
         let ulp = f64::from_bits(want.abs().to_bits() + 1) - want.abs();
         (got - want).abs() / ulp
@@ -141,7 +144,7 @@ mod tests {
 
     #[test]
     fn agrees_with_a_second_implementation() {
-        // libm is a different code (Payne-Hanek reduction for large arguments); both are within 1 ulp, so 2 apart.
+        // libm is different code (Payne-Hanek reduction for large arguments); both are within 1 ulp, so at most 2 apart
         let mut x = 1e-9;
         let mut k = 0_u32;
         while x < 1e15 {
@@ -158,7 +161,8 @@ mod tests {
 
     #[test]
     fn multiples_of_a_quarter_turn() {
-        // the double nearest 2^k * pi/2 is off by a known amount; libm's Payne-Hanek reduction is the referee
+        // the double nearest 2^k * pi/2 differs from it by a known amount; libm's Payne-Hanek reduction is the
+        // reference
         for k in 0..45 {
             let x = core::f64::consts::FRAC_PI_2 * 2_f64.powi(k);
             let (s, c) = sin_cos(x);

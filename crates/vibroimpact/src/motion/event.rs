@@ -1,22 +1,22 @@
-//! What can happen to the mass at a stop, and how a motion can end.
+//! The events of a motion, and how a motion can end.
 
 use crate::flight::Horizon;
 use crate::system::Side;
 
-/// Something that happened at a stop.
+/// An event at a stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     /// Time since the start of the motion.
     pub time: f64,
     /// Phase of the force, in $`[0, 2\pi)`$.
     pub phase: f64,
-    /// Which stop.
+    /// The stop.
     pub side: Side,
-    /// What happened.
+    /// The kind of the event.
     pub kind: EventKind,
 }
 
-/// What happened.
+/// The kind of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EventKind {
     /// An impact: arrival with `velocity_before > 0` towards the stop, rebound with `velocity_after <= 0`.
@@ -26,29 +26,29 @@ pub enum EventKind {
         /// $`u_+ = -\varepsilon u_-`$.
         velocity_after: f64,
     },
-    /// A tangential touch, without effect; `depth` is the computed distance left.
+    /// A grazing contact, which has no effect on the motion.
     Graze {
-        /// Distance left at the closest point, within rounding of zero.
+        /// The computed distance from the stop at the closest point, zero to within rounding.
         depth: f64,
     },
-    /// The mass comes to rest on the stop.
+    /// The mass begins to stick.
     Stick {
-        /// Whether a complete chatter, infinitely many impacts, led here since the last impact listed.
+        /// Whether a complete chatter, with infinitely many impacts, precedes it since the last impact listed.
         chatter: bool,
         /// Bound on the error of the time of this event.
         error: f64,
     },
-    /// The force changes sign and the mass leaves.
+    /// The force changes sign and the mass leaves the stop.
     Release,
 }
 
 /// Why a motion has no further event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
-    /// It never touches a stop again, for ever, and why.
+    /// The mass never reaches a stop again, for the reason given.
     Never(Horizon),
-    /// It touches no stop for this long after its last event; what comes later was not decided.
+    /// The mass reaches no stop for this time after the last event; nothing is known beyond.
     NoneFor(f64),
-    /// It rests on this stop for ever.
+    /// The mass sticks on this stop for ever.
     Stuck(Side),
 }

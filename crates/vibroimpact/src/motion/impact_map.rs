@@ -1,8 +1,8 @@
-//! The impact map: from one arrival at a stop to the next, and its exact derivative.
+//! The impact map, from one arrival at a stop to the next, and its exact derivative.
 //!
-//! The state is the phase $`\theta`$ and the arrival speed $`U`$ (and which stop). The flight that follows starts with
-//! $`v_0 = -\sigma_0\varepsilon U_0`$ and ends at $`\sigma_1 x = \delta_{\sigma_1}`$ after a time $`s`$ that depends on both. With
-//! the propagator of the flight,
+//! The state is the phase $`\theta`$, the arrival speed $`U`$ and the stop. The flight after the impact begins with
+//! $`v_0 = -\sigma_0\varepsilon U_0`$ and ends at $`\sigma_1 x = \delta_{\sigma_1}`$ after a time $`s`$ that depends on
+//! both. With the propagator of the flight,
 //!
 //! $$`\partial_\varphi x = \cos\varphi\,K_c - \sin\varphi\,K_s,\quad \partial_{v_0} x = S,\quad
 //!   \partial_\varphi v = \cos\varphi\,(S - \beta K_s) - \sin\varphi\,\beta K_c,\quad \partial_{v_0} v = C - 2\zeta S,`$$
@@ -12,33 +12,34 @@
 //! $$`d\theta_1 = d\varphi + \beta\,ds, \qquad
 //!   dU_1 = \sigma_1(\partial_\varphi v\,d\varphi + \partial_{v_0}v\,dv_0 + a_1\,ds).`$$
 //!
-//! Its determinant is $`\varepsilon^2 e^{-2\zeta s}\,U_0/U_1`$ (in time and velocity), which the tests check.
+//! The determinant is $`\varepsilon^2 e^{-2\zeta s}\,U_0/U_1`$; the factor $`U_0/U_1`$ would be absent in position and
+//! velocity.
 
 use super::{End, Event, EventKind, ImpactState, Motion};
 use crate::flight::SearchLimits;
 use crate::math::{Matrix2, sin_cos};
 use crate::system::Oscillator;
 
-/// What follows an impact.
+/// The result of the impact map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mapped {
-    /// The next impact, `interval` later; grazes in between do not count.
+    /// The next impact; grazing contacts before it are not counted.
     Impact {
         /// The next arrival.
         state: ImpactState,
-        /// Time between the two.
+        /// Time between the two impacts.
         interval: f64,
     },
-    /// The mass comes to rest on a stop: the event that says so.
+    /// The mass sticks: the event at which it begins.
     Stick(Event),
     /// No further impact.
     End(End),
 }
 
-/// Touches in a row, without an impact, after which a motion counts as one that only touches.
+/// After this number of successive contacts without an impact, a motion counts as one that only grazes.
 pub const MAX_TOUCHES: u32 = 8;
 
-/// The impact after `state`.
+/// The event after the impact `state`: the next impact, the beginning of sticking, or the end of the motion.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Side, motion::{ImpactState, Mapped, impact_map}, flight::SearchLimits};
@@ -51,12 +52,12 @@ pub const MAX_TOUCHES: u32 = 8;
 /// ```
 #[must_use]
 pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -> Mapped {
-    // a chatter that follows is completed, as in a motion: iterated, the map would sum it impact by impact for ever
+    // a chatter is completed as in a motion; without this, iterating the map would go through all its impacts
     let mut motion = Motion::after(osc, state, limits);
     let mut passed = 0;
     loop {
         match motion.next() {
-            // touches without an impact may go on for ever
+            // contacts without an impact may repeat for ever
             Some(event) if passed > MAX_TOUCHES => return Mapped::End(End::NoneFor(event.time)),
             Some(event) => match event.kind {
                 EventKind::Impact { velocity_before, .. } => {
@@ -71,8 +72,8 @@ pub fn impact_map(osc: &Oscillator, state: &ImpactState, limits: SearchLimits) -
     }
 }
 
-/// The derivative of `(phase, velocity)` at the next impact with respect to those at `state`, given that the next
-/// impact is `next`, a time `interval` later.
+/// The derivative of `(phase, velocity)` at the next impact with respect to those at `state`, where the next impact is
+/// `next`, a time `interval` later. It is not finite if `next` has velocity zero.
 #[must_use]
 pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, interval: f64) -> Matrix2 {
     let start = state.rebound(osc);
@@ -84,7 +85,7 @@ pub fn derivative(osc: &Oscillator, state: &ImpactState, next: &ImpactState, int
     let (v_phase, v_v) = (cos * (p.s - beta * p.ks) - sin * beta * p.kc, p.s_rate);
     let sign = next.side.sign();
     let v1 = sign * next.velocity;
-    // the equation of motion at the stop
+    // the acceleration at the next impact, from the equation of motion
     let a1 = sin_cos(next.phase).0 - sign * osc.stop(next.side).map_or(0.0, |stop| stop.gap) - 2.0 * osc.damping() * v1;
     // one column for the phase, one for the arrival speed (dv0 = -sigma eps dU)
     let dv0 = -state.side.sign() * eps;

@@ -1,7 +1,7 @@
-//! A motion as an iterator: legs (flights and rests) divided by events.
+//! A motion as an iterator over its events, with the legs (flights and intervals of sticking) between them.
 //!
-//! Time is set back to zero at each event and the phase advanced instead; the total is a compensated sum. So the state
-//! a motion carries is phase and velocity at the stop, and nothing in it grows old.
+//! Time restarts at each event and the phase is advanced instead; the total time is a compensated sum. So the state of
+//! a motion is the phase and velocity at the stop, and precision does not degrade with time.
 
 use super::{End, Event, EventKind, ImpactState};
 use crate::contact::{chatter, landing, sticking};
@@ -10,25 +10,25 @@ use crate::lanes::{self, Stride};
 use crate::math::Sum;
 use crate::system::{Oscillator, Side, Start, phase};
 
-/// What the mass does between two events.
+/// The motion of the mass between two events.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Path {
-    /// It flies.
+    /// The mass flies.
     Flight(Flight),
-    /// It rests on a stop - or, for the last stretch of a chatter, hops on it too little to matter.
+    /// The mass sticks on a stop, or its remaining impacts of a chatter are too small to matter.
     Rest(Side),
 }
 
-/// A stretch between two events.
+/// The motion between two events.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
-    /// Time of its beginning since the start of the motion.
+    /// Time from the start of the motion to the beginning of the leg.
     pub begin: f64,
-    /// Its length; infinite when nothing ends it.
+    /// Its length; infinite if no event ends it.
     pub duration: f64,
     /// Phase of the force at its beginning.
     pub phase: f64,
-    /// What the mass does.
+    /// The motion of the mass.
     pub path: Path,
 }
 
@@ -42,7 +42,8 @@ impl Leg {
         }
     }
 
-    /// The same as a start: within the stops, whatever rounding made of the position on one, and with the phase there.
+    /// The same as a start, with the phase there. The position is limited to the range between the stops, because
+    /// rounding can put it beyond.
     #[must_use]
     pub fn start(&self, osc: &Oscillator, s: f64) -> Start {
         let (x, v) = self.state(osc, s);
@@ -50,8 +51,8 @@ impl Leg {
         Start { x: x.clamp(lowest, highest), v, phase: phase::advance(self.phase, osc.beta(), s) }
     }
 
-    /// The state with this phase of the force nearest to a time `s` after the beginning of the leg, of which so much is `known`. `s`
-    /// only chooses which moment of that phase, so that nothing drifts where it is a sum of many periods.
+    /// The state with the phase `wanted` at the time nearest to a time `s` after the beginning of the leg, within the
+    /// time `known`. `s` only selects the period, so the rounding error of a sum of many periods has no effect.
     #[must_use]
     pub fn at_phase(&self, osc: &Oscillator, s: f64, wanted: f64, known: f64) -> Start {
         let early = phase::difference(wanted, phase::advance(self.phase, osc.beta(), s)) / osc.beta();
@@ -59,7 +60,7 @@ impl Leg {
     }
 }
 
-/// The events of a motion, in order; it ends when there is none any more, and [`Motion::end`] says why.
+/// The events of a motion, in order. It ends when there is no further event; [`Motion::end`] gives the reason.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Start, motion::{EventKind, Motion}};
@@ -82,9 +83,9 @@ pub struct Motion<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Mode {
     Flying(Flight),
-    /// It flies from a release of the stop on this side.
+    /// A flight that begins with a release from the stop on this side.
     Released(Side, Flight),
-    /// The chatter after an impact is summed: at rest after `duration`.
+    /// A chatter after an impact is summed: the mass sticks after `duration`.
     Settling {
         side: Side,
         phase: f64,
@@ -106,13 +107,13 @@ impl<'a> Motion<'a> {
         Self::with_limits(osc, start, SearchLimits::default())
     }
 
-    /// The same, searching each flight only as far as `limits`.
+    /// The same, with the given limits of the search for the first contact of each flight.
     #[must_use]
     pub fn with_limits(osc: &'a Oscillator, start: Start, limits: SearchLimits) -> Self {
         Self::begin(osc, limits, Mode::Flying(Flight::new(osc, start)))
     }
 
-    /// The motion that follows an impact.
+    /// The motion after an impact.
     #[must_use]
     pub fn after(osc: &'a Oscillator, state: &ImpactState, limits: SearchLimits) -> Self {
         let mut motion = Self::begin(osc, limits, Mode::Ended(End::Stuck(state.side)));
@@ -121,8 +122,8 @@ impl<'a> Motion<'a> {
         motion
     }
 
-    /// The motion that follows a release from the stop on `side`, at the phase where the force lets go; over at once,
-    /// without an event, if that stop never releases the mass.
+    /// The motion after a release from the stop on `side`. It ends at once, without an event, if that stop never
+    /// releases the mass.
     #[must_use]
     pub fn released(osc: &'a Oscillator, side: Side) -> Self {
         let mode = match sticking::release_phase(osc, side) {
@@ -136,7 +137,7 @@ impl<'a> Motion<'a> {
         Self { osc, stride: Stride::new(osc), limits, time: Sum::default(), mode, last: None, steps: 0 }
     }
 
-    /// Why there is no further event; `None` while the motion goes on.
+    /// Why there is no further event; `None` while the motion continues.
     #[must_use]
     pub const fn end(&self) -> Option<End> {
         match self.mode {
@@ -145,13 +146,14 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The leg that led to the last event returned (or, after the end, the leg without end).
+    /// The leg before the last event returned; after the end, the leg without an end.
     #[must_use]
     pub const fn leg(&self) -> Option<&Leg> {
         self.last.as_ref()
     }
 
-    /// Search steps taken so far, a measure of the work done: some thirty an impact, far more where flights are long.
+    /// The number of search steps so far, a measure of the computing time: about thirty for each impact, and far more
+    /// for long flights.
     #[must_use]
     pub const fn steps(&self) -> u64 {
         self.steps
@@ -168,7 +170,7 @@ impl<'a> Motion<'a> {
         self.mode = Mode::Ended(end);
     }
 
-    /// To the end of a flight, which begins with a release from the stop on that side if one is given.
+    /// Follows a flight to its end; `released` is the stop from which it was released, if it begins with a release.
     fn fly(&mut self, flight: Flight, released: Option<Side>) -> Option<Event> {
         let leg =
             |duration| Leg { begin: self.time.value(), duration, phase: flight.phase, path: Path::Flight(flight) };
@@ -187,7 +189,7 @@ impl<'a> Motion<'a> {
             Contact::Contact { side } => {
                 let velocity = side.sign() * flight.v;
                 if velocity <= 0.0 {
-                    // at rest and pressed
+                    // at rest on the stop and pressed against it
                     let (phase, leg) = (flight.phase, leg(0.0));
                     self.mode = Mode::Resting { side, phase };
                     return Some(self.event(leg, phase, side, EventKind::Stick { chatter: false, error: 0.0 }));
@@ -214,9 +216,11 @@ impl<'a> Motion<'a> {
         Some(self.event(leg, phase, side, EventKind::Impact { velocity_before: velocity, velocity_after: -rebound }))
     }
 
+    /// The motion after an impact: a flight, or sticking after a chatter that can be summed or after a rebound speed of
+    /// zero.
     fn after_impact(&self, side: Side, phase: f64, rebound: f64) -> Mode {
         if rebound == 0.0 {
-            // eps = 0 (or a rebound below the smallest number): at rest on the stop; held if the force presses
+            // eps = 0, or a rebound below the smallest number: at rest on the stop, and it sticks if the force presses
             return if sticking::pressure(self.osc, side, phase) > 0.0 {
                 Mode::Settling { side, phase, duration: 0.0, error: 0.0, chatter: false }
             } else {
@@ -229,7 +233,7 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The state that leaves the stop with speed `rebound`.
+    /// The state that leaves the stop with the speed `rebound`.
     fn on_stop(&self, side: Side, rebound: f64, phase: f64) -> Start {
         let sign = side.sign();
         Start { x: sign * self.osc.stop(side).map_or(0.0, |stop| stop.gap), v: -sign * rebound, phase }
@@ -269,8 +273,8 @@ impl Iterator for Motion<'_> {
 mod tests {
     use super::*;
 
-    /// Without damping, the energy of a flight changes by the work of the force, here integrated by Simpson's rule; and an elastic impact
-    /// changes none.
+    /// Without damping, the energy of a flight changes by the work of the force, here integrated by Simpson's rule, and
+    /// an elastic impact does not change it.
     #[test]
     fn energy_balance_of_elastic_impacts() {
         let osc = Oscillator::new(1.7, 0.3, 1.0).unwrap();

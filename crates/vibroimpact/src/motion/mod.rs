@@ -1,13 +1,13 @@
-//! Motion: one event after another, and the maps that take one to the next.
+//! Motion: the events one after another, and the maps from one to the next.
 //!
 //! | idea | file |
 //! |---|---|
-//! | what can happen | [`Event`] |
-//! | the events of a motion, one by one, and the legs between them | [`Motion`], [`Leg`] |
+//! | the events | [`Event`] |
+//! | the events of a motion in order, and the legs between them | [`Motion`], [`Leg`] |
 //! | from one impact to the next, with its derivative | [`impact_map`] |
 //! | from one forcing period to the next | [`stroboscopic_map`] |
-//! | the states at one phase, period after period | [`Strobes`] |
-//! | points of the waveform, for eyes | [`sample`] |
+//! | the states at one phase of the force, once in every period | [`Strobes`] |
+//! | points of the waveform, for display | [`sample`] |
 
 mod event;
 mod impact_map;

@@ -1,4 +1,4 @@
-//! Points of the waveform, for eyes: apart from the events, which never depend on it.
+//! Points of the waveform, for display. The events of a motion do not depend on them.
 
 use super::{Leg, Motion};
 use crate::system::{Oscillator, Start};
@@ -14,8 +14,8 @@ pub struct Sample {
     pub v: f64,
 }
 
-/// The motion from `start` up to `until`, at times no further apart than `step`, with a point on each side of every
-/// event; at most `cap` points.
+/// The motion from `start` up to the time `until`, at times no further apart than `step`, with a point on each side of
+/// every event; at most `cap` points.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Start, motion::sample};
@@ -41,6 +41,7 @@ pub fn sample(osc: &Oscillator, start: Start, until: f64, step: f64, cap: usize)
     points
 }
 
+/// Adds the points of one leg.
 fn draw(osc: &Oscillator, leg: &Leg, until: f64, step: f64, cap: usize, points: &mut Vec<Sample>) {
     let length = leg.duration.min(until - leg.begin).max(0.0);
     let pieces = (length / step).ceil().clamp(1.0, 1e7);
@@ -48,7 +49,7 @@ fn draw(osc: &Oscillator, leg: &Leg, until: f64, step: f64, cap: usize, points: 
     while k <= pieces && points.len() < cap {
         let s = length * (k / pieces);
         let (x, v) = leg.state(osc, s);
-        // the last point is where it was asked for, not a rounding away
+        // the last point is at the requested time exactly
         let time = if k == pieces && length < leg.duration { until } else { leg.begin + s };
         points.push(Sample { time, x, v });
         k += 1.0;

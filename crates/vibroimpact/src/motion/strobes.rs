@@ -4,13 +4,14 @@ use super::{End, Leg, Motion};
 use crate::flight::SearchLimits;
 use crate::system::{Oscillator, Start, phase};
 
-/// Events within one period before it counts as endless (restitution 1, or nearly, under preload).
+/// The largest number of events within one period; more occur for restitution near 1 under preload.
 const MOST_EVENTS: u32 = 1_000_000;
 
-/// The states of a motion at a phase, in order; one motion throughout, so a long flight is searched once.
+/// The states of a motion at one phase of the force, in order. The motion is followed only once, so a long flight is
+/// searched once.
 ///
-/// It goes on for ever, through flights and rests without end too, unless the search for the next impact gave up: where
-/// nothing is known no state is returned.
+/// The sequence does not end, also during flights and sticking without end, unless the search for the next impact
+/// reached its limits. Then nothing is known and it ends.
 ///
 /// ```
 /// use vibroimpact::{Start, motion::Strobes, scenario};
@@ -23,16 +24,17 @@ pub struct Strobes<'a> {
     osc: &'a Oscillator,
     motion: Motion<'a>,
     phase: f64,
-    /// Time of the first state, and how many there were.
+    /// Time of the first state, and the number of states so far.
     first: f64,
     count: u64,
     leg: Option<Leg>,
-    /// How much of the leg is known.
+    /// The time since the beginning of the leg up to which it is known.
     known: f64,
 }
 
 impl<'a> Strobes<'a> {
-    /// The states of the motion of `osc` from `start` at this phase of the force, the start included if it has it.
+    /// The states of the motion of `osc` from `start` at this phase of the force, including the start if it has this
+    /// phase.
     #[must_use]
     pub fn new(osc: &'a Oscillator, start: Start, phase: f64) -> Self {
         let phase = phase::wrap(phase);
@@ -41,7 +43,7 @@ impl<'a> Strobes<'a> {
         Self { osc, motion, phase, first, count: 0, leg: None, known: 0.0 }
     }
 
-    /// Search steps taken so far, a measure of the work done.
+    /// The number of search steps so far, a measure of the computing time.
     #[must_use]
     pub const fn steps(&self) -> u64 {
         self.motion.steps()
@@ -79,7 +81,7 @@ mod tests {
     use super::*;
     use crate::{motion::stroboscopic_map, scenario};
 
-    /// Period by period with the map: another way to the same states.
+    /// The same states from the stroboscopic map, period by period.
     #[test]
     fn as_the_stroboscopic_map() {
         let osc = scenario::U.oscillator();

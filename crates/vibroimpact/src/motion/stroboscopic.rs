@@ -1,4 +1,4 @@
-//! The stroboscopic map: from a state to the state one forcing period later, through whatever happens in between.
+//! The stroboscopic map: from a state to the state one forcing period later, including all events between.
 
 use super::{EventKind, Motion};
 use crate::system::{Oscillator, Start};
@@ -8,13 +8,13 @@ use crate::system::{Oscillator, Start};
 pub struct Strobe {
     /// The state.
     pub state: Start,
-    /// Impacts on the way; a complete chatter counts as the impacts before the rest of it was summed.
+    /// The number of impacts between; of a complete chatter, only those before it was summed.
     pub impacts: u32,
-    /// Whether the mass was at rest on a stop on the way.
+    /// Whether the mass stuck on a stop in this period.
     pub stuck: bool,
 }
 
-/// The image of `start` under the stroboscopic map of `osc`; `None` if more than `cap` events happen in the period
+/// The image of `start` under the stroboscopic map of `osc`; `None` if there are more than `cap` events in the period
 /// (restitution 1, or nearly, under preload).
 #[must_use]
 pub fn stroboscopic_map(osc: &Oscillator, start: Start, cap: u32) -> Option<Strobe> {
@@ -57,7 +57,7 @@ mod tests {
     fn a_one_over_one_motion_is_a_fixed_point() {
         let osc = Oscillator::from_inverse_beta(1.3, 0.75, 0.5).unwrap();
         let start = Start { x: 0.75, v: -0.5 * 2.797_349_151_953_767_4, phase: 1.190_509_613_787_888_5 };
-        // just after the impact to just after the next one: step a little past it
+        // from just after an impact to just after the next one: the start is moved a little past the impact
         let later = Flight::new(&osc, start).state(0.1);
         let from = Start { x: later.0, v: later.1, phase: start.phase + 0.1 * osc.beta() };
         let strobe = stroboscopic_map(&osc, from, 100).unwrap();

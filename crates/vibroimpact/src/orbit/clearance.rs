@@ -1,35 +1,36 @@
-//! How close the flights of a cycle come to the stops between their impacts.
+//! The distance of the flights of a cycle from the stops between its impacts.
 //!
-//! On a flight the distance to a stop has interior minima, where the velocity changes sign. The smallest of them, the
-//! *clearance*, moves smoothly with the cycle and becomes zero where the flight grazes. It is what continuation
-//! watches; whether a cycle is a motion is judged by the certified first contact, not by this.
+//! On a flight the distance from a stop has interior minima, where the velocity changes sign. The smallest of them is
+//! the *clearance*. It is a smooth function of the cycle and becomes zero where the flight grazes, so continuation uses
+//! it as a test function. It does not decide whether a cycle is admissible; the certified first contact does.
 
 use super::cyclic::leaving;
 use super::ring::Ring;
 use crate::flight::{Flight, FlightPoint};
 use crate::system::{Oscillator, Side};
 
-/// The closest a flight comes to a stop between two impacts.
+/// The smallest distance of a flight from a stop between two impacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Closest {
-    /// Time since the impact it leaves.
+    /// Time since the impact that the flight leaves.
     pub(crate) time: f64,
-    /// Distance left; negative beyond the stop.
+    /// Distance from the stop; negative beyond it.
     pub(crate) distance: f64,
 }
 
-/// Step of the scan for changes of sign of the velocity, in the faster of the force's and the mass's own angle.
+/// The step of the scan for sign changes of the velocity, as a phase of the faster of the force and the free
+/// oscillation.
 const STEP: f64 = 0.35;
-/// The most steps a flight is scanned in; one longer than this many is scanned more coarsely.
+/// The largest number of steps of a scan; longer flights are scanned with longer steps.
 const MAX_STEPS: f64 = 20_000.0;
-/// Halvings that the refinement of an extremum may need.
+/// The largest number of iterations for one extremum.
 const MAX_REFINEMENTS: u32 = 80;
 
-/// The closest that the flight after impact `k` comes to the stop on `side` at an interior minimum of the distance;
-/// `None` if it has none.
+/// The smallest interior minimum of the distance of the flight after impact `k` from the stop on `side`; `None` if it
+/// has no interior minimum.
 ///
-/// Where an impact has become virtual (its speed negative) the extremum that belongs to it is left out: it lies beyond
-/// the stop by nature.
+/// An impact of negative speed is inadmissible, and the extremum next to it lies beyond the stop in any case. It is
+/// left out.
 pub(crate) fn closest(osc: &Oscillator, ring: &Ring, k: usize, side: Side) -> Option<Closest> {
     let stop = osc.stop(side)?;
     let flight = leaving(osc, ring, k);
@@ -51,7 +52,8 @@ pub(crate) fn closest(osc: &Oscillator, ring: &Ring, k: usize, side: Side) -> Op
     extrema.into_iter().min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-/// Of the places within `time` where a flight turns back from the stop on `side`, or beyond it, the one nearest in time to `near`.
+/// Of the times within `time` at which a flight turns back from the stop on `side`, on either side of the stop, the one
+/// nearest to `near`.
 pub(crate) fn turning_near(osc: &Oscillator, flight: &Flight, side: Side, time: f64, near: f64) -> Option<Closest> {
     let sign = side.sign();
     let room = osc.stop(side)?.gap - sign * flight.x;
@@ -60,10 +62,10 @@ pub(crate) fn turning_near(osc: &Oscillator, flight: &Flight, side: Side, time: 
     Some(Closest { time: nearest.0, distance: room - sign * nearest.1.displacement })
 }
 
-/// The extremum that belongs to a virtual impact lies beyond the stop, up to rounding.
+/// The extremum next to an impact of negative speed lies beyond the stop, up to this rounding error.
 const BEYOND: f64 = 1e-12;
 
-/// The faster of the force's and the mass's own rate.
+/// The larger of the angular rates of the force and of the free oscillation.
 fn fastest(osc: &Oscillator) -> f64 {
     osc.beta().max(1.0 + 2.0 * osc.damping())
 }
@@ -84,11 +86,12 @@ fn maxima(osc: &Oscillator, flight: &Flight, time: f64, sign: f64) -> Vec<(f64, 
         before = here;
         k += 1.0;
     }
-    // an extremum at either end is an impact, not a touch
+    // an extremum at either end belongs to an impact
     found.retain(|(s, _)| *s > 1e-12 * time && *s < (1.0 - 1e-12) * time);
     found
 }
 
+/// Adds the maxima of `sign * x` within one step to `found`, from velocity and acceleration at both ends.
 fn scan(
     flight: &Flight,
     sign: f64,
@@ -99,13 +102,13 @@ fn scan(
     if v0 > 0.0 && v1 <= 0.0 {
         found.push(turning(flight, sign, s0, s1));
     } else if v0 <= 0.0 && v1 <= 0.0 && a0 > 0.0 && a1 < 0.0 {
-        // perhaps forward and back again within the step: look where the velocity is largest
+        // the velocity may become positive and negative again within the step: examine it where it is largest
         let s = peak(flight, sign, s0, s1);
         if sign * flight.at(s).v > 0.0 {
             found.push(turning(flight, sign, s, s1));
         }
     } else if v0 > 0.0 && v1 > 0.0 && a0 < 0.0 && a1 > 0.0 {
-        // perhaps back and forward again
+        // the velocity may become negative and positive again
         let s = peak(flight, -sign, s0, s1);
         if sign * flight.at(s).v <= 0.0 {
             found.push(turning(flight, sign, s0, s));
@@ -113,7 +116,8 @@ fn scan(
     }
 }
 
-/// Where `sign * v` passes through zero downwards between `low` and `high`.
+/// The time between `low` and `high` at which `sign * v` changes from positive to negative, with the point of the
+/// flight there.
 fn turning(flight: &Flight, sign: f64, mut low: f64, mut high: f64) -> (f64, FlightPoint) {
     let mut s = 0.5 * (low + high);
     for _ in 0..MAX_REFINEMENTS {
@@ -136,7 +140,8 @@ fn turning(flight: &Flight, sign: f64, mut low: f64, mut high: f64) -> (f64, Fli
     (s, flight.at(s))
 }
 
-/// Where `sign * v` is largest between `low` and `high`, its rate falling through zero there.
+/// The time between `low` and `high` at which `sign * v` is largest; its derivative changes from positive to negative
+/// there.
 fn peak(flight: &Flight, sign: f64, mut low: f64, mut high: f64) -> f64 {
     for _ in 0..MAX_REFINEMENTS {
         let s = 0.5 * (low + high);

@@ -1,17 +1,19 @@
-//! The linear system of a cycle, solved in a time that grows with its impacts and not with their cube.
+//! The linear system of a cycle, solved in a time proportional to its number of impacts.
 //!
-//! Each flight couples two impacts, $`A_i\,\Delta z_i + B_i\,\Delta z_{i+1} = r_i`$, and the last one leads back to the
-//! first. One impact after another is eliminated between the flight that arrives and the flight that leaves, with pivoting
-//! among the four rows they have together (one of $`B_i`$, $`A_{i+1}`$ may be singular: the former is, at a grazing
-//! impact), until two equations for the first impact are left.
+//! Each flight couples two impacts, $`A_i\,\Delta z_i + B_i\,\Delta z_{i+1} = r_i`$, and the last flight leads back to
+//! the first impact. The impacts are eliminated one by one, between the flight that arrives and the flight that leaves,
+//! until two equations for the first impact are left. Pivoting uses the four rows of both flights, because $`B_i`$ or
+//! $`A_{i+1}`$ may be singular; $`B_i`$ is singular at a grazing impact.
 
 use super::cyclic::Block;
 use crate::math::Matrix2;
 
-/// A row of the elimination: coefficients of the first impact, of the one to be eliminated and of the next, right side.
+/// A row of the elimination: the coefficients of the first impact, of the impact to be eliminated and of the next, and
+/// the right side.
 type Row = [f64; 7];
 
-/// The change of all unknowns for which the flights miss by nothing, to first order; `None` if the system is singular.
+/// The change of all unknowns that makes the residuals of all flights zero to first order; `None` if the system is
+/// singular.
 pub(crate) fn correction(blocks: &[Block]) -> Option<Vec<f64>> {
     let m = blocks.len();
     let row = |a: [f64; 2], b: [f64; 2], r: f64| -> Row { [0.0, 0.0, a[0], a[1], b[0], b[1], -r] };
@@ -19,7 +21,7 @@ pub(crate) fn correction(blocks: &[Block]) -> Option<Vec<f64>> {
         let Block { miss, left, right, .. } = &blocks[k];
         [0, 1].map(|i| row(left.0[i], right.0[i], miss[i]))
     };
-    // what links the first impact with the one reached: its own coefficients stand first
+    // the equations that couple the first impact with the current one; the coefficients of the first impact stand first
     let mut link = two(0).map(|[.., a, b, c, d, r]| [a, b, c, d, 0.0, 0.0, r]);
     let mut eliminated: Vec<[Row; 2]> = Vec::with_capacity(m);
     for k in 1..m {

@@ -1,4 +1,4 @@
-//! A periodic motion: its impacts over one smallest period, its label and its Floquet multipliers.
+//! A periodic motion: its impacts over the smallest period, its label and its Floquet multipliers.
 
 use super::label::Label;
 use crate::math::Multiplier;
@@ -8,20 +8,21 @@ use crate::system::{Side, phase};
 /// An impact of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CyclePoint {
-    /// The arrival.
+    /// The state at the arrival.
     pub state: ImpactState,
-    /// Time to the next impact; after the last one listed before a rest, to the end of the chatter.
+    /// Time to the next impact; after the last impact listed before the mass sticks, the time to the end of the
+    /// chatter.
     pub interval: f64,
 }
 
-/// A rest on a stop within a cycle.
+/// An interval within a cycle in which the mass sticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestSpan {
-    /// Which stop.
+    /// The stop on which it sticks.
     pub side: Side,
-    /// Whether a complete chatter leads to it.
+    /// Whether it begins with a complete chatter.
     pub chatter: bool,
-    /// Phase at which the mass comes to rest (the accumulation point of the chatter).
+    /// Phase at which the mass begins to stick (the accumulation point of the chatter).
     pub begin: f64,
     /// Phase of the release.
     pub release: f64,
@@ -30,29 +31,30 @@ pub struct RestSpan {
 /// A periodic motion with impacts, over its smallest period.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
-    /// m/n.
+    /// The label m/n.
     pub label: Label,
-    /// Its impacts in order, the fastest arrival first (from a release on, where there is one).
+    /// Its impacts in order, beginning with the fastest arrival; for a cycle that sticks, beginning after a release.
     pub points: Vec<CyclePoint>,
-    /// Its rests, if it has any.
+    /// Its intervals of sticking; empty if it does not stick.
     pub rests: Vec<RestSpan>,
-    /// Floquet multipliers, the larger first. Their product is known exactly,
-    /// $`\varepsilon^{2m} e^{-4\pi\zeta n/\beta}`$, and used; both are 0 with a rest.
+    /// Floquet multipliers, the larger first. Their product is computed from the exact formula
+    /// $`\varepsilon^{2m} e^{-4\pi\zeta n/\beta}`$. Both are 0 for a cycle that sticks.
     pub multipliers: [Multiplier; 2],
-    /// What it misses by: the return after one period in phase and relative velocity, the larger; for a cycle that was
-    /// solved for as a whole each flight at its end, in distance and velocity over the largest velocity or 1.
+    /// The residual: for a cycle from the impact map, the larger of the errors of phase and relative velocity after one
+    /// period; for a cycle from the equations of all its impacts, the largest error of distance and velocity at the end
+    /// of a flight, divided by the largest velocity if that exceeds 1.
     pub residual: f64,
 }
 
 impl Cycle {
-    /// Whether it attracts its neighbourhood: both multipliers inside the unit circle.
+    /// Whether the cycle attracts its neighbourhood: both multipliers lie inside the unit circle.
     #[must_use]
     pub fn stable(&self) -> bool {
         self.multipliers[0].modulus() < 1.0 && self.multipliers[1].modulus() < 1.0
     }
 
-    /// Whether `other` is the same motion: the same label and the same impacts in the same cyclic order, phases and
-    /// relative velocities to within `tolerance`.
+    /// Whether `other` is the same motion: the same label and the same impacts in the same cyclic order, with phases
+    /// and relative velocities equal to within `tolerance`.
     #[must_use]
     pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
         let (a, b) = (&self.points, &other.points);
@@ -69,7 +71,7 @@ impl Cycle {
         self.points.iter().map(|p| p.state.velocity).fold(0.0, f64::max)
     }
 
-    /// Puts the fastest arrival first.
+    /// Reorders the impacts cyclically, so that the fastest arrival is first.
     pub(crate) fn rotate_to_fastest(&mut self) {
         let first = (0..self.points.len())
             .max_by(|&a, &b| self.points[a].state.velocity.total_cmp(&self.points[b].state.velocity).then(b.cmp(&a)));
@@ -79,8 +81,8 @@ impl Cycle {
     }
 }
 
-/// How far apart two arrivals are: the larger of the difference in phase and of that in velocity, relative to the
-/// larger one; infinite on different stops.
+/// The distance between two arrivals: the larger of the difference in phase and the difference in velocity relative to
+/// the larger velocity; infinite on different stops.
 #[must_use]
 pub(crate) fn distance(a: &ImpactState, b: &ImpactState) -> f64 {
     if a.side != b.side {

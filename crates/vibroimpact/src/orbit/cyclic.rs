@@ -1,17 +1,18 @@
-//! The equations of a cycle, all its impacts at once, and their exact derivatives.
+//! The equations of all impacts of a cycle together, and their derivatives.
 //!
-//! Unknown are the phase $`\theta_i`$ and the arrival speed $`U_i`$ of each impact, on the stops $`\sigma_i`$ that a
-//! *signature* prescribes. Flight i leaves its stop with $`-\sigma_i\varepsilon_iU_i`$ and takes
-//! $`T_i = (\theta_{i+1}-\theta_i)/\beta`$, after the last impact $`(\theta_1 + 2\pi n - \theta_m)/\beta`$. It has to arrive:
+//! The unknowns are the phase $`\theta_i`$ and the arrival speed $`U_i`$ of each impact. The *signature* prescribes the
+//! stops $`\sigma_i`$ and the number n of forcing periods. Flight i leaves its stop with $`-\sigma_i\varepsilon_iU_i`$
+//! and takes $`T_i = (\theta_{i+1}-\theta_i)/\beta`$; the flight after the last impact takes
+//! $`(\theta_1 + 2\pi n - \theta_m)/\beta`$. It must arrive at the next impact:
 //!
 //! $$`F_i = \begin{pmatrix} (\sigma_{i+1}\,x(T_i) - \delta_{i+1})/w_i \\ \sigma_{i+1}\,v(T_i) - U_{i+1} \end{pmatrix} = 0,`$$
 //!
-//! with $`w_i = T_i`$ for a flight that ends on the stop it left, which takes out the solution $`T_i = 0`$, and 1
-//! otherwise. The times are unknowns and nothing searches for a first contact. So everything is analytic in the unknowns,
-//! through a grazing impact, $`U_i = 0`$, and beyond it, where the impact map and its derivative do not exist. That is why
-//! Newton's method on these equations does not fail near grazing, as it does on the map (I. Ghosh & D. J. W. Simpson,
-//! arXiv:2510.16218, meet that difficulty in another way). What solves them need not be a motion;
-//! [`earlier_contact`](super::earlier_contact) says.
+//! where $`w_i = T_i`$ for a flight that ends on the stop that it left, which removes the solution $`T_i = 0`$, and 1
+//! otherwise. The times are unknowns, and no first contact is searched for. So the equations are analytic in the
+//! unknowns, through a grazing impact, $`U_i = 0`$, and beyond it, where the impact map and its derivative do not
+//! exist. Therefore Newton's method on these equations converges near grazing, where it fails on the map (I. Ghosh & D.
+//! J. W. Simpson, arXiv:2510.16218, treat this difficulty in another way). A solution can be inadmissible;
+//! [`earlier_contact`](super::earlier_contact) decides.
 //!
 //! With $`A_i = \partial F_i/\partial z_i`$, $`B_i = \partial F_i/\partial z_{i+1}`$ the impact map has the derivative
 //! $`-B_i^{-1}A_i`$, and $`\det B_i = -U_{i+1}/(\beta w_i)`$.
@@ -21,20 +22,20 @@ use crate::flight::Flight;
 use crate::math::{Matrix2, sin_cos};
 use crate::system::{Oscillator, Parameter, Side, Start};
 
-/// One flight of a cycle: by how much it misses, and the derivatives of that.
+/// One flight of a cycle, linearised: its residuals and their derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     /// $`F_i`$.
     pub(crate) miss: [f64; 2],
-    /// $`A_i`$, by the impact it leaves.
+    /// $`A_i`$, the derivative with respect to the impact that it leaves.
     pub(crate) left: Matrix2,
-    /// $`B_i`$, by the impact it arrives at.
+    /// $`B_i`$, the derivative with respect to the impact at which it arrives.
     pub(crate) right: Matrix2,
-    /// What the distance left was divided by.
+    /// $`w_i`$, by which the distance was divided.
     pub(crate) divisor: f64,
 }
 
-/// The flight from impact `k` of `ring` to the next; `None` when it takes no positive time.
+/// The flight from impact `k` of `ring` to the next one; `None` if its time is not positive.
 pub(crate) fn block(osc: &Oscillator, ring: &Ring, k: usize) -> Option<Block> {
     let beta = osc.beta();
     let (sign, next) = (ring.side(k).sign(), ring.side(k + 1));
@@ -53,7 +54,7 @@ pub(crate) fn block(osc: &Oscillator, ring: &Ring, k: usize) -> Option<Block> {
     let divisor = if same { time } else { 1.0 };
     let over = to * point.displacement - room;
     let (speed, push) = (to * point.v, to * point.a);
-    // by the phase and the arrival speed at the beginning, and by the time taken
+    // derivatives with respect to the phase and arrival speed at the beginning, and to the time of flight
     let rebound = -sign * restitution;
     let by_theta = [to * (cos * p.kc - sin * p.ks), to * (cos * (p.s - beta * p.ks) - sin * beta * p.kc)];
     let by_speed = [to * p.s * rebound, to * p.s_rate * rebound];
@@ -76,18 +77,19 @@ pub(crate) fn leaving(osc: &Oscillator, ring: &Ring, k: usize) -> Flight {
     Flight::new(osc, Start { x: sign * gap, v: -sign * restitution * ring.speed(k), phase: ring.theta(k) })
 }
 
-/// All flights of `ring`; `None` when one takes no positive time.
+/// All flights of `ring`, linearised; `None` if the time of one is not positive.
 pub(crate) fn blocks(osc: &Oscillator, ring: &Ring) -> Option<Vec<Block>> {
     (0..ring.len()).map(|k| block(osc, ring, k)).collect()
 }
 
-/// By how much the flights miss: distances and speeds, over the largest speed of the cycle where that exceeds 1.
+/// The largest residual of distance or speed, divided by the largest speed of the cycle if that exceeds 1.
 pub(crate) fn residual(ring: &Ring, blocks: &[Block]) -> f64 {
     let fastest = (0..ring.len()).map(|k| ring.speed(k).abs()).fold(1.0, f64::max);
     blocks.iter().map(|b| (b.miss[0] * b.divisor).abs().max(b.miss[1].abs())).fold(0.0, f64::max) / fastest
 }
 
-/// Writes the Jacobian of all misses by all unknowns into `rows`, which is zero and has `width` numbers a row.
+/// Writes the Jacobian of all residuals with respect to all unknowns into `rows`, which must be zero and has `width`
+/// numbers in a row.
 pub(crate) fn fill(rows: &mut [f64], width: usize, blocks: &[Block]) {
     let m = blocks.len();
     for (k, block) in blocks.iter().enumerate() {
@@ -101,8 +103,9 @@ pub(crate) fn fill(rows: &mut [f64], width: usize, blocks: &[Block]) {
     }
 }
 
-/// Derivative of all misses by a parameter. By a gap and by a restitution it is exact; by $`\beta`$ and $`\zeta`$ it is a
-/// difference of fourth order, right to about 1e-10, which Newton's method converges with all the same.
+/// The derivative of all residuals with respect to a parameter. For a gap or a restitution it is exact. For $`\beta`$
+/// and $`\zeta`$ it is a difference of fourth order, accurate to about 1e-10; Newton's method converges with it too.
+/// `None` if the parameter belongs to a stop that does not exist.
 pub(crate) fn by_parameter(osc: &Oscillator, ring: &Ring, parameter: Parameter) -> Option<Vec<f64>> {
     match parameter {
         Parameter::Gap => Some(by_stop(osc, ring, Side::Upper, true)),
@@ -113,6 +116,7 @@ pub(crate) fn by_parameter(osc: &Oscillator, ring: &Ring, parameter: Parameter) 
     }
 }
 
+/// The derivative of all residuals with respect to the gap or the restitution of one stop.
 fn by_stop(osc: &Oscillator, ring: &Ring, side: Side, gap: bool) -> Vec<f64> {
     let mut column = Vec::with_capacity(2 * ring.len());
     for k in 0..ring.len() {
@@ -124,7 +128,7 @@ fn by_stop(osc: &Oscillator, ring: &Ring, side: Side, gap: bool) -> Vec<f64> {
         let (mut distance, mut speed) = (0.0, 0.0);
         if from == side {
             if gap {
-                // the start moves outwards with the stop
+                // the beginning of the flight moves outwards with the stop
                 let shift = from.sign();
                 distance += if same { -p.one_minus_c } else { to * p.c * shift };
                 speed -= to * p.s * shift;
@@ -142,9 +146,10 @@ fn by_stop(osc: &Oscillator, ring: &Ring, side: Side, gap: bool) -> Vec<f64> {
     column
 }
 
-/// Half the width of the difference: its truncation, of fourth order, is then about its rounding.
+/// Half the width of the difference, at which the truncation error of fourth order about equals the rounding error.
 const DIFFERENCE: f64 = 1e-3;
 
+/// The derivative of all residuals by a difference of fourth order; `None` if a value of the stencil is invalid.
 fn by_difference(osc: &Oscillator, ring: &Ring, parameter: Parameter) -> Option<Vec<f64>> {
     let value = parameter.get(osc)?;
     let h = if parameter == Parameter::Damping { DIFFERENCE } else { DIFFERENCE * value };
@@ -152,7 +157,7 @@ fn by_difference(osc: &Oscillator, ring: &Ring, parameter: Parameter) -> Option<
         let changed = parameter.set(osc, value + step * h).ok()?;
         Some(blocks(&changed, ring)?.iter().flat_map(|b| b.miss).collect())
     };
-    // one-sided where damping would become negative
+    // one-sided if damping would become negative
     let stencil: &[(f64, f64)] = if parameter == Parameter::Damping && value < 2.0 * h {
         &[(0.0, -25.0 / 12.0), (1.0, 4.0), (2.0, -3.0), (3.0, 4.0 / 3.0), (4.0, -0.25)]
     } else {

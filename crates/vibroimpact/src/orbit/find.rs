@@ -1,4 +1,4 @@
-//! All periodic orbits of a label: Newton's method on the equations of the whole cycle, from many seeds.
+//! All periodic orbits with a label: Newton's method on the equations of the whole cycle, from many starting guesses.
 
 use super::grazing::grazes;
 use super::label::{Count, Label};
@@ -9,38 +9,44 @@ use crate::motion::{ImpactState, Mapped, impact_map};
 use crate::system::{Oscillator, Side};
 use core::f64::consts::TAU;
 
-/// How hard to look.
+/// The starting guesses of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FindOptions {
-    /// Seeds for Newton's method: phases times velocities.
+    /// The number of starting guesses for Newton's method: phases and velocities.
     pub seeds: (u32, u32),
-    /// Two orbits closer than this in phase and relative velocity are one.
+    /// Two orbits that differ by less than this in phase and relative velocity are the same.
     pub tolerance: f64,
 }
 
 impl Default for FindOptions {
-    /// 48 phases times 24 velocities.
+    /// 48 phases and 24 velocities.
     fn default() -> Self {
         Self { seeds: (48, 24), tolerance: 1e-7 }
     }
 }
 
-/// The orbits of `osc` that are called `label`, stable or not, the fastest last; solutions of the equations that are no
-/// possible motions are among them, marked.
+/// The orbits of `osc` with the label `label`, stable or not, the fastest last. Inadmissible solutions of the equations
+/// are included and marked.
 ///
-/// Each seed is flown through m impacts, and where that takes something like n periods, Newton's method closes the
-/// whole chain of impacts at once ([equations](super)). Orbits with a rest in them - all `inf/n`, and m/n with
-/// restitution 0 - come from their release, and none can be missed; those with one impact a period come from their
-/// closed form, and none can be missed; 0 is the steady motion [without impacts](without_impacts). The search for the others is deterministic but not exhaustive: an orbit that no
-/// seed leads to is not found. Of the inadmissible solutions only some come up. A solution with an impact whose speed is
-/// zero to within rounding is the orbit without that impact, which touches the stop there, and is not listed.
+/// The motion from each starting guess is followed over m impacts. If this takes about n periods, Newton's method
+/// solves the [equations](super) of all these impacts.
+///
+/// - Orbits that stick (all `inf/n`, and m/n with restitution 0) are computed from their release. None is missed.
+/// - Orbits with one impact on the first stop are computed in closed form. None is missed.
+/// - The orbit 0 is the steady motion [without impacts](without_impacts).
+/// - The search for all others is deterministic but not exhaustive: an orbit to which no starting guess leads is not
+///   found. Of the inadmissible solutions only some are found.
+///
+/// A solution with an impact whose speed is zero to within rounding is the orbit without that impact, which grazes the
+/// stop there. It is not listed.
 #[must_use]
 pub fn find(osc: &Oscillator, label: Label, options: FindOptions) -> Vec<Orbit> {
-    // nothing stops it
+    // it is never stopped
     find_while(osc, label, options, || true).unwrap_or_default()
 }
 
-/// The same as [`find`], as long as `go_on` says yes when asked, which it is at every seed; `None` once it said no.
+/// The same as [`find`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every starting
+/// guess.
 #[must_use]
 pub fn find_while(
     osc: &Oscillator,
@@ -66,7 +72,8 @@ pub fn find_while(
     Some(orbits)
 }
 
-/// Adds the orbits with m impacts in n periods, m positive, that never rest; `None` once `go_on` said no.
+/// Adds the orbits with m impacts in n periods that do not stick; m must be positive. `None` once `go_on` has returned
+/// false.
 pub(crate) fn struck(
     osc: &Oscillator,
     (m, n): (u32, u32),
@@ -77,7 +84,7 @@ pub(crate) fn struck(
     if m == 1 {
         orbits.extend(one_impact(osc, n).into_iter().map(|o| Orbit::judged(osc, o.cycle)));
         if osc.stop(Side::Lower).is_none() {
-            return Some(()); // that was all of them
+            return Some(()); // the closed form gives all of them
         }
     }
     for guess in seeds(osc, options.seeds) {
@@ -95,7 +102,7 @@ pub(crate) fn struck(
         }
         let cycle = newton::cycle(osc, &ring, &flights);
         let known = orbits.iter().any(|o| o.cycle.same_as(&cycle, options.tolerance));
-        // where the equations are singular (whole natural periods without damping) rest itself solves them
+        // where the equations are singular (whole natural periods without damping), all speeds zero is a solution too
         if !known
             && cycle.fastest() > REST
             && cycle.residual <= CLOSED
@@ -108,17 +115,17 @@ pub(crate) fn struck(
     Some(())
 }
 
-/// Flights that miss by no more than this close a cycle; what rounding leaves is usually 1e-15.
+/// A cycle with a larger residual is refused; the rounding error is usually 1e-15.
 const CLOSED: f64 = 1e-11;
 
-/// A cycle none of whose impacts is faster is no cycle.
+/// A solution with no impact faster than this is refused.
 const REST: f64 = 1e-9;
 
-/// Arrivals spread over phase and velocity. Speeds go up to what n periods of forcing, the gap and the free response
-/// could feed, geometrically towards small ones.
+/// Arrivals at many phases and velocities. The largest velocity is estimated from the force, the gap and the free
+/// response; the others decrease geometrically.
 fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item = ImpactState> {
     let top = 4.0 * osc.size() / (1.0 - osc.restitution()).max(0.1);
-    // down to a two-hundredth
+    // the smallest is 1/200 of the largest
     let ratio = libm::pow(5e-3, 1.0 / f64::from(speeds.max(2) - 1));
     let sides: Vec<Side> = osc.stops().map(|(side, _)| side).collect();
     sides.into_iter().flat_map(move |side| {
@@ -133,20 +140,21 @@ fn seeds(osc: &Oscillator, (phases, speeds): (u32, u32)) -> impl Iterator<Item =
     })
 }
 
-/// Periods by which the time of m impacts may differ from n for a chain worth closing.
+/// The largest deviation, in forcing periods, of the time of m impacts from n periods.
 const OFF: f64 = 0.75;
 
-/// The chain of m impacts that begins with `guess`, closed after n periods; `None` where it takes far more or less, or where it
-/// settles into a shorter cycle for at least half of its impacts: Newton's method would close that one.
+/// The chain of m impacts that begins with `guess`, closed after n periods. `None` if it takes much more or less time,
+/// or if it repeats a shorter cycle for at least half of its impacts, because Newton's method would converge to that
+/// cycle.
 ///
-/// A motion that comes back to the same numbers goes on with the same numbers, so it is flown no further.
+/// If a state of the motion repeats to the last bit, the following impacts are copied.
 fn chain(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Option<Ring> {
     let m = m as usize;
     let (mut sides, mut unknowns, mut turns) = (Vec::new(), Vec::new(), Vec::new());
     let (mut state, mut theta) = (guess, guess.phase);
     let full = TAU * f64::from(n);
-    // the impact that later ones are compared with: twice as far on every time, so that every period is met
-    // (R. P. Brent, BIT 20 (1980) 176-184, doi:10.1007/BF01933190)
+    // later impacts are compared with this one; its index doubles each time, so every period is detected (R. P. Brent,
+    // BIT 20 (1980) 176-184, doi:10.1007/BF01933190)
     let (mut marked, mut mark) = (guess, 0);
     let mut period = None;
     for k in 0..m {
@@ -182,14 +190,14 @@ fn chain(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Option<Ring> {
     if off < -OFF * TAU || state.side != guess.side {
         return None;
     }
-    // the surplus is shared out, so that every flight keeps a positive time
+    // the difference is distributed in proportion, so that every time of flight stays positive
     for theta in unknowns.iter_mut().step_by(2) {
         *theta = guess.phase + (*theta - guess.phase) * full / (full + off);
     }
     Some(Ring { sides, unknowns, periods: n })
 }
 
-/// A chain that goes round a shorter cycle this many times, and for [`LONG`] impacts, has settled into it.
+/// A chain that repeats a shorter cycle this many times, and for [`LONG`] impacts, is refused.
 const ROUNDS: usize = 8;
 /// See [`ROUNDS`].
 const LONG: usize = 64;
@@ -208,7 +216,7 @@ mod tests {
         assert!(half.iter().any(|o| o.physical && o.cycle.stable()));
     }
 
-    /// The chain flown to its end.
+    /// The chain computed to its end without copying.
     fn flown(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Option<Ring> {
         let (mut ring, mut state, mut theta) =
             (Ring { sides: Vec::new(), unknowns: Vec::new(), periods: n }, guess, guess.phase);
@@ -227,10 +235,10 @@ mod tests {
         close.then_some(ring)
     }
 
-    /// What repeats itself to the last bit is not flown again, and says the same; what does so for long leads to no orbit.
+    /// Copied impacts equal computed ones, and a chain that repeats itself for long leads to no orbit.
     #[test]
     fn f12_a_chain_that_repeats_itself() {
-        // fast settling, onto cycles of one, two and three impacts
+        // rapid convergence to cycles of one, two and three impacts
         for (inverse, gap, eps) in [(1.3, 0.75, 0.1), (1.11, 2.2, 0.3), (1.5, 0.1, 0.2), (2.0, 0.0, 0.4)] {
             let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap();
             for guess in seeds(&osc, (6, 4)) {

@@ -1,8 +1,9 @@
 //! The steady motion without impacts, as a cycle with no impact.
 //!
-//! With damping $`x = S\sin\theta + C\cos\theta`$, $`S = (1-\beta^2)f^2`$, $`C = -2\zeta\beta f^2`$, is what every motion
-//! tends to that stays clear of the stops. It is possible while $`|f|`$ does not exceed a gap. Its multipliers are those
-//! of the free oscillator over a period, $`e^{-2\pi\zeta/\beta}e^{\pm 2\pi i\sqrt{1-\zeta^2}/\beta}`$.
+//! With damping every motion that stays clear of the stops tends to $`x = S\sin\theta + C\cos\theta`$,
+//! $`S = (1-\beta^2)f^2`$, $`C = -2\zeta\beta f^2`$. This motion is admissible while $`|f|`$ exceeds no gap. Its
+//! multipliers are those of the free oscillator over one forcing period,
+//! $`e^{-2\pi\zeta/\beta}e^{\pm 2\pi i\sqrt{1-\zeta^2}/\beta}`$.
 
 use super::cycle::Cycle;
 use super::label::Label;
@@ -10,10 +11,10 @@ use crate::math::{Multiplier, asin, atan2, exp, sin_cos};
 use crate::system::{Oscillator, Side, phase};
 use core::f64::consts::{FRAC_PI_2, PI};
 
-/// The steady motion of `osc` without impacts, a cycle called 0 that has no points; `None` without damping, where it is
-/// only one of many motions without impacts and attracts none of them.
+/// The steady motion of `osc` without impacts: a cycle with the label 0 and no points. `None` without damping, where it
+/// is one of many motions without impacts and attracts none of them.
 ///
-/// Whether it is a possible motion says [`earlier_contact`](super::earlier_contact).
+/// [`earlier_contact`](super::earlier_contact) decides whether it is admissible.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, orbit};
@@ -39,7 +40,7 @@ pub(super) fn multipliers(osc: &Oscillator) -> [Multiplier; 2] {
     let (zeta, period) = (osc.damping(), osc.period());
     let real = |rate: f64| Multiplier { re: exp(rate * period), im: 0.0 };
     if zeta >= 1.0 {
-        // the slow rate as a quotient, which keeps its digits
+        // the slow rate as a quotient, because the difference would lose digits
         let fast = zeta + ((zeta - 1.0) * (zeta + 1.0)).sqrt();
         return [real(-1.0 / fast), real(-fast)];
     }
@@ -48,15 +49,15 @@ pub(super) fn multipliers(osc: &Oscillator) -> [Multiplier; 2] {
     [1.0, -1.0].map(|sign| Multiplier { re: size * cos, im: sign * size * sin })
 }
 
-/// How far it stays from the stop on `side`; negative where it would pass it. Infinite where there is none.
+/// Its distance from the stop on `side`; negative if it passes the stop, infinite if there is no such stop.
 pub(crate) fn room(osc: &Oscillator, side: Side) -> f64 {
     osc.stop(side).map_or(f64::INFINITY, |stop| stop.gap - osc.free_amplitude())
 }
 
-/// $`\delta^2/f^2 - 1`$ for the stop on `side`: negative where the motion would pass it, and 0 where it touches.
+/// $`\delta^2/f^2 - 1`$ for the stop on `side`: negative if the motion passes the stop, and 0 if it grazes it.
 ///
-/// Where $`\delta|f|^{-1} = 1`$ exactly this is 0; so it is where the gap differs from the amplitude by no more than the rounding
-/// of that, which a few operations of half a unit in the last place each make.
+/// Where $`\delta|f|^{-1} = 1`$ exactly, this is 0. It is also 0 if the gap differs from the amplitude by no more than
+/// the rounding error of the amplitude, which is a few operations of half a unit in the last place each.
 pub(super) fn excess(osc: &Oscillator, side: Side) -> f64 {
     let Some(stop) = osc.stop(side) else { return f64::INFINITY };
     let (gap, amplitude) = (stop.gap.abs(), osc.free_amplitude());
@@ -67,14 +68,15 @@ pub(super) fn excess(osc: &Oscillator, side: Side) -> f64 {
     if off.abs() <= ROUNDING * amplitude { 0.0 } else { (off / amplitude) * (gap / amplitude + 1.0) }
 }
 
-/// The phase at which it is nearest to the stop on `side`.
+/// The phase at which it is closest to the stop on `side`.
 pub(crate) fn crest(osc: &Oscillator, side: Side) -> f64 {
     let beta = osc.beta();
     let upper = atan2((1.0 - beta) * (1.0 + beta), -2.0 * osc.damping() * beta);
     phase::wrap(if side == Side::Upper { upper } else { upper + PI })
 }
 
-/// The first stop it meets from phase 0 on, and after what time, if it is not possible; a touch to rounding counts as none.
+/// If it is inadmissible, the first stop that it reaches from phase 0 on, and the time; grazing to rounding does not
+/// count.
 pub(super) fn met(osc: &Oscillator) -> Option<(Side, f64)> {
     let beyond = |side: &Side| room(osc, *side) < -ROUNDING * osc.free_amplitude();
     let mut met: Vec<(Side, f64)> = osc
@@ -92,7 +94,7 @@ pub(super) fn met(osc: &Oscillator) -> Option<(Side, f64)> {
     met.first().copied()
 }
 
-/// Relative.
+/// The rounding error of the amplitude, relative.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 #[cfg(test)]
@@ -114,7 +116,7 @@ mod tests {
             let p = osc.response().at(osc.period());
             let expected = eigenvalues(p.c + p.s_rate, exp(-2.0 * zeta * osc.period()));
             for (a, b) in multipliers(&osc).iter().zip(expected) {
-                // a double one is known to the root of rounding only
+                // a double multiplier is accurate only to the square root of rounding
                 let tolerance = if zeta == 1.0 { 1e-7 } else { 1e-13 };
                 assert!((a.re - b.re).abs() < tolerance && (a.im.abs() - b.im.abs()).abs() < tolerance, "{a:?} {b:?}");
             }

@@ -1,12 +1,13 @@
-//! Whether an impact of a solution is a graze: its speed zero to within rounding.
+//! Whether an impact of a solution is a grazing contact: its speed is zero to within rounding.
 //!
-//! An impact of speed zero is no impact: a cycle with one and the cycle without it are the same motion, which touches the
-//! stop. On both sides of such a touch the equations of the cycle with the impact have a solution, whose speed passes
-//! through zero there, and at the touch itself rounding gives it either sign. Such a solution is not an orbit of its label.
+//! A cycle with an impact of speed zero and the cycle without it are the same motion, which grazes the stop. On both
+//! sides of such a grazing event the equations of the cycle with the impact have a solution, whose speed changes sign
+//! at the event. At the event itself the speed is zero and rounding gives it either sign. Such a solution is not an
+//! orbit of its label.
 //!
-//! It is decided by the touch, which is known without that speed. Without any other impact the touch is $`\delta = |f|`$.
-//! Otherwise the impact is left out, the remaining ones are solved for, and the distance that the flight leaves at its turning
-//! point is compared with what rounding makes of it.
+//! The decision uses the grazing contact, which is computed without that speed. Without any other impact the mass
+//! grazes where $`\delta = |f|`$. Otherwise the impact is removed and the equations of the remaining ones are solved.
+//! The distance of the flight from the stop at its turning point is then compared with its rounding error.
 
 use super::clearance::turning_near;
 use super::cyclic::leaving;
@@ -15,7 +16,7 @@ use super::newton::solve;
 use super::ring::Ring;
 use crate::system::{Oscillator, phase};
 
-/// Whether impact `k` of `ring`, a solution of the equations of `osc`, is a graze.
+/// Whether impact `k` of `ring`, a solution of the equations of `osc`, is a grazing contact.
 pub(super) fn grazes(osc: &Oscillator, ring: &Ring, k: usize) -> bool {
     let (m, side, slow) = (ring.len(), ring.side(k), SLOW * osc.size());
     if ring.speed(k) > slow {
@@ -29,7 +30,7 @@ pub(super) fn grazes(osc: &Oscillator, ring: &Ring, k: usize) -> bool {
     let mut without = ring.clone();
     without.remove(k);
     let Some((others, _)) = solve(osc, without.clone()) else { return false };
-    // another solution says nothing of this one
+    // if Newton's method converges to a different solution, nothing is known of this one
     let moved = |(i, (a, b)): (usize, (&f64, &f64))| {
         let off = if i.is_multiple_of(2) { phase::difference(phase::wrap(*a), phase::wrap(*b)) } else { a - b };
         off.abs() > APART
@@ -37,7 +38,7 @@ pub(super) fn grazes(osc: &Oscillator, ring: &Ring, k: usize) -> bool {
     if others.unknowns.iter().zip(&without.unknowns).enumerate().any(moved) {
         return false;
     }
-    // the flight that takes the place of those to impact k and from it
+    // the flight that replaces those to impact k and from it
     let before = if before > k { before - 1 } else { before };
     let (flight, time) = (leaving(osc, &others, before), others.turn(before) / osc.beta());
     let Some(touch) = turning_near(osc, &flight, side, time, near) else { return false };
@@ -46,11 +47,13 @@ pub(super) fn grazes(osc: &Oscillator, ring: &Ring, k: usize) -> bool {
         && touch.distance.abs() <= ROUNDING * m as f64 * (osc.size() + fastest)
 }
 
-/// Speeds above this, over the size of the motions, are impacts. Where the speed grows like the root of what is left to the
-/// touch, rounding of the gap alone makes it a few times 1e-8.
+/// Speeds above this, relative to the size of the motions, are impacts. Where the speed is proportional to the square
+/// root of the distance, the rounding error of the gap alone makes it a few times 1e-8.
 const SLOW: f64 = 1e-6;
-/// Solutions closer than this in phases and speeds, and touches closer in phase, are the same.
+/// Solutions that differ by less than this in phases and speeds, and grazing contacts that differ by less in phase, are
+/// the same.
 const APART: f64 = 1e-5;
-/// What each flight of a cycle adds to the distance at a touch, over the size of positions and speeds: evaluating it takes some
-/// ten roundings, and the phases and speeds it begins with are solved for to as many.
+/// The contribution of each flight of a cycle to the rounding error of the distance, relative to the size of positions
+/// and speeds. The evaluation of a flight has about ten rounding errors, and the phases and speeds at its beginning as
+/// many.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;

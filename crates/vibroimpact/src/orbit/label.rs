@@ -1,16 +1,17 @@
-//! The name of a periodic motion: `m/n`, m impacts in n forcing periods over its smallest period.
+//! The label of a periodic motion: `m/n`, m impacts in n forcing periods over its smallest period.
 //!
-//! `2/2` is not `1/1`: its two impacts differ. A motion with a complete chatter in it has infinitely many impacts and
-//! is called `inf/n`, the steady motion without impacts `0`. The 1971 paper calls 1/1 fundamental, m/1 of higher order, 1/n fractional and the rest super-sub.
+//! `2/2` is not `1/1`: its two impacts differ. A motion with a complete chatter has infinitely many impacts and the
+//! label `inf/n`. The steady motion without impacts has the label `0`. The 1971 paper calls 1/1 fundamental, m/1 of
+//! higher order, 1/n fractional and the others super-sub.
 
 use core::fmt;
 use core::str::FromStr;
 use thiserror::Error;
 
-/// How many impacts a period has.
+/// The number of impacts in one period of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Count {
-    /// That many.
+    /// A finite number.
     Finite(u32),
     /// Infinitely many: a complete chatter.
     Infinite,
@@ -30,12 +31,12 @@ pub enum Count {
 pub struct Label {
     /// Impacts per period.
     pub impacts: Count,
-    /// Forcing periods per period, at least 1.
+    /// Forcing periods per period of the motion, at least 1.
     pub periods: u32,
 }
 
 impl Label {
-    /// `m/n` with finitely many impacts.
+    /// The label `m/n` with finitely many impacts.
     #[must_use]
     pub const fn new(impacts: u32, periods: u32) -> Self {
         Self { impacts: Count::Finite(impacts), periods }
@@ -52,7 +53,7 @@ impl fmt::Display for Label {
     }
 }
 
-/// A text that is no label.
+/// The text is not a label.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[error(
     "label `{given}` is not m/n with m and n whole numbers from 1 to 10000 (or inf/n, or 0)\nhint: m impacts in n forcing periods, for example 2/1"

@@ -1,19 +1,19 @@
-//! Periodic orbits: found by closed form or by shooting, whether stable or not.
+//! Periodic orbits, stable or not: in closed form, by shooting, and by Newton's method on the equations of all impacts.
 //!
 //! | idea | file |
 //! |---|---|
 //! | a periodic motion: its impacts, label, multipliers | [`Cycle`] |
-//! | its name m/n | [`Label`] |
+//! | its label m/n | [`Label`] |
 //! | one impact in n forcing periods, in closed form | [`one_impact`] |
 //! | Newton's method on the m-fold impact map | [`shoot`] |
 //! | cycles that stick, from their release | [`from_release`] |
 //! | the impacts of a cycle as unknowns, and their equations, smooth through grazing | `ring`, `cyclic` |
 //! | Newton's method on these equations, and their linear systems | `newton`, `condense`; [`refine`] |
-//! | multipliers and test functions from them | `floquet` |
-//! | whether a solution is a motion, and how close it comes to a stop | [`earlier_contact`], `clearance` |
-//! | whether an impact has no speed to within rounding | `grazing` |
+//! | multipliers and test functions from these equations | `floquet` |
+//! | whether a solution is admissible, and its distance from a stop | [`earlier_contact`], `clearance` |
+//! | whether the speed of an impact is zero to within rounding | `grazing` |
 //! | the steady motion without impacts | [`without_impacts`] |
-//! | all orbits of a label from many seeds | [`find`] |
+//! | all orbits with a label, from many starting guesses | [`find`] |
 
 mod clearance;
 mod condense;

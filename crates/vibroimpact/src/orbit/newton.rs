@@ -10,18 +10,19 @@ use super::ring::Ring;
 use crate::motion::ImpactState;
 use crate::system::{Oscillator, phase};
 
-/// A correction this small, relative, leaves nothing but rounding after it: convergence is quadratic.
+/// After a relative correction smaller than this only rounding errors are left, because convergence is quadratic.
 const SETTLED: f64 = 1e-8;
-/// The most steps.
+/// The largest number of steps.
 const MAX_STEPS: u32 = 30;
-/// A correction larger than this after [`PATIENCE`] steps is not going to converge.
+/// If a correction after [`PATIENCE`] steps is larger than this, the iteration is ended without a result.
 const HOPELESS: f64 = 1.0;
 const PATIENCE: u32 = 10;
 
-/// The solution of the equations of a cycle near `ring`, with its last flights; `None` if none is reached.
+/// The solution of the equations of a cycle near `ring`, with its linearised flights; `None` if Newton's method does
+/// not converge.
 pub(crate) fn solve(osc: &Oscillator, mut ring: Ring) -> Option<(Ring, Vec<Block>)> {
     if ring.len() == 0 {
-        // the motion without impacts is given in closed form
+        // the motion without impacts is known in closed form
         return (osc.damping() > 0.0).then(|| (ring, Vec::new()));
     }
     for step in 0..MAX_STEPS {
@@ -44,7 +45,8 @@ pub(crate) fn solve(osc: &Oscillator, mut ring: Ring) -> Option<(Ring, Vec<Block
     None
 }
 
-/// The share of a correction to be taken: phases move by at most half a radian and no flight shrinks below a quarter.
+/// The fraction of a correction that is applied. It limits the change of a phase to half a radian, the change of a
+/// speed to twice its value, and the decrease of a time of flight to three quarters.
 fn admissible(ring: &Ring, change: &[f64]) -> f64 {
     let m = ring.len();
     let mut share = 1.0_f64;
@@ -60,7 +62,7 @@ fn admissible(ring: &Ring, change: &[f64]) -> f64 {
     share
 }
 
-/// A ring as a cycle, with its multipliers; the fastest arrival first.
+/// The cycle of a ring, with its multipliers; the fastest arrival is first.
 pub(crate) fn cycle(osc: &Oscillator, ring: &Ring, flights: &[Block]) -> Cycle {
     let multipliers =
         if ring.len() == 0 { free::multipliers(osc) } else { Floquet::new(osc, ring, flights).multipliers() };

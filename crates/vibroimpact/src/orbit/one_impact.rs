@@ -1,17 +1,18 @@
-//! Orbits with one impact in n forcing periods, in closed form, through resonance.
+//! Orbits with one impact in n forcing periods, in closed form that also holds at resonance.
 //!
-//! A flight from $`x = \delta`$, $`v = -\varepsilon U`$ at phase $`\theta`$ has to arrive after $`T = 2\pi n/\beta`$ at
-//! $`x = \delta`$ with $`v = U`$. With the propagator at $`T`$ that is linear in $`\sin\theta`$, $`\cos\theta`$ and $`U`$:
+//! A flight from $`x = \delta`$, $`v = -\varepsilon U`$ at phase $`\theta`$ must arrive after $`T = 2\pi n/\beta`$ at
+//! $`x = \delta`$ with $`v = U`$. With the propagator at $`T`$ this is linear in $`\sin\theta`$, $`\cos\theta`$ and
+//! $`U`$:
 //!
 //! $$`\begin{pmatrix} K_c & K_s \\ S - \beta K_s & \beta K_c \end{pmatrix}
 //!   \begin{pmatrix} \sin\theta \\ \cos\theta \end{pmatrix} =
 //!   \begin{pmatrix} \delta(1-C) \\ \delta S \end{pmatrix} +
 //!   U \begin{pmatrix} \varepsilon S \\ 1 + \varepsilon(C - 2\zeta S) \end{pmatrix},`$$
 //!
-//! and $`\sin^2\theta + \cos^2\theta = 1`$ leaves a quadratic in $`U`$: no, one or two orbits. Nothing here divides by
-//! $`1-\beta^2`$; away from resonance it is the ellipse of Shaw & Holmes (J. Sound Vib. 90 (1983) 129-155,
-//! doi:10.1016/0022-460X(83)90407-8). An algebraic solution need not be a motion: it may pass through the stop on its
-//! way. [`OneImpact::physical`] says, by flying it.
+//! and with $`\sin^2\theta + \cos^2\theta = 1`$ this gives a quadratic in $`U`$, so there are at most two orbits. No
+//! formula divides by $`1-\beta^2`$. Away from resonance this is the ellipse of Shaw & Holmes (J. Sound Vib. 90 (1983)
+//! 129-155, doi:10.1016/0022-460X(83)90407-8). An algebraic solution can be inadmissible, because its flight passes
+//! through a stop. [`OneImpact::physical`] states this; it is computed from the flight.
 
 use super::{Cycle, earlier_contact, free, shooting};
 use crate::math::atan2;
@@ -21,16 +22,16 @@ use crate::system::{Oscillator, Side, phase};
 /// A solution of the equations for one impact in n forcing periods on the first stop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneImpact {
-    /// The cycle, with its multipliers, whether or not it is a possible motion.
+    /// The cycle, with its multipliers, also if it is inadmissible.
     pub cycle: Cycle,
-    /// Whether the flight really stays short of the stops until it arrives; false for solutions that pass through one.
+    /// Whether it is admissible: the flight reaches no stop before its end.
     pub physical: bool,
 }
 
-/// All orbits with one impact on the first stop in `n` forcing periods, the slower arrival first.
+/// All solutions with one impact on the first stop in `n` forcing periods, the slower arrival first.
 ///
-/// At $`U = 0`$ the quadratic is $`\delta^2/f^2 - 1`$: where the gap is $`|f|`$, exactly or to within the rounding of $`|f|`$, one
-/// root is 0. That is the motion without impacts, which touches the stop, and no orbit of this kind.
+/// At $`U = 0`$ the quadratic is $`\delta^2/f^2 - 1`$. If the gap equals $`|f|`$, exactly or to within the rounding
+/// error of $`|f|`$, one root is 0. That is the motion without impacts, which grazes the stop, and it is not listed.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, orbit::one_impact};
@@ -49,7 +50,8 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     let p = osc.response().at(interval);
     let (a, b, c, d) = (p.kc, p.ks, p.s - beta * p.ks, beta * p.kc);
     let det = a * d - b * c;
-    // n/beta a whole number and no resonance: the force does no net work on the oscillator and drives no such orbit
+    // n/beta is a whole number and there is no resonance: the force does no net work on the oscillator, so no such
+    // orbit exists
     let scale = osc.free_amplitude().min(interval);
     if det.abs() <= 1e-13 * scale * scale {
         return Vec::new();
@@ -57,10 +59,10 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     let solve = |r: [f64; 2]| [(d * r[0] - b * r[1]) / det, (a * r[1] - c * r[0]) / det];
     let base = solve([gap * p.one_minus_c, gap * p.s]);
     let slope = solve([eps * p.s, 1.0 + eps * p.s_rate]);
-    // |base + U slope|^2 = 1
+    // the quadratic |base + U slope|^2 = 1
     let (qa, qb) = (slope[0] * slope[0] + slope[1] * slope[1], base[0] * slope[0] + base[1] * slope[1]);
     let qc = base[0] * base[0] + base[1] * base[1] - 1.0;
-    // that is delta^2/f^2 - 1, which cancels where the motion without impacts touches the stop
+    // this is delta^2/f^2 - 1, which loses digits where the motion without impacts grazes the stop
     let qc = if qc.abs() < NEAR_TOUCH { free::excess(osc, Side::Upper) } else { qc };
     let disc = qb * qb - qa * qc;
     if !(disc >= 0.0 && qa > 0.0) {
@@ -69,7 +71,7 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     let large = if qb > 0.0 { -qb - disc.sqrt() } else { -qb + disc.sqrt() };
     let mut roots = [large / qa, if large == 0.0 { 0.0 } else { qc / large }];
     roots.sort_by(f64::total_cmp);
-    // at the touch one root is exactly 0; where the other one is too, it is so to within what rounding makes of base and slope
+    // there one root is exactly 0; if the other one is 0 too, it is so to within the rounding errors of base and slope
     let rounding = f64::EPSILON * (4.0 + 2.0 * interval) * (a * a + b * b + c * c + d * d) / det.abs();
     let zero = if qc == 0.0 { 2.0 * rounding / qa.sqrt() } else { 0.0 };
     let mut orbits = Vec::new();
@@ -86,14 +88,15 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     orbits
 }
 
-/// Closer to a touch than this, in the square of the gap over the amplitude, the difference is worked out without cancellation.
+/// If the square of the gap over the amplitude differs from 1 by less than this, the difference is computed without
+/// cancellation.
 const NEAR_TOUCH: f64 = 1e-6;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// 1/beta, delta, n, U, theta, trace: worked out in 40-digit arithmetic from the amplitude form of the equations.
+    /// 1/beta, delta, n, U, theta, trace; computed in 40-digit arithmetic from the amplitude form of the equations.
     const TABLE: [(f64, f64, u32, f64, f64, f64); 3] = [
         (1.11, 2.0, 1, 1.579_471_043_444_031_3, 1.488_135_732_365_034, -1.377_932_200_888_471),
         (1.11, 2.0, 2, 3.547_778_641_985_508_3, 1.384_257_046_450_963_5, -0.609_896_976_682_181_3),
@@ -140,8 +143,8 @@ mod tests {
         }
     }
 
-    /// On the fold curve both roots meet and a multiplier is +1; on the doubling curve one is -1 (closed forms from
-    /// the amplitude equations, derived independently of the code above).
+    /// On the fold curve both roots coincide and a multiplier is +1; on the flip curve one is -1 (closed forms from the
+    /// amplitude equations, derived independently of the code above).
     #[test]
     fn fold_and_doubling_curves() {
         for (beta, eps, zeta) in [(0.8, 0.5, 0.0), (1.4, 0.7, 0.05), (0.9, 0.3, 0.2), (2.6, 0.6, 0.01_f64)] {
@@ -162,7 +165,7 @@ mod tests {
                 .unwrap();
             let [one, two] = orbit.cycle.multipliers;
             assert!((one.re + 1.0).abs() < 1e-10 && (two.re + det).abs() < 1e-10, "{one:?} {two:?}");
-            // just inside the fold the two orbits are close and stand on either side of +1
+            // just inside the fold the two orbits are close, with multipliers on either side of +1
             let fold = f * (1.0 + (beta * a / b).powi(2)).sqrt() * a.signum();
             let near = Oscillator::new(beta, fold * (1.0 - 1e-8), eps).unwrap().with_damping(zeta).unwrap();
             let past = Oscillator::new(beta, fold * (1.0 + 1e-8), eps).unwrap().with_damping(zeta).unwrap();

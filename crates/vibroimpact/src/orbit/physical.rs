@@ -1,4 +1,4 @@
-//! Whether a solution of the equations is a motion: each flight has to reach its own end first.
+//! Whether a solution of the equations is admissible: no flight may reach a stop before its end.
 
 use super::cycle::Cycle;
 use super::grazing::grazes;
@@ -7,30 +7,31 @@ use crate::flight::{Contact, Flight, SearchLimits, first_contact};
 use crate::motion::MAX_TOUCHES;
 use crate::system::{Oscillator, Side, Start};
 
-/// Where a solution of the equations of a cycle fails to be a motion: it meets a stop before it is meant to.
+/// Why a solution of the equations of a cycle is inadmissible: a flight reaches a stop before its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EarlierContact {
-    /// The flight: the one that leaves this impact of the cycle's list.
+    /// The flight, by the index of the impact that it leaves in the list of the cycle.
     pub flight: usize,
-    /// Which stop it meets.
+    /// The stop that it reaches.
     pub side: Side,
-    /// When, since the impact it leaves, or since phase 0 for the motion without impacts; 0 where it does not leave the stop at all.
+    /// The time since the impact that it leaves, or since phase 0 for the motion without impacts; 0 if it does not
+    /// leave the stop.
     pub time: f64,
 }
 
-/// A periodic orbit, and whether it is a possible motion.
+/// A solution of the equations of a cycle, and whether it is admissible.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orbit {
     /// The cycle.
     pub cycle: Cycle,
-    /// False for a solution of the equations that passes through a stop on its way.
+    /// Whether the cycle is admissible; false if a flight passes through a stop.
     pub physical: bool,
-    /// Where it does so first, `None` for a possible motion.
+    /// The first contact that makes it inadmissible; `None` for an admissible cycle.
     pub earlier: Option<EarlierContact>,
 }
 
 impl Orbit {
-    /// A cycle, and the judgement whether it is a possible motion.
+    /// A cycle with the result of [`earlier_contact`].
     #[must_use]
     pub fn judged(osc: &Oscillator, cycle: Cycle) -> Self {
         let earlier = earlier_contact(osc, &cycle);
@@ -38,15 +39,15 @@ impl Orbit {
     }
 }
 
-/// A contact this much of the flight's length before its end is the end itself, moved by the rounding that an
-/// unstable flight amplifies.
+/// A contact in this last fraction of a flight is its end, displaced by rounding errors that an unstable flight
+/// amplifies.
 const END: f64 = 1e-6;
 
-/// The first contact of `cycle` with a stop that is not an impact of it, found by flying each of its flights; `None` if
-/// there is none, so that the cycle is a possible motion. A touch without effect does not count.
+/// The first contact of `cycle` with a stop that is not one of its impacts; each flight is computed. `None` if there is
+/// none, so that the cycle is admissible. A grazing contact has no effect and does not count.
 ///
-/// An impact with a speed of zero or less counts as one that is not left. Zero to within rounding is zero: without that impact
-/// the cycle would be the same and touch the stop there.
+/// An impact with a speed of zero or less counts as a contact at time 0. So does a speed that is zero to within
+/// rounding: without that impact the cycle would be the same motion, which grazes the stop there.
 #[must_use]
 pub fn earlier_contact(osc: &Oscillator, cycle: &Cycle) -> Option<EarlierContact> {
     if !cycle.rests.is_empty() {
@@ -67,7 +68,7 @@ pub fn earlier_contact(osc: &Oscillator, cycle: &Cycle) -> Option<EarlierContact
     })
 }
 
-/// The contact that keeps a flight from `start` from lasting for `interval`.
+/// The contact at which a flight from `start` ends before `interval`; `None` if it does not.
 fn blocked(osc: &Oscillator, start: Start, interval: f64, end: Side) -> Option<(Side, f64)> {
     let (mut start, mut passed) = (start, 0.0);
     for _ in 0..MAX_TOUCHES {

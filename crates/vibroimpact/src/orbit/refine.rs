@@ -1,4 +1,4 @@
-//! The orbit next to a guess.
+//! The solution near a guess.
 
 use super::cycle::Cycle;
 use super::newton::{cycle, solve};
@@ -7,11 +7,11 @@ use super::ring::Ring;
 use crate::system::Oscillator;
 
 /// The cycle with the impacts of `guess`, on the same stops and in the same order, that solves the equations of `osc`;
-/// `None` if Newton's method does not converge from there, or `guess` has rests.
+/// `None` if Newton's method does not converge from there, or if `guess` sticks.
 ///
-/// Only phases, speeds and intervals of the guess are used. Newton's method takes all impacts as unknown at once and no
-/// first contact, so it converges through grazing as elsewhere, also to inadmissible solutions: those are
-/// marked. The speed of an impact may come out zero or negative then.
+/// Only phases, speeds and intervals of the guess are used. Newton's method has all impacts as unknowns and searches
+/// for no first contact, so it also converges near grazing impacts, and to inadmissible solutions, which are marked.
+/// The speed of an impact of such a solution may be zero or negative.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, orbit::{one_impact, refine}};

@@ -1,8 +1,9 @@
 //! Cycles that stick, from the release that determines them.
 //!
-//! For $`|\delta| < 1`$ the mass leaves a stop at rest, at the phase $`\pi - \arcsin\delta`$: one state, whatever came before.
-//! So what follows a release is one motion, and if it sticks to that stop again, it is periodic from then on. Nothing
-//! has to converge, and both multipliers are 0: a neighbour that sticks forgets how it differed.
+//! For $`|\delta| < 1`$ the mass leaves a stop at rest, at the phase $`\pi - \arcsin\delta`$. This is one state,
+//! whatever the motion was before, so the motion after a release is unique. If it sticks to that stop again, it is
+//! periodic from then on. No iteration is needed. Both multipliers are 0, because a neighbouring motion that sticks has
+//! the same release.
 
 use super::cycle::{Cycle, CyclePoint, RestSpan};
 use super::label::{Count, Label};
@@ -11,34 +12,35 @@ use crate::math::Multiplier;
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Side};
 
-/// Events followed before it counts as not coming back. A chatter takes some fifteen impacts at restitution 1/2.
+/// The largest number of events within which a motion must return to its release. A chatter at restitution 1/2 has
+/// about fifteen impacts.
 pub const DEFAULT_EVENTS: u32 = 4_000;
 
 /// An impact after a release.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Strike {
-    /// Time flown since the impact before, or since the release.
+    /// Time of flight since the impact before, or since the release.
     pub(crate) flown: f64,
     pub(crate) state: ImpactState,
 }
 
-/// A rest that ends with a release.
+/// An interval of sticking that ends with a release.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rest {
     pub(crate) span: RestSpan,
-    /// Time from the last strike to where it comes to rest.
+    /// Time from the last impact to the beginning of sticking.
     pub(crate) settled: f64,
-    /// Time at rest.
+    /// Time for which the mass sticks.
     pub(crate) held: f64,
 }
 
-/// What follows a release, up to the next one.
+/// The motion from a release to the next release.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Stretch {
-    /// The stop that released the mass.
+    /// The stop of the release.
     pub(crate) from: Side,
     pub(crate) strikes: Vec<Strike>,
-    /// The rest that ends it, if it came to that.
+    /// The interval of sticking at its end; `None` if the mass does not stick.
     pub(crate) rest: Option<Rest>,
 }
 
@@ -46,13 +48,13 @@ pub(crate) struct Stretch {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Excursion {
     pub(crate) stretches: Vec<Stretch>,
-    /// Forcing periods it takes; `None` if it does not come back.
+    /// The number of forcing periods; `None` if the motion does not return to the release.
     pub(crate) periods: Option<u32>,
 }
 
 impl Excursion {
-    /// From the release from the stop on `side`, for at most this number of events and forcing periods; `None` if the stop never
-    /// releases the mass.
+    /// The motion after the release from the stop on `side`, for at most this number of events and forcing periods;
+    /// `None` if the stop never releases the mass.
     pub(crate) fn new(osc: &Oscillator, side: Side, events: u32, periods: f64) -> Option<Self> {
         release_phase(osc, side)?;
         let after = |from| Stretch { from, strikes: Vec::new(), rest: None };
@@ -61,7 +63,7 @@ impl Excursion {
         let mut flown = 0.0;
         for _ in 0..events {
             let Some(event) = motion.next().filter(|event| event.time <= periods * osc.period()) else { break };
-            // legs, not differences of the total: the last hops of a chatter are short
+            // sums of times of flight, because differences of the total time would lose the short flights of a chatter
             flown += motion.leg().map_or(0.0, |leg| leg.duration);
             let here = excursion.stretches.last_mut()?;
             match event.kind {
@@ -91,17 +93,17 @@ impl Excursion {
         Some(excursion)
     }
 
-    /// Its rests in order.
+    /// The intervals of sticking in order.
     pub(crate) fn rests(&self) -> impl Iterator<Item = &Rest> {
         self.stretches.iter().filter_map(|stretch| stretch.rest.as_ref())
     }
 
-    /// Impacts listed before stretch `k`.
+    /// The number of impacts before stretch `k`.
     pub(crate) fn before(&self, k: usize) -> usize {
         self.stretches.iter().take(k).map(|stretch| stretch.strikes.len()).sum()
     }
 
-    /// The same as a cycle, if it comes back.
+    /// The motion as a cycle; `None` if it does not return to the release.
     pub(crate) fn cycle(&self) -> Option<Cycle> {
         let periods = self.periods?;
         let mut points = Vec::new();
@@ -127,8 +129,8 @@ impl Excursion {
     }
 }
 
-/// The cycle that the release from the stop on `side` leads back to, within `events` events; `None` if the stop never
-/// releases the mass or the motion does not stick to it again.
+/// The cycle that consists of the motion after the release from the stop on `side`, if it returns to this release
+/// within `events` events; `None` otherwise, or if the stop never releases the mass.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Side, orbit};
@@ -158,7 +160,7 @@ mod tests {
             let first = ahead(rest.release, cycle.points[0].state.phase);
             let struck: f64 = cycle.points.iter().map(|p| p.interval).sum();
             let turns = (first + struck + ahead(rest.begin, rest.release)) / osc.period();
-            // the flight before the first impact may itself be longer than a period
+            // the flight before the first impact can be longer than a period
             assert!((turns - turns.round()).abs() < 1e-12, "1/beta {inverse} gap {gap}: {turns}");
         }
     }
@@ -169,7 +171,7 @@ mod tests {
             let osc = Oscillator::new(0.9, gap, 0.5).unwrap();
             assert_eq!(from_release(&osc, Side::Upper, DEFAULT_EVENTS), None);
         }
-        // released, but never to stick again: the motion ends in 1/1
+        // released, but it does not stick again: the motion ends in 1/1
         let osc = Oscillator::from_inverse_beta(0.6, 0.75, 0.5).unwrap();
         assert_eq!(from_release(&osc, Side::Upper, DEFAULT_EVENTS), None);
     }

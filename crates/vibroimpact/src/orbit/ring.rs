@@ -1,24 +1,24 @@
-//! A closed sequence of impacts as a list of numbers: what the equations of a cycle are solved for.
+//! The impacts of a cycle as a list of unknowns.
 
 use super::cycle::Cycle;
 use super::label::Count;
 use crate::system::{Oscillator, Side, phase};
 use core::f64::consts::TAU;
 
-/// The impacts of a cycle with their phases lifted, so that they increase along the cycle; speeds may be zero or
-/// negative (a cycle that exists as a solution of the equations only).
+/// The impacts of a cycle, with phases that increase along the cycle beyond 2 pi. The speeds of an inadmissible
+/// solution may be zero or negative.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ring {
-    /// Which stop each impact is on.
+    /// The stop of each impact.
     pub(crate) sides: Vec<Side>,
-    /// Phase and arrival speed of each impact in turn: $`\theta_1, U_1, \theta_2, U_2, \dots`$
+    /// Phase and arrival speed of each impact, alternating: $`\theta_1, U_1, \theta_2, U_2, \dots`$
     pub(crate) unknowns: Vec<f64>,
-    /// Forcing periods it takes.
+    /// The number of forcing periods.
     pub(crate) periods: u32,
 }
 
 impl Ring {
-    /// The impacts of `cycle`; `None` if it has rests, which no finite list of impacts describes.
+    /// The impacts of `cycle`; `None` if it sticks, because a finite list of impacts does not determine such a cycle.
     pub(crate) fn of(osc: &Oscillator, cycle: &Cycle) -> Option<Self> {
         if !cycle.rests.is_empty() {
             return None;
@@ -29,7 +29,7 @@ impl Ring {
         let (mut sides, mut unknowns) = (Vec::new(), Vec::new());
         let mut theta = first.state.phase;
         for point in &cycle.points {
-            // the phase itself, on the turn that the time since the first impact says
+            // the phase of the impact plus the multiple of 2 pi that is nearest to the time since the first impact
             let turns = ((theta - point.state.phase) / TAU).round();
             unknowns.extend([point.state.phase + turns * TAU, point.state.velocity]);
             sides.push(point.state.side);
@@ -38,43 +38,43 @@ impl Ring {
         Some(Self { sides, unknowns, periods: cycle.label.periods })
     }
 
-    /// That of the steady motion without impacts.
+    /// The ring of the steady motion without impacts.
     pub(crate) const fn free() -> Self {
         Self { sides: Vec::new(), unknowns: Vec::new(), periods: 1 }
     }
 
-    /// Number of impacts.
+    /// The number of impacts.
     pub(crate) fn len(&self) -> usize {
         self.sides.len()
     }
 
-    /// Phase of impact `k`, lifted; `k` may go on into the next turn.
+    /// The phase of impact `k`, not reduced to one forcing period; `k` may lie in the next period.
     pub(crate) fn theta(&self, k: usize) -> f64 {
         let m = self.len();
         if k < m { self.unknowns[2 * k] } else { self.unknowns[2 * (k - m)] + TAU * f64::from(self.periods) }
     }
 
-    /// Arrival speed of impact `k`.
+    /// The arrival speed of impact `k`.
     pub(crate) fn speed(&self, k: usize) -> f64 {
         self.unknowns[2 * (k % self.len()) + 1]
     }
 
-    /// Which stop impact `k` is on.
+    /// The stop of impact `k`.
     pub(crate) fn side(&self, k: usize) -> Side {
         self.sides[k % self.len()]
     }
 
-    /// Phase by which the force turns from impact `k` to the next.
+    /// The difference of phase from impact `k` to the next one.
     pub(crate) fn turn(&self, k: usize) -> f64 {
         self.theta(k + 1) - self.theta(k)
     }
 
-    /// Whether every speed and every interval is positive.
+    /// Whether every speed and every time of flight is positive.
     pub(crate) fn sensible(&self) -> bool {
         (0..self.len()).all(|k| self.speed(k) > 0.0 && self.turn(k) > 0.0)
     }
 
-    /// Brings the first phase into $`[0, 2\pi)`$.
+    /// Shifts all phases by a multiple of 2 pi, so that the first one lies in $`[0, 2\pi)`$.
     pub(crate) fn wrap(&mut self) {
         let Some(&first) = self.unknowns.first() else { return };
         let shift = phase::wrap(first) - first;
@@ -84,7 +84,7 @@ impl Ring {
         }
     }
 
-    /// The same impacts gone round `times` times.
+    /// The impacts repeated `times` times.
     pub(crate) fn repeated(&self, times: u32) -> Self {
         let mut ring = Self { sides: Vec::new(), unknowns: Vec::new(), periods: self.periods * times };
         for turn in 0..times {
@@ -97,8 +97,8 @@ impl Ring {
         ring
     }
 
-    /// How far from a ring that repeats itself after `step` impacts this one is: the largest difference in phase
-    /// or speed; `None` if the numbers do not divide or the sides differ.
+    /// The largest difference in phase or speed between each impact and the one `step` impacts later; zero if the ring
+    /// repeats itself. `None` if the numbers of impacts and periods are not divisible accordingly, or the stops differ.
     pub(crate) fn unlike_after(&self, step: usize) -> Option<f64> {
         let m = self.len();
         if step == 0 || !m.is_multiple_of(step) || !(self.periods as usize).is_multiple_of(m / step) {
@@ -116,7 +116,7 @@ impl Ring {
         Some(unlike)
     }
 
-    /// The ring over its smallest period, impacts closer than `tolerance` being the same.
+    /// The ring over its smallest period; impacts that differ by less than `tolerance` are equal.
     pub(crate) fn smallest(self, tolerance: f64) -> Self {
         let m = self.len();
         let shorter = (1..m).find(|&step| self.unlike_after(step).is_some_and(|unlike| unlike <= tolerance));
@@ -131,19 +131,19 @@ impl Ring {
         }
     }
 
-    /// The first half of a ring that goes round twice.
+    /// The first half of a ring that repeats a shorter one twice.
     pub(crate) fn half(&self) -> Self {
         let m = self.len() / 2;
         Self { sides: self.sides[..m].to_vec(), unknowns: self.unknowns[..2 * m].to_vec(), periods: self.periods / 2 }
     }
 
-    /// Puts an impact of speed zero into the flight that leaves impact `k`.
+    /// Inserts an impact of speed zero into the flight that leaves impact `k`.
     pub(crate) fn insert(&mut self, k: usize, theta: f64, side: Side) {
         self.sides.insert(k + 1, side);
         self.unknowns.splice(2 * k + 2..2 * k + 2, [theta, 0.0]);
     }
 
-    /// Takes impact `k` out.
+    /// Removes impact `k`.
     pub(crate) fn remove(&mut self, k: usize) {
         self.sides.remove(k);
         self.unknowns.drain(2 * k..2 * k + 2);

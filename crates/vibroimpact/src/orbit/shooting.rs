@@ -1,10 +1,10 @@
 //! Newton's method on the m-fold impact map with its exact derivative.
 //!
-//! A guess $`(\theta, U)`$ is flown through m impacts; with $`J`$ the product of the derivatives of
-//! [`derivative`](crate::motion::derivative), the correction solves $`(J - I)\,\Delta z = z - P^m(z)`$, the phase being
-//! required to advance by exactly $`2\pi n`$. The flights are real ones, ended by the first contact, so what converges is
-//! physical by construction. The trace of $`J`$ and the determinant $`\varepsilon^{2m}e^{-4\pi\zeta n/\beta}`$, which is known
-//! exactly, give the multipliers, so a tiny one keeps its digits.
+//! The motion from a guess $`(\theta, U)`$ is followed over m impacts. With $`J`$ the product of the derivatives of
+//! [`derivative`](crate::motion::derivative), the correction solves $`(J - I)\,\Delta z = z - P^m(z)`$; the phase must
+//! advance by exactly $`2\pi n`$. The flights end at their first contact, so a converged solution is admissible. The
+//! multipliers are computed from the trace of $`J`$ and the exact determinant
+//! $`\varepsilon^{2m}e^{-4\pi\zeta n/\beta}`$, so a small multiplier keeps its digits.
 
 use super::cycle::{Cycle, CyclePoint, distance};
 use super::label::Label;
@@ -15,11 +15,11 @@ use crate::system::{Oscillator, phase};
 use core::f64::consts::TAU;
 use thiserror::Error;
 
-/// Why no periodic orbit came out of a guess.
+/// Why shooting from a guess gave no periodic orbit.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ShootingError {
-    /// The motion from an iterate does not make that many impacts.
+    /// The motion from an iterate has fewer than m impacts, or its last impact is on the other stop.
     #[error("the motion stops striking, or sticks, before the period is complete")]
     Broken,
     /// The linear system is singular: a fold or a branch point.
@@ -30,19 +30,19 @@ pub enum ShootingError {
     NotConverged(f64),
 }
 
-/// Steps of the iteration; from a good guess it takes four or five.
+/// The largest number of steps; from a good guess four or five are needed.
 const MAX_STEPS: u32 = 40;
-/// Steps after which a return that still misses by more than [`HOPELESS`] is given up.
+/// After this number of steps the iteration is ended if the residual exceeds [`HOPELESS`].
 const PATIENCE: u32 = 8;
-/// See [`PATIENCE`]: quadratic convergence would be far below this by then.
+/// See [`PATIENCE`]: with quadratic convergence the residual would be far below this.
 const HOPELESS: f64 = 1e-2;
-/// A return this close counts as periodic; what rounding leaves is usually 1e-15.
+/// A residual up to this is accepted; the rounding error is usually 1e-15.
 const CLOSED: f64 = 1e-11;
 
-/// The periodic orbit with `m` impacts in `n` forcing periods near `guess`, reduced to its smallest period.
+/// The periodic orbit with `m` impacts in `n` forcing periods near `guess`, over its smallest period.
 ///
 /// # Errors
-/// [`ShootingError`] says how the iteration failed.
+/// [`ShootingError`] states why the iteration failed.
 pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cycle, ShootingError> {
     let mut state = guess;
     let mut best: Option<(f64, Vec<(ImpactState, f64)>)> = None;
@@ -65,7 +65,7 @@ pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cyc
         }
         let Matrix2([[a, b], [c, d]]) = lap.derivative;
         let step = Matrix2([[a - 1.0, b], [c, d - 1.0]]).solve([-miss[0], -miss[1]]).ok_or(ShootingError::Singular)?;
-        // a step that would turn the mass around or lose the phase is shortened
+        // a step is shortened if it would reverse the velocity or change the phase by more than half a radian
         let shorten = (0.5 * state.velocity / step[1].abs()).min(0.5 / step[0].abs()).min(1.0);
         state.phase = phase::wrap(state.phase + shorten * step[0]);
         state.velocity += shorten * step[1];
@@ -77,24 +77,26 @@ pub fn shoot(osc: &Oscillator, guess: ImpactState, m: u32, n: u32) -> Result<Cyc
     }
 }
 
-/// How far a flight of a cycle over `n` forcing periods is followed: generously, but not for ever.
+/// The limits of the first-contact search for a cycle over `n` forcing periods: a little more than
+/// twice its length.
 pub(crate) fn flight_limits(n: u32) -> SearchLimits {
     SearchLimits { periods: 2.0 * f64::from(n) + 2.0, steps: 400 + n.saturating_mul(50).min(50_000) }
 }
 
-/// One turn through m impacts.
+/// The motion over m impacts.
 pub(crate) struct Lap {
-    /// Each impact from the first, and the time to the next.
+    /// Each impact from the first on, and the time to the next one.
     pub(crate) points: Vec<(ImpactState, f64)>,
-    /// The arrival after the last.
+    /// The arrival after the last of them.
     pub(crate) last: ImpactState,
-    /// How far the phase advanced, not wrapped.
+    /// The advance of the phase, not reduced to one forcing period.
     pub(crate) turned: f64,
     /// The derivative of the m-fold map.
     pub(crate) derivative: Matrix2,
 }
 
 impl Lap {
+    /// Follows the motion from `start` over m impacts; an error if it has fewer.
     pub(crate) fn fly(
         osc: &Oscillator,
         start: ImpactState,
@@ -108,7 +110,7 @@ impl Lap {
                 return Err(ShootingError::Broken);
             };
             lap.derivative = derivative(osc, &lap.last, &state, interval).times(lap.derivative);
-            // whole turns are counted and the rest taken from the phases, which are right to their last place
+            // whole periods are counted and the rest is taken from the phases, which are accurate to their last digit
             turns += ((osc.beta() * interval - (state.phase - lap.last.phase)) / TAU).round();
             lap.points.push((lap.last, interval));
             lap.last = state;
@@ -118,7 +120,7 @@ impl Lap {
     }
 }
 
-/// The cycle through `points`, reduced if it goes round a shorter one several times.
+/// The cycle through `points`, reduced if it repeats a shorter one.
 fn smallest_period(osc: &Oscillator, points: Vec<(ImpactState, f64)>, n: u32, residual: f64) -> Cycle {
     let m = points.len();
     let same = |a: &(ImpactState, f64), b: &(ImpactState, f64)| distance(&a.0, &b.0) <= 1e-7;
@@ -137,7 +139,7 @@ fn smallest_period(osc: &Oscillator, points: Vec<(ImpactState, f64)>, n: u32, re
     }
 }
 
-/// A cycle from its impacts and intervals, with its multipliers.
+/// The cycle of these impacts and intervals, with its multipliers.
 pub(crate) fn assemble(osc: &Oscillator, points: Vec<(ImpactState, f64)>, n: u32, residual: f64) -> Cycle {
     let m = points.len();
     let mut product = Matrix2::IDENTITY;

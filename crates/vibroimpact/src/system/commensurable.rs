@@ -1,26 +1,27 @@
-//! Frequency ratios that are fractions, and what a typed $`\beta`$ means.
+//! Frequency ratios that count as fractions.
 //!
-//! Every double is a fraction, so it has to be decided which of them stand for a small one. **$`\beta`$ is $`p/q`$ when
-//! $`q \le 1000`$ and the stored number is that fraction to within two units in the last place**; that is what `1/0.7` is
-//! to $`10/7`$, and what is left when a fraction is typed with all its digits or as its reciprocal. Any other number
-//! is taken as it is stored: `1.428571428571` is not $`10/7`$. Fractions with $`q \le 1000`$ are about $`10^{-6}`$ apart, so
-//! another number falls into such a window by chance once in $`10^{9}`$.
+//! Every double is a fraction, so a rule decides which of them count as a small one. **$`\beta`$ is $`p/q`$ if
+//! $`q \le 1000`$ and the stored number equals that fraction to within two units in the last place.** This holds for
+//! `1/0.7`, which is $`10/7`$, and for a fraction that is given with all its digits or by its reciprocal. Any other
+//! number is used as it is stored: `1.428571428571` is not $`10/7`$. Fractions with $`q \le 1000`$ are about
+//! $`10^{-6}`$ apart, so another number counts as one by chance about once in $`10^{9}`$.
 //!
-//! This is the only place where that is decided. What follows from $`\beta = p/q`$ without damping: a flight without contact
-//! repeats after $`2\pi q`$ (not at resonance, 1/1, where it grows), so that "never again" can be decided
-//! ([`Horizon`](crate::flight::Horizon)), and impacts can fade away to a grazing motion
-//! ([`graze_limit`](crate::verdict::graze_limit)). The answers are exact for the fraction. The phase of the stored number drifts from it by
-//! at most $`4\cdot10^{-16}\,\beta`$ per unit of time, some $`10^{-9}`$ in a million periods.
+//! This rule is applied in this file only. Without damping it has two consequences for $`\beta = p/q`$. A flight
+//! without contact repeats after $`2\pi q`$ (not at resonance, 1/1, where it grows), so "never again" can be decided
+//! ([`Horizon`](crate::flight::Horizon)). And impacts can fade away to a grazing motion
+//! ([`graze_limit`](crate::verdict::graze_limit)). These results are exact for the fraction. The phase of the stored
+//! number drifts from it by at most $`4\cdot10^{-16}\,\beta`$ per unit of time, about $`10^{-9}`$ in a million periods.
 
 use super::Oscillator;
 
 /// The largest denominator.
 const LARGEST: f64 = 1000.0;
-/// The largest numerator: beyond, the force is a billion times faster than the oscillator.
+/// The largest numerator; with a larger one the force is a billion times faster than the oscillator.
 const LARGEST_NUMERATOR: f64 = 1e9;
 
 impl Oscillator {
-    /// The fraction $`p/q`$ in lowest terms, $`q \le 1000`$, that $`\beta`$ is to within two units in the last place.
+    /// The fraction $`p/q`$ in lowest terms, $`q \le 1000`$, that equals $`\beta`$ to within two units in the last
+    /// place; `None` if there is none.
     ///
     /// ```
     /// use vibroimpact::Oscillator;
@@ -33,12 +34,13 @@ impl Oscillator {
         fraction(self.beta())
     }
 
-    /// The same where it makes flights repeat: without damping and away from resonance.
+    /// This fraction, if flights repeat after a common period: without damping and away from resonance.
     pub(crate) fn common_period(&self) -> Option<(u32, u32)> {
         if self.damping() > 0.0 { None } else { self.fraction().filter(|(p, q)| p != q) }
     }
 }
 
+/// The first convergent of the continued fraction of `beta` that equals it to within two units in the last place.
 fn fraction(beta: f64) -> Option<(u32, u32)> {
     // convergents of the continued fraction
     let (mut p0, mut q0, mut p1, mut q1) = (0.0, 1.0, 1.0, 0.0);
@@ -75,7 +77,7 @@ mod tests {
         assert_eq!(fraction(1e-6), None);
     }
 
-    /// Near a fraction is not at it.
+    /// A number near a fraction does not count as the fraction.
     #[test]
     fn numbers_beside_a_fraction_are_taken_as_they_are() {
         for (p, q) in [(10.0, 7.0), (10.0, 17.0), (2.0, 1.0), (1.0, 3.0), (100.0, 111.0)] {

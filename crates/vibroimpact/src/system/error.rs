@@ -1,13 +1,13 @@
-//! Why a question about a system makes no sense: the value, the allowed range, often a hint.
+//! Errors of parameters, starts and units: the value, the allowed range, and often a hint.
 
 use thiserror::Error;
 
-/// A number in as few digits as tell it, with an exponent where it is far from 1.
+/// A number in the fewest digits that identify it, with an exponent if it is far from 1.
 fn written(x: f64) -> String {
     if x == 0.0 || (1e-5..1e16).contains(&x.abs()) || !x.is_finite() { format!("{x}") } else { format!("{x:e}") }
 }
 
-/// A parameter or start that no oscillator can have. Each variant carries the offending value.
+/// An invalid parameter or start. Each variant contains the value.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SystemError {
@@ -38,7 +38,7 @@ pub enum SystemError {
         written(*.0)
     )]
     Damping(f64),
-    /// Two stops that leave no room between them.
+    /// The two stops leave no room between them.
     #[error(
         "the stops at x = {upper} and x = {lower} leave the mass no room: the sum of the gaps, {width}, must be positive\nhint: the second stop stands at x = -gap of its own"
     )]
@@ -50,16 +50,16 @@ pub enum SystemError {
         /// Their distance.
         width: f64,
     },
-    /// A parameter of a second stop, where there is none.
+    /// A parameter of the second stop, but there is only one stop.
     #[error("{0} is a parameter of the second stop, and there is only one stop\nhint: give the second stop first")]
     NoSecondStop(&'static str),
-    /// Two parameters on one line that are one and the same.
+    /// Two parameters on one line that are the same.
     #[error("{0} and {1} cannot vary together: a line goes through two different parameters")]
     Together(&'static str, &'static str),
-    /// A parameter that would vary at no finite rate along a line.
+    /// A parameter whose rate along a line is not finite.
     #[error("{name} would change by {rate} for a change of the other parameter by 1, which is not a finite number")]
     Rate {
-        /// Which parameter.
+        /// The parameter.
         name: &'static str,
         /// The rate.
         rate: f64,
@@ -67,7 +67,7 @@ pub enum SystemError {
     /// A start beyond a stop.
     #[error("start x = {x} lies beyond the stop: x must be in [{lowest}, {highest}]")]
     BeyondStop {
-        /// The position asked for.
+        /// The position given.
         x: f64,
         /// Position of the second stop, or minus infinity.
         lowest: f64,
@@ -77,20 +77,20 @@ pub enum SystemError {
     /// A start that is not a finite number.
     #[error("start {name} = {value} is not a finite number")]
     StartNotFinite {
-        /// Which of `x`, `v`, `phase`.
+        /// `x`, `v` or `phase`.
         name: &'static str,
         /// The value given.
         value: f64,
     },
-    /// A start so far away or so fast that its energy is beyond the range of a double.
+    /// A start whose position or velocity is so large that its energy could overflow.
     #[error("start {name} = {} lies outside -1e100 <= {name} <= 1e100", written(*.value))]
     LargeStart {
-        /// Which of `x`, `v`.
+        /// `x` or `v`.
         name: &'static str,
         /// The value given.
         value: f64,
     },
-    /// A phase so large that its double does not determine a point on the circle.
+    /// A phase so large that its double does not determine an angle.
     #[error(
         "start phase = {0:?} lies outside -1e15 <= phase <= 1e15\nhint: numbers that large are too far apart to be angles; give the phase modulo 2 pi"
     )]
@@ -106,7 +106,7 @@ pub enum SystemError {
         unit: &'static str,
         /// The allowed range.
         range: &'static str,
-        /// What to do about it.
+        /// How to correct it.
         hint: &'static str,
     },
     /// A conversion whose result is not a finite positive number.
@@ -114,9 +114,9 @@ pub enum SystemError {
         "these quantities give {name} = {value}, which is not a usable number\nhint: check the units: kg, N/m, N, rad/s, m"
     )]
     Scaling {
-        /// Which nondimensional number failed.
+        /// The nondimensional number that is invalid.
         name: &'static str,
-        /// What it came to.
+        /// Its value.
         value: f64,
     },
 }

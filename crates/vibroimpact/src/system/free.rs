@@ -1,34 +1,34 @@
-//! The free part of the response: no force, a displacement or a velocity at the beginning.
+//! The free response: the motion without force from a displacement or a velocity.
 //!
 //! $$`C = e^{-\zeta s}\Bigl(\cos ws + \zeta\frac{\sin ws}{w}\Bigr), \quad S = e^{-\zeta s}\frac{\sin ws}{w}, \quad
 //!   S' = C - 2\zeta S, \quad w = \sqrt{1-\zeta^2},`$$
 //!
-//! and with hyperbolic functions beyond critical damping. $`1 - C`$ is formed without cancellation everywhere: $`1 - \cos`$
-//! as $`\sin^2/(1+\cos)`$ where the cosine is positive, which holds its digits at each return to a whole period too, and
-//! under damping by its Taylor series while $`s`$ is small.
+//! and with hyperbolic functions beyond critical damping. $`1 - C`$ is computed without cancellation: $`1 - \cos`$ as
+//! $`\sin^2/(1+\cos)`$ where the cosine is positive, which keeps its digits also near multiples of a whole period, and
+//! with damping by its Taylor series while $`s`$ is small.
 
 use crate::math::{Lane, exp, exp_m1, sin_cos, two_prod};
 
-/// From this damping on resonance is too flat to cancel anything.
+/// For damping ratios from this value on, nothing cancels at resonance.
 pub(super) const HEAVY: f64 = 0.5;
 
-/// From this damping on the two exponents are far enough apart to divide by their difference.
+/// From this damping ratio on the two exponents differ enough to divide by their difference.
 const TWO_ROOTS: f64 = 1.2;
-/// Below this, damped, $`1 - C`$ is summed as a series; above, the subtraction loses at most two bits.
+/// With damping, $`1 - C`$ is summed as a series below this; above, the subtraction loses at most two bits.
 const SMALL: f64 = 1.0;
 
-/// Free responses for one damping, with what does not depend on time worked out once.
+/// The free response for one damping ratio, with the quantities that do not depend on time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FreeResponse {
     pub(super) damping: f64,
     /// $`\sqrt{|1-\zeta^2|}`$, its rounding error, and below critical damping the shift of frequency $`1 - w`$ from
-    /// which they come.
+    /// which both are computed.
     pub(super) root: f64,
     root_low: f64,
     pub(super) shift: f64,
 }
 
-/// The free part of the response.
+/// The free response at one time.
 #[derive(Clone, Copy)]
 pub(super) struct Free {
     pub(super) c: f64,
@@ -36,7 +36,7 @@ pub(super) struct Free {
     pub(super) s: f64,
     pub(super) s_rate: f64,
     pub(super) size: f64,
-    /// The angle that carries a rounding.
+    /// The angle that has a rounding error.
     pub(super) angle: f64,
 }
 
@@ -48,7 +48,7 @@ impl FreeResponse {
         Self { damping, root, root_low, shift }
     }
 
-    /// The responses after a time `s >= 0`.
+    /// The free response after a time `s >= 0`.
     pub(super) fn at(&self, s: f64) -> Free {
         if self.damping < 1.0 {
             let decay = if self.damping == 0.0 { (1.0, 0.0) } else { decay(self.damping * s) };
@@ -58,8 +58,8 @@ impl FreeResponse {
         }
     }
 
-    /// Sine and cosine of $`ws`$, the rounding of the product and of $`w`$ itself made good: late in a long, lightly damped
-    /// flight it would be what limits the position.
+    /// Sine and cosine of $`ws`$, corrected for the rounding errors of the product and of $`w`$. Without the correction
+    /// these errors would limit the accuracy of the position late in a long flight with light damping.
     #[inline]
     pub(super) fn swing_angle(&self, s: f64) -> (f64, f64) {
         let (angle, low) = two_prod(self.root, s);
@@ -68,7 +68,7 @@ impl FreeResponse {
         (sin + cos * rest, cos - sin * rest)
     }
 
-    /// The free part below critical damping, from the sine and cosine of `w s` and the decay.
+    /// The free response below critical damping, from the sine and cosine of `w s` and the decay.
     #[inline]
     pub(super) fn swing(&self, s: f64, (sw, cw): (f64, f64), (kept, loss): (f64, f64)) -> Free {
         let zeta = self.damping;
@@ -87,7 +87,7 @@ impl FreeResponse {
         Free { c: kept * cw + zeta * free_s, one_minus_c, s: free_s, s_rate, size, angle: self.shift * s }
     }
 
-    /// The free part from critical damping on.
+    /// The free response from critical damping on.
     fn creep(&self, s: f64) -> Free {
         let (zeta, root) = (self.damping, self.root);
         // slow exponent zeta - root = 1/(zeta + root), spread 2 root
@@ -128,7 +128,7 @@ impl FreeResponse {
     }
 }
 
-/// $`e^{-x}`$ and $`1 - e^{-x}`$, both to their last bits.
+/// $`e^{-x}`$ and $`1 - e^{-x}`$, both accurate to their last bits.
 #[inline]
 pub(super) fn decay(x: f64) -> (f64, f64) {
     let loss = -exp_m1(-x);

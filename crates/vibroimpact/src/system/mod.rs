@@ -1,4 +1,4 @@
-//! The system: what moves, what drives it, what it strikes.
+//! The system: the oscillator, its force and its stops.
 //!
 //! | idea | file |
 //! |---|---|
@@ -6,10 +6,10 @@
 //! | its response in closed form, free and forced | [`Response`], `free` |
 //! | frequency ratios that are fractions | [`Oscillator::fraction`] |
 //! | its parameters by name, read and changed | [`Parameter`] |
-//! | a line through them | [`ParameterPath`] |
-//! | a starting point allowed by the stops | [`Start`] |
-//! | kilograms, newtons and millimetres to nondimensional numbers and back | [`Machine`] |
-//! | angles of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
+//! | a line through two parameters | [`ParameterPath`] |
+//! | a start within the stops | [`Start`] |
+//! | conversion from physical units to nondimensional numbers and back | [`Machine`] |
+//! | the phase of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 
 mod commensurable;
 mod error;

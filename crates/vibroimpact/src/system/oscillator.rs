@@ -1,4 +1,4 @@
-//! One oscillator with one or two stops, its parameters checked once and for all.
+//! One oscillator with one or two stops and checked parameters.
 //!
 //! $$`\ddot\xi + 2\zeta\dot\xi + \xi = \sin(\beta\tau + \varphi_0), \qquad \xi \le \delta \tag{2}`$$
 //! $$`\xi = \delta,\ u_- > 0:\quad u_+ = -\varepsilon u_- \tag{9}`$$
@@ -18,7 +18,7 @@ use super::response::Response;
 use super::{SystemError, phase};
 use crate::math::hypot;
 
-/// Which of the two stops: the first, at `x = gap`, or the second, at `x = -gap` of its own.
+/// One of the two stops: the first, at `x = gap`, or the second, at `x = -gap` with its own gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Side {
     /// The first stop, which bounds `x` from above.
@@ -28,7 +28,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// `+1` for the upper stop, `-1` for the lower: the factor that turns the lower stop into an upper one.
+    /// `+1` for the upper stop, `-1` for the lower: the factor that mirrors the lower stop to an upper one.
     #[inline]
     #[must_use]
     pub const fn sign(self) -> f64 {
@@ -38,30 +38,32 @@ impl Side {
         }
     }
 
-    /// The side that has this [`sign`](Self::sign).
+    /// The side with this [`sign`](Self::sign).
     #[inline]
     pub(crate) const fn of_sign(sign: f64) -> Self {
         if sign < 0.0 { Self::Lower } else { Self::Upper }
     }
 }
 
-/// A rigid stop: its distance from the rest position of the mass, outwards, and its restitution.
+/// A rigid stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// Distance $`\delta`$ of the stop from the rest position, nondimensional; negative when it presses.
+    /// Distance $`\delta`$ of the stop from the rest position, outwards, nondimensional; negative for preload.
     pub gap: f64,
     /// Restitution $`\varepsilon`$ in [0, 1].
     pub restitution: f64,
 }
 
-/// Frequency ratios of an oscillator. At a larger one, the phase of the force changes in one radian of natural time by more than a
-/// double can tell from a whole number of turns; at a smaller one, the natural phase does so in one radian of the force.
+/// The range of frequency ratios. At a larger ratio the rounding error of the phase of the force is of the order of a
+/// radian for each radian of natural time; at a smaller one the same holds for the natural phase in one radian of the
+/// force.
 const RATIOS: core::ops::RangeInclusive<f64> = 1.0 / phase::LARGEST..=phase::LARGEST;
 
-/// Gaps, and positions and velocities of starts: their squares, and their products with the largest ratios, are finite.
+/// The range of gaps, and of positions and velocities of starts. Their squares, and their products with the largest
+/// ratios, are finite.
 pub(super) const LENGTHS: core::ops::RangeInclusive<f64> = -1e100..=1e100;
 
-/// An oscillator whose parameters are known to make sense. Cheap to copy.
+/// An oscillator with checked parameters. It is cheap to copy.
 ///
 /// ```
 /// use vibroimpact::Oscillator;
@@ -81,8 +83,8 @@ impl Oscillator {
     /// An undamped oscillator with one stop.
     ///
     /// # Errors
-    /// [`SystemError`] names a `beta` outside [1e-15, 1e15], a `gap` outside [-1e100, 1e100], or a `restitution`
-    /// outside [0, 1].
+    /// [`SystemError`] for a `beta` outside [1e-15, 1e15], a `gap` outside [-1e100, 1e100], or a `restitution` outside
+    /// [0, 1].
     pub fn new(beta: f64, gap: f64, restitution: f64) -> Result<Self, SystemError> {
         if !RATIOS.contains(&beta) {
             return Err(SystemError::Beta(beta));
@@ -90,7 +92,7 @@ impl Oscillator {
         Ok(Self { response: Response::new(beta, 0.0), upper: stop(gap, restitution)?, lower: None })
     }
 
-    /// The same with the frequency given as $`1/\beta = \omega_n/\omega`$, the abscissa of the 1971 paper.
+    /// The same with the frequency ratio given as $`1/\beta = \omega_n/\omega`$, the abscissa of the 1971 paper.
     ///
     /// # Errors
     /// As [`Oscillator::new`].
@@ -115,7 +117,7 @@ impl Oscillator {
     /// The same oscillator with a second stop at `x = -gap`.
     ///
     /// # Errors
-    /// [`SystemError::NoRoom`] when the two stops touch or cross, else as [`Oscillator::new`].
+    /// [`SystemError::NoRoom`] if the two stops touch or cross, otherwise as [`Oscillator::new`].
     pub fn with_second_stop(self, gap: f64, restitution: f64) -> Result<Self, SystemError> {
         let lower = stop(gap, restitution)?;
         let width = self.upper.gap + lower.gap;
@@ -154,7 +156,7 @@ impl Oscillator {
         self.upper.restitution
     }
 
-    /// The stop on that side, if there is one.
+    /// The stop on that side; `None` if there is none.
     #[inline]
     #[must_use]
     pub const fn stop(&self, side: Side) -> Option<Stop> {
@@ -164,7 +166,7 @@ impl Oscillator {
         }
     }
 
-    /// The stops there are, the first one first.
+    /// The stops, the first one first.
     pub fn stops(&self) -> impl Iterator<Item = (Side, Stop)> {
         [Some((Side::Upper, self.upper)), self.lower.map(|stop| (Side::Lower, stop))].into_iter().flatten()
     }
@@ -183,13 +185,13 @@ impl Oscillator {
         1.0 / hypot((1.0 - beta) * (1.0 + beta), 2.0 * self.damping() * beta)
     }
 
-    /// A length of the order of its motions, $`1 + |\delta| + \min(|f|, 10)`$: what boxes of starts and seeds are measured
-    /// in.
+    /// A length of the order of the size of its motions, $`1 + |\delta| + \min(|f|, 10)`$. Boxes of starts and starting
+    /// guesses are proportional to it.
     pub(crate) fn size(&self) -> f64 {
         1.0 + self.gap().abs() + self.free_amplitude().min(10.0)
     }
 
-    /// The closed-form response this oscillator flies by.
+    /// The closed-form response of this oscillator.
     #[inline]
     #[must_use]
     pub const fn response(&self) -> &Response {

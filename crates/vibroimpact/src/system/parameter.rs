@@ -1,4 +1,4 @@
-//! What can vary: the parameters of an oscillator by name.
+//! The parameters of an oscillator by name.
 
 use super::{Oscillator, Side, SystemError};
 
@@ -31,7 +31,7 @@ pub enum Parameter {
 }
 
 impl Parameter {
-    /// All of them.
+    /// All parameters.
     pub const ALL: [Self; 7] = [
         Self::Beta,
         Self::InverseBeta,
@@ -56,13 +56,13 @@ impl Parameter {
         }
     }
 
-    /// Whether it says how fast the force changes.
+    /// Whether it is a frequency ratio.
     #[must_use]
     pub const fn is_frequency(self) -> bool {
         matches!(self, Self::Beta | Self::InverseBeta)
     }
 
-    /// Its value; `None` for one of a second stop that is not there.
+    /// Its value; `None` for a parameter of a second stop if there is only one stop.
     #[must_use]
     pub fn get(self, osc: &Oscillator) -> Option<f64> {
         let second = osc.stop(Side::Lower);
@@ -77,11 +77,11 @@ impl Parameter {
         }
     }
 
-    /// `osc` with another value of this parameter and the same of all others.
+    /// `osc` with another value of this parameter and the same values of all others.
     ///
     /// # Errors
-    /// [`SystemError`] for a value outside the parameter's range, [`SystemError::NoSecondStop`] for a parameter of a
-    /// second stop that is not there.
+    /// [`SystemError`] for a value outside the range of the parameter, [`SystemError::NoSecondStop`] for a parameter of
+    /// a second stop if there is only one stop.
     pub fn set(self, osc: &Oscillator, value: f64) -> Result<Oscillator, SystemError> {
         let (mut beta, mut gap, mut restitution, mut damping) =
             (osc.beta(), osc.gap(), osc.restitution(), osc.damping());
@@ -120,7 +120,7 @@ mod tests {
                     assert_eq!(other.get(&changed), other.get(&osc), "{} moved {}", parameter.name(), other.name());
                 }
             }
-            // back to where it was, to the last bit (an inverse is rounded twice)
+            // the first value restored to the last bit (an inverse is rounded twice)
             if parameter != Parameter::InverseBeta {
                 assert_eq!(parameter.set(&changed, parameter.get(&osc).unwrap()).unwrap(), osc);
             }

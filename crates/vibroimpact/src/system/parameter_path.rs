@@ -1,11 +1,11 @@
-//! What varies along a straight line through the parameters.
+//! A straight line through one or two parameters.
 
 use super::{Oscillator, Parameter, SystemError};
 
-/// A parameter that varies, and where asked another one that varies with it in proportion: a straight line through the
-/// parameters, on which the value of the first gives the place.
+/// A parameter that varies, and optionally another one that varies in proportion to it: a straight line through the
+/// parameters. The value of the first parameter gives the place on the line.
 ///
-/// It is a direction: the line in which an oscillator varies is the one that passes through it.
+/// It is a direction: for each oscillator, the line is the one that passes through it.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Parameter, ParameterPath};
@@ -21,7 +21,7 @@ use super::{Oscillator, Parameter, SystemError};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParameterPath {
     parameter: Parameter,
-    /// The other, and how much it changes with a change of the first by 1.
+    /// The other parameter, and its change for a change of the first by 1.
     also: Option<(Parameter, f64)>,
 }
 
@@ -32,10 +32,11 @@ impl From<Parameter> for ParameterPath {
 }
 
 impl ParameterPath {
-    /// The same with `other` changing by `rate` when the first parameter changes by 1; it replaces another one before.
+    /// The same with `other` changing by `rate` when the first parameter changes by 1; it replaces another one set
+    /// before.
     ///
     /// # Errors
-    /// [`SystemError::Together`] for a parameter that varies already, [`SystemError::Rate`] for a rate that is not finite.
+    /// [`SystemError::Together`] if `other` varies already, [`SystemError::Rate`] if the rate is not finite.
     pub fn with(self, other: Parameter, rate: f64) -> Result<Self, SystemError> {
         if self.parameter == other || (self.parameter.is_frequency() && other.is_frequency()) {
             return Err(SystemError::Together(self.parameter.name(), other.name()));
@@ -52,15 +53,15 @@ impl ParameterPath {
         self.parameter
     }
 
-    /// What varies, and how much each changes when the first changes by 1.
+    /// The parameters that vary, with their change when the first changes by 1.
     pub fn rates(self) -> impl Iterator<Item = (Parameter, f64)> {
         core::iter::once((self.parameter, 1.0)).chain(self.also)
     }
 
-    /// The place of an oscillator on its line.
+    /// The place of an oscillator on its line: the value of the first parameter.
     ///
     /// # Errors
-    /// [`SystemError::NoSecondStop`] for a parameter of a second stop that is not there.
+    /// [`SystemError::NoSecondStop`] for a parameter of a second stop if there is only one stop.
     pub fn get(self, osc: &Oscillator) -> Result<f64, SystemError> {
         let value = |parameter: Parameter| parameter.get(osc).ok_or(SystemError::NoSecondStop(parameter.name()));
         self.also.map_or(Ok(0.0), |(other, _)| value(other))?;
@@ -70,12 +71,12 @@ impl ParameterPath {
     /// The oscillator at a place of the line through `osc`.
     ///
     /// # Errors
-    /// As for [`Parameter::set`], for either parameter.
+    /// As [`Parameter::set`], for either parameter.
     pub fn set(self, osc: &Oscillator, value: f64) -> Result<Oscillator, SystemError> {
         let Some((other, rate)) = self.also else { return self.parameter.set(osc, value) };
         let from = self.get(osc)?;
         let second = other.get(osc).ok_or(SystemError::NoSecondStop(other.name()))? + rate * (value - from);
-        // halfway two stops may leave no room, but not both ways round
+        // after the first change the two stops may leave no room; then the other order is possible
         match self.parameter.set(osc, value) {
             Ok(halfway) => other.set(&halfway, second),
             Err(_) => self.parameter.set(&other.set(osc, second)?, value),
@@ -96,7 +97,7 @@ mod tests {
         assert_eq!(line.rates().collect::<Vec<_>>(), [(Parameter::Gap, 1.0), (Parameter::Restitution, -0.25)]);
         assert_eq!(line.get(&there), Ok(1.5));
         assert!(matches!(line.set(&osc, 4.0), Err(SystemError::Restitution(_))));
-        // the stops move to the same side, so that one of them passes where the other one was
+        // both stops move in the same direction, so that one of them passes the former position of the other
         for way in [1.0, -1.0] {
             let aside = ParameterPath::from(Parameter::Gap).with(Parameter::SecondGap, -1.0).unwrap();
             let moved = aside.set(&osc, 0.5 + 3.0 * way).unwrap();

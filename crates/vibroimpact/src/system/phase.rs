@@ -1,8 +1,8 @@
-//! The phase of the force, $`\theta = \beta\tau + \varphi_0`$, kept in $`[0, 2\pi)`$.
+//! The phase of the force, $`\theta = \beta\tau + \varphi_0`$, in $`[0, 2\pi)`$.
 //!
-//! Time is set back to zero at each impact and the phase advanced instead, as the 1971 paper does. The advance
-//! $`\beta s`$ is formed exactly (as a product and its error) and reduced by a $`2\pi`$ of 107 bits, so the phase is right
-//! to its last place however long the flight: nothing drifts over 1e9 impacts.
+//! Time restarts at each impact and the phase is advanced instead, as in the 1971 paper. The advance $`\beta s`$ is
+//! computed exactly (as a product and its error) and reduced by a $`2\pi`$ of 107 bits. So the phase is accurate to its
+//! last place for flights of any length, and there is no drift over 1e9 impacts.
 
 use crate::math::{Lane, two_prod, two_sum};
 use core::f64::consts::TAU;
@@ -12,11 +12,11 @@ const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
 
 /// 2π in pieces of 33 bits: a whole number below 2^20 times one of the first two is exact.
 const TAU_PIECES: [f64; 3] = [6.283_185_306_936_502_5, 2.430_840_202_521_586_4e-10, 8.089_064_995_183_803e-21];
-/// Angles up to here make fewer turns than that.
+/// Angles up to this are fewer than 2^20 turns.
 const SHORT: f64 = 6_000_000.0;
 
-/// The largest magnitude of a phase that may be given. Up to here [`wrap`] is right to its last place; there neighbouring doubles
-/// are an eighth of a radian apart, so that a larger one is no phase that anybody means.
+/// The largest magnitude of a phase that may be given. Up to here [`wrap`] is accurate to the last place. Neighbouring
+/// doubles of this size are an eighth of a radian apart, so a larger one does not determine an angle.
 pub const LARGEST: f64 = 1e15;
 
 /// `angle` modulo $`2\pi`$, in $`[0, 2\pi)`$; for angles up to [`LARGEST`] in magnitude.
@@ -25,7 +25,7 @@ pub fn wrap(angle: f64) -> f64 {
     reduce(angle, 0.0)
 }
 
-/// The phase reached from `phase` after a time `s` of forcing at `beta`, in $`[0, 2\pi)`$.
+/// The phase reached from `phase` after a time `s` with the frequency ratio `beta`, in $`[0, 2\pi)`$.
 #[inline]
 #[must_use]
 pub fn advance(phase: f64, beta: f64, s: f64) -> f64 {
@@ -33,13 +33,14 @@ pub fn advance(phase: f64, beta: f64, s: f64) -> f64 {
     reduce(hi, lo)
 }
 
-/// The same in lanes, for turns of at most 6e6.
+/// The same in lanes, for angles of at most 6e6.
 #[inline(always)]
 pub(crate) fn advance_lanes<L: Lane>(phase: L, beta: L, s: L) -> L {
     let (hi, lo) = advanced(phase, beta, s);
     reduce_short(hi, lo)
 }
 
+/// The phase after a time `s`, not reduced, as a sum of two numbers.
 #[inline(always)]
 fn advanced<L: Lane>(phase: L, beta: L, s: L) -> (L, L) {
     let (turn, turn_low) = two_prod(beta, s);
@@ -47,7 +48,7 @@ fn advanced<L: Lane>(phase: L, beta: L, s: L) -> (L, L) {
     (hi, lo + turn_low)
 }
 
-/// The angle from `b` to `a` by the shorter way, in $`[-\pi, \pi]`$.
+/// The angle from `b` to `a` in the shorter direction, in $`[-\pi, \pi]`$.
 #[inline]
 #[must_use]
 pub fn difference(a: f64, b: f64) -> f64 {
@@ -55,6 +56,7 @@ pub fn difference(a: f64, b: f64) -> f64 {
     d - TAU * (d / TAU).round()
 }
 
+/// The angle `hi + lo` modulo 2 pi.
 fn reduce(hi: f64, lo: f64) -> f64 {
     if hi.abs() < SHORT {
         return reduce_short(hi, lo);
@@ -64,6 +66,7 @@ fn reduce(hi: f64, lo: f64) -> f64 {
     within((hi - p) + ((lo - pe) - turns * TAU_LOW))
 }
 
+/// The same for angles below [`SHORT`], by pieces of 2 pi whose products are exact.
 #[inline(always)]
 fn reduce_short<L: Lane>(hi: L, lo: L) -> L {
     let turns = (hi * L::splat(1.0 / TAU)).floor();
@@ -71,7 +74,7 @@ fn reduce_short<L: Lane>(hi: L, lo: L) -> L {
     within((hi - turns * first) + ((lo - turns * third) - turns * second))
 }
 
-/// Back into the range that rounding may have left for the neighbouring turn.
+/// Brings `r` into $`[0, 2\pi)`$, if rounding has left it in the neighbouring turn.
 #[inline(always)]
 fn within<L: Lane>(r: L) -> L {
     let (tau, tau_low, zero) = (L::splat(TAU), L::splat(TAU_LOW), L::splat(0.0));
@@ -96,7 +99,7 @@ mod tests {
         assert_eq!(wrap(-0.0).abs(), 0.0);
     }
 
-    /// Angles up to the largest against 2 pi of 190 bits: digits from Python's mpmath, `mpf(angle) % (2 * pi)`.
+    /// Angles up to the largest, compared with 2 pi of 190 bits: digits from Python's mpmath, `mpf(angle) % (2 * pi)`.
     #[test]
     fn f10_phases_up_to_the_largest_are_reduced() {
         for (angle, want) in [
@@ -120,13 +123,13 @@ mod tests {
 
     #[test]
     fn long_flights_keep_the_phase() {
-        // beta * s exactly representable, so the sine of the unreduced angle is the referee
+        // beta * s is exactly representable, so the sine of the unreduced angle is the reference
         for s in [4.0, 4e6, 4e12] {
             let (sine, cosine) = sin_cos(advance(1.0, 0.75, s));
             let (want_sine, want_cosine) = sin_cos(1.0 + 0.75 * s);
             assert!((sine - want_sine).abs() < 5e-16 && (cosine - want_cosine).abs() < 5e-16, "s = {s}");
         }
-        // and where it is not, the product's error is not lost: 1e6 forcing periods of 2 pi / 0.9, rounded
+        // if it is not, the error of the product is taken into account: 1e6 forcing periods of 2 pi / 0.9, rounded
         let s = TAU * 1e6 / 0.9;
         let (turn, low) = two_prod(0.9, s);
         let (whole, rest) = two_prod(TAU, 1e6);

@@ -4,31 +4,34 @@
 //!
 //! $$`x(s) = x_0\,C(s) + v_0\,S(s) + \sin\varphi\,K_c(s) + \cos\varphi\,K_s(s)`$$
 //!
-//! with $`C, S`$ the free responses to a unit displacement and a unit velocity ($`C' = -S`$, $`S' = C - 2\zeta S`$) and
-//! $`K = K_c + iK_s = \int_0^s S(s-r)\,e^{i\beta r}\,dr`$ the forced response from rest, for which $`K' = S + i\beta K`$.
+//! where $`C, S`$ are the free responses to a unit displacement and a unit velocity ($`C' = -S`$,
+//! $`S' = C - 2\zeta S`$) and $`K = K_c + iK_s = \int_0^s S(s-r)\,e^{i\beta r}\,dr`$ is the forced response from rest,
+//! for which $`K' = S + i\beta K`$.
 //!
 //! The textbook form (eq. 3 of the 1971 paper) divides by $`1-\beta^2`$ and loses every digit near resonance, and its
 //! resonant form (3)' holds at one point only. Here $`K`$ is the divided difference of the exponential over the three
-//! characteristic exponents $`-\zeta \pm iw`$ and $`i\beta`$, $`w = \sqrt{1-\zeta^2}`$, written so that nothing cancels. With
-//! $`h = (\beta - w)s/2`$, $`A = ws + h`$, $`E = e^{-\zeta s}`$:
+//! characteristic exponents $`-\zeta \pm iw`$ and $`i\beta`$, $`w = \sqrt{1-\zeta^2}`$, in a form in which nothing
+//! cancels. With $`h = (\beta - w)s/2`$, $`A = ws + h`$, $`E = e^{-\zeta s}`$:
 //!
 //! $$`K = \frac{1}{2iw}\left[e^{iA}\,\frac{(1-E)\cos h + i(1+E)\sin h}{\zeta + i(\beta-w)}
 //!      - e^{ih}\,\frac{(1-E)\cos A + i(1+E)\sin A}{\zeta + i(\beta+w)}\right]`$$
 //!
-//! The first fraction is the only one that can be $`0/0`$, and only at $`\zeta = 0`$, $`\beta = 1`$ exactly, where it is $`s`$.
-//! Everywhere else $`\beta - w = (\beta - 1) + \zeta^2/(1+w)`$ carries full relative accuracy, so the quotient does too:
-//! one formula through resonance. Undamped it becomes, with $`Q = \sin h/(\beta-1)`$ ($`= s/2`$ at resonance),
+//! Only the first fraction can be $`0/0`$, and only at $`\zeta = 0`$, $`\beta = 1`$ exactly, where its value is $`s`$.
+//! Everywhere else $`\beta - w = (\beta - 1) + \zeta^2/(1+w)`$ has full relative accuracy, and so has the quotient. So
+//! one formula holds through resonance. Without damping it becomes, with $`Q = \sin h/(\beta-1)`$ ($`= s/2`$ at
+//! resonance),
 //!
 //! $$`K_c = \frac{2Q\sin A}{\beta+1}, \qquad K_s = \frac{\sin A\cos h}{\beta+1} - Q\cos A.`$$
 //!
-//! Away from resonance - $`\zeta \ge 1/2`$, or $`\beta`$ outside [1/2, 2], where $`|Z| \ge 0.75`$ - there is nothing to
-//! cancel and the plain quotient $`K = (e^{i\beta s} - C - i\beta S)/Z`$, $`Z = 1-\beta^2+2i\zeta\beta`$, is the better
-//! one: it takes $`\beta s`$ as it is, where the sum $`ws + 2h`$ would carry the rounding of the larger into the smaller.
+//! Away from resonance - $`\zeta \ge 1/2`$, or $`\beta`$ outside [1/2, 2], where $`|Z| \ge 0.75`$ - nothing cancels in
+//! the plain quotient $`K = (e^{i\beta s} - C - i\beta S)/Z`$, $`Z = 1-\beta^2+2i\zeta\beta`$. It is more accurate
+//! there, because it uses $`\beta s`$ itself, and the sum $`ws + 2h`$ would add the rounding error of the larger term
+//! to the smaller one.
 //!
 use super::free::{FreeResponse, HEAVY, decay, versine};
 use crate::math::{Lane, sin_cos};
 
-/// Frequency ratios near enough to resonance for the formula that holds through it.
+/// The frequency ratios near resonance, for which the formula that holds through resonance is used.
 const NEAR: core::ops::RangeInclusive<f64> = 0.5..=2.0;
 
 /// The free and forced responses after a time, from which any flight of the same oscillator is a linear combination.
@@ -50,17 +53,18 @@ pub struct Propagator {
     pub sin_turn: f64,
     /// $`\cos\beta s`$.
     pub cos_turn: f64,
-    /// Size of the terms that $`1 - C`$ was put together from.
+    /// Size of the terms of $`1 - C`$, for its rounding error.
     pub free_size: f64,
-    /// The angle of the free part if it had to be rounded (damped), else 0: its rounding is a fraction of it.
+    /// The angle of the free part if it was rounded (with damping), else 0; its rounding error is proportional to it.
     pub free_angle: f64,
-    /// Size of the terms that $`K`$ was put together from.
+    /// Size of the terms of $`K`$, for its rounding error.
     pub forced_size: f64,
-    /// How much of the angle of the force, over $`|Z|`$, had to be rounded: moves the forced part along its velocity.
+    /// The part of the angle of the force that was rounded, divided by $`|Z|`$; its rounding error changes the forced
+    /// part along its velocity.
     pub forced_angle: f64,
 }
 
-/// Closed-form responses for one $`\beta`$ and $`\zeta`$, with what does not depend on time worked out once.
+/// The closed-form responses for one $`\beta`$ and $`\zeta`$, with the quantities that do not depend on time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     beta: f64,
@@ -125,7 +129,7 @@ impl Response {
                     free_size: near.one_minus_c,
                     free_angle: 0.0,
                     forced_size: near.forced_size,
-                    // s itself is exact, only h was rounded: 2|h|/|Z|
+                    // s itself is exact, and only h was rounded: 2|h|/|Z|
                     forced_angle: s * over_sum,
                 }
             }
@@ -143,6 +147,7 @@ impl Response {
         }
     }
 
+    /// The responses with light damping near resonance.
     fn light(&self, s: f64, detuning: f64) -> Propagator {
         let (zeta, w) = (self.free.damping, self.free.root);
         let (sw, cw) = self.free.swing_angle(s);
@@ -172,6 +177,7 @@ impl Response {
         }
     }
 
+    /// The responses away from resonance, by the plain quotient.
     fn plain(&self, s: f64) -> Propagator {
         let (beta, z) = (self.beta, ((1.0 - self.beta) * (1.0 + self.beta), 2.0 * self.free.damping * self.beta));
         let (st, ct) = sin_cos(beta * s);
@@ -208,7 +214,7 @@ pub(crate) struct Undamped<L> {
     forced_size: L,
 }
 
-/// Sine and cosine of an angle, and one less its cosine without cancellation.
+/// The sine and cosine of an angle, and 1 - cos without cancellation.
 #[derive(Clone, Copy)]
 struct Turn<L> {
     sin: L,
@@ -217,7 +223,7 @@ struct Turn<L> {
 }
 
 impl Turn<f64> {
-    /// To the last bits.
+    /// Accurate to the last bits.
     fn of(angle: f64) -> Self {
         let (sin, cos) = sin_cos(angle);
         Self { sin, cos, versine: versine(sin, cos) }
@@ -225,7 +231,7 @@ impl Turn<f64> {
 }
 
 impl<L: Lane> Turn<L> {
-    /// To two units in the last place, without a quotient.
+    /// Accurate to two units in the last place, without a division.
     #[inline(always)]
     fn by_half(angle: L) -> Self {
         let (sin, cos) = (L::splat(0.5) * angle).sine_and_cosine();
@@ -236,7 +242,7 @@ impl<L: Lane> Turn<L> {
 }
 
 impl<L: Lane> Undamped<L> {
-    /// Near resonance, and through it.
+    /// Near resonance and at resonance.
     #[inline(always)]
     fn near(s: L, free: Turn<L>, detuning: f64, over_sum: f64) -> Self {
         let (ss, cs) = (free.sin, free.cos);
@@ -275,7 +281,7 @@ impl<L: Lane> Undamped<L> {
     }
 }
 
-/// Complex quotient.
+/// The quotient of two complex numbers.
 #[inline]
 fn divide(n: (f64, f64), d: (f64, f64)) -> (f64, f64) {
     let norm = d.0 * d.0 + d.1 * d.1;
@@ -286,7 +292,7 @@ fn divide(n: (f64, f64), d: (f64, f64)) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Eighth-order Taylor integration in tiny steps: an independent, slow referee.
+    /// Eighth-order Taylor integration in small steps: an independent, slow reference.
     fn by_integration(beta: f64, zeta: f64, s: f64, x0: f64, v0: f64, phi: f64) -> (f64, f64) {
         let steps = ((s * (1.0 + beta + zeta)) * 40.0).ceil();
         let h = s / steps;
@@ -348,7 +354,7 @@ mod tests {
 
     #[test]
     fn no_digits_are_lost_beside_resonance() {
-        // the difference to resonance is the first-order term, down to 1e-13 away
+        // the difference from resonance is the first-order term, down to 1e-13 away
         let at = |beta: f64| Response::new(beta, 0.0).at(9.0);
         let base = at(1.0);
         let slope = (at(1.0 + 1e-5).kc - at(1.0 - 1e-5).kc) / 2e-5;

@@ -1,11 +1,11 @@
-//! Where a motion starts: any phase of the force, anywhere the stops allow.
+//! Starts of a motion: any position within the stops, any velocity and any phase of the force.
 
 use super::oscillator::LENGTHS;
 use super::{Oscillator, SystemError, phase};
 
-/// A starting point: position `x`, velocity `v`, phase of the force in $`[0, 2\pi)`$.
+/// A start: position `x`, velocity `v`, phase of the force in $`[0, 2\pi)`$.
 ///
-/// On a stop the mass may move either way or be at rest; beyond it is an error.
+/// On a stop the mass may move in either direction or be at rest; beyond a stop is an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// Position $`\xi_0`$, within the stops.
@@ -17,7 +17,7 @@ pub struct Start {
 }
 
 impl Start {
-    /// A start of `osc`, its phase wrapped into $`[0, 2\pi)`$.
+    /// A start of `osc`, with its phase reduced to $`[0, 2\pi)`$.
     ///
     /// # Errors
     /// [`SystemError::StartNotFinite`], [`SystemError::LargeStart`], [`SystemError::LargePhase`] or [`SystemError::BeyondStop`].
@@ -48,15 +48,16 @@ impl Start {
         Ok(Self { x, v, phase: phase::wrap(phase) })
     }
 
-    /// At rest, unstretched, at phase 0; on the stop where that place is beyond one.
+    /// At the rest position of the spring, without velocity, at phase 0; on the stop if the rest position lies beyond
+    /// it.
     #[must_use]
     pub fn at_rest(osc: &Oscillator) -> Self {
         let (lowest, highest) = Self::room(osc);
         Self { x: 0.0_f64.clamp(lowest, highest), v: 0.0, phase: 0.0 }
     }
 
-    /// On the steady motion that the oscillator has without stops, at phase 0; `None` where that motion does not clear
-    /// the stops (or does not exist: undamped resonance).
+    /// On the steady motion without stops, at phase 0; `None` if that motion does not clear the stops or does not exist
+    /// (undamped resonance).
     #[must_use]
     pub fn free_motion(osc: &Oscillator) -> Option<Self> {
         let amplitude = osc.free_amplitude();
@@ -69,7 +70,7 @@ impl Start {
         Some(Self { x: -im * square, v: beta * re * square, phase: 0.0 })
     }
 
-    /// The range of positions the stops allow.
+    /// The range of positions within the stops.
     #[must_use]
     pub fn room(osc: &Oscillator) -> (f64, f64) {
         let lowest = osc.stop(super::Side::Lower).map_or(f64::NEG_INFINITY, |stop| -stop.gap);

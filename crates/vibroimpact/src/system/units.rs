@@ -1,14 +1,15 @@
-//! From kilograms, newtons and metres to the nondimensional system, and back.
+//! Conversion from physical units to the nondimensional system, and back.
 //!
 //! $$`x_{st} = \frac{F}{k},\quad \omega_n = \sqrt{k/m},\quad \xi = \frac{x}{x_{st}},\quad \tau = \omega_n t,\quad
 //!   \beta = \frac{\omega}{\omega_n},\quad \delta = \frac{d}{x_{st}},\quad \zeta = \frac{c}{2\sqrt{km}}`$$
 //!
-//! Every length is measured in static deflections $`x_{st}`$, so a force $`F = 0`$ has no scale and is an error.
+//! Every length is measured in static deflections $`x_{st}`$. So a force $`F = 0`$ is an error, because there would be
+//! no unit of length.
 
 use super::{Oscillator, SystemError};
 use core::f64::consts::TAU;
 
-/// A forcing frequency with its unit in its name.
+/// A forcing frequency in one of two units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Frequency {
     /// Angular frequency $`\omega`$ in rad/s.
@@ -28,7 +29,7 @@ impl Frequency {
     }
 }
 
-/// A machine in physical units: a mass on a spring, driven by a harmonic force, near a stop.
+/// A machine in physical units: a mass on a spring near a stop, driven by a harmonic force.
 ///
 /// ```
 /// use vibroimpact::{Frequency, Machine};
@@ -60,7 +61,7 @@ pub struct Machine {
     pub restitution: f64,
 }
 
-/// What one nondimensional unit is in this machine.
+/// The nondimensional units in physical units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
     /// One unit of length, $`F/k`$, in m.
@@ -78,12 +79,11 @@ impl Scales {
 }
 
 impl Machine {
-    /// The nondimensional oscillator and the scales that lead back.
+    /// The nondimensional oscillator, and the scales for the conversion back.
     ///
     /// # Errors
-    /// [`SystemError`] names the quantity that cannot be: a mass or stiffness that is not positive, a force of zero
-    /// (which leaves no scale for lengths), a frequency that is not positive, a negative damping, or values whose
-    /// ratios overflow.
+    /// [`SystemError`] for a mass or stiffness that is not positive, a force of zero (without which there is no unit of
+    /// length), a frequency that is not positive, a negative damping, or values whose ratios overflow.
     pub fn nondimensional(&self) -> Result<(Oscillator, Scales), SystemError> {
         let omega = self.frequency.rad_per_s();
         positive("mass m", self.mass_kg, "kg", "the mass moves, so it must weigh something")?;
@@ -117,8 +117,8 @@ impl Machine {
         Ok((osc, scales))
     }
 
-    /// The machine that `osc` describes when one unit of length is `scales.length_m` and one of time `scales.time_s`,
-    /// for a mass of `mass_kg`.
+    /// The machine with the mass `mass_kg` that `osc` describes if one unit of length is `scales.length_m` and one unit
+    /// of time is `scales.time_s`.
     ///
     /// # Errors
     /// [`SystemError`] for scales or a mass that are not positive and finite.

@@ -6,27 +6,28 @@ use super::settle::settle;
 use crate::system::{Oscillator, Start};
 use core::f64::consts::TAU;
 
-/// A steady motion and how many starts led to it.
+/// A steady motion and the number of starts that lead to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CountedMotion {
-    /// The motion, as the first start that led to it gave it.
+    /// The verdict on the first start that leads to it.
     pub verdict: Verdict,
-    /// Starts that led to it.
+    /// Starts that lead to it.
     pub count: u64,
 }
 
-/// Distinct motions counted one start after another. Two cycles with one label stay two if they differ.
+/// The distinct motions of the starts counted so far. Two different cycles with the same label are counted separately.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Census {
     found: Vec<CountedMotion>,
     total: u64,
 }
 
-/// Two cycles closer than this in phase and relative velocity are one; both were refined to rounding.
+/// Two cycles that differ by less than this in phase and relative velocity are the same; the residuals of both are
+/// rounding errors.
 pub(super) const SAME: f64 = 1e-6;
 
 impl Census {
-    /// Counts a motion of another census with all its starts, and returns its number here.
+    /// Adds a motion of another census with all its starts, and returns its index here.
     pub fn add_found(&mut self, found: &CountedMotion) -> usize {
         let number = self.add(&found.verdict);
         self.found[number].count += found.count - 1;
@@ -34,7 +35,7 @@ impl Census {
         number
     }
 
-    /// Counts one verdict and returns the number of its motion, in order of first appearance.
+    /// Adds one verdict and returns the index of its motion, in order of first appearance.
     pub fn add(&mut self, verdict: &Verdict) -> usize {
         self.total += 1;
         if let Some(k) = self.found.iter().position(|found| found.verdict.same_as(verdict, SAME)) {
@@ -59,13 +60,13 @@ impl Census {
         list
     }
 
-    /// Starts counted.
+    /// The number of starts counted.
     #[must_use]
     pub const fn total(&self) -> u64 {
         self.total
     }
 
-    /// The share of starts that led to a motion.
+    /// The fraction of starts that lead to a motion.
     #[must_use]
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     pub fn share(&self, found: &CountedMotion) -> f64 {
@@ -73,20 +74,20 @@ impl Census {
     }
 }
 
-/// The box of starts that shares refer to.
+/// The box of starts to which shares refer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartBox {
-    /// Positions.
+    /// Range of positions.
     pub x: (f64, f64),
-    /// Velocities.
+    /// Range of velocities.
     pub v: (f64, f64),
-    /// Phases.
+    /// Range of phases.
     pub phase: (f64, f64),
 }
 
 impl StartBox {
-    /// The box used where none is given: with $`A = 1 + |\delta| + \min(|f|, 10)`$, positions from $`\delta - 2A`$ (or the
-    /// second stop) to $`\delta`$, velocities within $`\pm A(1+\beta)/2`$ but at most $`\pm 2A`$, all phases.
+    /// The default box: with $`A = 1 + |\delta| + \min(|f|, 10)`$, positions from $`\delta - 2A`$ (or the second stop)
+    /// to $`\delta`$, velocities within $`\pm A(1+\beta)/2`$ but at most $`\pm 2A`$, all phases.
     #[must_use]
     pub fn natural(osc: &Oscillator) -> Self {
         let size = osc.size();
@@ -96,12 +97,12 @@ impl StartBox {
     }
 }
 
-/// Start number `index` of the sequence with that `seed`.
+/// The start with the index `index` in the sequence of this `seed`.
 ///
-/// The first is at rest and the second on the steady motion without stops, where it clears them: what everybody would
-/// try, and a motion without impacts is not overlooked because few starts lead to it. The others are points spread
-/// evenly over the box (the additive recurrence of the generalised golden ratio in three dimensions, M. Roberts 2018,
-/// shifted by the seed). The same for every machine.
+/// The first start is at rest. The second is on the steady motion without impacts if that clears the stops, so that
+/// this motion is not overlooked because few starts lead to it. The others are points of low discrepancy in the box
+/// (the additive recurrence of the generalised golden ratio in three dimensions, M. Roberts 2018, shifted by the seed).
+/// They are the same on every machine.
 #[must_use]
 #[allow(clippy::cast_precision_loss)] // 53 bits are kept on purpose
 pub fn scattered_starts(osc: &Oscillator, area: StartBox, seed: u64, index: u64) -> Start {
@@ -138,7 +139,7 @@ const fn mix(seed: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// The steady motions that `starts` starts from the natural box lead to.
+/// The steady motions to which `starts` starts from the natural box lead.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, verdict::{SettleOptions, attractors}};

@@ -1,7 +1,8 @@
-//! A motion being followed: what its impacts so far show. [`settle`](super::settle()) says what counts as shown.
+//! The record of a motion that is followed, and the decisions based on its impacts so far. [`settle`](super::settle())
+//! defines these decisions.
 //!
-//! The events may come from a [`Motion`](crate::motion::Motion) or from the slot of a [`Batch`](crate::lanes::Batch): they are the
-//! same bits, and so is the verdict.
+//! The events come from a [`Motion`](crate::motion::Motion) or from the slot of a [`Batch`](crate::lanes::Batch). Both
+//! give the same bits, so the verdict is the same.
 
 use super::graze_limit::Fading;
 use super::options::SettleOptions;
@@ -14,44 +15,48 @@ use crate::motion::{End, ImpactState, MAX_TOUCHES};
 use crate::orbit::{Cycle, DEFAULT_EVENTS, from_release, shoot};
 use crate::system::{Oscillator, Side};
 
-/// What was seen of a motion.
+/// The record of a motion.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Follow {
-    /// The last impacts and the time since the one before each.
+    /// The latest impacts, and the time between each and the one before.
     impacts: Vec<(ImpactState, f64)>,
-    /// Impacts before those.
+    /// The number of impacts before those.
     earlier: usize,
     /// Time since the last impact.
     since: f64,
-    /// Impacts before the first release from each stop.
+    /// The number of impacts before the first release from each stop.
     released: [Option<usize>; 2],
-    /// Impacts before the last release: none of them matters for what follows.
+    /// The number of impacts before the last release; the motion after it does not depend on them.
     forgotten: usize,
     candidate: Option<Cycle>,
     fading: Fading,
     grazes: u32,
     next_look: usize,
-    /// Search steps taken.
+    /// The number of search steps.
     pub(crate) steps: u64,
-    /// The measurement for chaos under way. Apart, because most motions settle before it begins, and a reset writes all that is here.
+    /// The current measurement for chaos. It is boxed, because most motions settle before it begins and a reset writes
+    /// all fields.
     measure: Option<Box<Measure>>,
-    /// Measurements completed since the last release, and the exponents of the last one.
+    /// The number of measurements completed since the last release, and the exponents of the latest one.
     windows: usize,
     spectrum: Option<Spectrum>,
-    /// Chaos that is over: the motion came to rest in it.
+    /// Chaos that has ended because the motion stuck.
     over: Option<Chaos>,
 }
 
-/// What a release leads to, which is the same for every motion of an oscillator: each is looked for once in each way.
+/// The verdicts on the motion after a release, which is the same for every motion of an oscillator. Each is computed at
+/// most once for each kind of search.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Releases([[Option<Option<Verdict>>; 2]; 2]);
 
 impl Releases {
-    /// After the first release a short cycle is looked for; a long one when the motion itself has come back after so many impacts, because
-    /// most motions that rest on their way never do again, and to follow such a one to the end costs far more than it.
+    /// The verdict on the motion after a release, if it returns to this release. After the first release a short cycle
+    /// is searched for. A long one is searched for only after the motion itself has returned, after `again` impacts,
+    /// because most motions that stick on their way never do so again, and following such a motion to the end costs far
+    /// more.
     fn verdict(&mut self, osc: &Oscillator, side: Side, again: Option<usize>) -> Option<Verdict> {
         let known = &mut self.0[usize::from(side == Side::Lower)][usize::from(again.is_some())];
-        // what lies between two releases is the cycle, so it is found again within as many events
+        // the motion between two releases is the cycle, so it is found again within as many events
         let events = again
             .map_or(SHORT, |impacts| u32::try_from(impacts).unwrap_or(u32::MAX).saturating_mul(4).max(DEFAULT_EVENTS));
         known
@@ -69,34 +74,35 @@ impl Releases {
     }
 }
 
-/// Events after a release in which a cycle is short.
+/// The number of events after a release in which a short cycle is searched for.
 const SHORT: u32 = 64;
 
-/// Lengths of the measurements for chaos one after another, in units of [`SettleOptions::chaos_over`]: weak chaos shows in a longer run.
-/// The last is repeated.
+/// The lengths of successive measurements for chaos, in units of [`SettleOptions::chaos_over`]; weak chaos needs a
+/// longer measurement. The last length is repeated.
 const WINDOWS: [u32; 3] = [1, 3, 8];
-/// Impacts between looks for a recurrence, while there are few; later an eighth of those there are, so that the looks
-/// into a long chaotic motion stay cheap.
+/// The number of impacts between searches for a recurrence at the beginning. Later it is an eighth of the number of
+/// impacts, so that the searches take little time in a long chaotic motion.
 const LOOK: usize = 16;
-/// Impacts kept at least.
+/// The least number of impacts that are kept.
 const KEPT: usize = 1024;
-/// Candidates for the period tried at each look.
+/// The number of candidates for the period that are tried in each search.
 const TRIES: usize = 3;
 
 impl Follow {
-    /// Forgets everything, for another motion.
+    /// Resets the record for another motion.
     pub(crate) fn reset(&mut self) {
         let impacts = core::mem::take(&mut self.impacts);
         *self = Self { impacts, ..Self::default() };
         self.impacts.clear();
     }
 
-    /// Impacts seen.
+    /// The number of impacts so far.
     pub(crate) fn count(&self) -> usize {
         self.earlier + self.impacts.len()
     }
 
-    /// Whether the budget allows more: to the end of a measurement that was begun because the one before it diverged too little to tell.
+    /// Whether the budget permits more. A measurement that began because the one before diverged too little for a
+    /// decision is completed beyond the budget.
     pub(crate) fn within(&self, options: &SettleOptions) -> bool {
         let longer = options.extend
             && self.windows + 1 == WINDOWS.len()
@@ -106,7 +112,8 @@ impl Follow {
             || self.count() < options.max_impacts as usize && self.steps < options.max_steps
     }
 
-    /// The number of impacts after which something else than a cycle may be decided next: chaos, or nothing within the budget.
+    /// The number of impacts after which a decision other than a cycle is possible next: chaos, or the end of the
+    /// budget.
     pub(crate) fn undisturbed(&self, options: &SettleOptions) -> usize {
         let end = options.max_impacts as usize;
         let measured = match &self.measure {
@@ -117,20 +124,20 @@ impl Follow {
         end.min(measured)
     }
 
-    /// Whether a motion that is caught in a trapping region of that depth is decided by the cycle before anything else can be decided, followed as any
-    /// other: until it is close, and up to the next look for a recurrence.
+    /// Whether a motion captured by a trapping region of this depth would be decided as that cycle without the region,
+    /// before any other decision is possible: when it is close to the cycle, and at the next search for a recurrence.
     pub(super) fn reaches(&self, depth: Depth, options: &SettleOptions) -> bool {
         let close = self.count() + depth.impacts;
         close + LOOK + LOOK.max(close / 8) <= self.undisturbed(options) && self.steps + depth.steps <= options.max_steps
     }
 
-    /// The last impact; before the first, the stop at rest.
+    /// The last impact; before the first impact, a state with velocity 0 on the upper stop.
     pub(crate) fn last(&self) -> ImpactState {
         let none = ImpactState { phase: 0.0, velocity: 0.0, side: Side::Upper };
         self.impacts.last().map_or(none, |(state, _)| *state)
     }
 
-    /// The next impact, `interval` after the last event.
+    /// Records an impact `interval` after the last event; returns the verdict if it is decided.
     pub(crate) fn impact(
         &mut self,
         osc: &Oscillator,
@@ -140,7 +147,7 @@ impl Follow {
     ) -> Option<Verdict> {
         let since = self.since + interval;
         if self.impacts.len() >= KEPT.max(4 * options.longest as usize) {
-            // recurrences are searched for among these
+            // recurrences are searched for among the remaining impacts
             let gone = self.impacts.len() - 2 * options.longest as usize - 2;
             self.impacts.drain(..gone);
             self.earlier += gone;
@@ -160,7 +167,7 @@ impl Follow {
         if complete { self.judged(osc, options) } else { None }
     }
 
-    /// The measurement for chaos goes on to this impact; whether it is complete.
+    /// Continues or begins the measurement for chaos at this impact; returns whether it is complete.
     fn measured(&mut self, osc: &Oscillator, options: &SettleOptions, state: ImpactState, since: f64) -> bool {
         match &mut self.measure {
             Some(measure) => {
@@ -176,7 +183,7 @@ impl Follow {
         }
     }
 
-    /// A complete measurement: chaos, or the next one is begun.
+    /// Decides chaos from a complete measurement, or begins the next measurement.
     fn judged(&mut self, osc: &Oscillator, options: &SettleOptions) -> Option<Verdict> {
         let (spectrum, chaotic) = self.measure.take()?.chaos(osc).unzip();
         (self.spectrum, self.windows) = (spectrum, self.windows + 1);
@@ -187,13 +194,15 @@ impl Follow {
         chaos.map(|spectrum| Verdict::Chaotic(Chaos { spectrum, impacts: self.count() as u64 }))
     }
 
-    /// Chaos that was seen and is over, where the motion was shown to settle into something else.
+    /// Chaos that was measured and has ended, if the motion has settled into something else.
     pub(crate) fn transient(&self, osc: &Oscillator) -> Option<Chaos> {
         let measured = self.measure.as_ref().and_then(|measure| measure.chaos(osc)).map(|(spectrum, _)| spectrum);
         let found = measured.into_iter().chain(self.spectrum).find(Spectrum::chaotic);
         found.map(|spectrum| Chaos { spectrum, impacts: self.count() as u64 }).or(self.over)
     }
 
+    /// Searches for a recurrence, and confirms the cycle by Newton's method and the test whether it captures the
+    /// motion.
     fn look(&mut self, osc: &Oscillator, options: &SettleOptions, state: ImpactState) -> Option<Verdict> {
         let count = self.count();
         self.next_look = count + LOOK.max(count / 8);
@@ -203,7 +212,8 @@ impl Follow {
             return self.candidate.take().map(Verdict::Periodic);
         }
         let mut tried = 0;
-        // a long cycle resembles itself after fewer impacts too, as one after several doublings does; once it is close it is tried in any case
+        // a long cycle also resembles itself after fewer impacts, as after several period doublings; when close it is
+        // always tried
         let found: Vec<Candidate> =
             recurrence::candidates(osc, &self.impacts, options.longest as usize, options.recurrence)
                 .filter(|candidate| {
@@ -227,7 +237,7 @@ impl Follow {
         None
     }
 
-    /// A graze, `interval` after the last event.
+    /// Records a grazing contact `interval` after the last event; returns the verdict if it is decided.
     pub(crate) fn graze(&mut self, osc: &Oscillator, side: Side, phase: f64, interval: f64) -> Option<Verdict> {
         self.since += interval;
         self.grazes += 1;
@@ -237,7 +247,7 @@ impl Follow {
         (self.grazes > MAX_TOUCHES).then_some(Verdict::NoImpact(NoImpact::Grazing { phase }))
     }
 
-    /// It comes to rest on a stop: neighbours are the same motion from here on, so whatever chaos there was is over.
+    /// Records that the mass sticks. All neighbouring motions are the same from then on, so chaos has ended.
     pub(crate) fn stick(&mut self, osc: &Oscillator, interval: f64) {
         self.since += interval;
         self.over = self.transient(osc);
@@ -245,7 +255,8 @@ impl Follow {
         (self.measure, self.spectrum, self.windows) = (None, None, 0);
     }
 
-    /// A release decides all that follows: if it leads back to itself, that is the cycle. Looked for after the first two.
+    /// Records a release; returns the verdict if the motion after it returns to the same release. It is computed
+    /// at the first and the second release from a stop.
     pub(crate) fn release(
         &mut self,
         osc: &Oscillator,
@@ -262,7 +273,7 @@ impl Follow {
         releases.verdict(osc, side, again)
     }
 
-    /// The verdict when the budget is spent: a last look, where the transient is as far gone as it will be.
+    /// The verdict when the budget is used up, after a last search for a recurrence.
     pub(crate) fn last_look(&mut self, osc: &Oscillator, options: &SettleOptions) -> Verdict {
         let shown = self.impacts.last().copied().and_then(|(state, _)| self.look(osc, options, state));
         shown.unwrap_or_else(|| {
@@ -273,12 +284,12 @@ impl Follow {
     }
 }
 
-/// The length of measurement `k` for chaos.
+/// The length of the measurement `k` for chaos.
 fn window(options: &SettleOptions, k: usize) -> u32 {
     options.chaos_over.saturating_mul(WINDOWS[k.min(WINDOWS.len() - 1)])
 }
 
-/// The verdict on a motion that came to an end.
+/// The verdict on a motion that has ended.
 pub(crate) fn ended(osc: &Oscillator, end: Option<End>, limits: SearchLimits) -> Verdict {
     match end {
         Some(End::Never(why)) => Verdict::NoImpact(NoImpact::Flight(why)),

@@ -1,11 +1,12 @@
-//! Many starts of one oscillator settled side by side, to the same verdicts as one after another.
+//! Many starts of one oscillator settled side by side, with the same verdicts as one after another.
 //!
-//! The flights are those of a [`Batch`]; each motion is [followed](super::follow) as a single one would be, on the same
-//! impacts. What saves time is what is known already: a motion that falls into the [trapping region](super::trapping_region) of a cycle needs no
-//! more following. Whatever the lanes do not fly is handed to a scalar [`Motion`], in the middle of its flight.
+//! The flights are computed by a [`Batch`]. Each motion is [followed](super::follow) as a single one would be, with the
+//! same impacts. Time is saved by what is known already: a motion that enters the [trapping
+//! region](super::trapping_region) of a cycle need not be followed further. A motion that the lanes cannot continue is
+//! continued by a scalar [`Motion`], from the middle of its flight.
 //!
-//! The result does not depend on how the starts are divided: motions are compared as [`Census`](super::Census) does, and the verdict that stands
-//! for each is what [`settle`] says of the first start that leads to it.
+//! The result does not depend on how the starts are divided. Motions are compared as in [`Census`](super::Census), and
+//! the verdict reported for each is that of [`settle`] on the first start that leads to it.
 
 use super::CountedMotion;
 use super::attractors::SAME;
@@ -20,7 +21,7 @@ use crate::motion::{End, Motion};
 use crate::system::{Oscillator, Start};
 use core::ops::Range;
 
-/// Cycles known beforehand, with their traps: worked out once, used by all parts of a large question.
+/// Cycles known in advance, with their trapping regions. They are computed once and used for all parts of a large task.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KnownAttractors {
     known: Vec<(Verdict, TrappingRegion)>,
@@ -28,7 +29,7 @@ pub struct KnownAttractors {
 }
 
 impl KnownAttractors {
-    /// Settles these few starts one by one and keeps the cycles that have a trapping region.
+    /// Settles these starts one by one and keeps the cycles that have a trapping region.
     #[must_use]
     pub fn survey(osc: &Oscillator, starts: impl Iterator<Item = Start>, options: &SettleOptions) -> Self {
         let mut survey = Self::default();
@@ -45,16 +46,16 @@ impl KnownAttractors {
     }
 }
 
-/// What a range of starts leads to.
+/// The motions to which a range of starts leads.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Settlement {
-    /// The distinct motions in the order of the first start that leads to each.
+    /// The distinct motions, in the order of the first start that leads to each.
     pub motions: Vec<CountedMotion>,
-    /// The number of its motion for each start; shorter if stopped.
+    /// The index of its motion for each start; shorter than the range if stopped.
     pub cells: Vec<u32>,
 }
 
-/// Settles the starts with these numbers. `tick` is called after each and says whether to stop.
+/// Settles the starts with these indices. `tick` is called after each start; if it returns true, the computation stops.
 ///
 /// ```
 /// use vibroimpact::{Start, lanes::Width, scenario, verdict::{KnownAttractors, SettleOptions, settle_many}};
@@ -79,35 +80,37 @@ pub fn settle_many(
     let full = |k: u64| settle(osc, start(k), options).verdict;
     let question = Question { osc, options, width, tick };
     question.decide(range.clone(), &start, survey).settlement(range.start, full).unwrap_or_else(|| {
-        // the first start of each motion was settled in full, and that contradicts a trapping region: do without
+        // the full verdict on the first start of a motion contradicts a trapping region: compute this part without
+        // trapping regions
         let part = question.decide(range.clone(), &start, &KnownAttractors::default());
         part.settlement(range.start, full).unwrap_or_default()
     })
 }
 
-/// A motion of this part, and the first starts that led to it.
+/// A motion of this part, and the first start that leads to it.
 #[derive(Clone, Debug)]
 struct Local {
     verdict: Verdict,
     first: u64,
-    /// The first that was followed to its end, and what it gave.
+    /// The first start that was followed to its end, and its verdict.
     followed: Option<(u64, Verdict)>,
 }
 
-/// What was decided of a range of starts.
+/// The verdicts on a range of starts.
 #[derive(Debug, Default)]
 struct Part {
     motions: Vec<Local>,
-    /// The number of its motion for each start; [`OPEN`] if not decided.
+    /// The index of its motion for each start; [`OPEN`] if not decided.
     cells: Vec<u32>,
 }
 
 const OPEN: u32 = u32::MAX;
-/// Starts that are followed one by one where nothing is known beforehand: lanes gain nothing with so few of them, as the last motions
-/// of a batch fly with most of its lanes empty.
+/// Fewer starts than this are followed one by one if no cycle is known. Lanes save no time for them, because most lanes
+/// are empty during the last motions of a batch.
 const FEW: usize = 32;
 
 impl Part {
+    /// The index of a motion in this part; a new motion is added.
     fn number(&mut self, verdict: &Verdict, index: u64) -> usize {
         let known = self.motions.iter().position(|motion| motion.verdict.same_as(verdict, SAME));
         known.unwrap_or_else(|| {
@@ -116,12 +119,14 @@ impl Part {
         })
     }
 
+    /// Records the motion to which a start leads.
     fn caught(&mut self, place: usize, index: u64, verdict: &Verdict) {
         let number = self.number(verdict, index);
         self.motions[number].first = self.motions[number].first.min(index);
         self.cells[place] = u32::try_from(number).unwrap_or(OPEN);
     }
 
+    /// Records the motion to which a start leads, with the full verdict on this start.
     fn followed(&mut self, place: usize, index: u64, verdict: Verdict) {
         self.caught(place, index, &verdict);
         let motion = &mut self.motions[self.cells[place] as usize];
@@ -130,7 +135,8 @@ impl Part {
         }
     }
 
-    /// Motions in order of first appearance, each with the full verdict on its first start; `None` if that is another motion.
+    /// The motions in order of first appearance, each with the full verdict on its first start; `None` if this verdict
+    /// is another motion.
     fn settlement(mut self, first: u64, full: impl Fn(u64) -> Verdict) -> Option<Settlement> {
         self.cells.truncate(self.cells.iter().position(|&cell| cell == OPEN).unwrap_or(self.cells.len()));
         let end = first + self.cells.len() as u64;
@@ -158,7 +164,7 @@ impl Part {
     }
 }
 
-/// A motion in a slot.
+/// The motion in a slot of the batch.
 #[derive(Debug)]
 struct Track {
     place: usize,
@@ -174,6 +180,8 @@ struct Question<'a> {
 }
 
 impl Question<'_> {
+    /// Decides a range of starts: side by side in a batch, or one after another if they are few or the lanes cannot
+    /// follow them.
     fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, survey: &KnownAttractors) -> Part {
         let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
         let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
@@ -196,7 +204,7 @@ impl Question<'_> {
     }
 }
 
-/// A batch at work on a range of starts.
+/// A batch with the range of starts that it works on.
 struct Pool<'a> {
     question: &'a Question<'a>,
     known: &'a [(Verdict, TrappingRegion)],
@@ -208,6 +216,7 @@ struct Pool<'a> {
 }
 
 impl Pool<'_> {
+    /// Follows all starts: a slot whose motion is decided is launched again with the next start.
     fn run(mut self, count: usize, start: &impl Fn(u64) -> Start) -> Part {
         let mut next = 0;
         while next < count.min(ABREAST) {
@@ -253,13 +262,14 @@ impl Pool<'_> {
         self.part
     }
 
+    /// Records the full verdict on the motion in a slot.
     fn followed(&mut self, slot: u32, verdict: Verdict) {
         let track = &mut self.tracks[slot as usize];
         track.done = true;
         self.part.followed(track.place, self.first + track.place as u64, verdict);
     }
 
-    /// The slot struck and flies again.
+    /// Records the impact of a slot whose motion continues with a flight.
     fn struck(&mut self, slot: u32) {
         let (osc, options) = (self.question.osc, self.question.options);
         let (state, interval) = self.batch.arrival(slot);
@@ -280,7 +290,7 @@ impl Pool<'_> {
         }
     }
 
-    /// The slot struck, and what follows is no flight.
+    /// Continues a slot whose impact is not followed by a flight.
     fn settling(&mut self, slot: u32) {
         let track = &self.tracks[slot as usize];
         if track.done {
@@ -292,7 +302,7 @@ impl Pool<'_> {
         }
     }
 
-    /// The flight in the slot takes the careful search.
+    /// Continues a slot whose flight needs the careful search.
     fn rare(&mut self, slot: u32) {
         let options = self.question.options;
         let launched = self.batch.launched(slot);
@@ -313,7 +323,7 @@ impl Pool<'_> {
         }
     }
 
-    /// Follows a motion alone until it flies from impact to impact again, or to its end.
+    /// Follows a single motion until it flies from impact to impact again, or to its end.
     fn hand_over(&mut self, slot: u32, mut motion: Motion<'_>) {
         let track = &mut self.tracks[slot as usize];
         let (osc, options, batch) = (self.question.osc, self.question.options, &self.batch);
@@ -355,7 +365,7 @@ mod tests {
         systems
     }
 
-    /// As one start after another, whatever the lanes, the traps and the parts.
+    /// As one start after another, for all lanes, trapping regions and parts.
     #[test]
     fn the_same_as_one_by_one() {
         let options =
@@ -374,7 +384,7 @@ mod tests {
                 for survey in [&none, &survey] {
                     let got = settle_many(&osc, 0..60, start, survey, &options, width, &|| false);
                     assert_eq!(got, expected, "{osc:?} {width:?}");
-                    // few are followed one by one
+                    // a small number is followed one by one
                     let few = settle_many(&osc, 0..20, start, survey, &options, width, &|| false);
                     assert_eq!(few.cells, expected.cells[..20], "{osc:?} {width:?}");
                 }

@@ -1,14 +1,14 @@
-//! Verdicts: what a motion settles into, confirmed rather than timed out.
+//! Verdicts: the motion that follows after the transient, with a criterion for each kind.
 //!
 //! | idea | file |
 //! |---|---|
-//! | the name m/n | [`Label`] |
-//! | what a motion can settle into | [`Verdict`] |
+//! | the label m/n | [`Label`] |
+//! | the possible verdicts | [`Verdict`] |
 //! | from a start to a verdict | [`settle`], `follow` |
 //! | many starts side by side | [`settle_many`] |
 //! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
 //! | ever gentler impacts: the limit without impacts | [`graze_limit`] |
-//! | the 1971 paper's own rule | [`paper_rule`] |
+//! | the rule of the 1971 paper | [`paper_rule`] |
 //! | the distinct motions from many starts, and their shares | [`Census`], [`attractors`] |
 
 mod attractors;

@@ -1,35 +1,38 @@
-//! How far a motion is followed to settle it.
+//! How far a motion is followed for a verdict.
 
 use crate::flight::SearchLimits;
 
-/// Search steps of a flight, at least, of a small budget.
+/// The least number of search steps of a flight in a small budget.
 const FEWEST: u32 = 64;
 
-/// How far to follow a motion and how close is close.
+/// The budget of a verdict, and its tolerances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SettleOptions {
-    /// Impacts to follow before giving up.
+    /// The largest number of impacts that are followed.
     pub max_impacts: u32,
-    /// Impacts after which a motion without a cycle is measured for chaos.
+    /// The number of impacts after which a motion without a cycle is measured for chaos.
     pub chaos_after: u32,
-    /// Impacts over which the Lyapunov exponents are measured first; where that does not decide, over the next three times as many, and
-    /// then over eight times as many, again and again. 0 for never, and no motion is called chaotic.
+    /// The number of impacts of the first measurement of the Lyapunov exponents. If it does not decide, the second one
+    /// covers the next three times as many, and every later one eight times as many. With 0 nothing is measured, and no
+    /// motion is called chaotic.
     pub chaos_over: u32,
-    /// Whether the third measurement is completed beyond `max_impacts` where the second diverges too little to tell.
+    /// Whether the third measurement is completed beyond `max_impacts` if the second one diverges too little for a
+    /// decision.
     pub extend: bool,
-    /// The longest period looked for, in impacts.
+    /// The longest period that is searched for, in impacts.
     pub longest: u32,
-    /// How close the last impacts must come to earlier ones, in phase and relative velocity, to try Newton's method.
+    /// The largest distance of the last impacts from earlier ones, in phase and relative velocity, for which Newton's
+    /// method is tried.
     pub recurrence: f64,
-    /// How far each flight is searched.
+    /// The limits of the search for the first contact of each flight.
     pub limits: SearchLimits,
-    /// Search steps over all flights followed before giving up: what bounds the time where every flight is long.
+    /// The largest number of search steps of all flights together; it limits the time if every flight is long.
     pub max_steps: u64,
 }
 
 impl Default for SettleOptions {
-    /// 20 000 impacts or two million search steps (a tenth of a second, where flights are plain), chaos measured over 4000 impacts after 1000,
-    /// periods up to 128 impacts.
+    /// 20 000 impacts or two million search steps (a tenth of a second for ordinary flights); chaos measured over 4000
+    /// impacts after the first 1000; periods up to 128 impacts.
     fn default() -> Self {
         Self {
             max_impacts: 20_000,
@@ -45,9 +48,9 @@ impl Default for SettleOptions {
 }
 
 impl SettleOptions {
-    /// A budget of this number of impacts. A budget below that of the default has search steps for that many ordinary flights, and chaos is decided
-    /// at the same numbers of impacts as by the default, the first of which is 5000; what it decides, the default decides alike, and the
-    /// rest is undecided.
+    /// A budget of this number of impacts. A budget below the default has search steps for that number of ordinary
+    /// flights. Chaos is decided at the same numbers of impacts as with the default, the first of which is 5000. So a
+    /// smaller budget leaves more starts undecided and changes no other verdict.
     #[must_use]
     pub fn at_most(impacts: u32) -> Self {
         let usual = Self::default();

@@ -1,4 +1,4 @@
-//! What a motion can settle into.
+//! The possible verdicts on a motion.
 
 use crate::flight::Horizon;
 use crate::lyapunov::Spectrum;
@@ -8,65 +8,66 @@ use crate::system::{Oscillator, Side};
 use core::f64::consts::TAU;
 use std::borrow::Cow;
 
-/// What a motion settles into. None of these is an error.
+/// The verdict on a motion. None of these is an error.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// A periodic motion with impacts, confirmed by Newton's method (or by a release, which fixes all that follows).
+    /// A periodic motion with impacts, confirmed by Newton's method, or by a release, which determines the motion after
+    /// it.
     Periodic(Cycle),
-    /// No more impacts, and on what grounds.
+    /// No more impacts, and the reason.
     NoImpact(NoImpact),
-    /// A chaotic motion: the largest Lyapunov exponent exceeds its error bar for as long as it was followed.
+    /// A chaotic motion: the largest Lyapunov exponent exceeds its error bar over the impacts that were followed.
     Chaotic(Chaos),
-    /// At rest on a stop for ever.
+    /// The mass sticks on a stop for ever.
     Stuck(Side),
-    /// None of these could be shown within the budget, and what was tried.
+    /// None of these could be shown within the budget.
     Undecided(Undecided),
 }
 
-/// Chaos as it was seen: what was measured, and for how long the motion was followed without an end of it.
+/// Measured chaos, and the number of impacts over which it was seen.
 ///
-/// Chaos may be a transient, which no finite observation excludes: this gives how long it lasted at least.
+/// Chaos can be a transient, which no finite observation excludes. This number is a lower bound of its length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chaos {
     /// The Lyapunov exponents.
     pub spectrum: Spectrum,
-    /// Impacts from the start of the motion over which no cycle, no second rest on a stop and no fading of the impacts was found; of a
-    /// transient, the impact at which it had ended.
+    /// The number of impacts from the start of the motion over which no cycle, no second sticking on a stop and no
+    /// fading of the impacts was found; for a transient, the number of impacts until it had ended.
     pub impacts: u64,
 }
 
-/// On what grounds there are no more impacts, and how far that reaches.
+/// The reason why there are no more impacts, and for how long.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoImpact {
-    /// The flight never touches a stop again: for ever, and why.
+    /// The flight never reaches a stop again, for the reason given. For ever.
     Flight(Horizon),
-    /// Ever gentler impacts, each at the same phase and slower by the restitution than the one before: in the limit
-    /// a motion that just touches the stop. For ever.
+    /// Ever gentler impacts, each at the same phase and slower than the one before by the restitution. In the limit the
+    /// motion grazes the stop without an impact. For ever.
     GrazeLimit {
-        /// Impact speed when the limit was recognised.
+        /// Impact speed at which the limit was recognised.
         velocity: f64,
-        /// Phase of the touch.
+        /// Phase of the contact.
         phase: f64,
     },
-    /// It rests on a stop, leaves it when the force changes sign, and lands on it again without speed: for ever, without an impact
-    /// ([`landing`](crate::contact::landing)).
+    /// The mass sticks, is released when the force changes sign, and lands on the stop again without speed. For ever,
+    /// without an impact ([`landing`](crate::contact::landing)).
     Landing {
         /// The stop.
         side: Side,
         /// Forcing periods from one release to the next.
         periods: u32,
     },
-    /// It touches the stop again and again without speed: for ever, to rounding.
+    /// The mass grazes the stop again and again. For ever, to rounding.
     Grazing {
-        /// Phase of the last touch.
+        /// Phase of the last contact.
         phase: f64,
     },
-    /// No impact for at least this many forcing periods; nothing is claimed beyond.
+    /// No impact for at least this number of forcing periods; nothing is known beyond.
     ForPeriods(f64),
 }
 
 impl NoImpact {
-    /// The forcing periods for which there is no impact, infinite for "for ever".
+    /// The number of forcing periods without an impact; infinite for "for ever".
     #[must_use]
     pub const fn periods(&self) -> f64 {
         match self {
@@ -76,14 +77,14 @@ impl NoImpact {
     }
 }
 
-/// What was tried before giving up.
+/// Why a motion is undecided.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Undecided {
-    /// No cycle was found and the Lyapunov exponent does not exclude 0 after that many impacts.
+    /// No cycle was found after this number of impacts, and the Lyapunov exponent does not exclude 0.
     Impacts {
         /// Impacts followed.
         impacts: u64,
-        /// The Lyapunov exponents of the last stretch, if it had any.
+        /// The Lyapunov exponents of the last measurement; `None` if there was none.
         spectrum: Option<Spectrum>,
     },
     /// A flight was followed for this number of forcing periods, too few to conclude that there are no more impacts.
@@ -106,8 +107,8 @@ impl Verdict {
         }
     }
 
-    /// Floquet multipliers where the motion has them: of a cycle, or of the motion without impacts over one forcing
-    /// period, $`e^{(-\zeta \pm i\sqrt{1-\zeta^2})2\pi/\beta}`$.
+    /// The Floquet multipliers of a cycle, or of the motion without impacts over one forcing period,
+    /// $`e^{(-\zeta \pm i\sqrt{1-\zeta^2})2\pi/\beta}`$; `None` for other motions.
     #[must_use]
     pub fn multipliers(&self, osc: &Oscillator) -> Option<[Multiplier; 2]> {
         match self {
@@ -118,14 +119,14 @@ impl Verdict {
                 let trace = 2.0 * (p.c - osc.damping() * p.s);
                 Some(crate::math::eigenvalues(trace, crate::math::exp(-2.0 * osc.damping() * osc.period())))
             }
-            // a rest forgets how neighbours differed
+            // neighbouring motions that stick are the same motion
             Self::Stuck(_) => Some([Multiplier::default(); 2]),
             Self::Chaotic(_) | Self::Undecided(_) => None,
         }
     }
 
-    /// Whether it attracts its neighbourhood; `None` where that is open (undecided) or neither (undamped motions
-    /// without impacts are a continuum that keeps its neighbours at their distance).
+    /// Whether the motion attracts its neighbourhood; `None` if this is undecided, or if the motion is neutrally stable
+    /// (motions without impacts and without damping).
     #[must_use]
     pub fn stable(&self, osc: &Oscillator) -> Option<bool> {
         match self {
@@ -138,7 +139,7 @@ impl Verdict {
         }
     }
 
-    /// Whether both are the same motion: cycles to within `tolerance`, everything else by its kind.
+    /// Whether both are the same motion: cycles are compared to within `tolerance`, all others by their kind.
     #[must_use]
     pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
         match (self, other) {

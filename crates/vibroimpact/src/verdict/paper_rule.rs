@@ -1,14 +1,14 @@
-//! The rule of the 1971 paper, eq. (11)-(12), by name: for reproduction, not for truth.
+//! The rule of the 1971 paper, eq. (11)-(12). It is provided to reproduce the paper and is not reliable.
 //!
-//! After each impact j the smallest m is looked for with
+//! After each impact j the rule searches for the smallest m with
 //!
 //! $$`\left|\frac{z_{j-m}}{z_j} - 1\right| < \frac{p}{100} \quad\text{and}\quad \left|\frac{u_{j-m}}{u_j} - 1\right| < \frac{p}{100},
 //!   \tag{11}`$$
 //!
-//! $`z_j`$ the interval before impact j and $`u_j`$ its speed; then $`n = \beta(\tau_j - \tau_{j-m})/2\pi`$ (12). After 100
-//! impacts without success the motion is called unstable. (The print has a stray $`-1`$ in the numerators of (11); as
-//! printed the ratios could not be near 1.) The rule cannot tell a slow transient from a period, nor a limit of ever
-//! gentler impacts from 1/10; [`settle`](super::settle) can.
+//! where $`z_j`$ is the interval before impact j and $`u_j`$ its speed. Then $`n = \beta(\tau_j - \tau_{j-m})/2\pi`$
+//! (12). After 100 impacts without success the motion is called unstable. (The printed paper has an extra $`-1`$ in the
+//! numerators of (11), with which the ratios could not be near 1.) The rule does not distinguish a slow transient from
+//! a period, nor a limit of ever gentler impacts from 1/10; [`settle`](super::settle) does.
 
 use crate::motion::{EventKind, MAX_TOUCHES, Motion};
 use crate::system::{Oscillator, Start};
@@ -17,9 +17,9 @@ use core::f64::consts::TAU;
 /// The constants of the rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperRule {
-    /// Tolerance $`p`$ in per cent. The paper leaves it open ("suitably chosen"); 0.1 here.
+    /// Tolerance $`p`$ in per cent. The paper does not state it ("suitably chosen"); the default is 0.1.
     pub percent: f64,
-    /// Impacts after which the motion is called unstable.
+    /// The number of impacts after which the motion is called unstable.
     pub limit: u32,
 }
 
@@ -29,23 +29,23 @@ impl Default for PaperRule {
     }
 }
 
-/// What the rule says.
+/// The result of the rule.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PaperVerdict {
-    /// Settled: m impacts in n forcing periods, n as (12) gives it.
+    /// Settled: m impacts in n forcing periods, with n from (12).
     Settled {
         /// Impacts per period.
         m: u32,
         /// Forcing periods, not rounded.
         n: f64,
-        /// Impacts it took.
+        /// The number of impacts until the rule was satisfied.
         impacts: u32,
     },
-    /// No settling within the limit.
+    /// The rule was not satisfied within the limit.
     Unstable,
-    /// The impacts ceased.
+    /// There are no more impacts.
     NoMoreImpacts,
-    /// The mass came to rest on the stop, where the paper's simulation ended.
+    /// The mass sticks; the simulation of the paper ended there.
     Sticks,
 }
 
@@ -82,7 +82,7 @@ pub fn paper_rule(osc: &Oscillator, start: Start, rule: PaperRule) -> PaperVerdi
         let j = impacts.len() - 1;
         let (z, u, time) = impacts[j];
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < rule.percent / 100.0;
-        // the first interval starts from the initial conditions, not from an impact
+        // m < j: the first interval begins at the initial conditions and not at an impact
         for m in 1..j {
             let (zm, um, time_m) = impacts[j - m];
             if near(zm, z) && near(um, u) {

@@ -1,22 +1,23 @@
-//! Recurrence suggests a period; Newton's method confirms it after.
+//! Recurrence of impacts, which suggests a period, and the test whether a motion is captured by a cycle.
 
 use crate::motion::ImpactState;
 use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits};
 use crate::system::Oscillator;
 use core::f64::consts::TAU;
 
-/// A period that the last impacts suggest.
+/// A period suggested by the latest impacts.
 pub(super) struct Candidate {
-    /// Impacts.
+    /// Number of impacts.
     pub(super) m: usize,
-    /// Forcing periods.
+    /// Number of forcing periods.
     pub(super) n: u32,
-    /// Whether the last impacts are those before to within what is left of a transient that is all but over.
+    /// Whether the last impacts equal the earlier ones up to the small remainder of a transient.
     pub(super) close: bool,
 }
 
-/// The numbers of impacts after which the last impacts resemble those before, smallest first. `impacts` holds states and the time since the impact before; at most `longest` impacts back.
-/// The more impacts back, the likelier a chance resemblance, so the tolerance shrinks like 1/m.
+/// The numbers of impacts after which the last impacts resemble earlier ones, smallest first. `impacts` holds the
+/// states and the time since the impact before; at most `longest` impacts are compared. A chance resemblance is more
+/// likely for a larger number m, so the tolerance is proportional to 1/m.
 pub(super) fn candidates(
     osc: &Oscillator,
     impacts: &[(ImpactState, f64)],
@@ -31,7 +32,7 @@ pub(super) fn candidates(
         #[allow(clippy::cast_precision_loss)] // a small count
         let close = |k: usize, tolerance: f64| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
         let periods = (beta * time / TAU).round();
-        // the phases agree, so the time is close to whole periods
+        // the phases agree, so the time is close to a whole number of periods
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
         (close(j, tolerance) && close(j - 1, tolerance) && (1.0..1e6).contains(&periods)).then(|| Candidate {
             m,
@@ -41,8 +42,8 @@ pub(super) fn candidates(
     })
 }
 
-/// Whether a motion that arrives at `state` is captured by the stable `cycle`: it is near, and its next turn obeys the
-/// linear law of the cycle so well that the contraction of the multipliers cannot be undone by what is left over.
+/// Whether a motion that arrives at `state` is captured by the stable `cycle`: it is near, and its next period follows
+/// the linear law of the cycle so closely that the remainder cannot undo the contraction of the multipliers.
 pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> bool {
     let nearest =
         cycle.points.iter().min_by(|a, b| cycle_distance(&a.state, state).total_cmp(&cycle_distance(&b.state, state)));
@@ -73,7 +74,7 @@ pub(super) fn captured(osc: &Oscillator, state: &ImpactState, cycle: &Cycle) -> 
 
 /// See [`Candidate::close`].
 const CLOSE: f64 = 1e-8;
-/// Distance from a cycle below which capture is tested.
+/// The distance from a cycle below which capture is tested.
 const NEAR: f64 = 1e-3;
-/// Distance at which only rounding separates the two.
+/// The distance below which the two differ only by rounding errors.
 const AT_ROUNDING: f64 = 1e-10;

@@ -1,22 +1,24 @@
-//! From a start to a verdict.
+//! The verdict on the motion from a start.
 //!
 //! The motion is followed event by event until one of these is shown:
 //!
-//! - **no impact**: the flight never touches again ([`Horizon`](crate::flight::Horizon)), or the impacts follow the law
-//!   of the [graze limit](super::graze_limit), or none comes within the search limits (which are stated);
-//! - **periodic**: the last impacts resemble those m impacts before ([`recurrence`](super)), Newton's method on the m-fold impact
-//!   map with its exact derivative finds a cycle there, its multipliers lie inside the unit circle, and the motion is
-//!   *captured*: it is close and its next turn obeys the cycle's linear law to a fraction of the contraction. A
-//!   transient that merely passes a cycle fails the last point and is followed on. Newton's flights end at first contact, so the
-//!   cycle is physical by construction;
-//! - **periodic with a stick**: every motion is the same after a release, so a release that leads back to itself shows the
-//!   cycle ([`from_release`]); the multipliers are 0;
-//! - **chaotic**: the largest Lyapunov exponent, measured along the motion as it is followed, exceeds its error bar of three standard
-//!   errors, neighbours have parted by more than they can on the way from an unstable cycle to a stable one
-//!   ([`Spectrum::chaotic`](crate::chaos::Spectrum::chaotic)), and nothing of the above was shown in the meantime. Chaos that ends within the
-//!   budget is reported in [`Settled::transient`] beside the motion that follows; for other chaos the verdict says over how many impacts it was seen;
-//! - **stuck**: the force will never lift the mass again;
-//! - **undecided**: none of these within the budget; what was tried is in the verdict.
+//! - **no impact**: the flight never reaches a stop again ([`Horizon`](crate::flight::Horizon)), or the impacts satisfy
+//!   the conditions of the [graze limit](super::graze_limit), or there is none within the search limits (which are
+//!   stated);
+//! - **periodic**: the last impacts resemble those m impacts before ([`recurrence`](super)), Newton's method on the
+//!   m-fold impact map with its exact derivative finds a cycle there, its multipliers lie inside the unit circle, and
+//!   the motion is *captured*: it is close, and its next period follows the linear law of the cycle to a fraction of
+//!   the contraction. A transient that only passes near a cycle is not captured, and it is followed further. The
+//!   flights in Newton's method end at their first contact, so the cycle is admissible;
+//! - **periodic with sticking**: every motion is the same after a release, so a release that leads back to itself shows
+//!   the cycle ([`from_release`](crate::orbit::from_release)); the multipliers are 0;
+//! - **chaotic**: the largest Lyapunov exponent, measured along the motion as it is followed, exceeds its error bar of
+//!   three standard errors; neighbours have separated by more than is possible on the way from an unstable cycle to a
+//!   stable one ([`Spectrum::chaotic`](crate::chaos::Spectrum::chaotic)); and none of the above was shown during the
+//!   measurement. Chaos that ends within the budget is reported in [`Settled::transient`] beside the motion that
+//!   follows. For other chaos the verdict states over how many impacts it was seen;
+//! - **stuck**: the force never pulls the mass off the stop;
+//! - **undecided**: none of these within the budget; the verdict states what was tried.
 
 use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
@@ -24,20 +26,21 @@ use super::outcome::{Chaos, Verdict};
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Start};
 
-/// A verdict and how it was reached.
+/// A verdict and how far the motion was followed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settled {
-    /// What the motion settles into.
+    /// The verdict.
     pub verdict: Verdict,
-    /// Impacts followed until it was clear.
+    /// The number of impacts that were followed.
     pub impacts: u64,
-    /// Time followed until it was clear.
+    /// The time that was followed.
     pub time: f64,
-    /// Chaos that was seen on the way and ended; of the starts that lead to one motion each has its own.
+    /// Chaos that was measured and has ended. It belongs to this start; other starts that lead to the same motion have
+    /// their own.
     pub transient: Option<Chaos>,
 }
 
-/// What the motion of `osc` from `start` settles into.
+/// The verdict on the motion of `osc` from `start`.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Start, verdict::{SettleOptions, settle}};
@@ -52,7 +55,7 @@ pub fn settle(osc: &Oscillator, start: Start, options: &SettleOptions) -> Settle
     settle_knowing(osc, start, options, &mut Releases::default())
 }
 
-/// The same as [`settle`], as long as `go_on` says yes when asked, which it is at every impact; `None` once it said no.
+/// The same as [`settle`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every impact.
 #[must_use]
 pub fn settle_while(
     osc: &Oscillator,
@@ -63,14 +66,14 @@ pub fn settle_while(
     drive(osc, start, options, &mut Releases::default(), go_on)
 }
 
-/// The same where other motions of the oscillator were settled before.
+/// The same, with the verdicts on releases that other motions of the oscillator have given.
 pub(super) fn settle_knowing(
     osc: &Oscillator,
     start: Start,
     options: &SettleOptions,
     releases: &mut Releases,
 ) -> Settled {
-    // nothing stops it but a verdict
+    // only a verdict stops it
     drive(osc, start, options, releases, || true).unwrap_or_else(|| Settled {
         verdict: ended(osc, None, options.limits),
         impacts: 0,
@@ -79,6 +82,7 @@ pub(super) fn settle_knowing(
     })
 }
 
+/// Follows the motion from `start` to a verdict; `None` if `go_on` returned false.
 fn drive(
     osc: &Oscillator,
     start: Start,
@@ -102,16 +106,16 @@ pub(super) struct Drive<'a> {
     pub(super) options: &'a SettleOptions,
     pub(super) follow: &'a mut Follow,
     pub(super) releases: &'a mut Releases,
-    /// Time followed.
+    /// The time followed so far.
     pub(super) time: f64,
 }
 
 impl Drive<'_> {
-    /// To a verdict, or to the first impact that `leave` chooses.
+    /// Follows the motion to a verdict, or to the first impact at which `leave` returns true.
     pub(super) fn on(&mut self, motion: &mut Motion<'_>, leave: impl Fn(&ImpactState) -> bool) -> Option<Verdict> {
         let Self { osc, options, follow, .. } = self;
         let before = follow.steps;
-        // every event but an impact is followed by one or ends the motion, except runs of grazes, which are cut short
+        // every other event is followed by an impact or ends the motion; runs of grazing contacts are limited
         while follow.within(options) {
             let Some(event) = motion.next() else {
                 return Some(ended(osc, motion.end(), options.limits));
@@ -156,7 +160,7 @@ mod tests {
 
     #[test]
     fn a_slow_departure_is_not_chaos() {
-        // just past its doubling 1/1 is left at a rate of 1e-4, steadily; 2/2 is stable
+        // just beyond its flip 1/1 is left at a steady rate of 1e-4; 2/2 is stable
         let osc = Oscillator::from_inverse_beta(1.11, 1.83, 0.5).unwrap();
         let cycle = &crate::orbit::one_impact(&osc, 1).into_iter().find(|orbit| orbit.physical).unwrap().cycle;
         let beside = cycle.points[0].state;
@@ -205,7 +209,7 @@ mod tests {
 
     #[test]
     fn ever_gentler_impacts_are_no_impact_in_the_limit() {
-        // Q of the paper: 1/beta = 0.7, so the touches come every ten forcing periods
+        // Q of the paper: 1/beta = 0.7, so there is a contact every ten forcing periods
         let osc = scenario::Q.oscillator();
         let mut limits = 0;
         for k in 0..60 {
@@ -220,8 +224,8 @@ mod tests {
         assert!(limits > 5, "{limits}");
     }
 
-    /// At rest on the stop under a pull away, beta = 2: back for a touch after every natural period, for ever. The impact
-    /// map once waited for an impact that never came.
+    /// At rest on the stop under a pull away, beta = 2: it grazes the stop after every natural period, for ever. An
+    /// earlier version of the impact map waited for an impact that never came.
     #[test]
     fn touches_without_impacts_end() {
         let osc = Oscillator::new(2.0, 3.0, 0.5).unwrap();

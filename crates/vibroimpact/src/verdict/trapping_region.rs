@@ -1,17 +1,18 @@
-//! A trapping region: a neighbourhood of a stable cycle that no motion leaves, so that whatever enters it is decided.
+//! Trapping regions: neighbourhoods of stable cycles that no motion leaves, so that a motion inside is decided.
 //!
-//! About an impact of the cycle the m-fold impact map contracts in the norm $`\|d\|_P^2 = d^TPd`$,
-//! $`P = \sum_k (J^k)^TQJ^k`$, by the factor $`\vartheta < 1`$ as far as its derivative $`J`$ goes. How far that is, is tried out:
-//! discs $`\|d\| \le r`$ of growing radius are accepted while their whole rim makes the m impacts of the cycle on the
-//! stops of the cycle, in its n periods, and returns inside $`\tfrac12(1+\vartheta)\,r`$. Without a graze in the disc - which would
-//! tear the rim - the map is one to one there, so the disc returns inside the image of its rim: every motion in the disc
-//! stays, and shrinks from disc to disc onto the cycle.
+//! About an impact of the cycle the linearised m-fold impact map contracts in the norm $`\|d\|_P^2 = d^TPd`$,
+//! $`P = \sum_k (J^k)^TQJ^k`$, by the factor $`\vartheta < 1`$; $`J`$ is its derivative. How far this holds is tested
+//! on discs $`\|d\| \le r`$ of increasing radius. A disc is accepted if the motions from its whole rim make the m
+//! impacts of the cycle on the stops of the cycle, in its n periods, and return inside $`\tfrac12(1+\vartheta)\,r`$.
+//! Without a grazing event in the disc, at which the map is discontinuous, the map is one to one on the disc. So the
+//! disc returns inside the image of its rim, and every motion in the disc stays there and tends to the cycle from disc
+//! to disc.
 //!
-//! The rims are sampled, in 32 directions, and the radius used is two discs inside the last one that passed. What is
-//! decided by a trapping region is the same as what [`settle`](super::settle()) decides, within the same budget: a region is used only where the budget
-//! left suffices for the motion to be followed until it is captured by the cycle as `settle` means it ([`TrappingRegion::depth`]). So which cycles are
-//! known changes the time it takes and no verdict. Tests compare, and [`settle_many`](super::settle_many) checks the first start of every
-//! motion.
+//! The rims are sampled in 32 directions, and the disc used is two sizes smaller than the last one that passed. A
+//! decision by a trapping region is the same as that of [`settle`](super::settle()) with the same budget. A region is
+//! used only if the remaining budget suffices to follow the motion until `settle` finds it captured by the cycle
+//! ([`TrappingRegion::depth`]). So the set of known cycles changes the computing time and no verdict. Tests compare
+//! both, and [`settle_many`](super::settle_many) checks the first start of every motion.
 
 use super::recurrence;
 use crate::flight::SearchLimits;
@@ -21,41 +22,44 @@ use crate::orbit::{Cycle, Lap, flight_limits};
 use crate::system::Oscillator;
 use core::f64::consts::{PI, TAU};
 
-/// The disc about one impact of a cycle.
+/// A disc about one impact of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TrappingRegion {
     center: ImpactState,
-    /// $`P/r^2`$: 11, 12, 22.
+    /// $`P/r^2`$: its elements 11, 12, 22.
     form: [f64; 3],
     depth: Depth,
 }
 
-/// How long a motion is in a trapping region until it is so close to the cycle that it counts as captured: what [`settle`](super::settle()) needs to
-/// decide it.
+/// How long a motion stays in a trapping region until it is so close to the cycle that [`settle`](super::settle())
+/// finds it captured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Depth {
-    /// Impacts, at most.
+    /// The largest number of impacts.
     pub(super) impacts: usize,
-    /// Search steps; twice those of the cycle.
+    /// The number of search steps; twice those of the cycle.
     pub(super) steps: u64,
 }
 
-/// The smallest and the largest radius tried (in radians and relative speed), and the ratio of one to the next.
+/// The smallest and the largest radius that are tried (in radians and relative speed), and the ratio of successive
+/// radii.
 const SMALLEST: f64 = 1e-3;
 const LARGEST: f64 = 1.0;
 const RATIO: f64 = 1.4;
-/// Discs to stay inside the last one that passed.
+/// The number of sizes by which the disc used is smaller than the last one that passed.
 const INSIDE: usize = 2;
 /// Directions in which a rim is sampled.
 const DIRECTIONS: u32 = 32;
-/// Radii of discs, the largest first, on whose rims a motion may count as captured by the cycle.
+/// Radii of discs, the largest first, for which it is tested whether motions from the rim count as captured by the
+/// cycle.
 const CAPTURED: [f64; 6] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
-/// Cycles that contract more slowly than this are left to be followed.
+/// Cycles that contract more slowly than this get no trapping region.
 const SLOWEST: f64 = 0.97;
 
 impl TrappingRegion {
-    /// The largest trapping region about the first impact of a stable `cycle` without rests; `None` if there is none worth having.
-    /// Flights from its rims end within half of the `steps` that a search may take, so those from inside end within all of them.
+    /// The largest trapping region about the first impact of a stable `cycle` that does not stick; `None` if even small
+    /// discs do not pass or the cycle contracts too slowly. The flights from its rims must end within half of the
+    /// `steps` that a search may take, so that those from inside end within all of them.
     pub(super) fn around(osc: &Oscillator, cycle: &Cycle, steps: u32) -> Option<Self> {
         let center = cycle.points.first()?.state;
         if !cycle.rests.is_empty() || cycle.multipliers[0].modulus() > SLOWEST {
@@ -85,7 +89,8 @@ impl TrappingRegion {
         let captured = CAPTURED
             .into_iter()
             .find(|radius| rim(cycle, p, *radius).step_by(4).all(|from| recurrence::captured(osc, &from, cycle)))?;
-        // what is not linear falls with the square of the radius, so half of it is enough in the directions between
+        // the nonlinear part is proportional to the square of the radius, so half the radius suffices for directions
+        // between the samples
         let captured = 0.5 * captured;
         let turns = (crate::math::ln(captured / r) / crate::math::ln(bound)).max(0.0).ceil() + 2.0;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a few thousand
@@ -97,12 +102,12 @@ impl TrappingRegion {
         Some(Self { center, form: p.map(|x| x / (r * r)), depth })
     }
 
-    /// How long a motion that is caught takes to be decided without the region.
+    /// How long a motion inside the region is followed until it is decided without the region.
     pub(super) const fn depth(&self) -> Depth {
         self.depth
     }
 
-    /// Whether a motion that arrives so is caught.
+    /// Whether a motion with this arrival is inside the region.
     #[inline]
     pub(super) fn catches(&self, state: &ImpactState) -> bool {
         let mut turn = state.phase - self.center.phase;
@@ -117,14 +122,14 @@ impl TrappingRegion {
     }
 }
 
-/// Search steps of a turn of the cycle.
+/// The number of search steps of one period of the cycle.
 fn steps_of_turn(osc: &Oscillator, cycle: &Cycle, from: ImpactState) -> u64 {
     let mut motion = Motion::after(osc, &from, flight_limits(cycle.label.periods));
     let _ = motion.by_ref().filter(|event| matches!(event.kind, EventKind::Impact { .. })).nth(cycle.points.len() - 1);
     motion.steps()
 }
 
-/// $`P`$ for $`Q = \mathrm{diag}(1, 1/U^2)`$.
+/// $`P`$ for $`Q = \mathrm{diag}(1, 1/U^2)`$; `None` if the series does not converge.
 fn norm(j: &Matrix2, speed: f64) -> Option<[f64; 3]> {
     let mut p = [0.0; 3];
     let mut power = Matrix2::IDENTITY;
@@ -141,7 +146,8 @@ fn norm(j: &Matrix2, speed: f64) -> Option<[f64; 3]> {
     None
 }
 
-/// The lap from a state, if it makes the impacts of the cycle on its stops.
+/// The motion from a state over the impacts of the cycle; `None` if its impacts are on other stops, or it takes another
+/// number of periods.
 fn lap(osc: &Oscillator, cycle: &Cycle, from: ImpactState, limits: SearchLimits) -> Option<Lap> {
     let m = u32::try_from(cycle.points.len()).ok()?;
     let lap = Lap::fly(osc, from, m, limits).ok()?;
@@ -150,7 +156,8 @@ fn lap(osc: &Oscillator, cycle: &Cycle, from: ImpactState, limits: SearchLimits)
     (same && whole && lap.last.side == from.side).then_some(lap)
 }
 
-/// States on the rim of the disc of radius `r` about the first impact of a cycle, in directions that are evenly spaced in the norm.
+/// States on the rim of the disc of radius `r` about the first impact of a cycle, in directions evenly spaced in the
+/// norm.
 fn rim(cycle: &Cycle, [a, b, c]: [f64; 3], r: f64) -> impl Iterator<Item = ImpactState> {
     let center = cycle.points[0].state;
     // P = L L^T, so |L^-T e| = 1 for unit vectors e
@@ -169,6 +176,7 @@ fn rim(cycle: &Cycle, [a, b, c]: [f64; 3], r: f64) -> impl Iterator<Item = Impac
     })
 }
 
+/// Whether the motions from the whole rim of a disc return inside `bound` times its radius.
 fn rim_returns(osc: &Oscillator, cycle: &Cycle, (p, r, bound): ([f64; 3], f64, f64), limits: SearchLimits) -> bool {
     let (center, [a, b, c]) = (cycle.points[0].state, p);
     rim(cycle, p, r).all(|from| {
@@ -191,7 +199,7 @@ mod tests {
     use crate::system::Side;
     use crate::verdict::{SettleOptions, Verdict, attractors, settle};
 
-    /// Motions started inside, near the edge above all, settle on that cycle.
+    /// Motions started inside, also near the edge, settle on that cycle.
     #[test]
     fn what_is_caught_settles_there() {
         let mut traps = 0;
@@ -204,7 +212,7 @@ mod tests {
                 let [a, b, c] = trap.form;
                 let mut inside = 0;
                 for k in 0..400 {
-                    // points of the box round the ellipse, evenly
+                    // points of the box round the ellipse, evenly spaced
                     let unit = |step: f64| (0.5 + f64::from(k) * step) % 1.0 * 2.0 - 1.0;
                     let det = a * c - b * b;
                     let state = ImpactState {

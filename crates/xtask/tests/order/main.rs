@@ -1,7 +1,8 @@
-//! The order of the parts: folders of the core use those before them only, and no files of a crate use each other in a circle.
+//! The order of the parts: each folder of the core uses only folders before it, and no files of a crate use each other
+//! in a circle.
 //!
-//! Imports and paths are followed through what modules export again to the file that defines the name, so that an import from `mod.rs`
-//! hides nothing. Tests and documentation may look anywhere.
+//! Imports and paths are followed through re-exports to the file that defines the name, so an import from `mod.rs`
+//! hides nothing. Tests and documentation are not checked.
 
 mod tree;
 mod uses;
@@ -9,7 +10,7 @@ mod uses;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Folders of the core; each uses only those before it.
+/// The folders of the core, in order.
 const ORDER: [&str; 12] = [
     "math",
     "system",
@@ -43,7 +44,7 @@ fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path)
 }
 
-/// Uses from one folder to another that does not stand before it.
+/// The uses of a folder by a folder that stands before it.
 fn upwards(uses: &uses::Uses, source: &Path) -> BTreeSet<String> {
     let name = |path: &Path| path.strip_prefix(source).map(|path| path.display().to_string()).unwrap_or_default();
     let place = |path: &Path| {
@@ -53,7 +54,7 @@ fn upwards(uses: &uses::Uses, source: &Path) -> BTreeSet<String> {
     };
     let mut found = BTreeSet::new();
     for (from, to) in uses.iter().flat_map(|(from, all)| all.iter().map(move |to| (from, to))) {
-        // the root exports what all of them have
+        // the root exports names of all folders
         if let Some(own) = place(from)
             && place(to).is_none_or(|other| other > own)
         {
@@ -100,7 +101,8 @@ fn no_two_public_types_have_one_name() {
     assert!(twice.is_empty(), "{twice:#?}");
 }
 
-/// The checks above can fail: a crate with an import upwards, once through a `pub use`.
+/// Checks that the tests above can fail, with a crate that has an import in the wrong direction, directly and through a
+/// `pub use`.
 #[test]
 fn an_import_upwards_and_a_circle_are_found() {
     let folder = tempfile::tempdir().expect("a folder for the test");

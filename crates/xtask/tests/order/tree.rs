@@ -1,29 +1,30 @@
-//! The modules of a crate: what each defines, what it imports and exports, and which paths its code uses. Tests are left out.
+//! The modules of a crate: the items that each defines, its imports and exports, and the paths in its code. Tests are
+//! left out.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use syn::visit::{self, Visit};
 use syn::{Attribute, Item, UseTree};
 
-/// A name that a module takes from elsewhere.
+/// A name that a module imports.
 #[derive(Clone, Debug)]
 pub(crate) struct Import {
-    /// The name in this module; `None` for everything that is there.
+    /// The name in this module; `None` for a glob import.
     pub(crate) name: Option<String>,
-    /// Where it is.
+    /// The path of the import.
     pub(crate) path: Vec<String>,
-    /// Whether other modules see it here.
+    /// Whether other modules can use the name from here.
     pub(crate) exported: bool,
 }
 
 /// One module.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Module {
-    /// The file it is in.
+    /// The file of the module.
     pub(crate) file: PathBuf,
-    /// Names of what it defines, apart from modules.
+    /// The names of its items, except modules.
     pub(crate) items: Vec<String>,
-    /// Of these, the types that other crates may see.
+    /// Among these, the types that other crates can use.
     pub(crate) types: Vec<String>,
     /// Its `use` declarations, one for each name.
     pub(crate) imports: Vec<Import>,
@@ -31,7 +32,7 @@ pub(crate) struct Module {
     pub(crate) paths: Vec<Vec<String>>,
 }
 
-/// All modules of a crate, by their path: empty for the root.
+/// All modules of a crate by their path, which is empty for the root.
 pub(crate) type Tree = BTreeMap<Vec<String>, Module>;
 
 /// Reads a crate from its root file.
@@ -127,7 +128,7 @@ impl<'ast> Visit<'ast> for Paths<'_> {
 
     fn visit_visibility(&mut self, _: &'ast syn::Visibility) {}
 
-    // the arguments of a macro, where they are expressions
+    // visits the arguments of a macro if they are expressions
     fn visit_macro(&mut self, of: &'ast syn::Macro) {
         self.visit_path(&of.path);
         let list = syn::punctuated::Punctuated::<syn::Expr, syn::Token![,]>::parse_terminated;

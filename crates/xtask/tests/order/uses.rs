@@ -1,16 +1,16 @@
-//! Which file uses which: imports and paths followed, through what other modules export again, to the file that defines the name.
+//! Finds which file uses which: imports and paths are followed through re-exports to the file that defines the name.
 
 use crate::tree::{Module, Tree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// For each file, those that it uses.
+/// The files that each file uses.
 pub(crate) type Uses = BTreeMap<PathBuf, BTreeSet<PathBuf>>;
 
-/// Re-exports followed one after another at most.
+/// Maximum number of consecutive re-exports.
 const DEPTH: usize = 16;
 
-/// Follows every import and path of a crate. What a `mod.rs` or `lib.rs` only exports again is no use of it by that file.
+/// Follows every import and path of a crate. A re-export in a `mod.rs` or `lib.rs` is not a use by that file.
 pub(crate) fn of(tree: &Tree) -> Uses {
     let mut uses = Uses::new();
     for (at, module) in tree {
@@ -24,7 +24,7 @@ pub(crate) fn of(tree: &Tree) -> Uses {
     uses
 }
 
-/// The file that defines what `path`, written in the module `at`, means; `None` for what is of another crate or of the language.
+/// The file that defines `path`, as written in the module `at`; `None` for names of another crate or of the language.
 fn resolve(tree: &Tree, at: &[String], path: &[String], depth: usize) -> Option<PathBuf> {
     let (first, rest) = path.split_first()?;
     let depth = depth.checked_sub(1)?;

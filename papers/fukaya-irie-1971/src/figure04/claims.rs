@@ -1,4 +1,4 @@
-//! What the paper says of figure 4, and what was found.
+//! The statements of the paper on figure 4, and the results.
 
 use super::{Plane, free_amplitude};
 use crate::claims::{Agreement, Section};
@@ -53,7 +53,7 @@ fn coverage(section: &mut Section, grid: &Grid) {
     );
 }
 
-/// Theory and starts against each other, where both speak.
+/// Compares theory with simulation from starts, where both give results.
 fn theory(section: &mut Section, grid: &Grid, plane: &Plane) {
     let mut parts = Vec::new();
     let (mut all, mut most) = (true, true);
@@ -127,7 +127,7 @@ fn high_orders(section: &mut Section, plane: &Plane) {
     );
 }
 
-/// m > n > 1, at large 1/beta.
+/// Motions with m > n > 1 at large 1/beta.
 fn right(section: &mut Section, grid: &Grid, plane: &Plane) {
     let mut places: Vec<(f64, f64)> = Vec::new();
     let mut kinds: Vec<String> = Vec::new();
@@ -166,14 +166,14 @@ fn right(section: &mut Section, grid: &Grid, plane: &Plane) {
     );
 }
 
-/// The gap below which three quarters of the places with 1/beta >= 1.5 and delta >= 1 lie, to the next step of the grid.
+/// The gap below which three quarters of the points with 1/beta >= 1.5 and delta >= 1 lie, rounded to the grid.
 fn upper_end(places: &[(f64, f64)]) -> f64 {
     let mut gaps: Vec<f64> = places.iter().filter(|(x, gap)| *x >= 1.5 && *gap >= 1.0).map(|(_, gap)| *gap).collect();
     gaps.sort_by(f64::total_cmp);
     gaps.get(gaps.len() * 3 / 4).map_or(0.0, |gap| gap + 0.125)
 }
 
-/// 5/8, 4/6, 3/4 between 1/1 and 1/2.
+/// The motions 5/8, 4/6 and 3/4 between 1/1 and 1/2.
 fn lower_left(section: &mut Section, grid: &Grid, plane: &Plane) {
     let named = ["5/8", "4/6", "3/4"];
     let corner: Vec<String> = named
@@ -251,7 +251,7 @@ fn above(section: &mut Section, grid: &Grid) {
     );
 }
 
-/// Points of the grid where the paper's rule names a label.
+/// Points of the grid where the rule of the paper gives a label.
 fn ruled(grid: &Grid, label: &str) -> Vec<String> {
     grid.points
         .iter()

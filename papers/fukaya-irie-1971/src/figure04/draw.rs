@@ -1,4 +1,4 @@
-//! How figure 4 looks.
+//! The drawing of figure 4.
 
 use super::{GAP, Plane, X, free_amplitude};
 use crate::grid::Grid;
@@ -7,7 +7,7 @@ use crate::regions::outlines;
 use vibroimpact::scenario;
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Key, Line, Panel, Points, Rects, Stroke, Text};
 
-/// The regions drawn, and where their names stand.
+/// The regions drawn, and the positions of their names.
 const DRAWN: [((u32, u32), (f64, f64)); 4] =
     [((1, 1), (1.0, 0.9)), ((2, 1), (1.55, 0.9)), ((3, 1), (1.9, 0.52)), ((1, 2), (1.17, 2.5))];
 
@@ -26,7 +26,7 @@ pub(super) fn figure(grid: &Grid, plane: &Plane) -> Figure {
             panel.add(Line { xs, ys, stroke: exists });
         }
     }
-    // what is stable over what exists, whose lines are often the same
+    // the region of stability is drawn over that of existence, because their lines often coincide
     for region in DRAWN.iter().filter_map(|((m, n), _)| plane.region(*m, *n)) {
         for line in region.stable.polygons.iter().flat_map(outlines) {
             let (xs, ys): (Vec<f64>, Vec<f64>) = line.into_iter().map(|(at, _)| at).unzip();
@@ -61,10 +61,10 @@ pub(super) fn figure(grid: &Grid, plane: &Plane) -> Figure {
     looks::column(panel, 760.0).legend(legend)
 }
 
-/// Vermilion: far from every class it crosses, for all eyes.
+/// Vermilion, which differs from the colours of all classes that it crosses, also for colour-blind readers.
 const AMPLITUDE: Colour = Colour::hex(0xd5_1e00);
 
-/// The cells of a grid, striped where motions coexist.
+/// The cells of a grid, in stripes where motions coexist.
 pub(crate) fn cells(grid: &Grid) -> Rects {
     let mut rects = Rects::new(looks::styles());
     let half = |(a, b): (f64, f64), n: u32| (b - a) / f64::from(n - 1) / 2.0;

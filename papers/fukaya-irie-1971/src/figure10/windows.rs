@@ -1,14 +1,14 @@
-//! Where T lies on its line: in the window of 1/2, past the doubling of 1/1.
+//! The position of T on its line: between the limits of stability of 1/2, beyond the flip of 1/1.
 
 use crate::claims::{Agreement, Section};
 use crate::{Error, line};
 use vibroimpact::continuation::{BranchEvent, Direction, SolutionPoint};
 use vibroimpact::scenario;
 
-/// Between which gaps on the line through T the two motions are stable.
+/// The ranges of the gap, on the line through T, in which the two motions are stable.
 pub(super) fn add(section: &mut Section) -> Result<(), Error> {
     let gap = scenario::T.gap;
-    // where 1/1 is still stable
+    // at a gap where 1/1 is still stable
     let one = line::branch((1, 1), 1.0, Direction::Up)?;
     let doubles = one.iter().find(|p| p.event == Some(BranchEvent::Flip)).map(|p| p.value);
     let half = |direction| -> Result<Option<f64>, Error> {

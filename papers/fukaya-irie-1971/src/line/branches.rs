@@ -1,4 +1,4 @@
-//! The branches of the line, and the events on them, each once.
+//! The branches of the line, and the events on them without duplicates.
 
 use crate::{EPS, Error};
 use std::ops::RangeInclusive;
@@ -12,18 +12,18 @@ pub(crate) fn at(gap: f64) -> Result<Oscillator, Error> {
     Ok(Oscillator::from_inverse_beta(scenario::T.inverse_beta, gap, EPS)?)
 }
 
-/// Gaps looked at: from where the force never lifts the mass off the wall to beyond |f|.
+/// Range of the gap: from where the force never lifts the mass off the stop to beyond |f|.
 const GAPS: RangeInclusive<f64> = -1.0..=6.0;
-/// Orbits that branches begin with, and where.
+/// The orbits at which branches begin, and their gaps.
 const BEGIN: [(u32, u32, f64); 4] = [(1, 1, 1.0), (1, 2, 2.4), (1, 3, 4.0), (1, 4, 5.0)];
-/// Most impacts of an orbit: towards a complete chatter there is no end of them.
+/// Maximum number of impacts of an orbit; towards a complete chatter there is no limit.
 const IMPACTS: u32 = 8;
 
 fn options() -> BranchOptions {
     BranchOptions { impacts: IMPACTS, ..BranchOptions::default() }
 }
 
-/// The branch of the possible orbit m/n at a gap, one way.
+/// The branch of the admissible orbit m/n at a gap, in one direction.
 pub(crate) fn branch((m, n): (u32, u32), gap: f64, direction: Direction) -> Result<Vec<SolutionPoint>, Error> {
     let osc = at(gap)?;
     let orbits = find(&osc, Label::new(m, n), FindOptions::default());
@@ -33,7 +33,7 @@ pub(crate) fn branch((m, n): (u32, u32), gap: f64, direction: Direction) -> Resu
         .map_err(|_| Error::Unexpected("a branch of the line does not begin"))
 }
 
-/// The branches of 1/1 to 1/4 both ways, and those of twice the period from the flips on them.
+/// The branches of 1/1 to 1/4 in both directions, and the branches of twice the period from their flips.
 pub(crate) fn all() -> Result<Vec<Vec<SolutionPoint>>, Error> {
     let mut branches = Vec::new();
     for (m, n, gap) in BEGIN {
@@ -48,7 +48,7 @@ pub(crate) fn all() -> Result<Vec<Vec<SolutionPoint>>, Error> {
         }
     }
     for flip in flips {
-        // twice the most impacts, so that a doubled orbit has its grazing events too
+        // twice the maximum number of impacts, so that grazing events of doubled orbits are found too
         let options = BranchOptions { impacts: 2 * IMPACTS, ..options() };
         let branch = Branch::from_flip(&at(flip.value)?, &flip, Parameter::Gap, GAPS, options)
             .map_err(|_| Error::Unexpected("a doubled branch of the line does not begin"))?;
@@ -57,12 +57,12 @@ pub(crate) fn all() -> Result<Vec<Vec<SolutionPoint>>, Error> {
     Ok(branches)
 }
 
-/// Events of one kind closer than this are the same, come upon along two branches.
+/// Two events of one kind closer than this are the same event, found on two branches.
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-10
 }
 
-/// What happens.
+/// The kind of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Flip,
@@ -80,12 +80,12 @@ pub(crate) struct Event {
     pub(crate) orbits: Vec<Guess>,
 }
 
-/// What an orbit is like next to an event.
+/// An orbit near an event.
 #[derive(Clone, Debug)]
 pub(crate) struct Guess {
-    /// At the event.
+    /// The orbit at the event.
     at: Cycle,
-    /// On the branch beside it, the gap being off by `span`.
+    /// The orbit on the branch near the event, where the gap differs by `span`.
     beside: Cycle,
     span: f64,
 }
@@ -95,7 +95,8 @@ impl Guess {
         Self { at: cycle.clone(), beside: cycle.clone(), span: 1.0 }
     }
 
-    /// A guess whose gap is off by `h`: at folds and flips an orbit changes like the root of that.
+    /// A guess at the distance `h` in the gap: at folds and flips an orbit changes with the square root of the
+    /// distance.
     pub(crate) fn near(&self, h: f64) -> Cycle {
         let share = (h / self.span).sqrt().min(1.0);
         let mut cycle = self.at.clone();
@@ -123,7 +124,7 @@ pub(crate) fn events(branches: &[Vec<SolutionPoint>]) -> Vec<Event> {
             Some(BranchEvent::Flip) => (Kind::Flip, vec![Guess::exactly(&point.cycle)]),
             Some(BranchEvent::LossOfContact { .. }) => (Kind::LossOfContact, vec![Guess::exactly(&point.cycle)]),
             Some(BranchEvent::Grazing { after, .. }) => {
-                // none where the orbit would have too many impacts
+                // none if the orbit would have too many impacts
                 let after = next.filter(|p| p.cycle.label == after);
                 (Kind::Grazing, [Some(point), after].into_iter().flatten().map(|p| Guess::exactly(&p.cycle)).collect())
             }
@@ -141,7 +142,7 @@ pub(crate) fn events(branches: &[Vec<SolutionPoint>]) -> Vec<Event> {
         add(&mut events, Event { kind, gap: point.value, orbits });
     }
     for branch in branches {
-        // what a flip gives birth to: the branch that begins there
+        // the flip at which the branch begins
         let begins = |e: &&mut Event| e.kind == Kind::Flip && same(e.gap, branch[0].value);
         let Some(event) = events.iter_mut().find(begins) else { continue };
         let mut twice = event.orbits[0].at.clone();
@@ -163,10 +164,10 @@ pub(crate) fn events(branches: &[Vec<SolutionPoint>]) -> Vec<Event> {
     events
 }
 
-/// A doubled orbit grows like the root of the distance up to about this far from its flip.
+/// Distance from a flip up to which a doubled orbit grows with the square root of the distance.
 const YOUNG: f64 = 1e-2;
 
-/// Adds an event, or to one that is known the orbits that it lacks.
+/// Adds an event, or adds missing orbits to an event that is known.
 fn add(events: &mut Vec<Event>, event: Event) {
     let Some(known) = events.iter_mut().find(|e| e.kind == event.kind && same(e.gap, event.gap)) else {
         events.push(event);

@@ -1,4 +1,4 @@
-//! The branches over an orbit diagram.
+//! The figure of the branches over an orbit diagram.
 
 use super::branches::{Kind, events};
 use crate::{EPS, Error};
@@ -10,9 +10,9 @@ use vibroimpact_plot::{
 use vibroimpact_study::diagram::{self, DiagramPlan};
 use vibroimpact_study::{Control, Parameter, Plan, Results, Span, SystemPlan, Task, run};
 
-/// The gaps shown.
+/// The range of the gap shown.
 const SHOWN: (f64, f64) = (-0.45, 5.45);
-/// Most impacts of an orbit that is drawn.
+/// Maximum number of impacts of an orbit that is drawn.
 const MOST: usize = 6;
 
 pub(super) fn figure(branches: &[Vec<SolutionPoint>]) -> Result<Figure, Error> {
@@ -24,14 +24,14 @@ pub(super) fn figure(branches: &[Vec<SolutionPoint>]) -> Result<Figure, Error> {
     let dots = Points::new(xs, ys, Colour::hex(0xb8_b8b8)).size(1.6);
     panel.add(dots.clone());
     let [stable, unstable] = [Stroke::new(SERIES[0]).width(3.0), Stroke::new(SERIES[1]).width(2.0).dash(Dash::Dashed)];
-    // an orbit may be come upon along several branches; dashes drawn twice make a solid line
+    // an orbit may be found on several branches; dashes drawn twice would look like a solid line
     let mut runs: Vec<&[SolutionPoint]> = Vec::new();
     for run in branches.iter().flat_map(|branch| branch.chunk_by(|a, b| a.cycle.label == b.cycle.label)) {
         if run[0].cycle.points.len() <= MOST && !runs.iter().any(|known| covers(known, run)) {
             runs.push(run);
         }
     }
-    // what is stable on top
+    // stable parts are drawn on top
     for wanted in [false, true] {
         for run in &runs {
             for (xs, ys) in pieces(run, wanted) {
@@ -51,7 +51,7 @@ pub(super) fn figure(branches: &[Vec<SolutionPoint>]) -> Result<Figure, Error> {
     ] {
         let mut at: Vec<(f64, f64)> = Vec::new();
         for event in events(branches).into_iter().filter(|e| e.kind == kind) {
-            // an orbit beyond the most impacts has no line to mark
+            // an orbit with too many impacts is not drawn, so it has no mark
             let cycle = event.orbits[0].near(0.0);
             if cycle.points.len() <= MOST {
                 at.push((event.gap, cycle.fastest()));
@@ -102,7 +102,7 @@ fn simulated() -> Result<(Vec<f64>, Vec<f64>), Error> {
     Ok(places.into_iter().unzip())
 }
 
-/// Whether a run of one label passes through the middle of another.
+/// Whether a run of one label contains the middle of another run.
 fn covers(known: &[SolutionPoint], run: &[SolutionPoint]) -> bool {
     let middle = &run[run.len() / 2];
     let on = |a: &SolutionPoint, b: &SolutionPoint| {
@@ -113,7 +113,7 @@ fn covers(known: &[SolutionPoint], run: &[SolutionPoint]) -> bool {
     known[0].cycle.label == middle.cycle.label && known.windows(2).any(|pair| on(&pair[0], &pair[1]))
 }
 
-/// The lines of a run where it is stable, or where it is not: one for each impact of the orbit, by its speed.
+/// The lines of the stable or the unstable parts of a run: one for each impact of the orbit, by its speed.
 fn pieces(run: &[SolutionPoint], stable: bool) -> Vec<(Vec<f64>, Vec<f64>)> {
     let speeds: Vec<Vec<f64>> = run
         .iter()
@@ -123,7 +123,7 @@ fn pieces(run: &[SolutionPoint], stable: bool) -> Vec<(Vec<f64>, Vec<f64>)> {
             speeds
         })
         .collect();
-    // an event belongs to both of its sides
+    // an event belongs to both adjacent parts
     let wanted = |k: usize| {
         let around = [k.saturating_sub(1), (k + 1).min(run.len() - 1)];
         let plain = |j: usize| run[j].event.is_none() && run[j].stable() == stable;

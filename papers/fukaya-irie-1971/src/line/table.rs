@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use vibroimpact::Start;
 use vibroimpact::verdict::{SettleOptions, settle};
 
-/// One row for each event, and what is found at the ends of the line.
+/// One row for each event, and rows for the ends of the line.
 pub(super) fn markdown(events: &[Event]) -> Result<String, Error> {
     let mut text = String::from(
         "| $\\delta$ | event | orbits | simulated just below | simulated just above | at $\\pm$ | confirmed |\n\
@@ -66,7 +66,8 @@ fn labels(event: &Event) -> String {
     labels.join(", ")
 }
 
-/// Which orbits were there: stable (s) or not (u), and where a motion beside one went that does not attract.
+/// The orbits that exist, stable (s) or unstable (u); for an unstable one also the motion into which a neighbouring
+/// motion settles.
 fn told(seen: &[Seen]) -> String {
     let mut ends: Vec<String> = Vec::new();
     let there: Vec<String> = seen

@@ -1,8 +1,9 @@
-//! Where a branch gains impact after impact: the complete chatter at the end of it.
+//! Branches on which one impact after another appears, and the complete chatter at which they end.
 //!
-//! Towards a chatter that completes just at the release, cycles gain an impact at values that come closer together by a fixed
-//! factor, each of them with a fold and a touch of its own, so that no branch gets there. The limit is known from its
-//! release: beyond, the motion from there comes to rest, and on this side it does not.
+//! Towards a chatter that is completed exactly at the release, cycles gain impacts at values of the parameter whose
+//! distances decrease by a fixed factor. Each of these values has a fold and a grazing event of its own, so no branch
+//! reaches the limit. The limit is computed from the release: on one side of it the motion from the release sticks, on
+//! the other side it does not.
 
 use super::impact_branch::ImpactBranch;
 use super::point::{BranchEvent, Change, SolutionPoint};
@@ -11,7 +12,8 @@ use crate::system::Side;
 use crate::verdict::Label;
 
 impl ImpactBranch {
-    /// The limit of the impacts that appeared on this branch one after another; `None` if they do not tend to a complete chatter.
+    /// The limit of the values at which impacts appeared on this branch; `None` if they do not tend to a complete
+    /// chatter.
     pub(crate) fn accumulation(&self) -> Option<SolutionPoint> {
         let added = |(value, event): &(f64, BranchEvent)| match event {
             BranchEvent::Grazing { change: Change::Appears, side, .. } => Some((*value, *side)),
@@ -30,7 +32,7 @@ impl ImpactBranch {
             let excursion = Excursion::new(&osc, side, DEFAULT_EVENTS, 0.5 + f64::from(ring.periods))?;
             (excursion.periods == Some(ring.periods)).then_some(excursion)
         };
-        // as far again as the values of the touches would go on
+        // twice as far as the limit of the geometric series of these values
         let mut outside = last;
         let mut inside = last + 2.0 * step * ratio / (1.0 - ratio);
         if rests(outside).is_some() {
@@ -51,7 +53,7 @@ impl ImpactBranch {
         let limit = rests(inside)?;
         let rest = limit.rests().last().filter(|rest| rest.held * osc.beta() < SHRUNK)?.span;
         let cycle = limit.cycle()?;
-        // it has to be the limit of this branch, not of another one
+        // the limit must be that of this branch
         let mine = &self.tracer.here.known.cycle.points;
         let alike = |shift: usize| {
             let turned = mine.iter().cycle().skip(shift).zip(&cycle.points).take(mine.len() / 2);
@@ -66,11 +68,11 @@ impl ImpactBranch {
     }
 }
 
-/// Impacts that have to appear one after another.
+/// The number of impacts that must have appeared one after another.
 const LEAST: usize = 3;
-/// Halvings down to neighbouring numbers, at most.
+/// The largest number of bisections; fewer reach neighbouring numbers.
 const MAX_HALVINGS: u32 = 100;
-/// A rest of this much phase or less, found next to where there is none, is none.
+/// A time of sticking below this, as a phase, counts as zero if there is no sticking at the neighbouring value.
 const SHRUNK: f64 = 1e-6;
-/// How near the first half of its impacts have to be to those of the limit.
+/// The largest distance of the impacts in the first half of the cycle from those of the limit.
 const NEAR: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! The branch of a cycle in one parameter, or along a line through two, point by point, through its events.
+//! The branch of a cycle in one parameter, or along a line through two parameters, as an iterator over its points.
 
 use super::impact_branch::ImpactBranch;
 use super::options::{BranchError, BranchOptions, Direction};
@@ -8,7 +8,8 @@ use crate::orbit::Cycle;
 use crate::system::{Oscillator, ParameterPath};
 use core::ops::RangeInclusive;
 
-/// A branch: an iterator over its points, events among them, that ends with an event that [ends](super::BranchEvent::ends) it.
+/// A branch: an iterator over its points, including its events. The last point has an event that
+/// [ends](super::BranchEvent::ends) the branch.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Parameter, Label, orbit::{FindOptions, find}};
@@ -25,23 +26,23 @@ use core::ops::RangeInclusive;
 #[derive(Clone, Debug)]
 pub struct Branch(Method);
 
-/// How a branch is followed.
+/// The method by which a branch is followed.
 #[derive(Clone, Debug)]
 enum Method {
-    /// By the equations of its impacts.
+    /// The equations of the impacts of the cycle.
     Impacts(Box<ImpactBranch>),
-    /// By its release.
+    /// The release that determines the cycle.
     Release(Box<RestBranch>),
 }
 
 impl Branch {
-    /// The branch of `cycle`, a cycle of `osc`, in a [`Parameter`](crate::Parameter) over `range`, beginning in `direction`; or in
-    /// two of them along a line, where `range` is that of the first.
+    /// The branch of `cycle`, a cycle of `osc`, in a [`Parameter`](crate::Parameter) over `range`, beginning in
+    /// `direction`. On a line through two parameters, `range` is that of the first parameter.
     ///
-    /// A cycle that rests on a stop is followed by its release, any other one by the equations of its impacts.
+    /// A cycle that sticks is followed by its release, any other cycle by the equations of its impacts.
     ///
     /// # Errors
-    /// [`BranchError`] names what cannot be followed.
+    /// [`BranchError`] if the branch cannot begin.
     pub fn new(
         osc: &Oscillator,
         cycle: &Cycle,

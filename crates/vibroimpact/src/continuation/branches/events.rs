@@ -1,7 +1,8 @@
-//! What happens on a step of a branch, in order.
+//! The events of a step of a branch, in order.
 //!
-//! The zeros of the test functions on the step are known from the [trace](crate::continuation). A branch point is the exception:
-//! there two curves of solutions cross and the equations are singular, so it is interpolated from beside it.
+//! The [tracer](crate::continuation) has located the zeros of the test functions on the step. Branch points are the
+//! exception: two curves of solutions cross there and the equations are singular, so a branch point is interpolated
+//! from points beside it.
 
 use super::impact_branch::{ImpactBranch, point, value};
 use super::point::BranchEvent;
@@ -18,11 +19,11 @@ impl ImpactBranch {
         self.tracer.problem.tests[j]
     }
 
-    /// Passes the events of a step in their order, up to one that changes the signature or ends the branch.
+    /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
     pub(crate) fn go_through(&mut self, step: Step<Orbit>) {
         let crossed = self.in_order(&step);
         let needed = |what: &Option<usize>, branch: &Self| what.is_some_and(|j| branch.test(j).needed());
-        // where the last event of this step is
+        // the distance along the step of its last event
         let mut last = None;
         for (n, &(s, what)) in crossed.iter().enumerate() {
             let Some(j) = what else {
@@ -34,7 +35,8 @@ impl ImpactBranch {
                 TestFunction::MinusOne => self.tracer.between(&step, s).map(|w| (w, Some(BranchEvent::Flip))),
                 _ => self.tracer.between(&step, s).map(|w| (w, None)),
             };
-            // on the verge of a branch point the tangent may be anything: that of the step will do
+            // close to a branch point the tangent is not determined, so the tangent at the beginning of the step is
+            // used
             let at = found.and_then(|(w, event)| {
                 let along = self.tracer.tangent_at(&w).unwrap_or_else(|| self.tracer.here.tangent.clone());
                 Some((self.tracer.solution_along(w, along)?, event))
@@ -59,7 +61,8 @@ impl ImpactBranch {
                 return self.graze(&crossed[n..], &at);
             } else if test.needed() && is != was {
                 let more = crossed[n + 1..].iter().any(|(_, what)| needed(what, self));
-                // of several the last makes it a motion, the first makes it none
+                // of several such events the last one makes the solution admissible, and the first one makes it
+                // inadmissible
                 match (is, more) {
                     (true, false) => self.emit(&at, BranchEvent::BecomesPhysical),
                     (false, _) if !crossed[..n].iter().any(|(_, what)| needed(what, self)) => {
@@ -76,7 +79,8 @@ impl ImpactBranch {
         }
     }
 
-    /// What is passed on a step, with each fold or branch point that is close to another event in its order: it was located coarsely.
+    /// The crossings of a step in order. A fold or branch point close to another event is located again first, because
+    /// its place along the step is only known coarsely.
     fn in_order(&self, step: &Step<Orbit>) -> Vec<Crossing> {
         let mut found = step.crossed.clone();
         let critical = |what: Option<usize>| what.map(|j| self.test(j)).filter(TestFunction::critical);
@@ -94,13 +98,14 @@ impl ImpactBranch {
         found
     }
 
-    /// How far along the step a point of it is; `None` for a cycle with other impacts.
+    /// The distance of a solution along the step; `None` for a cycle with a different number of impacts.
     fn ahead(&self, w: &[f64]) -> Option<f64> {
         (w.len() == self.tracer.here.w.len()).then(|| self.tracer.ahead(w))
     }
 
-    /// A point between two events of one step, `passed` being what has happened before it: no step ends there, and it is what says
-    /// whether the cycle is stable between them. None where the events are too close for their test functions to tell.
+    /// Adds a point halfway between two events of a step, because no step ends there and the point shows whether the
+    /// cycle is stable between them; `passed` are the crossings before it. Adds no point if the events are so close
+    /// that a multiplier at the point contradicts the events that have been passed.
     fn amid(&mut self, events: (Option<f64>, f64), passed: &[Crossing], step: &Step<Orbit>) {
         let (Some(from), to) = events else { return };
         let s = 0.5 * (from + to);
@@ -119,11 +124,11 @@ impl ImpactBranch {
         }
     }
 
-    /// The unknowns at a fold or a branch point near `s`, and which it is; no event where the parameter turns and the
-    /// multiplier that passes +1 says the same.
+    /// The unknowns at a fold or branch point near `s`, and the event. A fold is a zero of both test functions and is
+    /// reported as the zero of `PlusOne`, without an event for `Pace`. At a branch point only one of them changes sign.
     ///
-    /// At a branch point two curves of solutions cross and the equations are singular, so it is interpolated between four
-    /// points beside it.
+    /// At a branch point two curves of solutions cross and the equations are singular, so it is interpolated between
+    /// four points beside it.
     fn critical(&self, test: TestFunction, step: &Step<Orbit>, s: f64) -> Option<(Vec<f64>, Option<BranchEvent>)> {
         let (mut near, mut plus_one, mut pace) = (Vec::new(), Vec::new(), Vec::new());
         for at in FOUR {
@@ -159,7 +164,7 @@ impl ImpactBranch {
         Some((w, Some(BranchEvent::BranchPoint)))
     }
 
-    /// The point on the end of the range.
+    /// Ends the branch at the point on the end of the range.
     fn end_of_range(&mut self, there: &BranchSolution) {
         let (here, (low, high)) = (&self.tracer.here, self.tracer.problem.range);
         let (before, after) = (value(&here.w), value(&there.w));
@@ -173,11 +178,12 @@ impl ImpactBranch {
     }
 }
 
-/// A branch point is looked at this far to either side along the branch.
+/// The unit of distance along the branch of the points from which a branch point is interpolated.
 const ASIDE: f64 = 6e-4;
-/// Where, in that unit.
+/// The places of these points, in this unit.
 const FOUR: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
-/// A fold or a branch point closer than this to another event is located before the two are put in order.
+/// A fold or branch point closer than this to another event is located again before the events are ordered.
 const CLOSE: f64 = 1e-4;
-/// The halves of a cycle closer than this are the same, at a turn.
+/// If the halves of a cycle differ by less than this where the parameter turns back, the cycle is a shorter one
+/// repeated twice.
 const ALIKE: f64 = 1e-5;

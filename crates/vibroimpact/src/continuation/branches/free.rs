@@ -1,8 +1,8 @@
-//! A branch between cycles with impacts and the steady motion without.
+//! Branches that lead from cycles with impacts to the steady motion without impacts, or back.
 //!
-//! With damping that motion is one cycle, and where it touches a stop a cycle with one impact of speed zero is the same
-//! motion. So a branch goes on from one to the other as at any grazing impact. Without damping it is one of a continuum
-//! of motions without impacts, and where it touches, orbits 1/n of every n meet in it at once: nothing to follow.
+//! With damping the steady motion is one cycle. Where it grazes a stop, a cycle with one impact of speed zero is the
+//! same motion, so a branch continues from one to the other as at any grazing event. Without damping it is one of a
+//! continuum of motions without impacts. Where it grazes, the orbits 1/n of all n end together, and the branch ends.
 
 use super::graze::{Beyond, striking};
 use crate::continuation::equations::cycle_equations::CycleEquations;
@@ -12,10 +12,11 @@ use crate::orbit::{Ring, crest, room};
 use crate::system::{Oscillator, Side};
 use core::f64::consts::PI;
 
-/// How far to either side the clearance is compared, relative.
+/// The relative distance to either side at which clearances are compared.
 const ASIDE: f64 = 1e-6;
 
-/// The motion without impacts beyond a touch of the stop on `side`: the way on which it clears the stop.
+/// The steady motion without impacts beyond grazing contact with the stop on `side`, in the direction in which it
+/// clears the stop; `None` without damping, or if no direction is found.
 pub(crate) fn leaving(equations: &CycleEquations, osc: &Oscillator, value: f64, side: Side) -> Option<Beyond> {
     if osc.damping() <= 0.0 {
         return None;
@@ -27,7 +28,7 @@ pub(crate) fn leaving(equations: &CycleEquations, osc: &Oscillator, value: f64, 
         let (osc, _) = equations.split(&[value + step * along[0] * ASIDE])?;
         Some(room(&osc, side))
     };
-    // one-sided at the end of what a parameter may be
+    // one-sided at the end of the range of a parameter
     let (here, up, down) = (room(osc, side), at(1.0), at(-1.0));
     let slope = match (up, down) {
         (Some(up), Some(down)) => up - down,
@@ -42,7 +43,7 @@ pub(crate) fn leaving(equations: &CycleEquations, osc: &Oscillator, value: f64, 
     (slope != 0.0).then_some(Beyond { equations, w, tangent: along, positive })
 }
 
-/// The cycle with an impact on each stop of `touched`, which the motion without impacts touches.
+/// The cycle with one impact on each stop of `touched`, the stops that the steady motion without impacts grazes.
 pub(crate) fn arriving(equations: &CycleEquations, osc: &Oscillator, value: f64, touched: &[Side]) -> Option<Beyond> {
     let first = crest(osc, *touched.first()?);
     let unknowns = (0..touched.len()).flat_map(|k| [first + PI * k as f64, 0.0]).collect();
@@ -51,8 +52,8 @@ pub(crate) fn arriving(equations: &CycleEquations, osc: &Oscillator, value: f64,
     striking(equations.with(&ring), CycleEquations::join(&ring, value), &new)
 }
 
-/// Whether between two oscillators whose motions without impacts clear the stops there is one, at the height of the
-/// resonance, that does not: a step must not go over it.
+/// Whether the motion without impacts reaches a stop at the resonance between two oscillators at which it clears the
+/// stops. A step must not pass such a resonance.
 pub(crate) fn hides(from: &Oscillator, to: &Oscillator) -> bool {
     let zeta = to.damping();
     let highest = (1.0 - 2.0 * zeta * zeta).max(0.0).sqrt();

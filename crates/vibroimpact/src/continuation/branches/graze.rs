@@ -1,9 +1,9 @@
-//! The cycle on the other side of a grazing impact.
+//! The cycle on the other side of a grazing event.
 //!
-//! A cycle with an impact of speed zero and the cycle without that impact are the same motion: they solve both systems
-//! of equations, so the curves of solutions of both pass through it. A motion continues on that half of the *other* curve
-//! where the new impact has positive speed, or where the flight clears the stop it touched. Whether the parameter goes on
-//! in the same direction there or turns back is not a matter of choice.
+//! A cycle with an impact of speed zero and the cycle without that impact are the same motion. It solves both systems
+//! of equations, so the curves of solutions of both pass through it. The branch continues on the half of the *other*
+//! curve on which the new impact has positive speed, or on which the flight clears the stop that it grazed. Whether the
+//! parameter continues in the same direction there or turns back is a consequence of this.
 
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::TestFunction;
@@ -17,17 +17,18 @@ pub(crate) struct Beyond {
     pub(crate) equations: CycleEquations,
     pub(crate) w: Vec<f64>,
     pub(crate) tangent: Vec<f64>,
-    /// Watched functions that are zero here and positive from here on.
+    /// Test functions that are zero at this point and positive beyond it.
     pub(crate) positive: Vec<TestFunction>,
 }
 
-/// How far along a tangent the clearance is compared.
+/// The distance along a tangent at which clearances are compared.
 const AHEAD: f64 = 1e-6;
-/// Impacts closer than this are the same, where a ring repeats itself.
+/// Impacts closer than this are the same when a ring is tested for repetition.
 const SAME: f64 = 1e-7;
 
-/// Beyond a point where the flights `touches` (impact they leave, stop) touch and the impacts `gone` have speed zero;
-/// `along` is the tangent of the branch so far. `None` if nothing is left or no direction is found.
+/// The branch beyond a point where the flights `touches` (the impact that they leave, and the stop) graze and the
+/// impacts `gone` have speed zero; `along` is the tangent of the branch so far. `None` if no impact is left or no
+/// direction is found.
 pub(crate) fn beyond(
     equations: &CycleEquations,
     (osc, ring, value): (&Oscillator, &Ring, f64),
@@ -37,7 +38,7 @@ pub(crate) fn beyond(
 ) -> Option<Beyond> {
     let mut next = ring.clone();
     let mut row = along[..2 * ring.len()].to_vec();
-    // from the last to the first, so that the numbers before stay valid
+    // from the last to the first, so that the indices of earlier impacts stay valid
     let mut new: Vec<(usize, f64, Side)> = Vec::new();
     for &(k, side) in touches {
         let touch = closest(osc, ring, k, side)?;
@@ -67,7 +68,7 @@ pub(crate) fn beyond(
     let w = CycleEquations::join(&next, value);
     row.push(*along.last()?);
     if new.is_empty() {
-        // the flight that takes the place of impact k
+        // the flight that replaces impact k
         let less = |k: usize| old.iter().filter(|j| **j < k).count();
         let freed: Vec<(usize, Side)> =
             old.iter().map(|&k| (((k + whole - less(k) - 1) % whole) % next.len(), ring.side(k))).collect();
@@ -79,7 +80,7 @@ pub(crate) fn beyond(
     }
 }
 
-/// In the direction in which the impacts `new` gain speed.
+/// The direction in which the impacts `new` gain speed.
 pub(crate) fn striking(equations: CycleEquations, w: Vec<f64>, new: &[usize]) -> Option<Beyond> {
     let mut towards = vec![0.0; w.len()];
     for k in new {
@@ -89,7 +90,7 @@ pub(crate) fn striking(equations: CycleEquations, w: Vec<f64>, new: &[usize]) ->
     Some(Beyond { equations, w, tangent, positive: new.iter().map(|&k| TestFunction::Speed(k)).collect() })
 }
 
-/// In the direction in which the flights `freed` clear the stop.
+/// The direction in which the flights `freed` clear the stop.
 fn clearing(equations: CycleEquations, w: Vec<f64>, along: &[f64], freed: &[(usize, Side)]) -> Option<Beyond> {
     let mut tangent = tangent(&equations, &w, &equations.row(along))
         .or_else(|| tangent(&equations, &w, &equations.parameter_row()))?;

@@ -1,7 +1,8 @@
-//! A branch by the equations of its impacts, step by step.
+//! A branch by the equations of the impacts, step by step.
 //!
-//! Steps go by [pseudo-arclength](crate::continuation) in the phases and speeds of all impacts and the parameter, so folds are passed
-//! like any other point. At a grazing impact the signature changes and the branch goes on with one impact more or less.
+//! The steps use [pseudo-arclength](crate::continuation) in the phases and speeds of all impacts and the parameter, so
+//! a fold is passed like any other point. At a grazing event the signature changes, and the branch continues with one
+//! impact more or less.
 
 use super::options::{BranchError, BranchOptions, Direction};
 use super::point::{BranchEvent, SolutionPoint};
@@ -20,9 +21,9 @@ use std::collections::VecDeque;
 pub(crate) struct ImpactBranch {
     pub(crate) options: BranchOptions,
     pub(crate) tracer: BranchTracer,
-    /// Where the branch began, while the signature is the same.
+    /// The first solution of the branch, as long as the signature has not changed.
     begin: Option<BranchSolution>,
-    /// Grazing events passed: the second time the branch has closed.
+    /// The grazing events so far. When one occurs a second time, the branch is closed.
     pub(crate) grazed: Vec<(f64, BranchEvent)>,
     count: u32,
     pending: VecDeque<SolutionPoint>,
@@ -30,7 +31,8 @@ pub(crate) struct ImpactBranch {
 }
 
 impl ImpactBranch {
-    /// That of `cycle`, a cycle of `osc` without rests, in what varies over `range`, beginning in `direction`.
+    /// The branch of `cycle`, a cycle of `osc` that does not stick, in `varying` over `range`, beginning in
+    /// `direction`.
     pub(crate) fn new(
         osc: &Oscillator,
         cycle: &Cycle,
@@ -65,7 +67,7 @@ impl ImpactBranch {
         Ok(CycleEquations::new(osc, varying, ring, scale(range, value)?))
     }
 
-    /// From a solution `w` along the tangent `along`.
+    /// The branch from a solution `w` along the tangent `along`.
     pub(crate) fn begin(
         equations: CycleEquations,
         w: Vec<f64>,
@@ -80,13 +82,13 @@ impl ImpactBranch {
         Some(Self { options, tracer, begin, grazed: Vec::new(), count: 0, pending, over: false })
     }
 
-    /// The equations that are followed now.
+    /// The equations that are followed at present.
     pub(crate) const fn cycles(&self) -> &CycleEquations {
         &self.tracer.problem.equations
     }
 
-    /// Goes on along other equations, from a solution `w` along the tangent `along`, as a motion for which the test functions in
-    /// `positive` are positive from here on. False where they have no value.
+    /// Continues with other equations, from a solution `w` along the tangent `along`, on the part on which the test
+    /// functions in `positive` are positive. Returns false if a test function has no value.
     pub(crate) fn go_on(
         &mut self,
         equations: CycleEquations,
@@ -97,7 +99,7 @@ impl ImpactBranch {
         let Some(mut tracer) = trace(equations, w, along, self.tracer.problem.range, self.options) else {
             return false;
         };
-        // on the verge a motion may count as none by rounding
+        // at the event itself rounding can make the solution inadmissible
         tracer.here.known.physical = true;
         for (known, test) in tracer.signs.iter_mut().zip(&tracer.problem.tests) {
             if positive.contains(test) {
@@ -108,26 +110,27 @@ impl ImpactBranch {
         true
     }
 
-    /// Adds a point.
+    /// Adds a point to the branch.
     pub(crate) fn add(&mut self, point: SolutionPoint) {
         self.pending.push_back(point);
         self.count += 1;
     }
 
-    /// Adds an event; a motion it is the end of counts as one still.
+    /// Adds an event. An event at which the cycle becomes inadmissible counts as admissible.
     pub(crate) fn emit(&mut self, at: &BranchSolution, event: BranchEvent) {
         let mut point = point(at, Some(event));
         point.physical |= self.tracer.here.known.physical || event == BranchEvent::BecomesPhysical;
         self.add(point);
     }
 
-    /// Adds an event and ends the branch with it.
+    /// Adds an event that ends the branch.
     pub(crate) fn end(&mut self, at: &BranchSolution, event: BranchEvent) {
         self.emit(at, event);
         self.over = true;
     }
 
-    /// Ends the branch where it is, or, if it gets no further because impacts are added without end, where that leads.
+    /// Ends the branch at the current point or, if impacts appear one after another there, at the limit of these
+    /// events.
     pub(crate) fn finish(&mut self, event: BranchEvent) {
         let stuck = matches!(event, BranchEvent::NoConvergence | BranchEvent::ImpactLimit);
         match stuck.then(|| self.accumulation()).flatten() {
@@ -137,7 +140,7 @@ impl ImpactBranch {
         self.over = true;
     }
 
-    /// One step on, or the end of the branch.
+    /// Takes one step, or ends the branch.
     fn advance(&mut self) {
         if self.count >= self.options.points {
             return self.finish(BranchEvent::StepLimit);
@@ -148,7 +151,7 @@ impl ImpactBranch {
         }
     }
 
-    /// Makes `there` the present point.
+    /// Makes `there` the current point.
     pub(crate) fn take(&mut self, there: BranchSolution) {
         let closed = self.begin.as_ref().is_some_and(|begin| {
             self.count > 3
@@ -172,7 +175,7 @@ impl Iterator for ImpactBranch {
     }
 }
 
-/// The trace of these equations, with the test functions of their signature.
+/// The tracer of these equations, with the test functions of their signature.
 fn trace(
     equations: CycleEquations,
     w: Vec<f64>,
@@ -186,17 +189,17 @@ fn trace(
     Tracer::new(BranchProblem { equations, tests, range }, w, along, step)
 }
 
-/// A solution as a point of the branch.
+/// The point of the branch at a solution.
 pub(crate) fn point(at: &BranchSolution, event: Option<BranchEvent>) -> SolutionPoint {
     SolutionPoint { value: value(&at.w), cycle: at.known.cycle.clone(), physical: at.known.physical, event }
 }
 
-/// The parameter among the unknowns.
+/// The value of the parameter, the last unknown.
 pub(crate) fn value(w: &[f64]) -> f64 {
     w.last().copied().unwrap_or(f64::NAN)
 }
 
-/// The place of an oscillator among what varies.
+/// The value of the parameter, or the place on the line through two parameters, that belongs to an oscillator.
 pub(crate) fn place(osc: &Oscillator, varying: ParameterPath) -> Result<f64, BranchError> {
     varying.get(osc).map_err(|error| match error {
         SystemError::NoSecondStop(name) => BranchError::NoSuchParameter(name),
@@ -204,8 +207,8 @@ pub(crate) fn place(osc: &Oscillator, varying: ParameterPath) -> Result<f64, Bra
     })
 }
 
-/// A change of the parameter that counts as much as one of all phases by a radian: a quarter of the range, which has to be
-/// one, and hold `value`.
+/// The change of the parameter that has the same length as a change of all phases by one radian: a quarter of the
+/// range. An error if the range is invalid or does not contain `value`.
 pub(crate) fn scale(range: &RangeInclusive<f64>, value: f64) -> Result<f64, BranchError> {
     let (low, high) = (*range.start(), *range.end());
     if !(low.is_finite() && high.is_finite() && low < high && range.contains(&value)) {

@@ -1,15 +1,15 @@
-//! Branches: how a cycle changes with one parameter, through the events on the way.
+//! Branches: how a cycle changes with one parameter, and its events.
 //!
 //! | idea | file |
 //! |---|---|
 //! | the branch | [`Branch`], [`BranchOptions`] |
-//! | a point of a branch, and what happens there | [`SolutionPoint`], [`BranchEvent`] |
-//! | by the equations of its impacts: what is traced, step by step; the events of a step | `problem`, `impact_branch`, `events` |
-//! | a grazing impact, and the cycle on its other side | `touch`, `graze` |
-//! | impact after impact: the chatter at the end | `accumulation` |
-//! | the motion without impacts: to it and from it | `free` |
+//! | a point of a branch, and its event | [`SolutionPoint`], [`BranchEvent`] |
+//! | branches by the equations of the impacts: the problem of the tracer, the steps, their events | `problem`, `impact_branch`, `events` |
+//! | a grazing event, and the cycle beyond it | `touch`, `graze` |
+//! | the complete chatter at the end of a branch on which impacts appear one after another | `accumulation` |
+//! | transitions to and from the motion without impacts | `free` |
 //! | branches that begin at a flip or a branch point | `switch` |
-//! | by its release, where a cycle rests on a stop | `resting` |
+//! | branches of cycles that stick, by their release | `resting` |
 
 mod accumulation;
 mod branch;

@@ -1,37 +1,38 @@
-//! How a branch is followed, and why one cannot begin.
+//! How a branch is followed, and why it cannot begin.
 
 use thiserror::Error;
 
-/// Which way the parameter goes at first.
+/// The direction in which the parameter changes at first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// It grows.
+    /// The parameter increases.
     Up,
-    /// It falls.
+    /// The parameter decreases.
     Down,
 }
 
-/// How a branch is followed.
+/// Step lengths and limits of a branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BranchOptions {
-    /// The longest step: the change of all phases together in radians, of speeds, and of the parameter in quarters of
-    /// its range.
+    /// The longest step. Its length combines the change of all phases in radians, of the speeds, and of the parameter
+    /// in quarters of its range.
     pub longest: f64,
-    /// The first step, also after a grazing event.
+    /// The length of the first step, also after a grazing event.
     pub first: f64,
-    /// A step that would have to be shorter than this ends the branch.
+    /// The branch ends if a step would have to be shorter than this.
     pub shortest: f64,
-    /// The most points.
+    /// The largest number of points.
     pub points: u32,
-    /// The most impacts a cycle may come to have, one with a rest excepted; towards a complete chatter there is no end of them.
+    /// The largest number of impacts of a cycle that does not stick. Towards a complete chatter the number grows
+    /// without bound.
     pub impacts: u32,
-    /// Whether the signature is kept at grazing events, so that the branch goes on through inadmissible solutions.
+    /// Whether the signature is kept at grazing events, so that the branch continues through inadmissible solutions.
     pub keep_signature: bool,
 }
 
 impl Default for BranchOptions {
-    /// Steps up to 0.05, beginning with 0.002, never below 1e-9; 20 000 points, 32 impacts; the signature
-    /// changes where the motion asks for it.
+    /// Steps up to 0.05, beginning with 0.002, never below 1e-9; 20 000 points, 32 impacts; the signature changes at
+    /// grazing events.
     fn default() -> Self {
         Self { longest: 0.05, first: 2e-3, shortest: 1e-9, points: 20_000, impacts: 32, keep_signature: false }
     }
@@ -41,20 +42,21 @@ impl Default for BranchOptions {
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum BranchError {
-    /// The parameter belongs to a stop that is not there.
+    /// The parameter belongs to the second stop, but there is only one stop.
     #[error("{0} is a parameter of the second stop, and there is only one stop")]
     NoSuchParameter(&'static str),
-    /// The range is not two finite numbers in order, or the value at which the branch begins lies outside.
+    /// The range is not two finite numbers in increasing order, or the value at which the branch begins lies outside.
     #[error("the branch begins at {value}, which does not lie in the range from {low} to {high}")]
     OutOfRange {
-        /// Where it begins.
+        /// The value at which it begins.
         value: f64,
         /// Lower end of the range.
         low: f64,
-        /// Upper end.
+        /// Upper end of the range.
         high: f64,
     },
-    /// A cycle with a rest: it is fixed by its release and has no equations whose curves could be followed.
+    /// A cycle that sticks is determined by its release and has no equations that could be followed over two
+    /// parameters.
     #[error(
         "a cycle that rests on a stop has no equations to be followed over two parameters: its release determines it at each value anew\nhint: in one parameter it has a branch"
     )]
@@ -64,12 +66,12 @@ pub enum BranchError {
         "without damping the steady motion without impacts is one of many and cannot be followed\nhint: a damping above 0, or a branch from 1/1 towards it"
     )]
     Undamped,
-    /// Newton's method does not converge from the cycle at these parameters, or the curve has no direction there.
+    /// Newton's method does not converge from the cycle at these parameters, or the curve has no tangent there.
     #[error(
         "the orbit cannot be followed from here: at these parameters its equations have no solution close by, or no single curve of them\nhint: begin a little beside a fold, a branch point or a grazing impact"
     )]
     NoCycle,
-    /// Not the event that a branch was asked from.
+    /// The event at this point is not one at which the requested branch or curve begins.
     #[error(
         "what happens at this point begins no branch and no curve of that kind\nhint: branches begin at flips and branch points, curves go through folds, flips and grazing impacts"
     )]

@@ -1,4 +1,4 @@
-//! A point of a branch, and what may happen there.
+//! A point of a branch, and the events that are possible there.
 
 use crate::orbit::Cycle;
 use crate::system::Side;
@@ -9,96 +9,98 @@ use crate::verdict::Label;
 pub struct SolutionPoint {
     /// Value of the parameter.
     pub value: f64,
-    /// The cycle there, also where it is no possible motion. At a grazing event that of the branch so far.
+    /// The cycle there, even if it is inadmissible. At a grazing event it is the cycle of the branch before the event.
     pub cycle: Cycle,
-    /// Whether it is a possible motion, as the certified first contact of each flight says. An event where that
-    /// changes counts as one that is.
+    /// Whether the cycle is admissible, according to the certified first contact of each flight. An event at which this
+    /// changes counts as admissible.
     pub physical: bool,
-    /// What happens here; `None` for an ordinary point.
+    /// The event at this point; `None` for an ordinary point.
     pub event: Option<BranchEvent>,
 }
 
 impl SolutionPoint {
-    /// Whether the cycle attracts its neighbourhood.
+    /// Whether the cycle is admissible and attracts its neighbourhood.
     #[must_use]
     pub fn stable(&self) -> bool {
         self.physical && self.cycle.stable()
     }
 }
 
-/// What an impact does at a grazing event, in the direction the branch is followed.
+/// How an impact changes at a grazing event, in the direction in which the branch is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// A flight comes to touch a stop; beyond the touch it strikes it.
+    /// A flight reaches a stop; beyond the event there is an impact.
     Appears,
-    /// An impact loses its speed; beyond the touch the mass clears the stop.
+    /// The speed of an impact becomes zero; beyond the event the mass clears the stop.
     Disappears,
 }
 
-/// A touch of a stop that comes or goes together with another.
+/// A second grazing contact at the same event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
-    /// The impact of the point's cycle that disappears, or the one after which a new one appears.
+    /// The index of the impact of this point's cycle that disappears, or after which a new one appears.
     pub impact: usize,
-    /// Stop of the touch.
+    /// Stop of the grazing contact.
     pub side: Side,
-    /// Phase of the touch.
+    /// Phase of the grazing contact.
     pub phase: f64,
 }
 
-/// What happens at a point of a branch.
+/// An event at a point of a branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum BranchEvent {
     /// The parameter turns back; a multiplier is +1.
     Fold,
-    /// A multiplier is +1 and another branch crosses or ends here: with two stops alike, symmetry is lost or gained.
+    /// A multiplier is +1 and another branch crosses or ends here: with two equal stops, symmetry is lost or gained.
     BranchPoint,
     /// A multiplier is -1; a branch of twice the period begins or ends here.
     Flip,
-    /// The branch ends on the one of half the period, at a flip of that.
+    /// The branch ends on the branch of half the period, at a flip of that branch.
     Halving,
-    /// An impact has speed zero. Where the cycle goes on as a motion, with one impact more or less, so does the branch.
+    /// An impact has speed zero. The branch continues with the cycle that is admissible beyond, with one impact more or
+    /// less.
     Grazing {
         /// Whether the impact appears or disappears.
         change: Change,
-        /// The impact of the point's cycle that disappears, or the one after which a new one appears.
+        /// The index of the impact of this point's cycle that disappears, or after which a new one appears.
         impact: usize,
-        /// Stop of the touch.
+        /// Stop of the grazing contact.
         side: Side,
-        /// Phase of the touch.
+        /// Phase of the grazing contact.
         phase: f64,
         /// Label before.
         before: Label,
         /// Label after.
         after: Label,
-        /// Whether the parameter turns back here (a nonsmooth fold); if not, it goes on (persistence).
+        /// Whether the parameter turns back here (a nonsmooth fold); if not, it continues in its direction
+        /// (persistence).
         turns: bool,
-        /// What does the same at the same value: with two stops alike the touch of the other one.
+        /// A second grazing contact at the same value: with two equal stops, that on the other stop.
         also: Option<Touch>,
     },
-    /// The only impact has speed zero: beyond, the mass never touches the stop. Only without damping, where orbits 1/n of
-    /// every n end together in one of a continuum of motions without impacts, so that there is nothing to follow. With
-    /// damping this is a [`Grazing`](Self::Grazing) event with the label 0 after it, and the branch goes on along the
-    /// steady motion without impacts.
+    /// The only impact has speed zero; beyond, the mass never reaches the stop. This event occurs only without damping,
+    /// where the orbits 1/n of all n end together in one of a continuum of motions without impacts, so the branch ends.
+    /// With damping it is a [`Grazing`](Self::Grazing) event with the label 0 after it, and the branch continues along
+    /// the steady motion without impacts.
     LossOfContact {
-        /// Stop of the touch.
+        /// Stop of the grazing contact.
         side: Side,
-        /// Phase of the touch.
+        /// Phase of the grazing contact.
         phase: f64,
     },
-    /// Restitution 0: beyond, the mass stays on the stop after this impact.
+    /// With restitution 0: beyond, the mass sticks after this impact.
     Stick {
-        /// The impact of the point's cycle.
+        /// The index of the impact of this point's cycle.
         impact: usize,
     },
-    /// A cycle with a rest: all impacts that lead to it have speed zero. The mass comes to the stop without speed just as the
-    /// force begins to press it there. Without damping, where a flight is the same forwards and backwards in time, this
-    /// happens at single values of one parameter.
+    /// On a branch of cycles that stick: all impacts before the mass sticks have speed zero. The mass reaches the stop
+    /// without speed at the phase at which the force begins to press it there. Without damping, where a flight is
+    /// symmetric in time, this occurs at single values of one parameter.
     SoftLanding {
-        /// The first of these impacts in the point's cycle.
+        /// The index of the first of these impacts in this point's cycle.
         impact: usize,
-        /// Stop that is landed on.
+        /// Stop on which the mass lands.
         side: Side,
         /// Phase of the landing.
         phase: f64,
@@ -107,43 +109,44 @@ pub enum BranchEvent {
         /// Label after.
         after: Label,
     },
-    /// A cycle with a rest: the rest is over the moment it begins, at the phase of the release. Beyond, the mass leaves the stop
-    /// before it has come to rest: after a chatter that is not complete, or, with restitution 0, where the force pulls it away.
-    /// The branch ends. For a complete chatter, cycles with ever more impacts end there too, from the other side.
+    /// On a branch of cycles that stick: the time of sticking is zero, at the phase of the release. Beyond, the mass
+    /// leaves the stop before it sticks: after an incomplete chatter or, with restitution 0, because the force pulls it
+    /// away. The branch ends. For a complete chatter, cycles with ever more impacts end at the same value from the
+    /// other side.
     EndOfRest {
-        /// Stop of the rest.
+        /// Stop on which the mass sticks.
         side: Side,
         /// Phase of the release.
         phase: f64,
     },
-    /// A cycle with a rest: beyond, the force never pulls the mass off the stop.
+    /// On a branch of cycles that stick: beyond, the force never pulls the mass off the stop.
     RestForEver {
-        /// Which stop.
+        /// Stop on which the mass sticks.
         side: Side,
     },
-    /// Impact after impact was added, and here their number is infinite: the limit, which is the cycle of this point, comes to
-    /// rest at the phase of the release, and beyond the branch is one of cycles with a rest.
+    /// Impacts appeared one after another, and their number is infinite here. The cycle of this point is the limit: it
+    /// sticks at the phase of the release. Beyond, the branch is one of cycles that stick.
     Chatter {
         /// Stop of the chatter.
         side: Side,
         /// Phase of the release.
         phase: f64,
-        /// Label of the branch so far.
+        /// Label of the branch before this event.
         before: Label,
     },
-    /// A branch that was followed through inadmissible solutions becomes one.
+    /// An inadmissible solution becomes admissible.
     BecomesPhysical,
-    /// A branch that keeps its signature ceases to be one of motions.
+    /// The cycle becomes inadmissible, on a branch that keeps its signature.
     BecomesVirtual,
-    /// The branch closed: the next point would be the first.
+    /// The branch is closed: the next point would be the first.
     Closed,
-    /// The parameter reached this end of its range.
+    /// The parameter reached the end of its range.
     EndOfRange,
-    /// The most points were reached.
+    /// The largest number of points was reached.
     StepLimit,
     /// The cycle would have more impacts than allowed.
     ImpactLimit,
-    /// The branch was lost: no smaller step converged.
+    /// No step down to the smallest length converged.
     NoConvergence,
 }
 
@@ -173,7 +176,7 @@ impl BranchEvent {
         }
     }
 
-    /// Whether the branch ends with it.
+    /// Whether the branch ends at this event.
     #[must_use]
     pub const fn ends(&self) -> bool {
         !matches!(

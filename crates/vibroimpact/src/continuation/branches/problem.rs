@@ -1,4 +1,4 @@
-//! What is traced along a branch by the equations of its impacts.
+//! The problem that the tracer solves along a branch: the equations of the impacts, and test functions.
 
 use super::free::hides;
 use crate::continuation::equations::cycle_equations::CycleEquations;
@@ -7,19 +7,19 @@ use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules, Tracer};
 use crate::orbit::{Orbit, ring_cycle};
 
-/// The equations of a cycle with one parameter free, and the test functions of its events.
+/// The equations of a cycle with one free parameter, and the test functions of its events.
 #[derive(Clone, Debug)]
 pub(crate) struct BranchProblem {
     pub(crate) equations: CycleEquations,
     pub(crate) tests: Vec<TestFunction>,
-    /// Of the parameter.
+    /// The range of the parameter.
     pub(crate) range: (f64, f64),
 }
 
-/// A trace of a branch.
+/// The tracer of a branch.
 pub(crate) type BranchTracer = Tracer<BranchProblem>;
 
-/// A solution on it: beside unknowns and test functions, the cycle and whether it is a motion.
+/// A solution on a branch, with its cycle and whether it is admissible.
 pub(crate) type BranchSolution = Solution<Orbit>;
 
 impl Equations for BranchProblem {
@@ -44,7 +44,7 @@ impl Problem for BranchProblem {
             few: 3,
             many: 5,
             zero: 1e-11,
-            // right at a branch point nothing converges
+            // at a branch point itself Newton's method does not converge
             beside: COARSE,
         }
     }
@@ -67,7 +67,7 @@ impl Problem for BranchProblem {
     }
 
     fn resolution(&self, j: usize) -> f64 {
-        // folds and branch points are looked at more closely later
+        // folds and branch points are located more precisely later
         if self.tests[j].critical() { COARSE } else { RESOLUTION }
     }
 
@@ -79,8 +79,8 @@ impl Problem for BranchProblem {
         Some(self.range)
     }
 
-    /// What ends a motion must not be stepped over: neither a motion that is none any more without an event, nor, where nothing
-    /// strikes, a resonance between two frequencies at which the mass clears the stops.
+    /// A step must not pass the end of admissibility unnoticed: neither an inadmissible solution without an event
+    /// before it nor, without impacts, a resonance between two frequencies at which the mass clears the stops.
     fn admits(&self, here: &BranchSolution, there: &BranchSolution, crossed: &[usize]) -> bool {
         if here.known.physical && !there.known.physical && !crossed.iter().any(|&j| self.tests[j].needed()) {
             return false;
@@ -95,7 +95,7 @@ impl Problem for BranchProblem {
     }
 }
 
-/// Events are located to this along the step.
+/// The resolution to which events are located along the step.
 pub(crate) const RESOLUTION: f64 = 1e-15;
-/// How closely folds and branch points are located before they are looked at.
+/// The resolution to which folds and branch points are located at first.
 const COARSE: f64 = 3e-5;

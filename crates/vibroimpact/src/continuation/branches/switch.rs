@@ -1,4 +1,4 @@
-//! Branches that begin where a multiplier is -1 or +1.
+//! Branches that begin at a flip or at a branch point, where a multiplier is -1 or +1.
 
 use super::branch::Branch;
 use super::impact_branch::ImpactBranch;
@@ -11,14 +11,14 @@ use crate::system::{Oscillator, ParameterPath};
 use core::ops::RangeInclusive;
 
 impl Branch {
-    /// The branch of twice the period that begins or ends at `flip`, a [flip](BranchEvent::Flip) of a branch of `osc` in
-    /// what varies.
+    /// The branch of twice the period that begins or ends at `flip`, a [flip](BranchEvent::Flip) of a branch of `osc`
+    /// in the same parameters.
     ///
-    /// It leaves along the direction that a turn reverses. Of its two ends at the flip, one is the other one shifted by a
-    /// period, so there is only one way.
+    /// It begins in the direction that is reversed by one period of the cycle. The opposite direction gives the same
+    /// cycles shifted by one period, so there is only one branch.
     ///
     /// # Errors
-    /// [`BranchError::NotThere`] if the point is no flip, else as [`Branch::new`].
+    /// [`BranchError::NotThere`] if the point is not a flip, otherwise as [`Branch::new`].
     pub fn from_flip(
         osc: &Oscillator,
         flip: &SolutionPoint,
@@ -36,11 +36,11 @@ impl Branch {
         leave(&osc, &ring.repeated(2), (varying, flip.value), range, direction, options)
     }
 
-    /// The two branches that leave the branch of `osc` in the same parameters at a [branch point](BranchEvent::BranchPoint), to
-    /// either side.
+    /// The two branches that leave a branch of `osc` in the same parameters at a [branch
+    /// point](BranchEvent::BranchPoint), one to either side.
     ///
     /// # Errors
-    /// [`BranchError::NotThere`] if the point is no branch point, else as [`Branch::new`].
+    /// [`BranchError::NotThere`] if the point is not a branch point, otherwise as [`Branch::new`].
     pub fn from_branch_point(
         osc: &Oscillator,
         point: &SolutionPoint,
@@ -60,7 +60,7 @@ impl Branch {
     }
 }
 
-/// The oscillator and the solution of the equations at a point of a branch.
+/// The oscillator, the ring and the linearised flights at a point of a branch.
 fn solved(
     osc: &Oscillator,
     point: &SolutionPoint,
@@ -68,7 +68,7 @@ fn solved(
 ) -> Result<(Oscillator, Ring, Vec<Block>), BranchError> {
     let osc = varying.set(osc, point.value).map_err(|_| BranchError::NoCycle)?;
     let ring = Ring::of(&osc, &point.cycle).ok_or(BranchError::Rests)?;
-    // at a branch point the equations are singular and the point is as good as it gets
+    // at a branch point the equations are singular, so the interpolated point is used as it is
     let solved = solve(&osc, ring.clone());
     let (ring, flights) = match solved {
         Some(solved) => solved,
@@ -80,7 +80,7 @@ fn solved(
     Ok((osc, ring, flights))
 }
 
-/// The direction at every impact that a turn takes to `multiplier` times itself.
+/// The direction at every impact that one period of the cycle multiplies by `multiplier`; `None` if an impact grazes.
 fn carried(osc: &Oscillator, ring: &Ring, flights: &[Block], multiplier: f64) -> Option<Vec<f64>> {
     let mut at = Floquet::new(osc, ring, flights).direction(multiplier);
     let mut all = Vec::with_capacity(2 * ring.len());
@@ -92,7 +92,7 @@ fn carried(osc: &Oscillator, ring: &Ring, flights: &[Block], multiplier: f64) ->
     Some(all)
 }
 
-/// The flip of the cycle that `ring` goes round twice, near the parameter value `value`: that cycle gone round twice, and
+/// The flip near the parameter value `value` of the cycle that `ring` contains twice: that cycle repeated twice, and
 /// the value.
 pub(crate) fn halved(equations: &CycleEquations, ring: &Ring, value: f64) -> Option<(Ring, f64)> {
     let once = ring.half();
@@ -104,7 +104,7 @@ pub(crate) fn halved(equations: &CycleEquations, ring: &Ring, value: f64) -> Opt
         let test = Floquet::new(&osc, &ring, &flights).minus_one();
         Some((w, test))
     };
-    // secant steps
+    // secant steps towards the zero of the test function
     let mut before = at(&CycleEquations::join(&once, value), value)?;
     let mut there = value + 1e-7 * (1.0 + value.abs());
     for _ in 0..MAX_SECANTS {
@@ -122,10 +122,10 @@ pub(crate) fn halved(equations: &CycleEquations, ring: &Ring, value: f64) -> Opt
     Some((ring.repeated(2), value))
 }
 
-/// Secant steps at most.
+/// The largest number of secant steps.
 const MAX_SECANTS: u32 = 12;
 
-/// The branch that leaves `ring` in the direction given, the parameter not changing at first.
+/// The branch that leaves `ring` in the given direction of its impacts; the parameter does not change to first order.
 fn leave(
     osc: &Oscillator,
     ring: &Ring,

@@ -1,4 +1,4 @@
-//! A branch at a grazing impact: what happens, and which cycle it goes on with.
+//! A grazing event on a branch: the event itself, and the cycle with which the branch continues.
 
 use super::free::{arriving, leaving};
 use super::graze::{Beyond, beyond};
@@ -12,7 +12,7 @@ use crate::system::{Side, phase};
 use crate::verdict::Label;
 
 impl ImpactBranch {
-    /// Where in the list of the point's cycle impact `k` is.
+    /// The index of impact `k` in the list of impacts of the cycle at this point.
     pub(crate) fn listed(&self, at: &BranchSolution, k: usize) -> usize {
         let points = &at.known.cycle.points;
         let Some((_, ring)) = self.cycles().split(&at.w).filter(|(_, ring)| k < ring.len()) else { return k };
@@ -20,7 +20,8 @@ impl ImpactBranch {
         points.iter().position(|p| p.state.phase == theta && p.state.velocity == ring.speed(k)).unwrap_or(k)
     }
 
-    /// A grazing event and what is beyond it: the impacts and touches of this step that happen together.
+    /// Reports a grazing event and continues beyond it. Impacts and flights of this step that graze together are one
+    /// event.
     pub(crate) fn graze(&mut self, crossed: &[Crossing], at: &BranchSolution) {
         let together = crossed.iter().take_while(|(s, _)| s - crossed[0].0 < TOGETHER);
         let tests: Vec<TestFunction> = together.filter_map(|(_, j)| j.map(|j| self.tracer.problem.tests[j])).collect();
@@ -33,7 +34,7 @@ impl ImpactBranch {
             .filter_map(|w| if let TestFunction::Clear(k, side) = w { Some((*k, *side)) } else { None })
             .collect();
         if !gone.is_empty() {
-            // a touch at the same time is that of another turn of the cycle that is left
+            // a flight that grazes at the same time belongs to another period of the cycle on this side
             touches.clear();
         }
         let Some((osc, ring)) = self.cycles().split(&at.w) else {
@@ -66,7 +67,7 @@ impl ImpactBranch {
         let next = if ring.len() == 0 {
             arriving(self.cycles(), &osc, value, &rooms)
         } else if (0..ring.len()).all(|k| ring.speed(k).abs() < AT_REST) {
-            // where the motion without impacts just touches, all impacts of a longer cycle go at once
+            // where the motion without impacts just reaches the stop, all impacts of a longer cycle disappear together
             let next = leaving(self.cycles(), &osc, value, side);
             if next.is_none() {
                 return self.end(at, BranchEvent::LossOfContact { side, phase });
@@ -102,7 +103,7 @@ impl ImpactBranch {
     }
 }
 
-/// Whether two grazing events at the same value are the same.
+/// Whether two grazing events at the same value are the same event.
 fn alike(a: &BranchEvent, b: &BranchEvent) -> bool {
     use BranchEvent::Grazing;
     match (a, b) {
@@ -114,9 +115,9 @@ fn alike(a: &BranchEvent, b: &BranchEvent) -> bool {
     }
 }
 
-/// Grazes no further apart than this along the step are one event.
+/// Grazing contacts not further apart than this along the step are one event.
 const TOGETHER: f64 = 1e-9;
-/// Speeds below this at a grazing event are zero: there they are located to rounding.
+/// Speeds below this at a grazing event count as zero: there they are located to rounding.
 const AT_REST: f64 = 1e-6;
-/// Grazing events at values closer than this, relative, may be the same.
+/// Grazing events at values closer than this, relative to the value, can be the same event.
 const AGAIN: f64 = 1e-9;

@@ -13,11 +13,12 @@ use crate::orbit::{Floquet, Orbit, Ring, ring_cycle};
 use crate::system::{Oscillator, Parameter, Side};
 use std::collections::VecDeque;
 
-/// A curve of folds, flips or grazing impacts: an iterator over its points, one way from where it was begun.
+/// A curve of folds, flips or grazing impacts: an iterator over its points in one direction from the point at which it
+/// begins.
 #[derive(Clone, Debug)]
 pub struct Curve {
     kind: CurveKind,
-    /// The grazing impact, on a grazing curve.
+    /// The index of the grazing impact, on a grazing curve.
     grazing: Option<usize>,
     tracer: PlaneTracer,
     begin: PlaneSolution,
@@ -29,8 +30,8 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// The two ways along the curve through an event of a branch of `osc` in `parameter`: a fold, a flip, a grazing or a
-    /// loss of contact. `parameter` need not be one of those of `frame`.
+    /// The two directions along the curve through an event of a branch of `osc` in `parameter`: a fold, a flip, a
+    /// grazing event or a loss of contact. `parameter` need not be one of those of `frame`.
     ///
     /// # Errors
     /// [`BranchError::NotThere`] for another event, [`BranchError::OutOfRange`] if the point lies outside the frame,
@@ -55,7 +56,8 @@ impl Curve {
             }
             Some(BranchEvent::Grazing { change: Change::Appears, impact, side, phase, .. }) => {
                 let ahead = crate::system::phase::wrap(phase - ring.theta(impact));
-                // the touch may come more than a turn after the impact: where the mass is nearest
+                // the grazing contact can be more than one forcing period after the impact: it is where the mass is
+                // closest to the stop
                 let touch = crate::orbit::closest(&osc, &ring, impact, side);
                 let theta = ring.theta(impact) + touch.map_or(ahead, |touch| osc.beta() * touch.time);
                 ring.insert(impact, theta, side);
@@ -82,7 +84,8 @@ impl Curve {
             if grazing != Some(k) {
                 watched.push(Condition::Speed(k));
             }
-            // one impact of speed zero in n periods is the motion without impacts: its other crests are the same touch
+            // one impact of speed zero in n periods is the motion without impacts, whose other maxima are the same
+            // contact
             let itself = |side: Side| grazing.is_some() && ring.len() == 1 && side == ring.side(k);
             watched.extend(osc.stops().filter(|(s, _)| !itself(*s)).map(|(side, _)| Condition::Clear(k, side)));
         }
@@ -98,6 +101,8 @@ impl Curve {
         }
     }
 
+    /// The curve through the solution near `w`, in the direction in which a parameter increases (`way` 1) or decreases
+    /// (-1).
     fn begin(
         kind: CurveKind,
         grazing: Option<usize>,
@@ -108,14 +113,14 @@ impl Curve {
         options: CurveOptions,
     ) -> Option<Self> {
         let (p, q) = (w.len() - 2, w.len() - 1);
-        // along whichever parameter changes the curve's point; first onto the curve itself
+        // in the direction in which a parameter changes along the curve, after a correction onto the curve itself
         let row = |at: usize| {
             let mut row = vec![0.0; w.len()];
             row[at] = way;
             row
         };
         let rows = [row(p), row(q)];
-        // a parameter that does not change at all along the curve, but by rounding, gives it no direction
+        // a parameter that changes only by rounding determines no direction
         let pace = |row: &Vec<f64>| tangent(&plane, w, row).map(|t| plane.pace(&t, row));
         let usable =
             |least: f64| rows.iter().find(|row| pace(row).is_some_and(|pace| pace > least && pace.is_finite()));
@@ -142,21 +147,22 @@ impl Curve {
         Some(curve)
     }
 
-    /// What holds along it.
+    /// The kind of the curve.
     #[must_use]
     pub const fn kind(&self) -> CurveKind {
         self.kind
     }
 
+    /// The point of the curve at a solution.
     fn point(&self, spot: &PlaneSolution, event: Option<CurveEvent>) -> Option<CurvePoint> {
         let (osc, ring, flights) = self.tracer.problem.plane.flights(&spot.w)?;
         let mut cycle = ring_cycle(&osc, &ring, &flights);
         if self.grazing.is_some() {
-            // the derivative grows like the inverse of the speed, and without speed there is none
+            // the derivative is proportional to the inverse of the speed, so it does not exist at speed zero
             cycle.multipliers = [Multiplier { re: f64::NAN, im: f64::NAN }; 2];
         }
         let physical = match self.grazing {
-            // where an impact has no speed, or a flight just touches, a motion may be the limit of motions
+            // at an event or a grazing impact, the limit of admissible solutions counts as admissible
             None if event.is_none() => Orbit::judged(&osc, cycle.clone()).physical,
             _ => grazes(&self.tracer.problem.watched, spot),
         };
@@ -175,6 +181,7 @@ impl Curve {
         self.over = true;
     }
 
+    /// Takes one step, reports the events on it, or ends the curve.
     fn advance(&mut self) {
         let here = self.tracer.here.clone();
         if self.count >= self.options.points {
@@ -190,7 +197,7 @@ impl Curve {
         };
         let course = |spot: &PlaneSolution| self.tracer.problem.plane.scaled(&spot.tangent);
         let ((p, q), (r, s)) = (course(&here), course(&step.there));
-        // where only speeds still grow, rounding turns the course
+        // where only the speeds still change, rounding changes the direction in the plane
         let moves = hypot(p, q).max(hypot(r, s)) > STILL;
         if self.kind == CurveKind::Fold && p * r + q * s < 0.0 && moves {
             let f = |at: f64| {
@@ -233,8 +240,8 @@ impl Curve {
         self.over = closed;
     }
 
-    /// The point on an edge of the box that the curve has come so near to that only the edge itself is left: beyond it
-    /// there may be no oscillator to try a step with.
+    /// The point on an edge of the frame, if the curve has come close to it. Beyond the edge the parameters can be
+    /// invalid, so no step succeeds there.
     fn on_edge(&self) -> Option<PlaneSolution> {
         let here = &self.tracer.here;
         let edges = self.tracer.problem.watched.iter().zip(&here.values);
@@ -253,6 +260,7 @@ impl Curve {
         })
     }
 
+    /// Ends the curve on an edge of the frame.
     fn end_of_box(&mut self, spot: &PlaneSolution) {
         let turn = self.tracer.problem.plane.flights(&spot.w).map(|(o, r, f)| Floquet::new(&o, &r, &f).determinant);
         if self.kind == CurveKind::Flip && turn.is_some_and(|det| (det - 1.0).abs() < 1e-12) {
@@ -262,7 +270,7 @@ impl Curve {
     }
 }
 
-/// Whether nothing but impacts of speed zero and touches is wrong with the cycle at a point of a curve.
+/// Whether the cycle at a point of a curve is admissible, if impacts of speed zero and grazing contacts are permitted.
 fn grazes(watched: &[Condition], spot: &PlaneSolution) -> bool {
     watched.iter().zip(&spot.values).all(|(condition, &value)| match condition {
         Condition::Speed(_) | Condition::Pull(_) => value > -1e-9,
@@ -271,11 +279,12 @@ fn grazes(watched: &[Condition], spot: &PlaneSolution) -> bool {
     })
 }
 
-/// Nearer to an edge of the box than this a lost curve is at the edge.
+/// A curve with no further step that is closer to an edge of the frame than this ends at the edge.
 const AT_EDGE: f64 = 1e-8;
-/// A parameter that changes less than this, in quarters of its range over the length of the curve, does so by rounding.
+/// A parameter that changes by less than this along the curve, in quarters of its range over the arclength, changes by
+/// rounding.
 const SLOWEST: f64 = 1e-9;
-/// A course slower than this, parameters over arclength, is rounding.
+/// If the parameters change by less than this over the arclength, their direction is not used.
 const STILL: f64 = 1e-4;
 
 impl Iterator for Curve {

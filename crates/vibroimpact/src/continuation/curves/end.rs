@@ -1,7 +1,7 @@
-//! Why a curve ends where no further step converges.
+//! The reason why a curve ends where no further step converges.
 //!
-//! Steps become ever shorter towards a point where the equations are singular. What that point is shows in the cycle
-//! reached: speeds that vanish together, halves that become alike, a flight of whole natural periods.
+//! Steps become ever shorter towards a point at which the equations are singular. The last cycle shows the kind of the
+//! point: all speeds vanish, the halves of the cycle become equal, or a flight takes a whole number of natural periods.
 
 use super::point::{CurveEvent, CurveKind};
 use crate::continuation::equations::plane_equations::Plane;
@@ -11,23 +11,24 @@ use crate::orbit::Ring;
 use crate::system::Parameter;
 use core::f64::consts::TAU;
 
-/// The last points of a fold curve on which the two halves of the cycle become alike.
+/// The latest points of a fold curve on which the two halves of the cycle become equal.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trail(Vec<(f64, Vec<f64>)>);
 
-/// Points kept.
+/// The number of points that are kept.
 const KEPT: usize = 6;
-/// By how much they draw nearer from one to the next.
+/// The difference of the halves at a point is at most this fraction of that at the point before.
 const NEARER: f64 = 0.85;
-/// Halves more unlike than this do not merge yet.
+/// No merging of the halves is extrapolated from a larger difference than this.
 const FAR: f64 = 0.2;
-/// Where steps become too short speeds are below this, and halves of the period this near to whole ones.
+/// The largest speed that counts as vanishing where steps become too short, and the largest deviation from a whole
+/// number of natural periods.
 const NEAR: f64 = 1e-6;
-/// The same on a curve of folds or flips, whose test functions are products of what vanishes.
+/// The same for speeds on a curve of folds or flips, whose test functions are products of vanishing quantities.
 const STILL: f64 = 1e-5;
 
 impl Trail {
-    /// Takes note of where a trace is.
+    /// Stores the current point of a trace, if the difference of the halves has decreased enough.
     pub(crate) fn pass(&mut self, tracer: &PlaneTracer) {
         let w = &tracer.here.w;
         let Some(unlike) = tracer.problem.plane.split(w).and_then(|(_, ring)| unlike(&ring)) else { return };
@@ -42,8 +43,9 @@ impl Trail {
         }
     }
 
-    /// Where the halves are alike: everything that does not change when they are exchanged is even in how unlike they are,
-    /// so it is extrapolated in the square of that.
+    /// The unknowns at which the halves are equal; `None` if there are too few points. Everything that does not change
+    /// when the halves are exchanged is an even function of their difference, so it is extrapolated in the square of
+    /// the difference.
     fn merged(&self, plane: &Plane) -> Option<Vec<f64>> {
         if self.0.len() < KEPT || self.0.last()?.0 > FAR {
             return None;
@@ -67,13 +69,13 @@ impl Trail {
     }
 }
 
-/// How unlike the two halves of a ring are that could go round a shorter one twice.
+/// The difference between the two halves of a ring; `None` for an odd number of impacts.
 fn unlike(ring: &Ring) -> Option<f64> {
     let m = ring.len();
     if m.is_multiple_of(2) { ring.unlike_after(m / 2) } else { None }
 }
 
-/// The ring with its halves made alike.
+/// The ring with each half replaced by the mean of both halves.
 fn evened(ring: &Ring) -> Ring {
     let (m, mut even) = (ring.len(), ring.clone());
     let half = m / 2;
@@ -87,7 +89,7 @@ fn evened(ring: &Ring) -> Ring {
     even
 }
 
-/// The point at which a trace is lost, and what it is; `None` for no known reason.
+/// The point at which a trace ends, and its kind; `None` if no reason is known.
 pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Option<(PlaneSolution, CurveEvent)> {
     let (plane, here) = (&tracer.problem.plane, &tracer.here);
     let (osc, ring) = plane.split(&here.w)?;
@@ -96,7 +98,7 @@ pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Op
     let solution = |w: Vec<f64>| PlaneSolution { w, ..here.clone() };
     let still = if kind == CurveKind::Grazing { NEAR } else { STILL };
     if m > 1 && (0..m).all(|k| ring.speed(k).abs() < still) {
-        // on by what the fastest one still has
+        // extrapolates along the tangent to the point at which the fastest impact has speed zero
         let fastest = (0..m).max_by(|&a, &b| ring.speed(a).abs().total_cmp(&ring.speed(b).abs()))?;
         let step = -ring.speed(fastest) / here.tangent[2 * fastest + 1];
         return (step.abs() < 1e3 * still).then(|| (solution(onward(step)), CurveEvent::LossOfContact));
@@ -135,8 +137,9 @@ pub(crate) fn reason(tracer: &PlaneTracer, kind: CurveKind, trail: &Trail) -> Op
     None
 }
 
-/// The parameters at which speeds that grow along a curve have no bound, restitution 1 being one of them; `None` where they do
-/// not. The other one differs from its limit by as much as the inverse of the speeds.
+/// The values of the parameters at which the speeds along a curve have no bound, as extrapolated; `None` where the
+/// speeds are bounded. Restitution must be one of the parameters, and it is 1 there. The difference of the other
+/// parameter from its limit is proportional to the inverse of the speeds.
 fn unbounded(tracer: &PlaneTracer, ring: &Ring) -> Option<Vec<f64>> {
     let (w, along) = (&tracer.here.w, &tracer.here.tangent);
     let (p, q) = (w.len() - 2, w.len() - 1);
@@ -156,7 +159,7 @@ fn unbounded(tracer: &PlaneTracer, ring: &Ring) -> Option<Vec<f64>> {
     Some(limit)
 }
 
-/// Speeds above this that grow, with a restitution as near to 1 as [`LOSSLESS`], grow without bound.
+/// Speeds above this that increase, with a restitution as close to 1 as [`LOSSLESS`], increase without bound.
 const FAST: f64 = 50.0;
 /// See [`FAST`].
 const LOSSLESS: f64 = 1e-5;

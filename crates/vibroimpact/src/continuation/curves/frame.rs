@@ -1,20 +1,20 @@
-//! A plane of two parameters, and a box in it.
+//! A plane of two parameters, and a frame in it.
 
 use crate::continuation::equations::plane_equations::Condition;
 use crate::system::Parameter;
 use core::ops::RangeInclusive;
 
-/// A plane of two parameters and the box in it that is looked at.
+/// A rectangular frame in a plane of two parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// The parameters.
+    /// The two parameters.
     pub parameters: (Parameter, Parameter),
     /// Their ranges.
     pub ranges: (RangeInclusive<f64>, RangeInclusive<f64>),
 }
 
 impl Frame {
-    /// What a change of each parameter counts by: a quarter of its range.
+    /// The change of each parameter that has length 1: a quarter of its range.
     pub(crate) fn scales(&self) -> (f64, f64) {
         let quarter = |range: &RangeInclusive<f64>| 0.25 * (range.end() - range.start());
         (quarter(&self.ranges.0), quarter(&self.ranges.1))
@@ -26,10 +26,10 @@ impl Frame {
         good(&self.ranges.0) && good(&self.ranges.1)
     }
 
-    /// Its edges, each positive inside.
+    /// Its edges, as functions that are positive inside.
     ///
-    /// A distance from the edge of a small frame is measured in a unit of its size: what is below the rounding of a walk has no
-    /// sign, and an edge whose distance never has one is never met.
+    /// The distance from an edge of a small frame is measured in a unit of the size of the frame. Otherwise it would
+    /// lie below the value at which a test function has no sign, and the edge would not be detected.
     pub(crate) fn edges(&self) -> [Condition; 4] {
         let ((p, q), scales) = (&self.ranges, self.scales());
         let (a, b) = (unit(scales.0), unit(scales.1));
@@ -41,7 +41,7 @@ impl Frame {
         ]
     }
 
-    /// The same with each range shrunk by a share of it at either end.
+    /// The frame with each range shortened at both ends by this fraction of it.
     pub(crate) fn shrunk(&self, share: f64) -> Self {
         let shrink = |r: &RangeInclusive<f64>| {
             let by = share * (r.end() - r.start());
@@ -50,13 +50,14 @@ impl Frame {
         Self { parameters: self.parameters, ranges: (shrink(&self.ranges.0), shrink(&self.ranges.1)) }
     }
 
-    /// Whether it holds a point.
+    /// Whether the frame contains a point.
     pub(crate) fn holds(&self, (p, q): (f64, f64)) -> bool {
         self.ranges.0.contains(&p) && self.ranges.1.contains(&q)
     }
 }
 
-/// A power of two, so that nothing is rounded: 1 for a scale that is not small, otherwise about its inverse.
+/// A power of two, so that multiplication by it is exact: 1 for a scale that is not small, otherwise the smallest with
+/// which the product is not small.
 fn unit(scale: f64) -> f64 {
     let mut unit = 1.0;
     while scale * unit < SMALL && unit < LARGEST {
@@ -65,7 +66,7 @@ fn unit(scale: f64) -> f64 {
     unit
 }
 
-/// Scales from here on are not small.
+/// Scales from this value on are not small.
 const SMALL: f64 = 1e-4;
-/// Units stay below this, where no range leaves anything to tell apart.
+/// The largest unit; ranges for which it would be larger contain no distinct values.
 const LARGEST: f64 = 1e200;

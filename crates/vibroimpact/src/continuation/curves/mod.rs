@@ -2,9 +2,9 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | the curve; a point of one, and what happens there | [`Curve`], [`CurvePoint`] |
-//! | why one ends | `end` |
-//! | the box that is looked at | [`Frame`] |
+//! | the curve; a point of a curve, and its event | [`Curve`], [`CurvePoint`] |
+//! | why a curve ends | `end` |
+//! | the frame in which curves are followed | [`Frame`] |
 
 mod curve;
 mod end;

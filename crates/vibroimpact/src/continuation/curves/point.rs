@@ -1,11 +1,11 @@
-//! A point of a curve in two parameters, what may happen there, and how a curve is followed.
+//! A point of a curve in two parameters, the events that are possible there, and the options of a curve.
 
 use crate::orbit::Cycle;
 
-/// What holds along a curve.
+/// The condition that holds along a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CurveKind {
-    /// A multiplier is +1 and the parameters turn.
+    /// A multiplier is +1 and the parameters turn back.
     Fold,
     /// A multiplier is -1.
     Flip,
@@ -18,54 +18,57 @@ pub enum CurveKind {
 pub struct CurvePoint {
     /// Values of the two parameters.
     pub values: (f64, f64),
-    /// The cycle; on a grazing curve with the impact of speed zero in it.
+    /// The cycle; on a grazing curve it includes the impact of speed zero.
     pub cycle: Cycle,
-    /// Whether it is a possible motion (on a grazing curve, apart from that impact; at an event, the limit of motions).
+    /// Whether the cycle is admissible (on a grazing curve, apart from that impact; at an event, as a limit of
+    /// admissible cycles).
     pub physical: bool,
-    /// What happens here; `None` for an ordinary point.
+    /// The event at this point; `None` for an ordinary point.
     pub event: Option<CurveEvent>,
 }
 
-/// What happens at a point of a curve.
+/// An event at a point of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CurveEvent {
-    /// A fold curve comes back on itself: two folds meet.
+    /// A fold curve turns back: two folds meet.
     Cusp,
-    /// A grazing impact without the infinite multiplier: the trace of the linearised turn is zero, and curves of folds
-    /// and flips end on the grazing curve. Without damping, for 1/n, where $`\sin(2\pi n/\beta) = 0`$.
+    /// At this grazing impact the multiplier is not infinite: the trace of the derivative over one cycle is zero, and
+    /// curves of folds and flips end on the grazing curve. Without damping, for 1/n, this is where
+    /// $`\sin(2\pi n/\beta) = 0`$.
     ResonantGrazing,
-    /// A second impact has speed zero, or another flight touches a stop.
+    /// A second impact has speed zero, or another flight grazes a stop.
     DoubleGrazing,
-    /// The mass touches with no acceleration: $`\sin\theta = \delta`$. No motion does, for its path goes on like
-    /// $`\beta\cos\theta\,t^3/6`$, beyond the stop on one side of the touch; that needs $`\cos\theta = 0`$ and $`\delta = 1`$. Such
-    /// points lie on the curves of inadmissible solutions.
+    /// The mass grazes the stop without acceleration: $`\sin\theta = \delta`$. Such a solution is inadmissible, because
+    /// its distance from the stop is $`\beta\cos\theta\,t^3/6`$ to leading order, so it is beyond the stop on one side
+    /// of the contact, except if $`\cos\theta = 0`$ and $`\delta = 1`$. The event occurs on curves of inadmissible
+    /// solutions.
     DegenerateGrazing,
-    /// A flight of a cycle at a fold or a flip touches a stop: beyond, the curve is not one of motions.
+    /// On a curve of folds or flips a flight grazes a stop: beyond, the cycles on the curve are inadmissible.
     Touch,
-    /// A fold curve ends on the curve of flips of the cycle of half the period: on one side of this point the doubled
-    /// cycle is born there, on the other it ends. Extrapolated, right to about 1e-7.
+    /// A fold curve ends on the curve of flips of the cycle of half the period. On one side of this point the doubled
+    /// cycle begins at these flips, on the other side it ends there. Extrapolated, accurate to about 1e-7.
     DegenerateFlip,
-    /// All speeds vanish: a grazing curve of a longer cycle ends on that of the motion without impacts, or the impacts of a
-    /// fold curve come together where two natural periods go into one of the force (right to about 1e-6 there).
+    /// All speeds vanish. A grazing curve of a longer cycle ends on that of the motion without impacts, or the impacts
+    /// of a fold curve coincide where the forcing period is two natural periods (accurate to about 1e-6 there).
     LossOfContact,
-    /// One impact, no damping, and whole natural periods in the periods of the force: the mass is back on the stop whatever
-    /// its speed, and the equations are singular. The curve goes no further; the frequency is exact, the other parameter
-    /// right to about 1e-7.
+    /// One impact, no damping, and a whole number of natural periods in the forcing periods of the cycle. The mass
+    /// returns to the stop whatever its speed, and the equations are singular, so the curve ends. The frequency ratio
+    /// is exact, the other parameter accurate to about 1e-7.
     WholePeriods,
-    /// Nothing is lost any more at impacts, restitution having come to 1 without damping, and speeds grow beyond all bounds.
-    /// The restitution is exact, the other parameter extrapolated to speeds without end, right to about 1e-4 of its range;
-    /// the phases and speeds are those of the last cycle found.
+    /// The restitution is 1 without damping, so no energy is lost, and the speeds increase without bound. The
+    /// restitution is exact. The other parameter is extrapolated to infinite speeds and is accurate to about 1e-4 of
+    /// its range. The phases and speeds are those of the last cycle on the curve.
     Unbounded,
-    /// Both multipliers are -1, which takes a determinant of 1: restitution 1 and no damping.
+    /// Both multipliers are -1. This needs a determinant of 1: restitution 1 and no damping.
     OneToTwo,
-    /// The curve closed.
+    /// The curve is closed.
     Closed,
-    /// The edge of the box.
+    /// The curve reached an edge of the frame.
     EndOfBox,
-    /// The most points were reached.
+    /// The largest number of points was reached.
     StepLimit,
-    /// The curve was lost, for no reason known here.
+    /// No step down to the smallest length converged, and no reason is known.
     NoConvergence,
 }
 
@@ -92,12 +95,12 @@ impl CurveEvent {
     }
 }
 
-/// How a curve is followed.
+/// Step length and limit of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveOptions {
     /// The longest step: phases in radians, speeds, and parameters in quarters of their ranges.
     pub longest: f64,
-    /// The most points.
+    /// The largest number of points.
     pub points: u32,
 }
 

@@ -1,11 +1,11 @@
-//! The equations of a cycle with one parameter among the unknowns, or a line through two.
+//! The equations of a cycle with one parameter, or a line through two parameters, among the unknowns.
 
 use crate::continuation::trace::equations::Equations;
 use crate::orbit::{Block, Ring, blocks, by_parameter, fill};
 use crate::system::{Oscillator, ParameterPath, Side};
 
-/// The equations of the cycles with a given signature - which stop each impact is on, and how many forcing periods - in
-/// the phases and speeds of the impacts and one parameter, the last unknown.
+/// The equations of the cycles with a given signature: the stop of each impact, and the number of forcing periods. The
+/// unknowns are the phases and speeds of the impacts and, last, one parameter.
 #[derive(Clone, Debug)]
 pub(crate) struct CycleEquations {
     osc: Oscillator,
@@ -17,7 +17,8 @@ pub(crate) struct CycleEquations {
 }
 
 impl CycleEquations {
-    /// For rings like `ring`; a change of the parameter by `scale` counts as much as one of all phases by a radian.
+    /// The equations for the signature of `ring`. A change of the parameter by `scale` has the same length as a change
+    /// of all phases by one radian.
     pub(crate) fn new(osc: &Oscillator, varying: ParameterPath, ring: &Ring, scale: f64) -> Self {
         let m = ring.len();
         let mut weights = vec![1.0 / m as f64; 2 * m];
@@ -25,22 +26,22 @@ impl CycleEquations {
         Self { osc: *osc, varying, sides: ring.sides.clone(), periods: ring.periods, weights, scale }
     }
 
-    /// The same for another signature.
+    /// The equations for the signature of another `ring`.
     pub(crate) fn with(&self, ring: &Ring) -> Self {
         Self::new(&self.osc, self.varying, ring, self.scale)
     }
 
-    /// Impacts.
+    /// The number of impacts.
     pub(crate) fn impacts(&self) -> usize {
         self.sides.len()
     }
 
-    /// The part of a tangent that changes the parameter, 1 when nothing else changes.
+    /// The component of a tangent along the parameter; 1 if no other unknown changes.
     pub(crate) fn pace(&self, tangent: &[f64]) -> f64 {
         tangent.last().map_or(0.0, |p| p / self.scale)
     }
 
-    /// The row that picks the parameter.
+    /// The row that selects the parameter.
     pub(crate) fn parameter_row(&self) -> Vec<f64> {
         let mut row = vec![0.0; self.weights.len()];
         if let Some(last) = row.last_mut() {
@@ -49,14 +50,14 @@ impl CycleEquations {
         row
     }
 
-    /// A ring and a parameter value as unknowns.
+    /// The vector of unknowns of a ring and a parameter value.
     pub(crate) fn join(ring: &Ring, value: f64) -> Vec<f64> {
         let mut w = ring.unknowns.clone();
         w.push(value);
         w
     }
 
-    /// The oscillator and the ring that unknowns stand for; `None` for an impossible parameter value.
+    /// The oscillator and the ring that belong to these unknowns; `None` if the parameter value is invalid.
     pub(crate) fn split(&self, w: &[f64]) -> Option<(Oscillator, Ring)> {
         let (value, unknowns) = w.split_last()?;
         let osc = self.varying.set(&self.osc, *value).ok()?;
@@ -70,7 +71,8 @@ impl CycleEquations {
         self.split(&w)
     }
 
-    /// The flights that unknowns stand for.
+    /// The oscillator, the ring and the linearised flights that belong to these unknowns; `None` if the parameter value
+    /// is invalid.
     pub(crate) fn flights(&self, w: &[f64]) -> Option<(Oscillator, Ring, Vec<Block>)> {
         let (osc, ring) = self.split(w)?;
         let flights = blocks(&osc, &ring)?;
@@ -90,8 +92,9 @@ impl Equations for CycleEquations {
     }
 }
 
-/// The derivatives of what flights miss by, in a square matrix, row by row: by the phases and speeds of the impacts, then along
-/// these lines through the parameters. A row for each line is left at the end, for what else is asked.
+/// The derivatives of the residuals of the flights, as a square matrix by rows: with respect to the phases and speeds
+/// of the impacts, then along the given lines through the parameters. As many rows as there are lines are left zero at
+/// the end, for further equations.
 pub(crate) fn slopes(osc: &Oscillator, ring: &Ring, flights: &[Block], lines: &[ParameterPath]) -> Option<Vec<f64>> {
     let impacts = 2 * ring.len();
     let width = impacts + lines.len();

@@ -1,11 +1,11 @@
-//! The equations of cycles with one parameter or two among the unknowns, and their test functions.
+//! The equations of cycles with one or two parameters among the unknowns, and their test functions.
 //!
 //! | idea | file |
 //! |---|---|
-//! | the equations of a cycle with one parameter free, or a line through two | `cycle_equations` |
-//! | what changes sign at an event of a branch | `test_functions` |
-//! | the equations with two parameters free and a condition | `plane_equations` |
-//! | curves in a plane of parameters: these equations with the conditions that are watched on the way | `plane_tracer` |
+//! | the equations of a cycle with one free parameter, or a line through two | `cycle_equations` |
+//! | the test functions of the events of a branch | `test_functions` |
+//! | the equations of a cycle with two free parameters and one condition | `plane_equations` |
+//! | tracing curves in a plane of parameters, with test functions | `plane_tracer` |
 
 pub(super) mod cycle_equations;
 pub(super) mod plane_equations;

@@ -1,5 +1,5 @@
-//! The equations of a cycle with two parameters among the unknowns and one condition more: curves in a plane of
-//! parameters.
+//! The equations of a cycle with two parameters among the unknowns and one additional condition. Their solutions are
+//! curves in a plane of parameters.
 
 use super::cycle_equations::slopes;
 use crate::continuation::trace::equations::Equations;
@@ -7,30 +7,30 @@ use crate::math::sin_cos;
 use crate::orbit::{Block, Floquet, Ring, blocks, closest};
 use crate::system::{Oscillator, Parameter, Side};
 
-/// What holds along a curve, as the zero of a function of the cycle and the parameters.
+/// The condition that holds along a curve: the zero of a function of the cycle and the parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Condition {
     /// A multiplier is +1.
     PlusOne,
-    /// The test function of a multiplier +1 has this value.
+    /// The test function of a multiplier +1 has this value instead of zero.
     NearPlusOne(f64),
     /// A multiplier is -1.
     MinusOne,
-    /// Two impacts differ in speed by this, the first having more.
+    /// The speed of the first impact exceeds that of the second by this value.
     Unlike(usize, usize, f64),
     /// An impact has speed zero.
     Speed(usize),
-    /// The flight after an impact touches a stop.
+    /// The flight after an impact grazes a stop.
     Clear(usize, Side),
-    /// The force neither presses nor pulls the mass at an impact.
+    /// The force on the mass at the position of the stop vanishes at an impact.
     Pull(usize),
-    /// The trace of the linearised turn is zero, up to the factor that is zero at a grazing impact.
+    /// The trace of the derivative over one cycle is zero, apart from the factor that is zero at a grazing impact.
     Trace,
     /// A straight line in the plane: `a p + b q = c`.
     Line(f64, f64, f64),
 }
 
-/// The cycles of one signature over a plane of two parameters, under a condition.
+/// The equations of the cycles of one signature over a plane of two parameters, with one condition.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
     osc: Oscillator,
@@ -39,14 +39,15 @@ pub(crate) struct Plane {
     periods: u32,
     scales: (f64, f64),
     weights: Vec<f64>,
-    /// Whether changes of speed count relative to the fastest impact, where that is faster than 1: near resonance speeds are as large
-    /// as the restitution lets them become.
+    /// Whether changes of speed are divided by the speed of the fastest impact, if that exceeds 1. Near resonance
+    /// speeds are as large as the restitution permits.
     pub(crate) relative: bool,
     pub(crate) condition: Condition,
 }
 
 impl Plane {
-    /// For rings like `ring`; changes of the parameters by `scales` count as much as one of all phases by a radian.
+    /// The equations for the signature of `ring`. Changes of the parameters by `scales` have the same length as a
+    /// change of all phases by one radian.
     pub(crate) fn new(
         osc: &Oscillator,
         parameters: (Parameter, Parameter),
@@ -61,7 +62,7 @@ impl Plane {
         Self { osc: *osc, parameters, sides, periods, scales, weights, relative: false, condition }
     }
 
-    /// Where [`relative`](Self::relative), lets changes of speed count as at `w`.
+    /// If [`relative`](Self::relative) is set, adapts the weights of the speeds to the solution `w`.
     pub(crate) fn weigh(&mut self, w: &[f64]) {
         if !self.relative {
             return;
@@ -73,14 +74,14 @@ impl Plane {
         }
     }
 
-    /// A ring and values of the parameters as unknowns.
+    /// The vector of unknowns of a ring and values of the parameters.
     pub(crate) fn join(ring: &Ring, (p, q): (f64, f64)) -> Vec<f64> {
         let mut w = ring.unknowns.clone();
         w.extend([p, q]);
         w
     }
 
-    /// How fast the parameter that `row` picks changes along a tangent, in quarters of its range.
+    /// The rate at which the parameter selected by `row` changes along a tangent, in quarters of its range.
     pub(crate) fn pace(&self, tangent: &[f64], row: &[f64]) -> f64 {
         let picked = |(w, (t, r)): (&f64, (&f64, &f64))| w.sqrt() * (t * r).abs();
         self.weights.iter().zip(tangent.iter().zip(row)).map(picked).sum()
@@ -91,37 +92,37 @@ impl Plane {
         (w[w.len() - 2], w[w.len() - 1])
     }
 
-    /// The same in units of the scales.
+    /// The values of the parameters divided by the scales.
     pub(crate) fn scaled(&self, w: &[f64]) -> (f64, f64) {
         let (p, q) = Self::values(w);
         (p / self.scales.0, q / self.scales.1)
     }
 
-    /// Back from units of the scales.
+    /// The values of the parameters from values divided by the scales.
     pub(crate) const fn unscaled(&self, (x, y): (f64, f64)) -> (f64, f64) {
         (x * self.scales.0, y * self.scales.1)
     }
 
-    /// The oscillator at a point; `None` for impossible values.
+    /// The oscillator at a point of the plane; `None` for invalid values.
     pub(crate) fn oscillator(&self, (p, q): (f64, f64)) -> Option<Oscillator> {
         self.parameters.1.set(&self.parameters.0.set(&self.osc, p).ok()?, q).ok()
     }
 
-    /// The oscillator and the ring that unknowns stand for; `None` for impossible values.
+    /// The oscillator and the ring that belong to these unknowns; `None` for invalid values of the parameters.
     pub(crate) fn split(&self, w: &[f64]) -> Option<(Oscillator, Ring)> {
         let osc = self.oscillator(Self::values(w))?;
         let unknowns = w[..w.len() - 2].to_vec();
         Some((osc, Ring { sides: self.sides.clone(), unknowns, periods: self.periods }))
     }
 
-    /// The flights that unknowns stand for.
+    /// The oscillator, the ring and the linearised flights that belong to these unknowns; `None` for invalid values.
     pub(crate) fn flights(&self, w: &[f64]) -> Option<(Oscillator, Ring, Vec<Block>)> {
         let (osc, ring) = self.split(w)?;
         let flights = blocks(&osc, &ring)?;
         Some((osc, ring, flights))
     }
 
-    /// The value of a condition.
+    /// The value of the function that is zero under a condition; `None` where it is not defined.
     pub(crate) fn value(&self, condition: Condition, w: &[f64]) -> Option<f64> {
         let (p, q) = Self::values(w);
         Some(match condition {
@@ -152,7 +153,8 @@ impl Plane {
         })
     }
 
-    /// Its gradient; by differences where it is not plain, which Newton's method converges with all the same.
+    /// The gradient of that function. It is computed by differences where the formula is long; Newton's method
+    /// converges with it too.
     pub(crate) fn gradient(&self, condition: Condition, w: &[f64]) -> Option<Vec<f64>> {
         let mut row = vec![0.0; w.len()];
         match condition {
@@ -176,7 +178,7 @@ impl Plane {
                         moved[i] = w[i];
                         value.filter(|v| v.is_finite())
                     };
-                    // one-sided where a parameter ends
+                    // one-sided at the end of the range of a parameter
                     let (up, down) = (at(w[i] + h), at(w[i] - h));
                     *slope = match (up, down) {
                         (Some(up), Some(down)) => (up - down) / (2.0 * h),
@@ -191,7 +193,7 @@ impl Plane {
     }
 }
 
-/// Relative half width of differences.
+/// Half the width of a difference, relative to the unknown.
 const DIFFERENCE: f64 = 1e-6;
 
 impl Equations for Plane {

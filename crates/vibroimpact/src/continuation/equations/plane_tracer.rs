@@ -1,25 +1,26 @@
-//! Curves in a plane of parameters: the equations with one condition, traced, and other conditions watched on the way.
+//! Tracing curves in a plane of parameters: the equations with one condition, and other conditions as test functions.
 
 use super::plane_equations::{Condition, Plane};
 use crate::continuation::trace::equations::{Equations, tangent};
 use crate::continuation::trace::step_length::StepLength;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules, Tracer};
 
-/// The equations of a curve, and the conditions whose zeros on it are looked for.
+/// The equations of a curve, and the test functions whose zeros on it are located.
 #[derive(Clone, Debug)]
 pub(crate) struct PlaneProblem {
     pub(crate) plane: Plane,
     pub(crate) watched: Vec<Condition>,
 }
 
-/// A trace of a curve in the plane.
+/// The tracer of a curve in the plane.
 pub(crate) type PlaneTracer = Tracer<PlaneProblem>;
 
 /// A solution on such a curve.
 pub(crate) type PlaneSolution = Solution<()>;
 
 impl PlaneTracer {
-    /// From a solution `w` of the plane's equations along the side of the curve that `row` is positive on.
+    /// Begins at a solution `w` of the equations of `plane`, in the direction of the tangent whose product with `row`
+    /// is positive.
     pub(crate) fn along(
         mut plane: Plane,
         watched: Vec<Condition>,
@@ -87,9 +88,9 @@ impl Problem for PlaneProblem {
     }
 }
 
-/// Crossings are located to this along the step.
+/// The resolution to which zeros of test functions are located along the step.
 const RESOLUTION: f64 = 1e-14;
-/// The first step, at most.
+/// The largest length of the first step.
 const FIRST: f64 = 1e-3;
-/// Steps never become shorter.
+/// The smallest length of a step.
 const SHORTEST: f64 = 1e-10;

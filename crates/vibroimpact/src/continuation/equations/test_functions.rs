@@ -1,31 +1,31 @@
-//! What is watched along a branch: functions that are smooth on it and change sign at an event.
+//! The test functions of a branch: they are smooth along the branch and change sign at an event.
 
 use super::cycle_equations::CycleEquations;
 use crate::math::sin_cos;
 use crate::orbit::{Block, Floquet, Ring, closest, room};
 use crate::system::{Oscillator, Side};
 
-/// A watched function.
+/// A test function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TestFunction {
-    /// The pace of the parameter: zero where it turns.
+    /// The component of the tangent along the parameter: zero where the parameter turns back.
     Pace,
     /// Zero where a multiplier is +1.
     PlusOne,
     /// Zero where a multiplier is -1.
     MinusOne,
-    /// Speed of an impact.
+    /// The speed of an impact.
     Speed(usize),
-    /// Smallest distance to a stop between an impact and the next.
+    /// The smallest distance of the flight after an impact from a stop.
     Clear(usize, Side),
-    /// Distance of the motion without impacts from a stop.
+    /// The distance of the motion without impacts from a stop.
     Room(Side),
-    /// Restitution 0: the pull away from the stop after an impact.
+    /// With restitution 0: the force that pulls the mass away from the stop after an impact.
     Pull(usize),
 }
 
 impl TestFunction {
-    /// All that is watched for the cycles of these equations.
+    /// The test functions for the cycles with the signature of `ring`.
     pub(crate) fn all(osc: &Oscillator, ring: &Ring) -> Vec<Self> {
         if ring.len() == 0 {
             return osc.stops().map(|(side, _)| Self::Room(side)).collect();
@@ -41,17 +41,17 @@ impl TestFunction {
         list
     }
 
-    /// Whether the cycle is a motion only while this is positive.
+    /// Whether the cycle is admissible only while this function is positive.
     pub(crate) const fn needed(&self) -> bool {
         matches!(self, Self::Speed(_) | Self::Clear(..) | Self::Room(_) | Self::Pull(_))
     }
 
-    /// Whether it is zero where folds and branch points are.
+    /// Whether it is zero at folds or branch points.
     pub(crate) const fn critical(&self) -> bool {
         matches!(self, Self::Pace | Self::PlusOne)
     }
 
-    /// Its value at a point: the tangent and the flights there.
+    /// Its value at the solution `at`, with the tangent there.
     pub(crate) fn value(self, equations: &CycleEquations, tangent: &[f64], at: &Place<'_>) -> f64 {
         let Place { osc, ring, flights } = *at;
         match self {
@@ -69,7 +69,7 @@ impl TestFunction {
     }
 }
 
-/// Where watched functions are evaluated.
+/// A solution at which test functions are evaluated.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) osc: &'a Oscillator,

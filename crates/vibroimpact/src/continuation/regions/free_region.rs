@@ -1,20 +1,21 @@
 //! The region of the motion without impacts, in closed form.
 //!
-//! The steady motion without impacts clears the stops where its amplitude does not exceed a gap,
+//! The steady motion without impacts clears the stops where its amplitude does not exceed a gap:
 //!
 //! $$`|f| = \frac{1}{\sqrt{(1-\beta^2)^2 + 4\zeta^2\beta^2}} \le \min(\delta, \delta_2),`$$
 //!
-//! whatever the restitutions. In every plane of two parameters one of them, here called $`y`$, has to be at least a known
-//! function of the other one, $`x`$: a gap at least $`|f|`$, and the damping ratio at least
+//! whatever the restitutions are. In every plane of two parameters one of them, here called $`y`$, must be at least a
+//! known function of the other one, $`x`$: a gap must be at least $`|f|`$, and the damping ratio at least
 //!
 //! $$`\zeta = \frac{\sqrt{1/g^2 - (1-\beta^2)^2}}{2\beta}, \qquad g = \min(\delta, \delta_2).`$$
 //!
-//! Where this function enters and leaves the frame, jumps or bends is known as well, from $`|f| = g`$ solved for the
-//! frequency, $`\beta^2 = 1 - 2\zeta^2 \pm \sqrt{1/g^2 - 4\zeta^2(1-\zeta^2)}`$, or for the damping ratio. So the polygons need
-//! no search, and no part of the region is missed, however narrow the resonance is.
+//! The values of $`x`$ at which this function enters or leaves the frame, jumps or has a corner are also known. They
+//! follow from $`|f| = g`$, solved for the frequency,
+//! $`\beta^2 = 1 - 2\zeta^2 \pm \sqrt{1/g^2 - 4\zeta^2(1-\zeta^2)}`$, or for the damping ratio. So the polygons need no
+//! search, and no part of the region is missed, however narrow the resonance is.
 //!
 //! With damping the motion is stable wherever it exists. Without damping it is one of a continuum of motions without
-//! impacts, each neutrally stable, so that there is a region of existence and none of stability.
+//! impacts, each neutrally stable, so it has a region of existence and no region of stability.
 
 use super::options::{RegionKind, RegionOptions};
 use super::polygon::{Bound, Polygon, Region, Vertex};
@@ -30,7 +31,8 @@ pub(crate) fn free_region(osc: &Oscillator, kind: RegionKind, frame: &Frame, opt
     if !frame.sensible() || (kind == RegionKind::Stability && !damped) {
         return region;
     }
-    // the frequency on x, along which the limit has a maximum; otherwise what has no influence, or anything
+    // x is the frequency, in which the limit has a maximum; without a frequency it is a parameter without influence, or
+    // any other
     let idle = |p| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
     let swapped = second.is_frequency() || (!first.is_frequency() && idle(second) && !idle(first));
     let (x, y) = if swapped { (1, 0) } else { (0, 1) };
@@ -40,24 +42,24 @@ pub(crate) fn free_region(osc: &Oscillator, kind: RegionKind, frame: &Frame, opt
         Axis { parameter: parameters[k], low: *ranges[k].start(), high: *ranges[k].end(), scale }
     };
     let (x, y) = (side(x), side(y));
-    // with the largest value of one gap there is room for every value of the other
+    // only y >= limit is needed, so the largest y decides whether a value of x can belong to the region
     if let Ok(osc) = y.parameter.set(osc, y.high) {
         region.polygons = Limit { osc, x, y, options }.polygons(swapped);
     }
     region
 }
 
-/// A side of the frame.
+/// One parameter of the frame with its range.
 #[derive(Clone, Copy)]
 struct Axis {
     parameter: Parameter,
     low: f64,
     high: f64,
-    /// What a change counts by.
+    /// The change that has length 1.
     scale: f64,
 }
 
-/// The least `y` with which the motion clears the stops, over `x`.
+/// The least `y` at which the motion clears the stops, as a function of `x`.
 struct Limit {
     osc: Oscillator,
     x: Axis,
@@ -66,7 +68,7 @@ struct Limit {
 }
 
 impl Limit {
-    /// The least `y` at `x`: minus infinity where it does not matter, infinity where no `y` is enough.
+    /// The least `y` at `x`: minus infinity if every `y` is sufficient, infinity if none is.
     fn at(&self, x: f64) -> f64 {
         let Some(osc) = self.x.parameter.set(&self.osc, x).ok() else { return f64::INFINITY };
         let needed = |other: Option<Side>| {
@@ -82,12 +84,12 @@ impl Limit {
         }
     }
 
-    /// Values of `x` strictly within the frame between which the limit is smooth and does not cross its edges.
+    /// The values of `x` inside the frame between which the limit is smooth and does not cross an edge of the frame.
     fn breaks(&self) -> Vec<f64> {
         let (beta, damping) = (self.osc.beta(), self.osc.damping());
         let gaps = || self.osc.stops().filter(|(side, _)| Some(*side) != varied(self.y.parameter));
         let mut levels: Vec<f64> = gaps().map(|(_, stop)| stop.gap).collect();
-        // the amplitudes at which something happens, by the damping ratio with which
+        // for each damping ratio of interest: the values of x at which the amplitude equals one of these levels
         let mut dampings = vec![damping];
         match self.y.parameter {
             Parameter::Gap | Parameter::SecondGap => levels.extend([self.y.low, self.y.high]),
@@ -104,7 +106,7 @@ impl Limit {
                     breaks.extend(betas.map(|beta| if inverse { 1.0 / beta } else { beta }));
                 }
                 Parameter::Damping => breaks.extend(levels.iter().map(|g| least_damping(beta, *g))),
-                // the amplitude itself, and where the other gap becomes the smaller one
+                // at the amplitude itself, and where the other gap becomes the smaller one
                 Parameter::Gap | Parameter::SecondGap => {
                     let amplitude = Parameter::Damping.set(&self.osc, zeta).map(|osc| osc.free_amplitude());
                     breaks.extend(amplitude.ok().into_iter().chain(levels.iter().copied()));
@@ -118,11 +120,11 @@ impl Limit {
         breaks
     }
 
-    /// A polygon for each stretch of `x` on which some `y` of the frame is enough.
+    /// One polygon for each interval of `x` on which some `y` of the frame is sufficient.
     fn polygons(&self, swapped: bool) -> Vec<Polygon> {
         let ends: Vec<f64> = core::iter::once(self.x.low).chain(self.breaks()).chain([self.x.high]).collect();
         let mut polygons = Vec::new();
-        // the lower edge of the polygon under way, from left to right
+        // the lower edge of the current polygon, from left to right
         let mut under: Vec<Vertex> = Vec::new();
         for pair in ends.windows(2) {
             if self.at(0.5 * (pair[0] + pair[1])) < self.y.high {
@@ -137,18 +139,18 @@ impl Limit {
         polygons
     }
 
-    /// Adds the lower edge between two breaks.
+    /// Adds the lower edge of the polygon between two of these values of `x`.
     fn lower(&self, from: f64, to: f64, under: &mut Vec<Vertex>) {
         let touches = self.at(0.5 * (from + to)) > self.y.low;
         let bound = if touches { Bound::Touch } else { Bound::Frame };
-        // on a break where the limit jumps, its value on this side of it
+        // if the limit jumps at x, its value on the side of this interval
         let inside = |x: f64| {
             let at = self.at(x);
             if at.is_finite() { at } else { self.at(x + ASIDE * (0.5 * (from + to) - x)) }
         };
         let value = |x: f64| if touches { inside(x).clamp(self.y.low, self.y.high) } else { self.y.low };
         let (a, b) = (Vertex { values: (from, value(from)), bound }, Vertex { values: (to, value(to)), bound });
-        // one stretch begins where the last one ended, and says what bounds the region from there on
+        // an interval begins with the last vertex of the one before; its bound applies from there on
         match under.last_mut() {
             Some(last) => last.bound = bound,
             None => under.push(a),
@@ -159,7 +161,7 @@ impl Limit {
         under.push(b);
     }
 
-    /// Adds points of the limit between two of its points until edges are short and close to it.
+    /// Adds points of the limit between two of its points until the edges are short and accurate.
     fn between(&self, (a, b): (Vertex, Vertex), value: &dyn Fn(f64) -> f64, under: &mut Vec<Vertex>, depth: u32) {
         let scaled = |(x, y): (f64, f64)| (x / self.x.scale, y / self.y.scale);
         let x = 0.5 * (a.values.0 + b.values.0);
@@ -177,10 +179,10 @@ impl Limit {
         self.between((middle, b), value, under, depth + 1);
     }
 
-    /// The polygon above a lower edge, with the region to the left.
+    /// The polygon above a lower edge, with the region on its left.
     fn closed(&self, mut under: Vec<Vertex>, swapped: bool) -> Polygon {
         let (left, right) = (under[0].values, under[under.len() - 1].values);
-        // an upright edge within the frame is where the amplitude comes to exceed a gap at any y
+        // at a vertical edge inside the frame the amplitude begins to exceed a gap, for every y
         let side = |x: f64| if x == self.x.low || x == self.x.high { Bound::Frame } else { Bound::Touch };
         if let Some(last) = under.last_mut() {
             last.bound = side(right.0);
@@ -190,7 +192,7 @@ impl Limit {
         let mut vertices: Vec<Vertex> = under.into_iter().chain(above).collect();
         vertices.dedup_by(|next, one| {
             let same = next.values == one.values;
-            // what is left of the two begins with the bound of the later one
+            // the remaining vertex has the bound of the later one
             one.bound = if same { next.bound } else { one.bound };
             same
         });
@@ -204,10 +206,10 @@ impl Limit {
     }
 }
 
-/// The same polygon with its coordinates exchanged: the other way round, so that the region stays to the left.
+/// The polygon with its coordinates exchanged, and in reverse order, so that the region stays on its left.
 fn mirrored(vertices: &[Vertex]) -> Vec<Vertex> {
     let count = vertices.len();
-    // an edge belongs to the vertex it leaves, and backwards that is the one it arrived at
+    // an edge is stored with its first vertex, which in reverse order is the other one
     let turned = (0..count).rev().map(|k| {
         let (x, y) = vertices[k].values;
         Vertex { values: (y, x), bound: vertices[(k + count - 1) % count].bound }
@@ -215,7 +217,7 @@ fn mirrored(vertices: &[Vertex]) -> Vec<Vertex> {
     turned.collect()
 }
 
-/// The stop whose gap a parameter is.
+/// The stop whose gap is this parameter.
 const fn varied(parameter: Parameter) -> Option<Side> {
     match parameter {
         Parameter::Gap => Some(Side::Upper),
@@ -229,7 +231,7 @@ fn nearest(osc: &Oscillator) -> f64 {
     osc.stops().map(|(_, stop)| stop.gap).fold(f64::INFINITY, f64::min)
 }
 
-/// The damping ratio from which on the amplitude at `beta` is at most `gap`.
+/// The smallest damping ratio at which the amplitude at `beta` is at most `gap`.
 fn least_damping(beta: f64, gap: f64) -> f64 {
     if gap <= 0.0 {
         return f64::INFINITY;
@@ -245,7 +247,7 @@ fn frequencies(gap: f64, zeta: f64) -> impl Iterator<Item = f64> {
     squares.filter(|square| *square > 0.0).map(f64::sqrt)
 }
 
-/// An edge is halved no more often than this.
+/// The largest number of times that an edge is halved.
 const DEEPEST: u32 = 40;
-/// How far from a break, as a share of half the stretch, its value on one side is taken.
+/// The distance from a jump at which the limit on one side is evaluated, as a fraction of half the interval.
 const ASIDE: f64 = 1e-12;

@@ -1,4 +1,4 @@
-//! Orbits followed away from an edge: to a point within it, and over a fold onto the other sheet.
+//! Following an orbit from the edge of a region to a point inside, or across a fold to the other sheet.
 
 use super::polygon::Bound;
 use super::seed::Seed;
@@ -9,7 +9,8 @@ use crate::continuation::trace::tracer::Step;
 use crate::orbit::{Floquet, Orbit, ring_cycle, solve};
 
 impl SheetWalk<'_> {
-    /// The orbit at `target`, followed straight from one on the edge; `None` if it is inadmissible on this sheet, or not reached.
+    /// The orbit at `target`, followed along a straight line from an orbit on the edge; `None` if it is inadmissible on
+    /// this sheet, or is not reached.
     pub(crate) fn reach(&self, from: &[f64], target: (f64, f64), below: bool) -> Option<Seed> {
         let (p, q) = Plane::values(from);
         let (dp, dq) = (target.0 - p, target.1 - q);
@@ -27,12 +28,13 @@ impl SheetWalk<'_> {
             let (before, after) = (here(&walk.here.w), here(&step.there.w));
             let passed = after >= full;
             let share = if passed { (full - before) / (after - before) } else { 1.0 };
-            // on the edge that it leaves a value is zero, with either sign
+            // at the beginning the function of the edge is zero, with either sign, so crossings there are ignored
             if step.crossed.iter().any(|&(s, _)| s > EDGE && s < share * step.length) || after <= before {
                 return None;
             }
             if passed {
-                // the length of the step is not quite in proportion to its share
+                // the distance along the tangent is only nearly proportional to that along the line, so the orbit is
+                // solved at the target
                 let guess = walk.between(&step, share * step.length)?;
                 let (_, mut ring) = walk.problem.plane.split(&guess)?;
                 let osc = walk.problem.plane.oscillator(target)?;
@@ -47,7 +49,7 @@ impl SheetWalk<'_> {
         None
     }
 
-    /// An orbit of the sheet on the other side of a fold, where that is a motion, and its place in the plane.
+    /// An orbit on the sheet beyond a fold, with its place in the plane; `None` if no such orbit is admissible.
     pub(crate) fn across(&self, fold: &[f64], below: bool) -> Option<(Seed, (f64, f64))> {
         let mut plane = self.plane.clone();
         plane.condition = self.bounds.iter().find(|(.., bound)| *bound == Bound::Fold)?.0;
@@ -55,7 +57,7 @@ impl SheetWalk<'_> {
         let width = row.len();
         row[width - 2] = 1.0;
         let along = tangent(&plane, fold, &row)?;
-        // straight across the curve of folds
+        // in the plane, perpendicular to the curve of folds
         let (x, y) = plane.scaled(&along);
         let (p, q) = Plane::values(fold);
         let (one, two) = plane.unscaled((-y, x));
@@ -77,7 +79,7 @@ impl SheetWalk<'_> {
     }
 }
 
-/// A bound that is passed nearer to the edge than this is the edge itself.
+/// A crossing closer to the beginning of the line than this is the edge itself.
 const EDGE: f64 = 1e-9;
-/// Steps across a fold.
+/// The lengths of the step across a fold that are tried.
 const ACROSS: [f64; 3] = [1e-2, 1e-3, 1e-4];

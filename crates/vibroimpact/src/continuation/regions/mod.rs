@@ -1,10 +1,10 @@
-//! Where in a plane of two parameters a motion exists or is stable, as polygons.
+//! Regions of a plane of two parameters in which an orbit exists or is stable, as polygons.
 //!
 //! | idea | file |
 //! |---|---|
 //! | the region | [`region`], [`Region`], [`RegionOptions`] |
-//! | orbits on a grid, and the sheets of solutions that they lie on | `search`, `seed` |
-//! | the edge of a sheet; from it to a point inside and over a fold | `sheet_walk`, `inside` |
+//! | orbits on a grid, and the sheets of solutions to which they belong | `search`, `seed` |
+//! | the edge of a sheet; from the edge to a point inside and across a fold | `sheet_walk`, `inside` |
 //! | where the equations of a sheet are singular | `singular` |
 //! | the region of the motion without impacts, in closed form | `free_region` |
 

@@ -1,31 +1,34 @@
-//! Of what a region is, and how it is looked for.
+//! The kind of a region, and the options of its search.
 
-/// What a region is the region of.
+/// The property that holds in a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RegionKind {
-    /// Where the motion exists, stable or not.
+    /// The orbit exists, stable or not.
     Existence,
-    /// Where it exists and is stable.
+    /// The orbit exists and is stable.
     Stability,
 }
 
-/// How a region is looked for.
+/// The grid, step lengths and limits of the search for a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegionOptions {
-    /// The grid of points at which orbits are looked for: smaller parts of the region may be missed.
+    /// The number of points of the grid at which orbits are searched for. Parts of the region smaller than its step can
+    /// be missed.
     pub grid: (u32, u32),
-    /// Seeds of that search.
+    /// The number of starting guesses at each point of the grid: phases and speeds.
     pub seeds: (u32, u32),
-    /// The longest edge: phases in radians, speeds over the fastest where that exceeds 1, and parameters in quarters of the frame.
+    /// The longest edge of a polygon: phases in radians, speeds relative to the fastest if that exceeds 1, parameters
+    /// in quarters of the frame.
     pub longest: f64,
-    /// How far an edge may lie off its curve, in quarters of the frame (an estimate, from how the curve turns).
+    /// The largest distance of an edge from its curve, in quarters of the frame; estimated from the change of
+    /// direction.
     pub accuracy: f64,
-    /// The most vertices of a polygon.
+    /// The largest number of vertices of a polygon.
     pub vertices: u32,
 }
 
 impl Default for RegionOptions {
-    /// A grid of 24 times 24, 24 times 12 seeds at each point; edges up to 0.02, right to
+    /// A grid of 24 times 24, with 24 times 12 starting guesses at each point; edges up to 0.02 that are accurate to
     /// 2e-5; polygons of at most 6000 vertices.
     fn default() -> Self {
         Self { grid: (24, 24), seeds: (24, 12), longest: 0.02, accuracy: 2e-5, vertices: 6_000 }

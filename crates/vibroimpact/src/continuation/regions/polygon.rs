@@ -1,17 +1,18 @@
 //! Regions of a plane of parameters as polygons.
 
-/// What bounds a region along an edge of a polygon.
+/// The condition that bounds a region along an edge of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
-    /// Two orbits meet: a multiplier is +1.
+    /// A multiplier is +1: two orbits meet.
     Fold,
     /// A multiplier is -1.
     Flip,
-    /// The orbit merges with one of half its period, at a flip of that, or of more symmetry, at its branch point.
+    /// The orbit merges with an orbit of half the period at a flip of that orbit, or with a symmetric orbit at its
+    /// branch point.
     Merging,
     /// An impact has speed zero.
     NoSpeed,
-    /// A flight touches a stop on its way.
+    /// A flight grazes a stop.
     Touch,
     /// The edge of the frame.
     Frame,
@@ -32,28 +33,28 @@ impl Bound {
     }
 }
 
-/// A corner or a point on an edge.
+/// A vertex of a polygon: a corner or a point on an edge of the region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
     /// Values of the two parameters.
     pub values: (f64, f64),
-    /// What bounds the region from here to the next vertex.
+    /// The bound of the region from this vertex to the next one.
     pub bound: Bound,
 }
 
-/// A closed polygon; the last vertex is joined to the first.
+/// A closed polygon; the last vertex is connected to the first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
-    /// Its vertices, with the region to the left.
+    /// Its vertices, with the region on the left.
     pub vertices: Vec<Vertex>,
     /// Whether it is the edge of a hole.
     pub hole: bool,
-    /// Which sheet of the surface it bounds: that of the orbits whose multipliers stay below +1, or the other.
+    /// The sheet that it bounds: true for orbits whose multipliers are below +1, false for the other sheet.
     pub below: bool,
 }
 
 impl Polygon {
-    /// Twice the area, negative for a hole.
+    /// Twice the area; negative for a hole.
     pub(crate) fn area(&self) -> f64 {
         self.edges().map(|((x, y), (u, v))| x * v - u * y).sum()
     }
@@ -63,9 +64,9 @@ impl Polygon {
         (0..m).map(move |k| (self.vertices[k].values, self.vertices[(k + 1) % m].values))
     }
 
-    /// How many times it goes round a point counterclockwise.
+    /// How many times the polygon encloses a point counterclockwise.
     pub(crate) fn winding(&self, (x, y): (f64, f64)) -> i32 {
-        // edges that a ray from the point to the right meets, upwards or downwards
+        // edges that cross the ray from the point to the right, upwards or downwards
         let meets = |((x0, y0), (x1, y1)): ((f64, f64), (f64, f64))| {
             let across = (y0 > y) != (y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0);
             if !across {
@@ -79,7 +80,7 @@ impl Polygon {
         self.edges().map(meets).sum()
     }
 
-    /// Distance of a point from it, lengths over `scales`, and the edge it is nearest to.
+    /// The distance of a point from the polygon, with lengths divided by `scales`, and the index of the nearest edge.
     pub(crate) fn nearest(&self, (x, y): (f64, f64), scales: (f64, f64)) -> (f64, usize) {
         let scaled = |(u, v): (f64, f64)| ((u - x) / scales.0, (v - y) / scales.1);
         let to_edge = |(a, b): ((f64, f64), (f64, f64))| {
@@ -99,19 +100,19 @@ impl Polygon {
 pub struct Region {
     /// Its polygons.
     pub polygons: Vec<Polygon>,
-    /// Points of the grid where the search for orbits and the polygons do not agree: a walk was lost there, or an orbit rests on a
-    /// stop.
+    /// The points of the grid at which the search for orbits and the polygons disagree, because a trace failed there or
+    /// an orbit sticks.
     pub unresolved: Vec<(f64, f64)>,
 }
 
 impl Region {
-    /// Whether a point lies in it.
+    /// Whether a point lies in the region.
     #[must_use]
     pub fn contains(&self, point: (f64, f64)) -> bool {
         [true, false].into_iter().any(|below| self.sheets(point, below) > 0)
     }
 
-    /// On how many sheets of that kind it lies: polygons of several may overlap.
+    /// The number of sheets of that kind over a point; polygons of several sheets may overlap.
     pub(crate) fn sheets(&self, point: (f64, f64), below: bool) -> usize {
         let windings = self.polygons.iter().filter(|p| p.below == below).map(|p| p.winding(point));
         usize::try_from(windings.sum::<i32>()).unwrap_or(0)

@@ -1,11 +1,12 @@
-//! Where in a plane of two parameters a motion exists, and where it is stable: closed polygons along the curves that bound
-//! it.
+//! Regions of a plane of two parameters in which an orbit exists or is stable: closed polygons along the curves that
+//! bound them.
 //!
-//! The solutions of the equations of m/n over the plane are a surface. It folds where a multiplier is +1, and on either side
-//! of a fold it lies over the plane like a sheet. A sheet is a motion where every impact has speed, no flight touches a stop,
-//! and, for stability, no multiplier has passed -1. Each of these bounds is a smooth function on the surface, so the region
-//! is bounded by curves along which one of them is zero, with corners where two are. A walk goes along one curve until
-//! another bound would be passed and goes on along that, the way on which the former holds, until it is back.
+//! The solutions of the equations of m/n over the plane are a surface. It folds where a multiplier is +1, and the part
+//! on one side of a fold is a sheet over the plane. A solution is admissible if every impact has positive speed and no
+//! flight reaches a stop; for stability, no multiplier has passed -1. Each of these bounds is the zero of a smooth
+//! function on the surface. So the region is bounded by curves along which one of the functions is zero, with corners
+//! where two are zero. A curve is traced until another function changes sign. From this corner the curve of that
+//! function is traced, in the direction in which the first one stays positive, and so on until the edge is closed.
 
 use super::free_region::free_region;
 use super::options::{RegionKind, RegionOptions};
@@ -15,17 +16,18 @@ use crate::continuation::curves::Frame;
 use crate::system::Oscillator;
 use crate::verdict::{Count, Label};
 
-/// The region of the orbits of `osc` that are called `label` in a frame of two parameters.
+/// The region of the orbits of `osc` with the label `label` in a frame of two parameters.
 ///
-/// Orbits are looked for on a grid, and from each on a sheet that is not known yet a walk goes round the part of the region
-/// it lies in; from the folds of that one on to the sheet on their other side; and from grid points inside a polygon without
-/// an orbit, which none can be followed to from the edge, round the hole. Where a walk is lost, the points of the grid that
-/// it would have gone round are [unresolved](Region::unresolved). Orbits that rest on a stop have no equations to
-/// walk along: with restitution 0, where they may have the label m/n, the points of the grid at which there is one are unresolved.
+/// Orbits are searched for on a grid. From each orbit on a sheet that is not known yet, the edge of that part of the
+/// region is traced. If the edge has folds, the sheets on their other side are traced too. From points of the grid
+/// inside a polygon at which the search found no orbit and to which none can be followed from the edge, the hole is
+/// traced. If a trace fails, the points of the grid that it would have enclosed are [unresolved](Region::unresolved).
+/// Orbits that stick have no equations that can be traced. With restitution 0 they can have the label m/n, and the
+/// points of the grid with such an orbit are unresolved.
 ///
 /// The region of the motion without impacts, `0`, needs no search: it is where $`|f|`$ exceeds no gap, bounded by
-/// [`Bound::Touch`](super::Bound::Touch). With damping the motion is stable wherever it exists; without, it is neutrally stable, and
-/// the region of stability is empty.
+/// [`Bound::Touch`](super::Bound::Touch). With damping the motion is stable wherever it exists. Without damping it is
+/// neutrally stable, and the region of stability is empty.
 ///
 /// ```
 /// use vibroimpact::{Label, Oscillator, Parameter};
@@ -39,13 +41,13 @@ use crate::verdict::{Count, Label};
 /// ```
 #[must_use]
 pub fn region(osc: &Oscillator, label: Label, kind: RegionKind, frame: &Frame, options: RegionOptions) -> Region {
-    // nothing stops it
+    // it is never stopped
     let nothing = Region { polygons: Vec::new(), unresolved: Vec::new() };
     region_while(osc, label, kind, frame, options, || true).unwrap_or(nothing)
 }
 
-/// The same as [`region`], as long as `go_on` says yes when asked, which it is at every point of the grid and every step;
-/// `None` once it said no.
+/// The same as [`region`], but stopped when `go_on` returns false, and then `None`. `go_on` is called at every point of
+/// the grid and at every step.
 #[must_use]
 pub fn region_while(
     osc: &Oscillator,

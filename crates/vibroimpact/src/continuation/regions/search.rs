@@ -1,4 +1,5 @@
-//! The search for the sheets of a region: orbits on a grid, a walk round each sheet, and what the two say of each other.
+//! The search for the sheets of a region: finds orbits on a grid, traces the edge of each sheet, and compares orbits
+//! and polygons.
 
 use super::options::{RegionKind, RegionOptions};
 use super::polygon::{Bound, Polygon, Region};
@@ -12,7 +13,7 @@ use crate::orbit::{Cycle, DEFAULT_EVENTS, FindOptions, Orbit, Ring, from_release
 use crate::system::Oscillator;
 use crate::verdict::{Count, Label};
 
-/// A closed walk, and what it went along.
+/// A closed edge with the solutions on it.
 struct Sheet<'a> {
     walk: SheetWalk<'a>,
     trail: Vec<Vec<f64>>,
@@ -24,27 +25,27 @@ pub(crate) struct Search<'a> {
     kind: RegionKind,
     options: RegionOptions,
     pub(crate) region: Region,
-    /// As many as there are polygons.
+    /// One for each polygon.
     sheets: Vec<Sheet<'a>>,
-    /// Edges along which a walk was lost, by the way it was tried: it would be lost again.
+    /// Edges whose trace failed, with the index in [`WAYS`] of the attempt, so that it is not repeated.
     lost: Vec<(usize, Polygon, Vec<Vec<f64>>)>,
     go_on: &'a dyn Fn() -> bool,
 }
 
-/// How a walk is tried: the share by which the frame is shrunk, an edge of it where the equations are singular being kept
-/// off, and whether frequencies with whole natural periods are.
+/// The attempts to trace an edge: the fraction by which the frame is shortened, to avoid singular equations on its
+/// edge, and whether the trace keeps a distance from frequencies with a whole number of natural periods.
 const WAYS: [(f64, bool); 3] = [(0.0, false), (0.0, true), (INWARDS, true)];
-/// The most polygons.
+/// The largest number of polygons.
 const MOST_POLYGONS: usize = 200;
-/// A polygon of less area, in quarters of the frame, is a walk there and back.
+/// An edge that encloses less area than this, in quarters of the frame, is traced forth and back.
 const LEAST: f64 = 1e-9;
-/// Speeds below this are rounding: an edge along which none is more is that of no orbit.
+/// Speeds below this are rounding errors: an edge on which all speeds are below it is not that of an orbit.
 const STILL: f64 = 1e-9;
-/// One fold in this number of vertices is crossed.
+/// One of this number of vertices on folds is used to cross to the other sheet.
 const FOLDS: usize = 8;
-/// Places of an edge from which an orbit is followed to a point of the grid.
+/// The number of vertices of an edge from which an orbit is followed to a point of the grid.
 const PLACES: usize = 6;
-/// Orbits on the same edge differ by less than this between its vertices.
+/// The difference of orbits on the same edge is below this between two vertices.
 const LIKE: f64 = 0.1;
 
 impl<'a> Search<'a> {
@@ -59,7 +60,7 @@ impl<'a> Search<'a> {
         Self { osc, frame, kind, options, region, sheets: Vec::new(), lost: Vec::new(), go_on }
     }
 
-    /// The point `(i, j)` of the grid, not on the frame itself.
+    /// The point `(i, j)` of the grid; no point lies on the edge of the frame.
     fn node(&self, i: u32, j: u32) -> (f64, f64) {
         let at = |range: &core::ops::RangeInclusive<f64>, k: u32, count: u32| {
             range.start() + (range.end() - range.start()) * (f64::from(k) + 0.5) / f64::from(count)
@@ -73,6 +74,7 @@ impl<'a> Search<'a> {
         second.set(&first.set(self.osc, p).ok()?, q).ok()
     }
 
+    /// Finds the polygons of the region of a label, and compares them with the orbits on the grid.
     pub(crate) fn run(&mut self, label: Label) {
         if !self.frame.sensible() {
             return;
@@ -81,7 +83,8 @@ impl<'a> Search<'a> {
         let nodes: Vec<(u32, u32)> = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))).collect();
         let mut places: Vec<(f64, f64)> = nodes.iter().map(|&(i, j)| self.node(i, j)).collect();
         let mut seeds: Vec<Vec<Seed>> = places.iter().map(|&at| self.seeds(label, at)).collect();
-        // where neighbours differ there is an edge between them, and perhaps more than one
+        // where the numbers of orbits at neighbours differ, an edge lies between them, perhaps more than one, so search
+        // there too
         for (k, &(i, j)) in nodes.iter().enumerate() {
             for (there, other) in [(i + 1 < columns, k + 1), (j + 1 < rows, k + columns as usize)] {
                 if there && seeds[k].len() != seeds[other].len() {
@@ -111,7 +114,7 @@ impl<'a> Search<'a> {
                     seeds[index].push(seed);
                     continue;
                 }
-                // a hole: towards it from beside it
+                // the point is in a hole: trace towards it from its neighbours
                 let beside = [(i.wrapping_sub(1), j), (i + 1, j), (i, j.wrapping_sub(1)), (i, j + 1)];
                 for (k, l) in beside.into_iter().filter(|&(k, l)| k < columns && l < rows) {
                     let near = seeds[(l * columns + k) as usize].iter().find(|seed| seed.below == below);
@@ -127,7 +130,7 @@ impl<'a> Search<'a> {
         }
         self.region.polygons.retain(|polygon| {
             let inside = places.iter().zip(&seeds).take(nodes.len()).filter(|(at, _)| polygon.winding(**at) > 0);
-            // one that holds points of the grid and no orbit at any has been walked along something else
+            // a polygon that contains points of the grid but no orbit at any of them is wrong
             let mut inside = inside.map(|(_, seeds)| seeds.iter().any(|seed| seed.below == polygon.below)).peekable();
             inside.peek().is_none() || inside.any(|has| has)
         });
@@ -139,7 +142,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether at a point an orbit of this label rests on a stop, as m/n may with restitution 0: it has no equations to walk along.
+    /// Whether an orbit with this label sticks at a point, as m/n can with restitution 0.
     fn rests(&self, label: Label, at: (f64, f64)) -> bool {
         let Some(osc) = self.oscillator(at).filter(|_| (self.go_on)()) else { return false };
         let sticky = osc.stops().filter(|(_, stop)| stop.restitution == 0.0);
@@ -152,24 +155,24 @@ impl<'a> Search<'a> {
         let Some(osc) = self.oscillator(at).filter(|_| (self.go_on)()) else { return Vec::new() };
         let loses = osc.damping() > 0.0 || osc.stops().any(|(_, stop)| stop.restitution < 1.0);
         if self.kind == RegionKind::Stability && !loses {
-            return Vec::new(); // what loses no energy attracts nothing: rounding would decide
+            return Vec::new(); // without loss of energy nothing is asymptotically stable, and rounding would decide
         }
         let Count::Finite(impacts @ 1..) = label.impacts else { return Vec::new() };
         let (options, mut orbits) = (FindOptions { seeds: self.options.seeds, ..FindOptions::default() }, Vec::new());
         if struck(&osc, (impacts, label.periods), options, &mut orbits, self.go_on).is_none() {
-            return Vec::new(); // so is the region, for who stopped it
+            return Vec::new(); // stopped: the caller discards the region
         }
         let wanted = |o: &Orbit| o.physical && (self.kind == RegionKind::Existence || o.cycle.stable());
         let seed = |cycle: &Cycle| {
             let ring = Ring::of(&osc, cycle).filter(|ring| ring.len() > 0)?;
             let [one, two] = cycle.multipliers;
-            // (1 - one)(1 - two): positive below +1
+            // (1 - one)(1 - two): positive if both multipliers are below +1
             let product = (1.0 - one.re) * (1.0 - two.re) - one.im * two.im;
             Some(Seed { ring, osc, below: product > 0.0 })
         };
         let mut seeds: Vec<Seed> = Vec::new();
         for seed in orbits.iter().filter(|o| wanted(o)).filter_map(|o| seed(&o.cycle)) {
-            // a mirrored one has the same region
+            // a mirrored orbit has the same region
             let same = |other: &Seed| unlike(&other.ring.unknowns, &seed.ring.unknowns) < 1e-6;
             if !seeds.iter().any(same) {
                 seeds.push(seed);
@@ -178,8 +181,8 @@ impl<'a> Search<'a> {
         seeds
     }
 
-    /// Walks round the part of the region that a seed lies in, and round holes that are met on the way out, until its place
-    /// lies in as many sheets of its kind as are known to be there.
+    /// Traces the edge of the part of the region that contains a seed, and the holes that are met on the way to it,
+    /// until the seed is enclosed by the known number of sheets of its kind.
     fn around(&mut self, seed: &Seed, at: (f64, f64), sheets: usize) {
         let (p, q) = self.frame.scales();
         for towards in [(p, 0.0), (-p, 0.0), (0.0, q), (0.0, -q)] {
@@ -190,18 +193,19 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Adds the polygon that is met from a seed in a direction, unless it is known, and those on the other side of its folds.
+    /// Adds the polygon whose edge is met from a seed in a direction, unless it is known, and those on the other side
+    /// of its folds.
     fn add(&mut self, seed: &Seed, at: (f64, f64), towards: (f64, f64)) {
         for (way, (inwards, walled)) in WAYS.into_iter().enumerate() {
             let frame = self.frame.shrunk(inwards);
             let what = (&frame, self.kind, self.options);
             let Some(walk) = SheetWalk::new(what, seed, at, walled, self.go_on) else { continue };
             if (way, walk.added) == (1, 0) {
-                continue; // the same way again
+                continue; // the same attempt as before
             }
             let Some((bound, start, out)) = walk.out(towards) else { continue };
             if start.len() > 4 && still(&start) {
-                continue; // no place to begin: several bounds at once, all along a curve
+                continue; // all speeds vanish: several bounds are zero here along a curve
             }
             let sheets = self.region.polygons.iter().zip(&self.sheets);
             if sheets.into_iter().any(|(polygon, sheet)| self.on(polygon, &sheet.trail, &start, seed.below)) {
@@ -227,10 +231,10 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Over the folds of a sheet to what lies on their other side.
+    /// Crosses the folds of a sheet and traces the sheets on their other side.
     fn cross(&mut self, index: usize) {
         if self.kind == RegionKind::Stability {
-            return; // nothing there is stable
+            return; // nothing is stable there
         }
         let (polygon, Sheet { walk, trail }) = (&self.region.polygons[index], &self.sheets[index]);
         let folds = polygon.vertices.iter().zip(trail).step_by(FOLDS).filter(|(v, _)| v.bound == Bound::Fold);
@@ -242,20 +246,20 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether an orbit on an edge is one of an edge that was walked along.
+    /// Whether an orbit on an edge lies on this edge, which was traced before.
     fn on(&self, polygon: &Polygon, trail: &[Vec<f64>], w: &[f64], below: bool) -> bool {
         let (distance, k) = polygon.nearest(Plane::values(w), self.frame.scales());
         let like = |k: usize| unlike(impacts(&trail[k % trail.len()]), impacts(w)) < LIKE;
         polygon.below == below && distance < 0.1 * self.options.longest && (like(k) || like(k + 1))
     }
 
-    /// The orbit at a point within a polygon, followed from its edge.
+    /// The orbit at a point inside a polygon, followed from the edge.
     fn reached(&self, at: (f64, f64), below: bool) -> Option<Seed> {
         let scales = self.frame.scales();
         let inside =
             self.region.polygons.iter().zip(&self.sheets).filter(|(p, _)| p.below == below && p.winding(at) != 0);
         inside.into_iter().find_map(|(polygon, Sheet { walk, trail })| {
-            // at a fold the way in is across the equations
+            // at a fold the equations are singular in the direction into the region, so no orbit is followed from there
             let mut places: Vec<(f64, usize)> = polygon
                 .vertices
                 .iter()
@@ -277,7 +281,7 @@ fn impacts(w: &[f64]) -> &[f64] {
     &w[..w.len() - 2]
 }
 
-/// Whether no impact has any speed.
+/// Whether all speeds vanish.
 fn still(w: &[f64]) -> bool {
     impacts(w).iter().skip(1).step_by(2).all(|speed| *speed <= STILL)
 }

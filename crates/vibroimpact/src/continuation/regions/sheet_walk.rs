@@ -1,4 +1,5 @@
-//! A walk round a sheet: along one bound until another would be passed, then along that, until it is back.
+//! The trace of the edge of a sheet: along one bound to a corner with another bound, then along that one, until it is
+//! closed.
 
 use super::options::{RegionKind, RegionOptions};
 use super::polygon::{Bound, Vertex};
@@ -11,18 +12,18 @@ use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::Step;
 use crate::orbit::{Floquet, blocks};
 
-/// A walk round the edge of a sheet.
+/// The trace of the edge of a sheet.
 pub(crate) struct SheetWalk<'a> {
     pub(crate) plane: Plane,
-    /// What must stay positive, up to the sign given.
+    /// The functions that bound the sheet, with the sign that each has inside.
     pub(crate) bounds: Vec<(Condition, f64, Bound)>,
-    /// How many of these `walled` has added.
+    /// The number of these functions that `walled` has added.
     pub(crate) added: usize,
     w: Vec<f64>,
     /// The sign of the test function of a multiplier +1 on the sheet.
     pub(crate) sheet: f64,
     pub(crate) options: RegionOptions,
-    /// Asked at every step.
+    /// Called at every step; false stops the trace.
     pub(crate) go_on: &'a dyn Fn() -> bool,
 }
 
@@ -30,7 +31,7 @@ pub(crate) struct SheetWalk<'a> {
 #[derive(Default)]
 pub(crate) struct Edge {
     pub(crate) vertices: Vec<Vertex>,
-    /// The cycle and the parameters at each.
+    /// The cycle and the parameters at each vertex.
     pub(crate) trail: Vec<Vec<f64>>,
     pub(crate) closed: bool,
 }
@@ -43,7 +44,8 @@ impl Edge {
 }
 
 impl<'a> SheetWalk<'a> {
-    /// From a seed; with `walled`, frequencies with whole natural periods in those of the force are kept off.
+    /// From a seed; with `walled`, the trace keeps a distance from frequencies at which the forcing periods are a whole
+    /// number of natural periods.
     pub(crate) fn new(
         (frame, kind, options): (&Frame, RegionKind, RegionOptions),
         seed: &Seed,
@@ -61,7 +63,7 @@ impl<'a> SheetWalk<'a> {
             frame.edges().into_iter().map(|edge| (edge, 1.0, Bound::Frame)).collect();
         let sheet = floquet.plus_one().signum();
         match partner(frame, seed) {
-            // a branch point where symmetry is lost is singular; a little before it the equations are not
+            // a branch point where symmetry is lost is singular; a little before it the equations are regular
             Some(Partner::Itself) => {
                 bounds.push((Condition::NearPlusOne(sheet * ASIDE * ASIDE), sheet, Bound::Fold));
             }
@@ -81,7 +83,7 @@ impl<'a> SheetWalk<'a> {
                 bounds.push((Condition::Pull(k), 1.0, Bound::Touch));
             }
         }
-        // one impact never gets across
+        // an orbit with one impact never crosses these frequencies
         let alone = seed.ring.len() == 1;
         let walls = if walled || alone { walls(frame, seed, at) } else { Vec::new() };
         let added = if alone { 0 } else { walls.len() };
@@ -93,20 +95,21 @@ impl<'a> SheetWalk<'a> {
         self.bounds.iter().map(|(condition, ..)| *condition).collect()
     }
 
-    /// A walk along the zero of a condition from `w`, on the side that `row` is positive on.
+    /// The tracer along the zero of a condition from `w`, in the direction of the tangent whose product with `row` is
+    /// positive.
     pub(crate) fn along(&self, condition: Condition, w: &[f64], row: &[f64]) -> Option<PlaneTracer> {
         let mut plane = self.plane.clone();
         plane.condition = condition;
         let mut walk = PlaneTracer::along(plane, self.watched(), w.to_vec(), row, self.options.longest)?;
-        // the bound that is followed is zero, and the others are what they have to be
+        // the function that is followed is zero, and the others have their sign inside
         for (known, (other, sign, _)) in walk.signs.iter_mut().zip(&self.bounds) {
             *known = (*other != condition).then_some(*sign > 0.0);
         }
         Some(walk)
     }
 
-    /// To the first bound in a direction: which, where, and the walk that led there; `None` where it is lost, or has taken as many
-    /// steps as an edge may have vertices.
+    /// Traces in a direction to the first bound: its index, the point, and the tracer; `None` if the trace fails or
+    /// takes more steps than a polygon may have vertices.
     pub(crate) fn out(&self, (dp, dq): (f64, f64)) -> Option<(usize, Vec<f64>, PlaneTracer)> {
         let (p, q) = Plane::values(&self.w);
         let line = Condition::Line(dq, -dp, dq * p - dp * q);
@@ -127,10 +130,10 @@ impl<'a> SheetWalk<'a> {
         None
     }
 
-    /// Round the edge from `start` on `bound`, where `out` led; where the walk is lost, round it the other way to the same
-    /// place. Not closed if that is another.
+    /// The edge through `start` on the bound `bound`, to which `out` led. If the trace fails, the edge is also traced
+    /// in the other direction; it is closed if both traces end at the same place.
     pub(crate) fn edge(&self, bound: usize, start: &[f64], out: &PlaneTracer) -> Edge {
-        // with the inside, where the walk came from, to the left
+        // the inside, from which `out` came, must be on the left
         let inside = {
             let (x, y) = out.problem.plane.scaled(start);
             let (u, v) = out.problem.plane.scaled(&out.here.w);
@@ -146,15 +149,15 @@ impl<'a> SheetWalk<'a> {
         if forth.closed { forth } else { self.joined(forth, self.circle(bound, back)) }
     }
 
-    /// Two walks from one point to where each is lost as one edge; closed, if that is the same place: a point where more
-    /// vanishes than two bounds.
+    /// Joins two traces from one point, up to the places where they failed. The edge is closed if that is the same
+    /// place: a point at which more than two functions are zero.
     fn joined(&self, mut edge: Edge, mut back: Edge) -> Edge {
         let place = |edge: &Edge| {
             let (p, q) = edge.vertices.last().map_or((f64::NAN, f64::NAN), |vertex| vertex.values);
             self.plane.scaled(&[p, q])
         };
         let ((x, y), (u, v)) = (place(&edge), place(&back));
-        // a bound belongs to the edge that leaves a vertex, and backwards that is the one that arrived
+        // the bound of an edge is stored with its first vertex, which in reverse order is the other one
         for k in (1..back.vertices.len()).rev() {
             back.vertices[k].bound = back.vertices[k - 1].bound;
         }
@@ -164,12 +167,12 @@ impl<'a> SheetWalk<'a> {
         edge
     }
 
-    /// The two ways along a bound from a point on it.
+    /// The tracers in both directions along a bound from a point on it.
     pub(crate) fn ways(&self, condition: Condition, w: &[f64]) -> Option<[PlaneTracer; 2]> {
         let mut plane = self.plane.clone();
         plane.condition = condition;
         let width = w.len();
-        // across the gradients of the parameters at least one row is not along the curve
+        // at least one of these unknowns changes along the curve
         for unknown in [width - 2, width - 1, 0, 1] {
             let mut row = vec![0.0; width];
             row[unknown] = 1.0;
@@ -185,25 +188,25 @@ impl<'a> SheetWalk<'a> {
         None
     }
 
-    /// Round the edge from where `walk` begins, on bound `first`, as far as it gets.
+    /// Traces the edge from where `walk` begins, on the bound `first`, until it is closed or the trace fails.
     fn circle(&self, first: usize, mut walk: PlaneTracer) -> Edge {
         let begin = walk.here.clone();
         let mut active = first;
         let mut edge = Edge::default();
-        // corners that are one place, and how each was come to
+        // corners at the same place, each with the bound on which it was reached
         let mut corners: Vec<(usize, PlaneSolution)> = Vec::new();
         let mut small = 0;
         edge.push(&begin.w, self.bounds[active].2);
         while edge.vertices.len() < self.options.vertices as usize && (self.go_on)() {
             let Some(step) = walk.step() else { break };
-            // onto an orbit that is gone round several times
+            // towards an orbit that is repeated several times
             small = if step.length < CREEP { small + 1 } else { 0 };
             if small > MOST_SMALL || self.repeats(&step.there.w) {
                 break;
             }
             let bound = self.bounds[active].2;
             if let Some(&(s, Some(j))) = step.crossed.first() {
-                // the beginning may lie before the corner
+                // the first point of the edge may lie before the corner
                 let Some(corner) = walk.between(&step, s).and_then(|w| walk.solution(w)) else { break };
                 if active == first && walk.passes(&begin, &corner) {
                     edge.closed = true;
@@ -235,14 +238,15 @@ impl<'a> SheetWalk<'a> {
         edge
     }
 
-    /// Whether a cycle is a shorter one gone round several times.
+    /// Whether a cycle is a shorter one repeated several times.
     fn repeats(&self, w: &[f64]) -> bool {
         let ring = self.plane.split(w).map(|(_, ring)| ring).filter(|ring| ring.len() > 1);
         ring.is_some_and(|ring| ring.len() > ring.smallest(REPEATED).len())
     }
 
-    /// At a corner, the last of those that are one place: the bound to go on along and the way on which all others hold, but
-    /// not back along one that was come on.
+    /// At a corner, which is the last of `corners` at one place: the bound to follow next, with a tracer in the
+    /// direction in which all other functions keep their sign, but not back along a bound on which the place was
+    /// reached.
     fn turn(&self, corners: &[(usize, PlaneSolution)], crossed: usize) -> Option<(usize, PlaneTracer)> {
         let (active, corner) = corners.last()?;
         let zero = |j: usize| j != *active && corner.values[j].abs() < MEET;
@@ -259,7 +263,7 @@ impl<'a> SheetWalk<'a> {
                     continue;
                 }
                 walk.step.now = trial;
-                // without a sign nothing is crossed
+                // without a sign no crossing is detected
                 walk.signs.iter_mut().for_each(|sign| *sign = None);
                 let Some(Step { there, .. }) = walk.step() else { continue };
                 let holds = |k: usize| k == j || there.values[k] * self.bounds[k].1 > -SLACK;
@@ -273,13 +277,14 @@ impl<'a> SheetWalk<'a> {
     }
 }
 
-/// How far two solutions are from each other.
+/// The distance between two solutions.
 fn apart(plane: &Plane, one: &PlaneSolution, other: &PlaneSolution) -> f64 {
     let off: Vec<f64> = one.w.iter().zip(&other.w).map(|(a, b)| a - b).collect();
     plane.length(&off)
 }
 
-/// About how far the curve between two points of it lies off the straight line, parameters over their scales.
+/// An estimate of the distance between the curve and the chord of two of its points, with parameters divided by their
+/// scales.
 fn sagitta(plane: &Plane, here: &PlaneSolution, there: &PlaneSolution) -> f64 {
     let ((x, y), (u, v)) = (plane.scaled(&here.w), plane.scaled(&there.w));
     let ((p, q), (r, s)) = (plane.scaled(&here.tangent), plane.scaled(&there.tangent));
@@ -287,24 +292,25 @@ fn sagitta(plane: &Plane, here: &PlaneSolution, there: &PlaneSolution) -> f64 {
     crate::math::hypot(u - x, v - y) * turn / 8.0
 }
 
-/// With a restitution up to this the mass leaves a stop where the force pulls it off, to within about as much: the hop that the
-/// rebound itself makes is too low for its touches to be a bound.
+/// At a restitution up to this the mass leaves a stop where the force pulls it off. The flight of the rebound itself is
+/// too low for grazing contacts on it to be a bound.
 const INELASTIC: f64 = 1e-9;
-/// Bounds closer to zero than this at a corner meet there.
+/// Functions closer to zero than this at a corner are zero there.
 const MEET: f64 = 1e-6;
-/// As many corners in one place as this are a walk that gets nowhere.
+/// The trace has failed if it meets this number of corners at one place.
 const MOST_CORNERS: usize = 8;
-/// Cosine of the angle to the course of arrival beyond which a way leads back.
+/// A direction with a smaller cosine to the direction of arrival leads back.
 const BACK: f64 = -0.9;
-/// How far beyond a corner the way on is tried; the shorter one where two corners are close.
+/// The distances beyond a corner at which the directions are tried; the shorter one where two corners are close.
 const TRIALS: [f64; 2] = [1e-3, 1e-6];
-/// A bound that is this little violated there is held, by rounding.
+/// A function may be negative by this much there, by rounding.
 const SLACK: f64 = 1e-9;
-/// Ends of two walks nearer than this, parameters in quarters of the frame, are one place.
+/// The largest distance between the ends of two traces that are the same place, with parameters in quarters of the
+/// frame.
 const JOIN: f64 = 5e-3;
-/// More steps than this one after the other that are shorter than [`CREEP`] lead nowhere.
+/// The trace has failed after more than this number of successive steps shorter than [`CREEP`].
 const MOST_SMALL: u32 = 40;
 /// See [`MOST_SMALL`].
 const CREEP: f64 = 1e-5;
-/// Parts of a cycle that differ by less are the same.
+/// Parts of a cycle that differ by less than this are equal.
 pub(crate) const REPEATED: f64 = 1e-7;

@@ -1,19 +1,19 @@
-//! Where the equations of a sheet are singular, and what keeps a walk off.
+//! Places where the equations of a sheet are singular, and the distance that a trace keeps from them.
 
 use super::seed::Seed;
 use crate::continuation::curves::Frame;
 use crate::continuation::equations::plane_equations::Condition;
 use crate::system::Side;
 
-/// What a cycle becomes when half of it is shifted onto the other half, on the same stops or mirrored.
+/// The cycle obtained when a cycle is shifted by half its period, and mirrored if the two halves are on opposite stops.
 pub(crate) enum Partner {
-    /// The same: it is symmetric.
+    /// The same cycle: it is symmetric.
     Itself,
-    /// Another, which it may merge with; the impacts that differ most in speed, the faster one first.
+    /// Another cycle, with which it may merge; the two impacts whose speeds differ most, the faster one first.
     Other(usize, usize),
 }
 
-/// The partner of a seed, if it can have one.
+/// The partner of a seed; `None` if it cannot have one, or if it is about to merge with it.
 pub(crate) fn partner(frame: &Frame, seed: &Seed) -> Option<Partner> {
     use crate::system::Parameter::{Gap, Restitution, SecondGap, SecondRestitution};
     let (ring, m) = (&seed.ring, seed.ring.len());
@@ -35,20 +35,22 @@ pub(crate) fn partner(frame: &Frame, seed: &Seed) -> Option<Partner> {
     if more(k) < 1e-6 {
         return Some(Partner::Itself);
     }
-    // one that is nearer to merging than the bound lies on no side of it
+    // a cycle closer to merging than the bound has no side of it
     (more(k) > ASIDE).then_some(Partner::Other(k, (k + half) % m))
 }
 
-/// How far from merging, in speed, a walk stays; the parameters are off by about its square.
+/// The least difference of speeds from a cycle with which it merges; the error of the parameters is about its square.
 pub(crate) const ASIDE: f64 = 1e-3;
 
-/// Frequencies beyond which a cycle does not go, each positive on the side of a seed at `at`.
+/// The frequencies that the trace of a cycle does not pass, as functions that are positive on the side of a seed at
+/// `at`.
 ///
-/// Where, without damping, whole natural periods go into the n of the cycle, a blow is felt in full when the cycle is over. One
-/// impact is back on the stop whatever its speed was, and at resonance only has the force done work: as such a frequency
-/// is approached every orbit loses its speed, at all gaps at once. Several impacts must cancel each other: two are alike and
-/// half a natural period apart, which only some gaps allow, and beside these they lose their speed as well. Either way the
-/// equations are singular where speeds vanish.
+/// They exist without damping, where the n forcing periods of the cycle are a whole number of natural periods. There
+/// the free response returns unchanged after one cycle, so the equations are singular where speeds vanish. With one
+/// impact, the mass returns to the stop whatever its speed was, and the force does net work only at resonance. As such
+/// a frequency is approached, the speed of every orbit vanishes at all gaps. With several impacts, their effects must
+/// cancel: two impacts are equal and half a natural period apart, which is possible only at some gaps, and next to
+/// these gaps the speeds vanish too.
 pub(crate) fn walls(frame: &Frame, seed: &Seed, at: (f64, f64)) -> Vec<Condition> {
     use crate::system::Parameter::{Beta, Damping, InverseBeta};
     let (first, second) = frame.parameters;
@@ -80,6 +82,6 @@ pub(crate) fn walls(frame: &Frame, seed: &Seed, at: (f64, f64)) -> Vec<Condition
     walls
 }
 
-/// Share of its ranges by which a frame is shrunk where a walk along its edge is lost, and by which singular frequencies are
-/// kept off.
+/// The fraction of its ranges by which a frame is shortened if a trace along its edge fails, and the distance that is
+/// kept from singular frequencies, in units of the scales.
 pub(crate) const INWARDS: f64 = 1e-5;

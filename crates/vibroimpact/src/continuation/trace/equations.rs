@@ -1,49 +1,50 @@
 //! Curves of solutions by pseudo-arclength.
 //!
-//! N equations in N + 1 unknowns have curves of solutions. From a point $`w_0`$ with unit tangent $`t`$ the next one is
-//! looked for at $`w_0 + ht`$ and corrected, by Newton's method, in the plane across:
+//! N equations in N + 1 unknowns have curves of solutions. From a point $`w_0`$ with unit tangent $`t`$ the next point
+//! is predicted at $`w_0 + ht`$. Newton's method then corrects it in the plane perpendicular to the tangent:
 //!
 //! $$`G(w) = 0, \qquad \langle t, w - w_0\rangle = h,`$$
 //!
-//! which stays regular where a parameter turns back (H. B. Keller, "Numerical solution of bifurcation and nonlinear
-//! eigenvalue problems", in: Applications of Bifurcation Theory, Academic Press 1977, 359-384). The inner product has
-//! weights, so that unknowns of different kinds count alike.
+//! which is regular also where a parameter turns back (H. B. Keller, "Numerical solution of bifurcation and
+//! nonlinear eigenvalue problems", in: Applications of Bifurcation Theory, Academic Press 1977, 359-384). The inner
+//! product has weights, so that changes of unknowns of different kinds are comparable.
 
 use crate::math::Lu;
 
-/// Equations, one fewer than unknowns.
+/// A system of equations with one equation fewer than unknowns.
 pub(crate) trait Equations {
-    /// What each unknown counts in the inner product; as many as there are unknowns.
+    /// The weight of each unknown in the inner product; one for each unknown.
     fn weights(&self) -> &[f64];
 
-    /// What the equations miss by at `w`, and their Jacobian row by row with room for one more row; `None` where they
-    /// make no sense.
+    /// The residuals of the equations at `w`, and their Jacobian by rows, with one more row that the caller fills in;
+    /// `None` where the equations are not defined.
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)>;
 
-    /// The weighted inner product.
+    /// The weighted inner product of two vectors.
     fn dot(&self, a: &[f64], b: &[f64]) -> f64 {
         self.weights().iter().zip(a.iter().zip(b)).map(|(w, (a, b))| w * a * b).sum()
     }
 
-    /// The weighted length.
+    /// The weighted length of a vector.
     fn length(&self, a: &[f64]) -> f64 {
         self.dot(a, a).sqrt()
     }
 
-    /// The row that takes the inner product with `a`.
+    /// The row whose product with a vector is its weighted inner product with `a`.
     fn row(&self, a: &[f64]) -> Vec<f64> {
         self.weights().iter().zip(a).map(|(w, a)| w * a).collect()
     }
 }
 
-/// Corrections of a point, at most.
+/// The largest number of corrections of one point.
 const MAX_CORRECTIONS: u32 = 10;
-/// After a correction this small only rounding is left, convergence being quadratic.
+/// After a correction shorter than this, only rounding errors are left, because convergence is quadratic.
 const SETTLED: f64 = 1e-9;
-/// A correction longer than this leads elsewhere.
+/// A correction longer than this would lead to another solution and is refused.
 const ASTRAY: f64 = 1.0;
 
-/// The solution near `guess` for which `row` times the unknowns is `level`, and the corrections it took.
+/// The solution near `guess` at which the product of `row` and the unknowns is `level`, with the number of corrections;
+/// `None` if Newton's method does not converge.
 pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], level: f64) -> Option<(Vec<f64>, u32)> {
     let width = guess.len();
     let mut w = guess.to_vec();
@@ -67,7 +68,8 @@ pub(crate) fn correct<E: Equations>(equations: &E, guess: &[f64], row: &[f64], l
     None
 }
 
-/// The unit tangent of the curve at `w` that `row` is positive along; `None` if it is across every one.
+/// The unit tangent of the curve at `w` whose product with `row` is positive; `None` if that product is zero for the
+/// tangent, or if the tangent is not unique.
 pub(crate) fn tangent<E: Equations>(equations: &E, w: &[f64], row: &[f64]) -> Option<Vec<f64>> {
     let width = w.len();
     let (_, mut rows) = equations.at(w)?;

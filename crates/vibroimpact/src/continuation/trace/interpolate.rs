@@ -1,9 +1,9 @@
-//! The cubic through values at -2, -1, 1 and 2.
+//! Cubic interpolation through values at -2, -1, 1 and 2.
 
-/// The abscissas.
+/// The abscissas of the four values.
 const AT: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
-/// Its value at `x`.
+/// The value of the cubic at `x`.
 pub(crate) fn at(x: f64, values: &[f64]) -> f64 {
     let weight = |k: usize| -> f64 {
         let others = AT.iter().enumerate().filter(|(j, _)| *j != k);
@@ -12,7 +12,8 @@ pub(crate) fn at(x: f64, values: &[f64]) -> f64 {
     values.iter().enumerate().map(|(k, value)| value * weight(k)).sum()
 }
 
-/// Its zero near 0, for values that pass through zero there about evenly.
+/// The zero of the cubic near 0, for values that pass through zero there with nearly constant slope. Newton's method
+/// with the mean slope, limited to the interval from -2 to 2.
 pub(crate) fn zero(values: &[f64]) -> f64 {
     let slope = (values[3] - values[0]) / 4.0;
     let mut x = 0.0;

@@ -1,11 +1,11 @@
-//! Curves of solutions of equations, traced step by step.
+//! Tracing curves of solutions of equations step by step.
 //!
 //! | idea | file |
 //! |---|---|
-//! | equations with one unknown more, Newton's method across the tangent | `equations` |
-//! | how long a step is | `step_length` |
-//! | predictor, correction, acceptance of a step, and the zeros of test functions on it | `tracer` |
-//! | a zero in a bracket; a cubic through four points | `root`, `interpolate` |
+//! | equations with one equation fewer than unknowns; Newton's method perpendicular to the tangent | `equations` |
+//! | the length of a step | `step_length` |
+//! | prediction, correction and acceptance of a step, and the zeros of test functions on it | `tracer` |
+//! | a zero in a bracket; the cubic through four points | `root`, `interpolate` |
 
 pub(super) mod equations;
 pub(super) mod interpolate;

@@ -1,11 +1,11 @@
 //! A zero of a function within a bracket.
 
-/// Evaluations at most.
+/// The largest number of evaluations.
 const MAX_EVALUATIONS: u32 = 90;
 
-/// Where `f` changes sign between `low` and `high`, whose values are given, to within `resolution`: by regula falsi with
-/// the value of an end that stays halved (Illinois), and by halving where that gets on slowly or values are infinite.
-/// `None` when the function has no value somewhere.
+/// The place at which `f` changes sign between `low` and `high`, to within `resolution`; the values at both ends are
+/// given. The method is regula falsi in which the value of an end that stays is halved (Illinois). The bracket is
+/// bisected where this is slow or values are infinite. `None` when `f` has no value at a point that is tried.
 pub(crate) fn between(
     mut f: impl FnMut(f64) -> Option<f64>,
     (mut low, mut at_low): (f64, f64),
@@ -22,7 +22,7 @@ pub(crate) fn between(
             break;
         }
         let mut s = low - at_low * (high - low) / (at_high - at_low);
-        // every third step must have shrunk the bracket to a quarter
+        // if three steps have not reduced the bracket to a quarter, the next step bisects it
         let slow = count % 3 == 2 && {
             let slow = high - low > 0.25 * width;
             width = high - low;

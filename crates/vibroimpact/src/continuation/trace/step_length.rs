@@ -1,6 +1,6 @@
-//! How long a step along a curve is: shorter where it fails, longer again where it is easy.
+//! The length of a step along a curve: halved where a step fails, increased where steps converge easily.
 
-/// The length of the next step, and between which lengths it stays.
+/// The length of the next step, with its largest and smallest value.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepLength {
     pub(crate) now: f64,
@@ -9,18 +9,18 @@ pub(crate) struct StepLength {
 }
 
 impl StepLength {
-    /// The next step is half as long.
+    /// Halves the length of the next step.
     pub(crate) fn halve(&mut self) {
         self.now *= 0.5;
     }
 
-    /// The next step is longer by this factor, as far as it may be.
+    /// Multiplies the length of the next step by `factor`, up to the largest length.
     pub(crate) fn grow(&mut self, factor: f64) {
         self.now = (factor * self.now).min(self.longest);
     }
 
-    /// Tries steps, each half as long as the one before, until one is taken; `None` where it would have to be shorter than the
-    /// shortest.
+    /// Tries steps, each half as long as the one before, until `attempt` succeeds; `None` if the length would become
+    /// less than the smallest.
     pub(crate) fn find<T>(&mut self, attempt: impl Fn(f64) -> Option<T>) -> Option<T> {
         loop {
             if let Some(taken) = attempt(self.now) {

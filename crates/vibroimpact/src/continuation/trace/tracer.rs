@@ -1,10 +1,11 @@
-//! One step after another along a curve of solutions, and where on a step a test function is zero.
+//! The tracer: steps along a curve of solutions, and the zeros of test functions on a step.
 //!
-//! From a solution $`w`$ with unit tangent $`t`$ a step of length h is predicted at $`w + ht`$ and corrected by Newton's method in the
-//! plane across (see [`Equations`]). It is taken if the corrected point lies near the predicted one, the tangent has turned little and the
-//! problem admits it; else a step of half the length is tried. Test functions are smooth along the curve and change sign at an
-//! event. Where one has changed sign, its zero is bracketed along the step. Every point tried is a converged solution, so an event is
-//! right to rounding.
+//! From a solution $`w`$ with unit tangent $`t`$ a step of length h is predicted at $`w + ht`$. Newton's method
+//! corrects it in the plane perpendicular to the tangent (see [`Equations`]). A step is accepted if the corrected point
+//! lies near the prediction, the tangent has turned little and the problem admits the new solution. Otherwise a step of
+//! half the length is tried. Test functions are smooth along the curve and change sign at an event. When one has
+//! changed sign, its zero is bracketed along the step. Every point that is tried is a converged solution, so an event
+//! is correct to rounding.
 
 use super::equations::{Equations, correct, tangent};
 use super::root;
@@ -14,61 +15,63 @@ use core::fmt::Debug;
 
 /// Equations whose curves of solutions are traced, with the test functions on their solutions.
 pub(crate) trait Problem: Equations {
-    /// What else is known of a solution.
+    /// What is known of a solution apart from its unknowns and test functions.
     type Known: Clone + Debug;
 
-    /// When a step is taken, and how precisely a zero is located.
+    /// The rules for accepting steps and for the sign of a test function.
     fn rules(&self) -> StepRules;
 
-    /// How many test functions there are.
+    /// The number of test functions.
     fn tests(&self) -> usize;
 
-    /// The values of all test functions at a solution with this tangent, and what else is known of it; `None` where one has none.
+    /// The values of all test functions at a solution with this tangent, and what else is known of it; `None` if one
+    /// has no value.
     fn look(&self, w: &[f64], tangent: &[f64]) -> Option<(Vec<f64>, Self::Known)>;
 
     /// The value of test function `j` at a solution; `tangent` computes the tangent there.
     fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64>;
 
-    /// How closely a zero of test function `j` is located along a step.
+    /// The resolution to which a zero of test function `j` is located along a step.
     fn resolution(&self, j: usize) -> f64;
 
-    /// How many unknowns at the beginning are phases and speeds in turn.
+    /// The number of unknowns at the beginning that are alternately phases and speeds.
     fn phases(&self) -> usize;
 
-    /// Whether a step may lead to `there`, the test functions in `crossed` having changed sign.
+    /// Whether a step may end at `there`; `crossed` are the test functions that change sign on the step.
     fn admits(&self, _here: &Solution<Self::Known>, _there: &Solution<Self::Known>, _crossed: &[usize]) -> bool {
         true
     }
 
-    /// The range of the last unknown. A step that would leave it ends on its end.
+    /// The range of the last unknown; `None` if it is not limited. A step that would leave the range ends at its end.
     fn range(&self) -> Option<(f64, f64)> {
         None
     }
 
-    /// Fits the weights to a solution; whether they have changed.
+    /// Adapts the weights to a solution; returns whether the weights can have changed.
     fn weigh(&mut self, _w: &[f64]) -> bool {
         false
     }
 }
 
-/// When a step is taken, when the next one is longer or shorter, and when a test function counts as zero.
+/// When a step is accepted, when the next step is longer or shorter, and when a test function counts as zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepRules {
-    /// A corrected point may lie this share of the step off the tangent,
+    /// The largest distance of a corrected point from its prediction, as a fraction of the step.
     pub(crate) stray: f64,
-    /// and this much more by rounding.
+    /// The distance added to this for rounding errors.
     pub(crate) rounding: f64,
-    /// Cosine of the most a step may bend.
+    /// The smallest cosine of the angle between the tangents at both ends of a step.
     pub(crate) bend: f64,
-    /// Cosine of a bend below which the next step may be longer,
+    /// The next step may be longer only if the cosine of that angle exceeds this,
     pub(crate) straight: f64,
-    /// if there were at most so many corrections.
+    /// and only if the step took at most this number of corrections.
     pub(crate) few: u32,
     /// After more corrections than this the next step is shorter.
     pub(crate) many: u32,
-    /// A test function nearer to zero than this has no sign.
+    /// The sign of a test function with an absolute value below this is unknown.
     pub(crate) zero: f64,
-    /// Where a point next to a zero has no solution, the test function is evaluated this far beside it; 0 for never.
+    /// If a point close to a zero has no solution, the test function is evaluated this far away along the step; 0 to
+    /// fail instead.
     pub(crate) beside: f64,
 }
 
@@ -76,42 +79,43 @@ pub(crate) struct StepRules {
 #[derive(Clone, Debug)]
 pub(crate) struct Solution<K> {
     pub(crate) w: Vec<f64>,
-    /// The unit tangent there.
+    /// The unit tangent at the solution.
     pub(crate) tangent: Vec<f64>,
-    /// Values of the test functions.
+    /// The values of the test functions.
     pub(crate) values: Vec<f64>,
     pub(crate) known: K,
 }
 
-/// What is passed on a step: how far along it, and the test function that is zero there (`None`: the end of the range).
+/// A crossing on a step: the distance along the step, and the test function that is zero there (`None`: the end of the
+/// range).
 pub(crate) type Crossing = (f64, Option<usize>);
 
-/// A step that may be taken.
+/// A step that satisfies the rules and can be taken.
 #[derive(Clone, Debug)]
 pub(crate) struct Step<K> {
     pub(crate) there: Solution<K>,
-    /// Its length along the tangent.
+    /// Its length along the tangent at its beginning.
     pub(crate) length: f64,
-    /// Whether it ends on the end of the range.
+    /// Whether it ends at the end of the range.
     pub(crate) on_end: bool,
-    /// What is passed on it, in order.
+    /// The crossings on it, in order.
     pub(crate) crossed: Vec<Crossing>,
-    /// The factor by which the next step is longer.
+    /// The factor for the length of the next step.
     growth: f64,
 }
 
-/// Where a trace is: the present solution, the signs of the test functions so far, and the length of the next step.
+/// The state of a trace: the current solution, the signs of the test functions, and the length of the next step.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracer<P: Problem> {
     pub(crate) problem: P,
-    /// `None` until the sign of a test function is known.
+    /// `None` while the sign of a test function is unknown.
     pub(crate) signs: Vec<Option<bool>>,
     pub(crate) here: Solution<P::Known>,
     pub(crate) step: StepLength,
 }
 
 impl<P: Problem> Tracer<P> {
-    /// From the solution `w` along its unit tangent `along`; `None` where a test function has no value.
+    /// Begins at the solution `w` with the unit tangent `along`; `None` if a test function has no value there.
     pub(crate) fn new(problem: P, w: Vec<f64>, along: Vec<f64>, step: StepLength) -> Option<Self> {
         let (values, known) = problem.look(&w, &along)?;
         let zero = problem.rules().zero;
@@ -124,29 +128,30 @@ impl<P: Problem> Tracer<P> {
         sign(value, self.problem.rules().zero)
     }
 
-    /// The tangent at a solution, in the direction of the one here.
+    /// The tangent at the solution `w`, in the direction of the current tangent; `None` if it is not unique.
     pub(crate) fn tangent_at(&self, w: &[f64]) -> Option<Vec<f64>> {
         tangent(&self.problem, w, &self.problem.row(&self.here.tangent))
     }
 
-    /// Everything about the solution `w`.
+    /// The solution `w` with its tangent and test functions; `None` if one of them cannot be computed.
     pub(crate) fn solution(&self, w: Vec<f64>) -> Option<Solution<P::Known>> {
         let along = self.tangent_at(&w)?;
         self.solution_along(w, along)
     }
 
-    /// The same, with a tangent that is known.
+    /// The same with the given tangent.
     pub(crate) fn solution_along(&self, w: Vec<f64>, along: Vec<f64>) -> Option<Solution<P::Known>> {
         let (values, known) = self.problem.look(&w, &along)?;
         Some(Solution { w, tangent: along, values, known })
     }
 
-    /// The next step; `None` where the curve is lost. Nothing is passed until it is [taken](Self::take).
+    /// The next step; `None` if no step down to the smallest length succeeds. The current solution stays the same until
+    /// [`take`](Self::take).
     pub(crate) fn step(&mut self) -> Option<Step<P::Known>> {
         let mut length = self.step;
         let step = length.find(|h| {
             let mut step = self.reach(h)?;
-            // a zero that is not found lies beyond something that a shorter step stays short of
+            // if a zero cannot be located, the step is too long: there is another event before it
             step.crossed = self.crossings(&step)?;
             Some(step)
         });
@@ -161,7 +166,7 @@ impl<P: Problem> Tracer<P> {
         step
     }
 
-    /// Predictor and correction over a length `h`, or to the end of the range if that is nearer.
+    /// Predicts and corrects a step of length `h`, or a step to the end of the range if that is nearer.
     fn reach(&self, h: f64) -> Option<Step<P::Known>> {
         let (here, rules) = (&self.here, self.problem.rules());
         let end = self.problem.range().and_then(|(low, high)| {
@@ -172,7 +177,7 @@ impl<P: Problem> Tracer<P> {
         let h = end.map_or(h, |(_, to_end)| to_end);
         let guess: Vec<f64> = here.w.iter().zip(&here.tangent).map(|(w, t)| w + h * t).collect();
         let (w, corrections) = match end {
-            // the end itself, since beyond it there may be no oscillator
+            // a solution exactly on the end, because the parameter can be invalid beyond it
             Some((end, _)) => self.on_end(&guess, end)?,
             None => self.across(&guess, h)?,
         };
@@ -193,7 +198,8 @@ impl<P: Problem> Tracer<P> {
         } else {
             1.0
         };
-        // corrections lie across the tangent but for those to the end of a range, so where there is one the length is measured
+        // the length is measured along the tangent, because a correction to the end of a range is not perpendicular to
+        // it
         let length = match self.problem.range() {
             Some(_) => h + self.problem.dot(&here.tangent, &off),
             None => h,
@@ -201,14 +207,14 @@ impl<P: Problem> Tracer<P> {
         Some(Step { there, length, on_end: end.is_some(), crossed: Vec::new(), growth })
     }
 
-    /// The solution near `guess` a distance `h` along the tangent from here, and the corrections it took.
+    /// The solution near `guess` at the distance `h` along the current tangent, and the number of corrections.
     fn across(&self, guess: &[f64], h: f64) -> Option<(Vec<f64>, u32)> {
         let row = self.problem.row(&self.here.tangent);
         let level = self.problem.dot(&self.here.tangent, &self.here.w) + h;
         correct(&self.problem, guess, &row, level)
     }
 
-    /// The solution near `guess` whose last unknown is `end`, to the last digit.
+    /// The solution near `guess` whose last unknown is exactly `end`, and the number of corrections.
     pub(crate) fn on_end(&self, guess: &[f64], end: f64) -> Option<(Vec<f64>, u32)> {
         let mut row = vec![0.0; guess.len()];
         *row.last_mut()? = 1.0;
@@ -217,7 +223,8 @@ impl<P: Problem> Tracer<P> {
         Some((w, corrections))
     }
 
-    /// The test functions that change sign on the way to `there`. One that is exactly zero there is found on the next step.
+    /// The test functions that change sign on the step to `there`. One that is exactly zero there is detected on the
+    /// next step.
     fn changed(&self, there: &Solution<P::Known>) -> Vec<usize> {
         let changes = |&j: &usize| match (self.signs[j], self.sign(there.values[j])) {
             (Some(before), Some(after)) => before != after,
@@ -226,7 +233,7 @@ impl<P: Problem> Tracer<P> {
         (0..self.problem.tests()).filter(changes).collect()
     }
 
-    /// What is passed on a step, in order; `None` if a zero is not found.
+    /// The crossings on a step, in order; `None` if a zero cannot be located.
     fn crossings(&self, step: &Step<P::Known>) -> Option<Vec<Crossing>> {
         let mut found = Vec::new();
         for j in self.changed(&step.there) {
@@ -245,14 +252,14 @@ impl<P: Problem> Tracer<P> {
         Some(found)
     }
 
-    /// The solution a distance `s` along a step.
+    /// The solution at the distance `s` along a step.
     pub(crate) fn between(&self, step: &Step<P::Known>, s: f64) -> Option<Vec<f64>> {
         let share = s / step.length;
         let guess: Vec<f64> = self.here.w.iter().zip(&step.there.w).map(|(a, b)| a + (b - a) * share).collect();
         Some(self.across(&guess, s)?.0)
     }
 
-    /// How far along a step test function `j`, which changes sign on it, is zero.
+    /// The distance along a step at which test function `j` is zero. It must change sign on the step.
     pub(crate) fn zero(&self, j: usize, step: &Step<P::Known>, resolution: f64) -> Option<f64> {
         let value = |s: f64| {
             let w = self.between(step, s)?;
@@ -261,7 +268,7 @@ impl<P: Problem> Tracer<P> {
         let beside = self.problem.rules().beside;
         let near = |by: f64| move |s: f64| if beside > 0.0 { value(s + by * beside) } else { None };
         let f = |s: f64| value(s).or_else(|| near(1.0)(s)).or_else(|| near(-1.0)(s));
-        // the sign here is known even where the value is zero to rounding
+        // the sign at the beginning is known even if the value is zero to rounding
         let positive = self.signs[j]?;
         let mut at_here = self.here.values[j];
         if self.sign(at_here) != Some(positive) {
@@ -270,14 +277,14 @@ impl<P: Problem> Tracer<P> {
         root::between(f, (0.0, at_here), (step.length, step.there.values[j]), resolution)
     }
 
-    /// How far along the step from here a solution lies.
+    /// The distance of the solution `w` from the current solution, along the tangent.
     pub(crate) fn ahead(&self, w: &[f64]) -> f64 {
         let off: Vec<f64> = w.iter().zip(&self.here.w).map(|(a, b)| a - b).collect();
         self.problem.dot(&self.here.tangent, &off)
     }
 
-    /// Whether the solution `begin` lies between here and `there`, so that a closed curve has come back to it. Phases may have gone
-    /// round whole turns.
+    /// Whether the solution `begin` lies between the current solution and `there`, so that the curve is closed. The
+    /// phases may have increased by a multiple of 2 pi.
     pub(crate) fn passes(&self, begin: &Solution<P::Known>, there: &Solution<P::Known>) -> bool {
         let ahead = |solution: &Solution<P::Known>| {
             let mut off: Vec<f64> = solution.w.iter().zip(&begin.w).map(|(a, b)| a - b).collect();
@@ -289,13 +296,14 @@ impl<P: Problem> Tracer<P> {
         before < 0.0 && after >= 0.0 && away < 2.0 * self.step.longest
     }
 
-    /// Makes `there` the present solution.
+    /// Makes `there` the current solution.
     pub(crate) fn take(&mut self, there: Solution<P::Known>) {
         let zero = self.problem.rules().zero;
         for (known, value) in self.signs.iter_mut().zip(&there.values) {
             *known = sign(*value, zero).or(*known);
         }
         self.here = there;
+        // new weights change the length of the tangent, which has to be 1
         if self.problem.weigh(&self.here.w) {
             let length = self.problem.length(&self.here.tangent);
             self.here.tangent.iter_mut().for_each(|t| *t /= length);
@@ -311,9 +319,9 @@ fn last(w: &[f64]) -> f64 {
     w.last().copied().unwrap_or(f64::NAN)
 }
 
-/// After an easy step the next one is longer by this.
+/// The factor for the length of the next step after an easy step.
 const GROWTH: f64 = 1.6;
-/// The end of a range is located to this along the step.
+/// The resolution to which the end of a range is located along the step.
 const FINE: f64 = 1e-15;
-/// Stands for a value that is zero to rounding but known to be on one side.
+/// Replaces the value of a test function that is zero to rounding but has a known sign.
 const TINY: f64 = 1e-12;

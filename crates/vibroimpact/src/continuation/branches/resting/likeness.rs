@@ -1,34 +1,35 @@
-//! Whether the motions from a release at two values of the parameter are one, moved a little.
+//! Compares the motions from a release at two values of the parameter.
 //!
-//! The impacts are compared one by one by the times and speeds between them, which change smoothly and by shares, down to the
-//! last hops of a chatter; an impact that comes or goes shows at once.
+//! The impacts are compared one by one by the times and speeds between them, down to the last impacts of a chatter.
+//! Their relative changes are smooth in the parameter, so an impact that appears or disappears is detected at once.
 
 use crate::math::ln;
 use crate::orbit::{Excursion, Stretch};
 use crate::system::Side;
 
-/// How the motions from a release at two values of the parameter compare.
+/// The result of comparing the motions from a release at two values of the parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Likeness {
-    /// The same impacts and rests, changed by this share of what is allowed.
+    /// The same impacts and intervals of sticking; the largest change as a fraction of the permitted change.
     Alike(f64),
-    /// The same rests in as many periods, but in these stretches others from these impacts on.
+    /// The same intervals of sticking in the same number of periods, but in these stretches the impacts from these
+    /// indices on differ.
     From(Vec<(usize, usize)>),
-    /// Other rests.
+    /// Different intervals of sticking.
     Rests,
 }
 
-/// Times and speeds may change by this share, times at rest by more.
+/// The permitted relative change of times and speeds; that of the times of sticking is larger.
 const CHANGE: f64 = 0.2;
 const CHANGE_AT_REST: f64 = 0.6;
 
-/// The periods, and which stop each stretch begins and ends on.
+/// The number of periods, and the stops on which each stretch begins and ends.
 pub(crate) fn shape(excursion: &Excursion) -> (Option<u32>, Vec<(Side, Option<Side>)>) {
     let ends = |stretch: &Stretch| (stretch.from, stretch.rest.map(|rest| rest.span.side));
     (excursion.periods, excursion.stretches.iter().map(ends).collect())
 }
 
-/// Compares two motions from a release, the first of which comes back.
+/// Compares two motions from a release; the first one returns to the release.
 pub(crate) fn likeness(a: &Excursion, b: &Excursion) -> Likeness {
     if shape(a) != shape(b) {
         return Likeness::Rests;
@@ -44,7 +45,7 @@ pub(crate) fn likeness(a: &Excursion, b: &Excursion) -> Likeness {
     if unlike.is_empty() { Likeness::Alike(most) } else { Likeness::From(unlike) }
 }
 
-/// The largest change, or the first impact that is another.
+/// The largest change as a fraction of the permitted change, or the index of the first impact that differs.
 pub(crate) fn stretch(a: &Stretch, b: &Stretch) -> Result<f64, usize> {
     let change = |x: f64, y: f64| if x == y { 0.0 } else { ln(x / y).abs() };
     let common = a.strikes.len().min(b.strikes.len());
@@ -56,7 +57,7 @@ pub(crate) fn stretch(a: &Stretch, b: &Stretch) -> Result<f64, usize> {
         }
         most = most.max(moved);
     }
-    // how many impacts of a chatter are listed before its sum is of no account
+    // the number of impacts of a chatter that are listed before its sum does not matter
     let summed = |stretch: &Stretch| stretch.rest.is_some_and(|rest| rest.span.chatter);
     if a.strikes.len() != b.strikes.len() && !(summed(a) && summed(b)) {
         return Err(common);

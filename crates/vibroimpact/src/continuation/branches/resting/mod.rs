@@ -1,10 +1,10 @@
-//! Branches of cycles that rest on a stop, by their release.
+//! Branches of cycles that stick, by their release.
 //!
 //! | idea | file |
 //! |---|---|
 //! | the branch | `rest_branch` |
-//! | whether the motions at two values of the parameter are alike | `likeness` |
-//! | what happens between two values | `rest_events` |
+//! | comparing the motions at two values of the parameter | `likeness` |
+//! | the event between two values | `rest_events` |
 
 mod likeness;
 pub(super) mod rest_branch;

@@ -1,9 +1,9 @@
-//! A branch of cycles that rest on a stop, by their release.
+//! A branch of cycles that stick, by their release.
 //!
-//! What follows a release is one motion, so a cycle with a rest is a function of the parameter: nothing has to converge and
-//! no fold can come. A step is taken when the impacts at its end are those at its beginning, moved a little; how many
-//! of a chatter are listed before its sum does not count. Where no step is short enough, something happens: what is found
-//! out in `rest_events`.
+//! A release determines the motion that follows it, so a cycle that sticks is a function of the parameter: it needs no
+//! Newton correction and has no folds. A step is accepted if the impacts at its end correspond to those at its
+//! beginning; the number of impacts of a chatter that are listed before its sum does not matter. If no step is short
+//! enough, there is an event, which `rest_events` identifies.
 
 use super::super::impact_branch::{place, scale};
 use super::super::options::{BranchError, BranchOptions, Direction};
@@ -15,30 +15,30 @@ use crate::system::{Oscillator, ParameterPath, Side};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 
-/// An event: where, what, and the cycle there.
+/// An event: the value of the parameter, and the cycle there.
 pub(crate) struct FoundEvent {
     pub(crate) value: f64,
     pub(crate) event: BranchEvent,
     pub(crate) cycle: Cycle,
 }
 
-/// A branch of cycles with rests.
+/// A branch of cycles that stick.
 #[derive(Clone, Debug)]
 pub(crate) struct RestBranch {
     osc: Oscillator,
     varying: ParameterPath,
-    /// Stop whose release a cycle begins with.
+    /// The stop of the release with which a cycle begins.
     side: Side,
     pub(crate) direction: Direction,
-    /// Where the range ends.
+    /// The end of the range in the direction of the branch.
     end: f64,
     options: BranchOptions,
-    /// A change of the parameter that counts as 1.
+    /// The change of the parameter that has length 1: a quarter of the range.
     scale: f64,
     step: StepLength,
     pub(crate) value: f64,
     pub(crate) excursion: Excursion,
-    /// Values at which impact after impact appeared, the last ones.
+    /// The latest values at which an impact appeared, without another kind of event between them.
     added: Vec<f64>,
     count: u32,
     pending: VecDeque<SolutionPoint>,
@@ -46,7 +46,7 @@ pub(crate) struct RestBranch {
 }
 
 impl RestBranch {
-    /// That of `cycle`, a cycle of `osc` with a rest.
+    /// The branch of `cycle`, a cycle of `osc` that sticks.
     pub(crate) fn new(
         osc: &Oscillator,
         cycle: &Cycle,
@@ -60,7 +60,7 @@ impl RestBranch {
         let side = cycle.rests.last().map_or(Side::Upper, |rest| rest.side);
         let excursion = Excursion::new(osc, side, DEFAULT_EVENTS, f64::INFINITY).ok_or(BranchError::NoCycle)?;
         let found = excursion.cycle().ok_or(BranchError::NoCycle)?;
-        // how many impacts of a chatter are listed may depend on who made the list
+        // the number of impacts of a chatter in the list can differ, so the first impact and the label are compared
         let first = |cycle: &Cycle| cycle.points.first().map(|point| (point.state.side, point.state.phase));
         let same = match (first(&found), first(cycle)) {
             (Some((side, phase)), Some((s, p))) => side == s && crate::system::phase::difference(phase, p).abs() < SAME,
@@ -89,18 +89,19 @@ impl RestBranch {
         Ok(branch)
     }
 
-    /// The oscillator at a value of the parameter; `None` where there is none.
+    /// The oscillator at a value of the parameter; `None` if the value is invalid.
     pub(crate) fn at(&self, value: f64) -> Option<Oscillator> {
         self.varying.set(&self.osc, value).ok()
     }
 
-    /// What follows the release there, for as many forcing periods as the cycle here takes and half of one more.
+    /// The motion from the release at a value of the parameter, over half a forcing period more than the cycle at the
+    /// current value.
     pub(crate) fn excursion_at(&self, value: f64) -> Option<Excursion> {
         let periods = 0.5 + f64::from(self.excursion.periods.unwrap_or(1));
         Excursion::new(&self.at(value)?, self.side, DEFAULT_EVENTS, periods)
     }
 
-    /// A value so far on from here.
+    /// The value at a distance from the current one, in the direction of the branch.
     pub(crate) fn ahead(&self, by: f64) -> f64 {
         if self.direction == Direction::Up { self.value + by } else { self.value - by }
     }
@@ -111,7 +112,7 @@ impl RestBranch {
         self.over = event.is_some_and(|event| event.ends());
     }
 
-    /// An event at the present point.
+    /// Ends the branch with an event at the current point.
     fn finish(&mut self, event: BranchEvent) {
         if let Some(cycle) = self.excursion.cycle() {
             self.add(self.value, cycle, Some(event));
@@ -119,7 +120,7 @@ impl RestBranch {
         self.over = true;
     }
 
-    /// An event on the way to `target`, which the branch goes on from if there is more of it.
+    /// Adds an event on the step to `target`; the branch continues at `target` unless the event ends it.
     fn happen(&mut self, found: FoundEvent, target: f64, there: Option<Excursion>) {
         let FoundEvent { value, event, cycle } = found;
         self.add(value, cycle, Some(event));
@@ -138,7 +139,7 @@ impl RestBranch {
         }
     }
 
-    /// One step on, or the end of the branch.
+    /// Takes one step, or ends the branch.
     fn advance(&mut self) {
         if self.count >= self.options.points {
             return self.finish(BranchEvent::StepLimit);
@@ -161,7 +162,7 @@ impl RestBranch {
                 if let Some(found) = self.between(target, there.as_ref(), &alike) {
                     return self.happen(found, target, there);
                 }
-                // on the verge of an event all changes fast, and it may lie a little further
+                // close to an event the motion changes fast, so the event is also looked for further ahead
                 let (target, there, alike) = self.look(VERGE * self.step.now);
                 if let Some(found) = self.between(target, there.as_ref(), &alike) {
                     return self.happen(found, target, there);
@@ -174,7 +175,8 @@ impl RestBranch {
         }
     }
 
-    /// The motion so far on, or at the end of the range, and how it compares with the one here.
+    /// The motion at a distance from the current value, at most at the end of the range, and its comparison with the
+    /// current motion.
     fn look(&self, by: f64) -> (f64, Option<Excursion>, Likeness) {
         let target = if by < (self.end - self.value).abs() { self.ahead(by) } else { self.end };
         let there = self.excursion_at(target);
@@ -194,15 +196,15 @@ impl Iterator for RestBranch {
     }
 }
 
-/// A cycle whose first impact is this near the one that the release leads to is that one.
+/// A cycle is the cycle of the release if the phase of its first impact differs by less than this.
 const SAME: f64 = 1e-6;
-/// A step that changes this share of what it may can be followed by one twice as long.
+/// A step that uses less than this fraction of the permitted change is followed by a step twice as long.
 const EASY: f64 = 0.4;
-/// In steps shorter than this an event is looked for.
+/// An event is looked for only on steps shorter than this, in units of `scale`.
 const NARROW: f64 = 1e-5;
-/// How many times further than a step an event is looked for.
+/// If no event is found on a step, it is looked for up to this many steps ahead.
 const VERGE: f64 = 64.0;
-/// So many impacts appear one after another before it is asked whether they go on to, towards a complete chatter.
+/// After this number of impacts that appeared one after another, the complete chatter to which they tend is looked for.
 const MANY: usize = 8;
-/// No step is shorter, relative to the value.
+/// The smallest step, relative to the value.
 const FINEST: f64 = 1e-15;

@@ -1,11 +1,13 @@
-//! What happens to a cycle with a rest between two values of the parameter.
+//! The events of a branch of cycles that stick, between two values of the parameter.
 //!
-//! A flight comes to touch a stop, or an impact loses its speed: the smallest distance of that flight from the stop is a
-//! smooth function of the parameter on either side, since all before the touch is the same motion, and its zero is the event.
-//! Or all impacts of a chatter lose their speed together, which shows in where the mass is when the force begins to press.
-//! Or a rest shrinks to nothing: a chatter, seen from the release, shrinks by a fixed factor each time on the verge of
-//! completing, and the time at rest is no smooth function there (it goes like a power of the distance, near 0.6), but whether
-//! the mass comes to rest is decided to the last digit.
+//! - A flight reaches a stop, or an impact loses its speed. The smallest distance of this flight from the stop is a
+//!   smooth function of the parameter on either side, because the motion before it is the same. The event is the zero
+//!   of this function.
+//! - All impacts before the mass sticks lose their speed together. This is the zero of the distance from the stop at
+//!   the phase at which the force begins to press the mass against it.
+//! - The time of sticking becomes zero. Near its completion a chatter, as seen from the release, shrinks by a fixed
+//!   factor with each impact, and the time of sticking is not smooth: it is a power of the distance of the parameter,
+//!   with an exponent near 0.6. But whether the mass sticks is decided to the last digit, so bisection finds the value.
 
 use super::super::point::{BranchEvent, Change, Touch};
 use super::likeness::{Likeness, likeness, shape, stretch};
@@ -18,20 +20,20 @@ use crate::orbit::{Excursion, Stretch, turning_near};
 use crate::system::{Oscillator, Side, phase};
 use core::f64::consts::PI;
 
-/// An impact that comes or goes.
+/// An impact that appears or disappears.
 struct Touched {
     value: f64,
     change: Change,
-    /// Stretch and impact.
+    /// The indices of the stretch and of the impact in it.
     place: (usize, usize),
-    /// Time flown up to this impact here and beyond, where there is one.
+    /// The time of flight up to this impact here and beyond, where there is one.
     flown: [Option<f64>; 2],
     side: Side,
     phase: f64,
 }
 
 impl RestBranch {
-    /// What happens between here and the value `to`, where the motion is `there`; `None` if that is unknown.
+    /// The event between the current value and `to`, where the motion is `there`; `None` if no event is identified.
     pub(crate) fn between(&self, to: f64, there: Option<&Excursion>, alike: &Likeness) -> Option<FoundEvent> {
         match (alike, there) {
             (Likeness::From(places), Some(there)) => {
@@ -51,7 +53,7 @@ impl RestBranch {
         }
     }
 
-    /// Where the flight towards impact `k` of stretch `s`, which is another at `to`, touches a stop.
+    /// The event at which the flight towards impact `k` of stretch `s`, which differs at `to`, grazes a stop.
     fn touch(&self, (s, k): (usize, usize), to: f64, there: &Excursion) -> Option<Touched> {
         let (a, b) = (self.excursion.stretches.get(s)?, there.stretches.get(s)?);
         let (change, struck, clear, long) = match (a.strikes.get(k), b.strikes.get(k)) {
@@ -61,7 +63,7 @@ impl RestBranch {
             (Some(x), None) => (Change::Disappears, x, b, None),
             (None, None) => return None,
         };
-        // without a longer flight, it stays on the stop after the impact before: restitution 0
+        // without a longer flight the mass sticks after the impact before, which needs restitution 0
         if long.is_none() && clear.rest.is_none_or(|rest| rest.span.chatter) {
             return None;
         }
@@ -94,7 +96,7 @@ impl RestBranch {
         Some(Touched { value, change, place: (s, k), flown, side, phase })
     }
 
-    /// Touches that happen together: one, or with two stops alike one on each.
+    /// The event of grazing contacts at the same value: one, or with two equal stops one on each.
     fn graze(&self, touched: &[Touched], there: &Excursion) -> Option<FoundEvent> {
         let first = touched.first()?;
         if !self.explained(touched, there) {
@@ -108,7 +110,7 @@ impl RestBranch {
             let listed = excursion.before(s) + k;
             let impact = match touched.change {
                 Change::Disappears => listed,
-                // after the release that begins the list: the last of the turn before
+                // one that is first in the list follows the last impact of the period before
                 Change::Appears => listed.checked_sub(1).unwrap_or(cycle.points.len().saturating_sub(1)),
             };
             Touch { impact, side: touched.side, phase: touched.phase }
@@ -119,7 +121,7 @@ impl RestBranch {
         Some(FoundEvent { value: first.value, event, cycle })
     }
 
-    /// Whether these impacts are all that has changed.
+    /// Whether these impacts are the only difference between the motions.
     fn explained(&self, touched: &[Touched], there: &Excursion) -> bool {
         let without = |excursion: &Excursion, change: Change| {
             let mut excursion = excursion.clone();
@@ -137,14 +139,15 @@ impl RestBranch {
         matches!(likeness(&here, &there), Likeness::Alike(_))
     }
 
-    /// Whether up to where impacts are slow the motion at another value is the one here.
+    /// Whether the motion at another value corresponds to the current one up to slow impacts.
     fn begins_like(&self, other: &Excursion) -> bool {
         let slow = |stretch: &Stretch, k: usize| stretch.strikes.get(k).is_none_or(|x| x.state.velocity < UNSEEN);
         let pairs = self.excursion.stretches.iter().zip(&other.stretches);
         pairs.into_iter().all(|(a, b)| stretch(a, b).map_or_else(|k| slow(a, k) && slow(b, k), |_| true))
     }
 
-    /// The cycle of the branch so far at a touch; a little before it where rounding has made it the other one.
+    /// The motion before a grazing event, at the event; at a slightly earlier value if rounding has made it the motion
+    /// beyond.
     fn short_of(&self, touched: &[Touched]) -> Option<Excursion> {
         let so_far = |excursion: &Excursion| {
             touched.iter().all(|touched| {
@@ -173,15 +176,15 @@ impl RestBranch {
         Some(self.excursion.clone())
     }
 
-    /// Where the mass lands without speed, if the impacts up to `k` of stretch `s` have next to none here and at `to`: there it is
-    /// on the stop at the phase at which the force begins to press.
+    /// The event at which the mass lands without speed, if the impacts up to `k` of stretch `s` are slow here and at
+    /// `to`: at this event the mass is on the stop at the phase at which the force begins to press it there.
     fn landing(&self, (s, k): (usize, usize), to: f64, there: &Excursion) -> Option<FoundEvent> {
         let (a, b) = (self.excursion.stretches.get(s)?, there.stretches.get(s)?);
         let slow = |stretch: &Stretch, k: usize| stretch.strikes.get(k).is_some_and(|x| x.state.velocity < SLOW);
         let first = (0..=k).find(|&k| slow(a, k) && slow(b, k))?;
         let strike = a.strikes.get(first)?;
         let side = strike.state.side;
-        // time and phase of that moment, the distance from the stop then, and the speed
+        // the phase at which the force begins to press, and the distance from the stop and the velocity then
         let then = |value: f64| -> Option<(f64, f64, f64)> {
             let osc = self.at(value)?;
             let flight = leaving(&osc, self.excursion_at(value)?.stretches.get(s)?, first)?;
@@ -210,7 +213,8 @@ impl RestBranch {
         Some(FoundEvent { value, event: BranchEvent::SoftLanding { impact, side, phase, before, after }, cycle })
     }
 
-    /// Between here and `to` the rests change: one shrinks to nothing, or ends no more, or a chatter becomes complete.
+    /// The event between the current value and `to` at which the intervals of sticking change: the time of one becomes
+    /// zero, or a release no longer exists, or a chatter becomes complete.
     pub(crate) fn other_rests(&self, to: f64) -> Option<FoundEvent> {
         let same = |excursion: &Excursion| shape(excursion) == shape(&self.excursion);
         if self.excursion_at(to).is_some_and(|there| same(&there)) {
@@ -259,19 +263,19 @@ fn leaving(osc: &Oscillator, stretch: &Stretch, k: usize) -> Option<Flight> {
     }
 }
 
-/// How closely a touch is located, as a share of where it is looked for.
+/// The resolution to which a grazing event is located, as a fraction of the interval.
 const RESOLUTION: f64 = 1e-13;
-/// Impacts faster than this do not lose their speed on a short stretch of a branch.
+/// Impacts faster than this do not lose their speed within a step.
 const SLOW: f64 = 0.02;
-/// Where rests change, slower impacts than this may come and go without being listed.
+/// Where intervals of sticking change, the lists of impacts slower than this may differ.
 const UNSEEN: f64 = 1e-4;
-/// A speed this small at a landing is zero.
+/// A speed below this at a landing counts as zero.
 const SOFT: f64 = 1e-6;
-/// Touches at values closer than this, relative, are one event.
+/// Grazing contacts at values closer than this, relative to the value, are one event.
 const TOGETHER: f64 = 1e-11;
-/// Halvings down to neighbouring numbers, at most.
+/// The largest number of bisections; fewer reach neighbouring numbers.
 const MAX_HALVINGS: u32 = 100;
-/// Powers of ten to go back from a touch, at most.
+/// The largest number of steps back from a grazing event, each ten times as long as the one before.
 const MAX_BACK: u32 = 14;
-/// A rest of this much phase or less, found next to where it is no more, shrinks to nothing there.
+/// A time of sticking below this, as a phase, counts as zero next to a value at which there is none.
 const SHRUNK: f64 = 1e-6;
