@@ -21,7 +21,7 @@ pub struct Plan {
     /// The oscillator. What varies on an axis has its first value here, and need not be written; for a region, what varies
     /// has its smallest value.
     pub system: SystemPlan,
-    /// What is asked of it.
+    /// The task that is computed for the system.
     pub task: Task,
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -131,7 +131,7 @@ impl Plan {
     }
 }
 
-/// What is asked.
+/// A task: what is computed for a system.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Task {
@@ -149,7 +149,7 @@ pub enum Task {
         /// Where to start.
         start: StartPlan,
     },
-    /// The steady motions from scattered starts, and their shares.
+    /// The motions that scattered starts settle into, and their shares.
     Attractors {
         /// How many starts.
         starts: u64,

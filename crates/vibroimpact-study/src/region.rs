@@ -22,7 +22,7 @@ pub struct RegionPlan {
     pub across: Stretch,
     /// The parameter on the ordinate and its range.
     pub up: Stretch,
-    /// Points of the grid at which orbits are looked for, in each direction: smaller parts of a region may be missed.
+    /// Number of grid points in each direction at which orbits are searched. Smaller parts of a region may be missed.
     #[serde(default = "grid")]
     pub grid: u32,
 }

@@ -1,4 +1,4 @@
-"""What the compiled part offers, checked against it by mypy's stubtest."""
+"""Types of the compiled part. Stubtest of mypy compares them with it."""
 
 from collections.abc import Callable
 from typing import Any, TypeAlias, final

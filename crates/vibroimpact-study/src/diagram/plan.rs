@@ -27,7 +27,7 @@ pub struct DiagramPlan {
     /// What is shown.
     #[serde(default)]
     pub show: Show,
-    /// From which starts.
+    /// How the starts at each value are chosen.
     #[serde(default)]
     pub direction: SweepDirection,
     /// Impacts (for [`Show::Velocity`]) or forcing periods (for [`Show::Strobe`]) before anything is shown.
@@ -57,7 +57,7 @@ pub enum Show {
     Strobe,
 }
 
-/// From which starts.
+/// How the starts at each value are chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SweepDirection {
@@ -68,7 +68,7 @@ pub enum SweepDirection {
     /// Both of these, one after the other: where they differ, motions coexist.
     #[default]
     Both,
-    /// Several scattered starts at each value, nothing is carried on.
+    /// Several scattered starts at each value; no state is carried from one value to the next.
     Scatter {
         /// How many.
         starts: u64,
