@@ -18,7 +18,7 @@ impl ImpactState {
     #[must_use]
     pub fn rebound(&self, osc: &Oscillator) -> Start {
         let (sign, stop) = (self.side.sign(), osc.stop(self.side));
-        let (gap, eps) = stop.map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
-        Start { x: sign * gap, v: -sign * eps * self.velocity, phase: self.phase }
+        let (gap, speed) = stop.map_or((0.0, 0.0), |stop| (stop.gap, stop.rebound(self.velocity)));
+        Start { x: sign * gap, v: -sign * speed, phase: self.phase }
     }
 }

@@ -117,7 +117,7 @@ impl<'a> Motion<'a> {
     #[must_use]
     pub fn after(osc: &'a Oscillator, state: &ImpactState, limits: SearchLimits) -> Self {
         let mut motion = Self::begin(osc, limits, Mode::Ended(End::Stuck(state.side)));
-        let rebound = osc.stop(state.side).map_or(0.0, |stop| stop.restitution) * state.velocity;
+        let rebound = osc.stop(state.side).map_or(0.0, |stop| stop.rebound(state.velocity));
         motion.mode = motion.after_impact(state.side, state.phase, rebound);
         motion
     }
@@ -211,7 +211,7 @@ impl<'a> Motion<'a> {
             }
         };
         let (phase, leg) = (flight.phase_at(duration), leg(duration));
-        let rebound = self.osc.stop(side).map_or(0.0, |stop| stop.restitution) * velocity;
+        let rebound = self.osc.stop(side).map_or(0.0, |stop| stop.rebound(velocity));
         self.mode = self.after_impact(side, phase, rebound);
         Some(self.event(leg, phase, side, EventKind::Impact { velocity_before: velocity, velocity_after: -rebound }))
     }

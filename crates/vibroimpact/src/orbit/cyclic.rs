@@ -73,8 +73,8 @@ pub(crate) fn block(osc: &Oscillator, ring: &Ring, k: usize) -> Option<Block> {
 /// The flight that leaves impact `k`.
 pub(crate) fn leaving(osc: &Oscillator, ring: &Ring, k: usize) -> Flight {
     let sign = ring.side(k).sign();
-    let (gap, restitution) = osc.stop(ring.side(k)).map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
-    Flight::new(osc, Start { x: sign * gap, v: -sign * restitution * ring.speed(k), phase: ring.theta(k) })
+    let (gap, speed) = osc.stop(ring.side(k)).map_or((0.0, 0.0), |stop| (stop.gap, stop.rebound(ring.speed(k))));
+    Flight::new(osc, Start { x: sign * gap, v: -sign * speed, phase: ring.theta(k) })
 }
 
 /// All flights of `ring`, linearised; `None` if the time of one is not positive.

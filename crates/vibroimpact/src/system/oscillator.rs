@@ -54,6 +54,15 @@ pub struct Stop {
     pub restitution: f64,
 }
 
+impl Stop {
+    /// The speed at which the mass leaves the stop after it arrives with `speed`: the law of impact,
+    /// $`u_+ = -\varepsilon u_-`$ (eq. 9 of the 1971 paper).
+    #[must_use]
+    pub fn rebound(&self, speed: f64) -> f64 {
+        self.restitution * speed
+    }
+}
+
 /// The range of frequency ratios. At a larger ratio the rounding error of the phase of the force is of the order of a
 /// radian for each radian of natural time; at a smaller one the same holds for the natural phase in one radian of the
 /// force.
