@@ -9,7 +9,7 @@ use super::point::{BranchEvent, SolutionPoint};
 use super::problem::{BranchProblem, BranchSolution, BranchTracer};
 use crate::continuation::equations::cycle_equations::CycleEquations;
 use crate::continuation::equations::test_functions::TestFunction;
-use crate::continuation::trace::equations::{Equations, tangent};
+use crate::continuation::trace::equations::tangent;
 use crate::continuation::trace::step_length::StepLength;
 use crate::continuation::trace::tracer::Tracer;
 use crate::orbit::{Cycle, Ring, solve};
@@ -153,11 +153,7 @@ impl ImpactBranch {
 
     /// Makes `there` the current point.
     pub(crate) fn take(&mut self, there: BranchSolution) {
-        let closed = self.begin.as_ref().is_some_and(|begin| {
-            self.count > 3
-                && self.tracer.passes(begin, &there)
-                && self.cycles().dot(&begin.tangent, &there.tangent) > 0.5
-        });
+        let closed = self.count > 3 && self.begin.as_ref().is_some_and(|begin| self.tracer.closes(begin, &there));
         self.add(point(&there, closed.then_some(BranchEvent::Closed)));
         self.tracer.take(there);
         self.over = closed;

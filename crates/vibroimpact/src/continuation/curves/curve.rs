@@ -229,9 +229,7 @@ impl Curve {
             self.emit(&spot, Some(event));
         }
         let there = step.there;
-        let closed = self.count > 3
-            && self.tracer.passes(&self.begin, &there)
-            && self.tracer.problem.dot(&self.begin.tangent, &there.tangent) > 0.5;
+        let closed = self.count > 3 && self.tracer.closes(&self.begin, &there);
         self.tracer.take(there.clone());
         if self.kind == CurveKind::Fold {
             self.trail.pass(&self.tracer);

@@ -149,12 +149,7 @@ impl<P: Problem> Tracer<P> {
     /// [`take`](Self::take).
     pub(crate) fn step(&mut self) -> Option<Step<P::Known>> {
         let mut length = self.step;
-        let step = length.find(|h| {
-            let mut step = self.reach(h)?;
-            // if a zero cannot be located, the step is too long: there is another event before it
-            step.crossed = self.crossings(&step)?;
-            Some(step)
-        });
+        let step = length.find(|h| self.reach(h));
         if let Some(step) = &step {
             if step.growth > 1.0 {
                 length.grow(step.growth);
@@ -188,7 +183,8 @@ impl<P: Problem> Tracer<P> {
             return None;
         }
         let there = self.solution_along(w, along)?;
-        if !self.problem.admits(here, &there, &self.changed(&there)) {
+        let changed = self.changed(&there);
+        if !self.problem.admits(here, &there, &changed) {
             return None;
         }
         let growth = if corrections <= rules.few && cosine > rules.straight {
@@ -204,7 +200,10 @@ impl<P: Problem> Tracer<P> {
             Some(_) => h + self.problem.dot(&here.tangent, &off),
             None => h,
         };
-        Some(Step { there, length, on_end: end.is_some(), crossed: Vec::new(), growth })
+        let mut step = Step { there, length, on_end: end.is_some(), crossed: Vec::new(), growth };
+        // if a zero cannot be located, the step is too long: there is another event before it
+        step.crossed = self.crossings(&step, changed)?;
+        Some(step)
     }
 
     /// The solution near `guess` at the distance `h` along the current tangent, and the number of corrections.
@@ -233,10 +232,10 @@ impl<P: Problem> Tracer<P> {
         (0..self.problem.tests()).filter(changes).collect()
     }
 
-    /// The crossings on a step, in order; `None` if a zero cannot be located.
-    fn crossings(&self, step: &Step<P::Known>) -> Option<Vec<Crossing>> {
+    /// The crossings on a step on which these test functions change sign, in order; `None` if a zero cannot be located.
+    fn crossings(&self, step: &Step<P::Known>, changed: Vec<usize>) -> Option<Vec<Crossing>> {
         let mut found = Vec::new();
-        for j in self.changed(&step.there) {
+        for j in changed {
             found.push((self.zero(j, step, self.problem.resolution(j))?, Some(j)));
         }
         let (before, after) = (last(&self.here.w), last(&step.there.w));
@@ -294,6 +293,11 @@ impl<P: Problem> Tracer<P> {
         };
         let ((before, _), (after, away)) = (ahead(&self.here), ahead(there));
         before < 0.0 && after >= 0.0 && away < 2.0 * self.step.longest
+    }
+
+    /// Whether the curve closes on the step to `there`: it passes `begin` in the same direction.
+    pub(crate) fn closes(&self, begin: &Solution<P::Known>, there: &Solution<P::Known>) -> bool {
+        self.passes(begin, there) && self.problem.dot(&begin.tangent, &there.tangent) > 0.5
     }
 
     /// Makes `there` the current solution.
