@@ -1,4 +1,4 @@
-/** The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked. Written by crates/vibroimpact-plot/tests/tables.rs; do not edit. */
+/** The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked. Written by crates/vibroimpact-report/tests/tables.rs; do not edit. */
 export const GROUP_RULES = [
   [[0, 0], [1, Infinity], false, "0"],
   [[1, 1], [1, 1], false, "1/1"],

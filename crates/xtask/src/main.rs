@@ -35,7 +35,7 @@ usage: cargo xtask COMMAND
   docs                    the API documentation, with formulas, in target/doc
   figures                 the pictures of the README, by `vibro reproduce`
   line                    the table and the figure of docs/orbits.md
-  python                  the Python package, into an environment under target/
+  python                  the Python package for its tests, into target/python
   licences                the licence of every dependency against the allow-list
   words                   links in the Markdown files, and spelling, by lychee and typos
   explorer                the explorer's page in a browser, against the server
@@ -44,7 +44,7 @@ usage: cargo xtask COMMAND
                           by default; `cargo xtask fuzz --help` lists all options
   wasm                    whether the core, plans, plots and reports compile for WebAssembly
   examples                runs the examples of the core
-  release                 whether the crates compile with the oldest Rust they name, and build from their packages
+  release                 whether the crates compile with the oldest Rust they name, and all packages build
   s3                      studies in buckets, against a server that it installs in target/s3-venv
 ";
 

@@ -1,8 +1,8 @@
 //! Builds the Python package and installs it into its own environment under `target/`, ready for its tests.
 
-use std::env;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
+use std::{fs, io};
 
 use crate::command;
 
@@ -29,36 +29,61 @@ pub(crate) fn found(root: &Path) -> Option<&'static str> {
     })
 }
 
-/// Builds the package and installs it with the packages for its tests.
+/// The packages that the tests need, from pyproject.toml, without the package itself.
+const PACKAGES: &str = "-m uv pip install --quiet --requirements pyproject.toml --extra test";
+/// The command that builds the compiled module. With the flags and the tests of the other steps, all dependencies have
+/// the same features, and what those steps built is used.
+const COMPILED: &str = "cargo build --workspace --all-features --profile test --lib --tests";
+/// The files of the package in Python.
+const FILES: &str = "crates/vibroimpact-py/python/vibroimpact";
+
+/// Builds the package as the tests of Rust are built, and installs it with the packages for its tests.
+/// `cargo xtask release` builds it as its users do.
 ///
 /// # Errors
-/// A message that names the step that failed; pip has printed its own messages.
+/// A message that names the step that failed; the program that failed has printed its own messages.
 pub(crate) fn install(root: &Path) -> Result<String, String> {
     let Some(python) = found(root) else { return Ok(SKIPPED.to_owned()) };
-    let here = root.join(ENVIRONMENT);
-    if !here.join("bin/python").is_file() {
+    if !root.join(PYTHON).is_file() {
         command::run(command::words(root, &format!("{python} -m venv {ENVIRONMENT}")))?;
+        command::run(command::words(root, &format!("{PYTHON} -m pip install --quiet --disable-pip-version-check uv")))?;
     }
-    // an isolated build environment would be another Python each time, and dependent crates would be built again
-    pip(root, &["maturin>=1.9.4,<2"])?;
-    pip(root, &["--no-build-isolation", ".[test]"])?;
+    let mut packages = command::words(root, &format!("{PYTHON} {PACKAGES} --python"));
+    packages.arg(root.join(PYTHON));
+    command::run(packages)?;
+    command::run(command::words(root, COMPILED))?;
+    copy(root)?;
     Ok(format!("vibroimpact is installed in {ENVIRONMENT}"))
 }
 
-fn pip(root: &Path, words: &[&str]) -> Result<(), String> {
-    let mut command = command::words(root, &format!("{ENVIRONMENT}/bin/python -m pip install --quiet"));
-    command.args(["--disable-pip-version-check", "--no-input"]).args(words);
-    with_programs(&mut command, &root.join(ENVIRONMENT).join("bin"));
-    command::run(command)
+/// Copies the files of the package and the compiled module into the environment.
+fn copy(root: &Path) -> Result<(), String> {
+    let end = if cfg!(target_os = "macos") { "dylib" } else { "so" };
+    let compiled = command::target(root)?.join("debug").join(format!("lib_core.{end}"));
+    let folder = site_packages(root)?.join("vibroimpact");
+    let copied = || {
+        // a file that is gone from the sources must be gone from the environment too
+        if folder.exists() {
+            fs::remove_dir_all(&folder)?;
+        }
+        fs::create_dir_all(&folder)?;
+        for entry in fs::read_dir(root.join(FILES))? {
+            let file = entry?.path();
+            if let Some(name) = file.file_name().filter(|_| file.is_file()) {
+                fs::copy(&file, folder.join(name))?;
+            }
+        }
+        fs::copy(&compiled, folder.join("_core.abi3.so")).map(drop)
+    };
+    copied().map_err(|error: io::Error| format!("the package cannot be copied to {}: {error}", folder.display()))
 }
 
-/// Puts the programs of the environment first in the search path of a command.
-fn with_programs(command: &mut Command, programs: &Path) {
-    let old = env::var_os("PATH").unwrap_or_default();
-    let all = std::iter::once(PathBuf::from(programs)).chain(env::split_paths(&old));
-    if let Ok(path) = env::join_paths(all) {
-        command.env("PATH", path);
-    }
+/// The folder of the environment in which Python looks for packages.
+fn site_packages(root: &Path) -> Result<PathBuf, String> {
+    let mut ask = command::words(root, PYTHON);
+    ask.args(["-c", "import sysconfig; print(sysconfig.get_path('platlib'), end='')"]);
+    let answer = ask.output().map_err(|error| format!("{PYTHON} cannot be started: {error}"))?;
+    Ok(PathBuf::from(String::from_utf8_lossy(&answer.stdout).into_owned()))
 }
 
 #[cfg(test)]
@@ -66,18 +91,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_programs_of_the_environment_come_first() {
-        let mut command = Command::new("pip");
-        with_programs(&mut command, Path::new("/environment/bin"));
-        let path = command.get_envs().find(|(name, _)| *name == "PATH").and_then(|(_, value)| value).unwrap();
-        let all: Vec<PathBuf> = env::split_paths(path).collect();
-        assert_eq!(all[0], Path::new("/environment/bin"));
-        assert_eq!(all.len(), 1 + env::split_paths(&env::var_os("PATH").unwrap_or_default()).count());
-    }
-
-    #[test]
     fn what_zarr_asks_for_is_what_is_looked_for() {
-        let project = std::fs::read_to_string(command::root().join("pyproject.toml")).unwrap();
+        let project = fs::read_to_string(command::root().join("pyproject.toml")).unwrap();
         let (major, minor) = OLDEST;
         assert!(project.contains(&format!("zarr>=3; python_version >= '{major}.{minor}'")));
         assert!(SKIPPED.contains(&format!("Python {major}.{minor}")) && TESTS.starts_with(ENVIRONMENT));

@@ -1,7 +1,7 @@
 //! `cargo xtask release`: checks before the crates are published, in addition to the tests.
 //!
 //! The workspace must compile with the oldest Rust that it names. Each published crate is packed, and built from its
-//! archive.
+//! archive. The Python package is built and installed with pip.
 
 use std::path::Path;
 
@@ -26,7 +26,19 @@ pub(crate) fn check(root: &Path) -> Result<String, String> {
     compile.env("CARGO_TARGET_DIR", folder);
     command::run(compile)?;
     command::run(command::words(root, PACK))?;
-    Ok(format!("the workspace compiles with Rust {oldest}, and the crates are packed in target/package"))
+    wheel(root)?;
+    Ok(format!(
+        "the workspace compiles with Rust {oldest}, and the crates and the Python package build from their packages"
+    ))
+}
+
+/// Installs the Python package with pip in an environment of its own, as its users do, and settles one motion.
+fn wheel(root: &Path) -> Result<(), String> {
+    command::run(command::words(root, "python3 -m venv --clear target/wheel"))?;
+    command::run(command::words(root, "target/wheel/bin/python -m pip install --quiet --disable-pip-version-check ."))?;
+    let mut settle = command::words(root, "target/wheel/bin/python -W error -c");
+    settle.arg("import vibroimpact as vi; print(vi.settle(vi.Oscillator(beta=0.4, gap=0.5, restitution=0.8)))");
+    command::run(settle)
 }
 
 /// The oldest Rust named in the manifest.

@@ -80,8 +80,7 @@ impl Step {
 /// of output must be known to [`totals`].
 fn steps(nextest: bool, python: bool) -> Vec<Step> {
     // All steps use all features, because with others the derive macros and all dependent crates would be built again.
-    // The Python package is built without features, as its users build it. Its library has no tests in Rust, and
-    // `--lib` would build some.
+    // The library of the Python package has no tests in Rust, and `--lib` would build some.
     let tests = if nextest {
         "cargo nextest run --workspace --all-features --no-fail-fast"
     } else {
@@ -97,7 +96,7 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::tests("doc tests", "cargo test --workspace --all-features --doc --no-fail-fast"),
         Step::check("examples", "cargo xtask examples", examples::run),
         // the same cases in every run, so that a failure is caused by a change of the code
-        Step::tests("fuzz", "cargo xtask fuzz --seconds 60 --seed 1"),
+        Step::tests("fuzz", "cargo xtask fuzz --seconds 20 --seed 1"),
         Step::tests("explorer", "cargo xtask explorer"),
         Step::check("documentation", "cargo xtask docs", docs::build),
         Step::check("WebAssembly", "cargo xtask wasm", wasm::check),

@@ -12,26 +12,12 @@ from vibroimpact._axis import Interval, plane
 from vibroimpact._core import Oscillator
 from vibroimpact._cycle import Cycles, pairs
 from vibroimpact._figure import named, new_axes
-from vibroimpact._palette import SERIES
 from vibroimpact._plane import broken, frame
+from vibroimpact._tables import CURVE_MARKS, EVENT_COLOURS
 from vibroimpact._whole import NUMBER, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-_KINDS = {"fold": SERIES[1], "flip": SERIES[0], "grazing": SERIES[2]}
-_MARKS = {
-    "cusp": "v",
-    "resonant grazing": "D",
-    "double grazing": "s",
-    "degenerate grazing": "^",
-    "touch": "o",
-    "1:2": "o",
-    "degenerate flip": "X",
-    "loss of contact": "P",
-    "whole periods": "P",
-    "speeds without bound": "P",
-}
 
 
 class CurveEvent(NamedTuple):
@@ -128,14 +114,14 @@ class Curve:
 def _draw(of: Curve, ax: "Axes | None") -> "Axes":
     """Draw the curve, dotted where the orbit is inadmissible, and its points of codimension two."""
     ax = new_axes(ax, (7.2, 4.8))
-    colour, events = _KINDS[of.kind], {event.point for event in of.events}
+    colour, events = EVENT_COLOURS[of.kind], {event.point for event in of.events}
     # an event separates two parts, so a step takes its look from the end that is no event
     steps = [k if k + 1 in events and k not in events else k + 1 for k in range(len(of) - 1)]
     for physical, dash, words in ((True, "-", ""), (False, ":", ", inadmissible")):
         xs, ys = (np.array(column, dtype=float) for column in broken(of.values, of.physical[steps] == physical))
         if len(xs):
             ax.plot(xs, ys, dash, color=colour, linewidth=1.8, label=f"{of.kind} of {named(of.label)}{words}")
-    for kind, mark in _MARKS.items():
+    for kind, mark in CURVE_MARKS.items():
         places = [event.values for event in of.events if event.kind == kind]
         if places:
             xs, ys = np.array(places).T

@@ -11,21 +11,13 @@ from vibroimpact import _core
 from vibroimpact._axis import Interval, numbers, plane
 from vibroimpact._core import Oscillator
 from vibroimpact._figure import named, new_axes
-from vibroimpact._palette import SERIES, class_colour
+from vibroimpact._palette import class_colour
 from vibroimpact._plane import broken, frame
+from vibroimpact._tables import BOUND_STYLES
 from vibroimpact._whole import GRID, THREADS, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-#: Colour, dash and name of each kind of boundary of a region. The frame is the edge of the figure and is not drawn.
-_BOUNDS = {
-    "fold": (SERIES[1], "-", "fold"),
-    "flip": (SERIES[0], "--", "flip"),
-    "no speed": (SERIES[2], "-.", "an impact without speed"),
-    "touch": ("black", "-", "a touch on the way"),
-    "merging": (SERIES[3], ":", "merging"),
-}
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -147,7 +139,7 @@ def _draw(of: Region, ax: "Axes | None") -> "Axes":
         _fill(ax, part, colour)
         ax.fill([], [], color=colour, label=f"{name} {words}")
     polygons = of.existence.polygons + of.stability.polygons
-    for bound, (colour, dash, words) in _BOUNDS.items():
+    for bound, (colour, dash, words) in BOUND_STYLES.items():
         label: str | None = words
         for sheet, width in (("above", 0.9), ("below", 2.0)):
             for polygon in polygons:

@@ -1,6 +1,6 @@
-"""Colours of series, and of the groups of motions in the order of a legend.
+"""Colours of series, groups of motions in the order of a legend, and styles of events.
 
-Written by crates/vibroimpact-plot/tests/tables.rs; do not edit.
+Written by crates/vibroimpact-report/tests/tables.rs; do not edit.
 """
 
 import math
@@ -72,3 +72,46 @@ GROUP_RULES = (
     ((3, 3), (2, 2), False, "3/2"),
     ((2, math.inf), (2, math.inf), False, "m/n"),
 )
+
+#: Colours of curves of events.
+EVENT_COLOURS = {
+    "fold": "#d55e00",
+    "flip": "#0072b2",
+    "grazing": "#009e73",
+}
+
+#: Marks of events along branches, and whether they are at velocity zero.
+BRANCH_MARKS = {
+    "fold": ("s", False),
+    "flip": ("D", False),
+    "branch point": ("o", False),
+    "grazing": ("^", True),
+    "loss of contact": ("v", True),
+    "soft landing": ("P", True),
+    "end of rest": ("X", True),
+    "rest for ever": ("X", True),
+    "chatter": ("X", True),
+}
+
+#: Marks of points of codimension two on curves.
+CURVE_MARKS = {
+    "cusp": "v",
+    "resonant grazing": "D",
+    "double grazing": "s",
+    "degenerate grazing": "^",
+    "touch": "o",
+    "1:2": "o",
+    "degenerate flip": "X",
+    "loss of contact": "P",
+    "whole periods": "P",
+    "speeds without bound": "P",
+}
+
+#: Colour, dash and text of each bound of a region.
+BOUND_STYLES = {
+    "fold": ("#d55e00", "-", "fold"),
+    "flip": ("#0072b2", "--", "flip"),
+    "no speed": ("#009e73", "-.", "an impact without speed"),
+    "touch": ("#000000", "-", "a touch on the way"),
+    "merging": ("#cc79a7", ":", "merging"),
+}

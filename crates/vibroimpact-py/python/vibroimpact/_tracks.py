@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from vibroimpact._core import Oscillator
 from vibroimpact._figure import ARRIVAL, Scale, legend, named, new_axes, title
 from vibroimpact._palette import SERIES
+from vibroimpact._tables import BRANCH_MARKS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,8 +60,6 @@ class Followed(Protocol):
 _VALUES = 401
 #: Maximum number of labels with a colour of their own.
 _NAMED = 12
-#: Marks of events.
-_MARKS = {"fold": "s", "flip": "D", "branch point": "o", "grazing": "^", "loss of contact": "v", "soft landing": "P"}
 _LOOKS = {"stable": "-", "unstable": "--", "inadmissible": ":"}
 
 
@@ -124,14 +123,14 @@ def _events(branches: list[Followed], ax: "Axes", virtual: bool, unit: float, sp
     places: dict[str, list[tuple[float, float]]] = {}
     for one in branches:
         for event in one.events:
-            if event.kind not in _MARKS or not (virtual or one.physical[event.point]):
+            if event.kind not in BRANCH_MARKS or not (virtual or one.physical[event.point]):
                 continue
-            comes_or_goes = event.kind in ("grazing", "loss of contact", "soft landing")
-            speeds = [0.0] if comes_or_goes else one.cycles[event.point].velocity_before.tolist()
+            _, at_zero = BRANCH_MARKS[event.kind]
+            speeds = [0.0] if at_zero else one.cycles[event.point].velocity_before.tolist()
             places.setdefault(event.kind, []).extend((event.parameter, u) for u in speeds)
     for kind in sorted(places):
         xs, ys = np.array(places[kind]).reshape(-1, 2).T
-        ax.plot(xs * unit, ys * speed, _MARKS[kind], color="white", markeredgecolor="black", markersize=6, label=kind,
+        ax.plot(xs * unit, ys * speed, BRANCH_MARKS[kind][0], color="white", markeredgecolor="black", markersize=6, label=kind,
                 zorder=4, clip_on=False)
 
 

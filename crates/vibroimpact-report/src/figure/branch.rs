@@ -2,6 +2,7 @@
 //! orbits are solid and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
 
 use crate::figure::diagram::{backdrop, ordinate};
+use crate::figure::styles::BRANCH_MARKS;
 use crate::figure::tracks::{Curves, Followed as What, Look, curves};
 use crate::figure::{along, label, title_without, variant};
 use crate::{Asked, ReportError};
@@ -156,18 +157,7 @@ fn marks(
 /// The shape of the mark of an event, and its ordinates: those of all impacts or states, or velocity zero where an
 /// impact appears or disappears.
 fn mark(point: &SolutionPoint, event: &BranchEvent, what: What<'_>) -> Option<(Shape, Vec<f64>)> {
-    let all = || what.ordinates(point);
-    let none = || if matches!(what, What::Velocity) { vec![0.0] } else { all() };
-    Some(match event {
-        BranchEvent::Fold => (Shape::Square, all()),
-        BranchEvent::Flip => (Shape::Diamond, all()),
-        BranchEvent::BranchPoint => (Shape::Circle, all()),
-        BranchEvent::Grazing { .. } => (Shape::TriangleUp, none()),
-        BranchEvent::SoftLanding { .. } => (Shape::Plus, none()),
-        BranchEvent::LossOfContact { .. } => (Shape::TriangleDown, none()),
-        BranchEvent::EndOfRest { .. } | BranchEvent::RestForEver { .. } | BranchEvent::Chatter { .. } => {
-            (Shape::Cross, none())
-        }
-        _ => return None,
-    })
+    let (_, shape, at_zero) = BRANCH_MARKS.iter().find(|(name, ..)| *name == event.name())?;
+    let ordinates = if *at_zero && matches!(what, What::Velocity) { vec![0.0] } else { what.ordinates(point) };
+    Some((*shape, ordinates))
 }

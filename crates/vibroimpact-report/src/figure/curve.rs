@@ -1,11 +1,11 @@
 //! The figure of a curve of events in the plane of its two parameters, with its points of codimension two.
 
 use crate::Asked;
+use crate::figure::styles::{CURVE_MARKS, EVENT_COLOURS};
 use crate::figure::{label, named, title_without};
 use std::collections::BTreeMap;
-use vibroimpact::continuation::CurveEvent;
-use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
-use vibroimpact_study::{CurvePlan, EventCurve, FollowedEvent, Stretch};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, Stroke};
+use vibroimpact_study::{CurvePlan, EventCurve, Stretch};
 
 /// Size of a mark.
 const MARK: f64 = 13.0;
@@ -21,11 +21,7 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
         FigureAxis::new(named(stretch.parameter, &asked.units)).range(stretch.from * unit, stretch.to * unit)
     };
     let mut panel = Panel::new(axis(&plan.vary, x), axis(&plan.and, y));
-    let colour = match plan.kind {
-        FollowedEvent::Fold => SERIES[1],
-        FollowedEvent::Flip => SERIES[0],
-        FollowedEvent::Grazing => SERIES[2],
-    };
+    let colour = EVENT_COLOURS.iter().find(|(kind, _)| *kind == plan.kind).map_or(Colour::BLACK, |(_, colour)| *colour);
     let mut legend = Legend::below();
     for (physical, dash) in [(true, Dash::Solid), (false, Dash::Dotted)] {
         let (mut xs, mut ys) = (Vec::new(), Vec::new());
@@ -47,7 +43,7 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
         if xs.is_empty() {
             continue;
         }
-        let name = if physical { "" } else { ", no motion" };
+        let name = if physical { "" } else { ", inadmissible" };
         let stroke = Stroke::new(colour).width(WIDTH).dash(dash);
         legend = legend.line(stroke, format!("{} of {}{name}", plan.kind.name(), label(plan.label.trim())));
         panel.add(Line { xs, ys, stroke });
@@ -69,26 +65,12 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
 fn marks(found: &EventCurve, x: f64, y: f64) -> BTreeMap<&'static str, Points> {
     let mut marks: BTreeMap<&'static str, Points> = BTreeMap::new();
     for point in &found.points {
-        let Some((event, shape)) = point.event.and_then(|event| Some((event, shape(event)?))) else { continue };
+        let Some((event, shape)) = CURVE_MARKS.iter().find(|(event, _)| point.event == Some(*event)) else { continue };
         let points = marks
             .entry(event.name())
-            .or_insert_with(|| Points::new([], [], Colour::WHITE).shape(shape).size(MARK).rim(Colour::BLACK));
+            .or_insert_with(|| Points::new([], [], Colour::WHITE).shape(*shape).size(MARK).rim(Colour::BLACK));
         points.xs.push(point.values.0 * x);
         points.ys.push(point.values.1 * y);
     }
     marks
-}
-
-const fn shape(event: CurveEvent) -> Option<Shape> {
-    Some(match event {
-        CurveEvent::Cusp => Shape::TriangleDown,
-        CurveEvent::ResonantGrazing => Shape::Diamond,
-        CurveEvent::DoubleGrazing => Shape::Square,
-        CurveEvent::DegenerateGrazing => Shape::TriangleUp,
-        CurveEvent::Touch | CurveEvent::OneToTwo => Shape::Circle,
-        CurveEvent::DegenerateFlip => Shape::Cross,
-        CurveEvent::LossOfContact | CurveEvent::WholePeriods | CurveEvent::Unbounded => Shape::Plus,
-        // ends of the curve, such as the edge of the plane
-        _ => return None,
-    })
 }

@@ -10,6 +10,7 @@ pub mod region;
 pub mod section;
 pub mod settle;
 pub mod stored;
+pub mod styles;
 mod tracks;
 pub mod waveform;
 

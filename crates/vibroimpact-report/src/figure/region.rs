@@ -2,10 +2,11 @@
 //! colour of their kind.
 
 use crate::Asked;
+use crate::figure::styles::BOUND_STYLES;
 use crate::figure::{label, named, title_without};
 use vibroimpact::continuation::{Bound, Polygon, Region};
 use vibroimpact_plot::{
-    ClassStyle, Colour, Dash, Figure, FigureAxis, FilledRegion, Legend, Line, Panel, SERIES, Stroke, class_style,
+    ClassStyle, Colour, Figure, FigureAxis, FilledRegion, Legend, Line, Panel, Stroke, class_style,
 };
 use vibroimpact_study::{RegionPlan, Regions, Stretch};
 
@@ -14,9 +15,6 @@ const EXISTS: Colour = Colour::hex(0xec_ecec);
 /// Widths of edges.
 const THICK: f64 = 3.2;
 const THIN: f64 = 1.5;
-/// The kinds of boundary that are drawn, in the order of the legend. The frame is the edge of the figure and is not
-/// drawn.
-const BOUNDS: [Bound; 5] = [Bound::Fold, Bound::Flip, Bound::NoSpeed, Bound::Touch, Bound::Merging];
 
 /// The figure of `vibro region`.
 #[must_use]
@@ -49,8 +47,8 @@ pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
         }
         legend = legend.patch(ClassStyle::plain(colour), format!("{name} {what}"));
     }
-    for bound in BOUNDS {
-        let (stroke, name) = pen(bound);
+    for (bound, colour, dash, name) in BOUND_STYLES {
+        let stroke = Stroke { colour, width: THICK, dash };
         let mut seen = false;
         // the edges of the second orbit that exists beside another one are thin
         for (below, stroke) in [(false, stroke.width(THIN)), (true, stroke)] {
@@ -107,17 +105,4 @@ fn edges(polygon: &Polygon, bound: Bound, xs: &mut Vec<f64>, ys: &mut Vec<f64>) 
         ys.push(next.values.1);
         joined = true;
     }
-}
-
-/// The stroke of a kind of boundary, and its name in the legend.
-const fn pen(bound: Bound) -> (Stroke, &'static str) {
-    let (colour, dash, name) = match bound {
-        Bound::Fold => (SERIES[1], Dash::Solid, "fold"),
-        Bound::Flip => (SERIES[0], Dash::Dashed, "flip"),
-        Bound::NoSpeed => (SERIES[2], Dash::DashDot, "an impact without speed"),
-        Bound::Touch => (Colour::BLACK, Dash::Solid, "a touch on the way"),
-        Bound::Merging => (SERIES[3], Dash::Dotted, "merging"),
-        Bound::Frame => (Colour::GREY, Dash::Solid, "frame"),
-    };
-    (Stroke { colour, width: THICK, dash }, name)
 }

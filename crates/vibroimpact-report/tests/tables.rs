@@ -1,15 +1,16 @@
-//! Writes the tables for Python and JavaScript from those of this crate, and checks that the files are up to date.
+//! Writes the tables for Python and JavaScript from those of the plots and figures, and checks that the files are up to date.
 //!
-//! `VIBROIMPACT_WRITE_TABLES=1 cargo test -p vibroimpact-plot --test tables` writes the files again.
+//! `VIBROIMPACT_WRITE_TABLES=1 cargo test -p vibroimpact-report --test tables` writes the files again.
 
 #![allow(clippy::expect_used)]
 
 use std::path::Path;
-use vibroimpact_plot::{GROUP_RULES, GROUPS, SERIES, class_style, legend_text};
+use vibroimpact_plot::{Dash, GROUP_RULES, GROUPS, GroupRule, SERIES, Shape, class_style, legend_text};
+use vibroimpact_report::figure::styles::{BOUND_STYLES, BRANCH_MARKS, CURVE_MARKS, EVENT_COLOURS};
 
 const PYTHON: &str = "../vibroimpact-py/python/vibroimpact/_tables.py";
 const PAGE: &str = "../vibroimpact-web/page/tables.js";
-const WRITTEN: &str = "Written by crates/vibroimpact-plot/tests/tables.rs; do not edit.";
+const WRITTEN: &str = "Written by crates/vibroimpact-report/tests/tables.rs; do not edit.";
 
 /// The rules of groups, one for each line, between the given brackets; `no_limit` is the text for no upper bound.
 fn rules([open, close]: [char; 2], [no, yes]: [&str; 2], no_limit: &str) -> String {
@@ -17,14 +18,14 @@ fn rules([open, close]: [char; 2], [no, yes]: [&str; 2], no_limit: &str) -> Stri
         let to = if to == u64::MAX { no_limit.to_owned() } else { to.to_string() };
         format!("{open}{from}, {to}{close}")
     };
-    let rule = |rule: &vibroimpact_plot::GroupRule| {
+    let rule = |rule: &GroupRule| {
         let equal = if rule.equal { yes } else { no };
         format!("{open}{}, {}, {equal}, \"{}\"{close},\n", range(rule.m), range(rule.n), rule.group)
     };
     GROUP_RULES.iter().map(rule).collect()
 }
 
-/// Converts markup of this crate, such as `*m*` for an italic m, to mathtext of matplotlib.
+/// Converts markup of plots, such as `*m*` for an italic m, to mathtext of matplotlib.
 fn mathtext(markup: &str) -> String {
     markup
         .split('*')
@@ -33,7 +34,58 @@ fn mathtext(markup: &str) -> String {
         .collect()
 }
 
-/// The colours of series, and of the groups of motions with their texts and rules, in Python.
+/// The name of a mark in matplotlib.
+const fn mark(shape: Shape) -> char {
+    match shape {
+        Shape::Circle => 'o',
+        Shape::Square => 's',
+        Shape::Diamond => 'D',
+        Shape::TriangleUp => '^',
+        Shape::TriangleDown => 'v',
+        Shape::Cross => 'X',
+        Shape::Plus => 'P',
+    }
+}
+
+/// The name of a dash in matplotlib.
+const fn dash(dash: Dash) -> &'static str {
+    match dash {
+        Dash::Solid => "-",
+        Dash::Dashed => "--",
+        Dash::Dotted => ":",
+        Dash::DashDot => "-.",
+    }
+}
+
+/// The styles of events in Python.
+fn events() -> String {
+    let colours: String = EVENT_COLOURS
+        .iter()
+        .map(|(kind, colour)| format!("    \"{}\": \"{}\",\n", kind.name(), colour.to_hex()))
+        .collect();
+    let branch: String = BRANCH_MARKS
+        .iter()
+        .map(|(name, shape, zero)| {
+            format!("    \"{name}\": (\"{}\", {}),\n", mark(*shape), if *zero { "True" } else { "False" })
+        })
+        .collect();
+    let curve: String =
+        CURVE_MARKS.iter().map(|(event, shape)| format!("    \"{}\": \"{}\",\n", event.name(), mark(*shape))).collect();
+    let bounds: String = BOUND_STYLES
+        .iter()
+        .map(|(bound, colour, line, text)| {
+            format!("    \"{}\": (\"{}\", \"{}\", \"{text}\"),\n", bound.name(), colour.to_hex(), dash(*line))
+        })
+        .collect();
+    format!(
+        "\n#: Colours of curves of events.\nEVENT_COLOURS = {{\n{colours}}}\n\n\
+         #: Marks of events along branches, and whether they are at velocity zero.\nBRANCH_MARKS = {{\n{branch}}}\n\n\
+         #: Marks of points of codimension two on curves.\nCURVE_MARKS = {{\n{curve}}}\n\n\
+         #: Colour, dash and text of each bound of a region.\nBOUND_STYLES = {{\n{bounds}}}\n"
+    )
+}
+
+/// The colours of series and of the groups of motions with their texts and rules, and the styles of events, in Python.
 fn python() -> String {
     let indented = |lines: String| lines.lines().map(|line| format!("    {line}\n")).collect::<String>();
     let series: String = SERIES.iter().map(|colour| format!("    \"{}\",\n", colour.to_hex())).collect();
@@ -44,11 +96,12 @@ fn python() -> String {
     let legend = group(&|group| mathtext(legend_text(group)));
     let rules = indented(rules(['(', ')'], ["False", "True"], "math.inf"));
     format!(
-        "\"\"\"Colours of series, and of the groups of motions in the order of a legend.\n\n{WRITTEN}\n\"\"\"\n\nimport math\n\n\
+        "\"\"\"Colours of series, groups of motions in the order of a legend, and styles of events.\n\n{WRITTEN}\n\"\"\"\n\nimport math\n\n\
          SERIES = (\n{series})\n\nCLASSES = {{\n{classes}}}\n\n\
          #: The words of a legend.\nLEGEND = {{\n{legend}}}\n\n\
          #: The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked.\n\
-         GROUP_RULES = (\n{rules})\n"
+         GROUP_RULES = (\n{rules})\n{}",
+        events()
     )
 }
 

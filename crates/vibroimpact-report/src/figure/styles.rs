@@ -1,0 +1,75 @@
+//! How figures show events: colours, dashes and marks. The Python package draws with the same tables; the test `tables`
+//! writes them for it.
+
+use vibroimpact::continuation::{Bound, CurveEvent};
+use vibroimpact_plot::{Colour, Dash, SERIES, Shape};
+use vibroimpact_study::FollowedEvent;
+
+/// The colours of curves of events in two parameters.
+pub const EVENT_COLOURS: [(FollowedEvent, Colour); 3] =
+    [(FollowedEvent::Fold, SERIES[1]), (FollowedEvent::Flip, SERIES[0]), (FollowedEvent::Grazing, SERIES[2])];
+
+/// The marks of events along branches by name, and whether the mark is at velocity zero, because an impact appears or
+/// disappears there. Other events have no mark.
+pub const BRANCH_MARKS: [(&str, Shape, bool); 9] = [
+    ("fold", Shape::Square, false),
+    ("flip", Shape::Diamond, false),
+    ("branch point", Shape::Circle, false),
+    ("grazing", Shape::TriangleUp, true),
+    ("loss of contact", Shape::TriangleDown, true),
+    ("soft landing", Shape::Plus, true),
+    ("end of rest", Shape::Cross, true),
+    ("rest for ever", Shape::Cross, true),
+    ("chatter", Shape::Cross, true),
+];
+
+/// The marks of points of codimension two on curves. Ends of a curve have no mark.
+pub const CURVE_MARKS: [(CurveEvent, Shape); 10] = [
+    (CurveEvent::Cusp, Shape::TriangleDown),
+    (CurveEvent::ResonantGrazing, Shape::Diamond),
+    (CurveEvent::DoubleGrazing, Shape::Square),
+    (CurveEvent::DegenerateGrazing, Shape::TriangleUp),
+    (CurveEvent::Touch, Shape::Circle),
+    (CurveEvent::OneToTwo, Shape::Circle),
+    (CurveEvent::DegenerateFlip, Shape::Cross),
+    (CurveEvent::LossOfContact, Shape::Plus),
+    (CurveEvent::WholePeriods, Shape::Plus),
+    (CurveEvent::Unbounded, Shape::Plus),
+];
+
+/// Colour, dash and text of each bound of a region, in the order of the legend. The frame is the edge of the figure and
+/// is not drawn.
+pub const BOUND_STYLES: [(Bound, Colour, Dash, &str); 5] = [
+    (Bound::Fold, SERIES[1], Dash::Solid, "fold"),
+    (Bound::Flip, SERIES[0], Dash::Dashed, "flip"),
+    (Bound::NoSpeed, SERIES[2], Dash::DashDot, "an impact without speed"),
+    (Bound::Touch, Colour::BLACK, Dash::Solid, "a touch on the way"),
+    (Bound::Merging, SERIES[3], Dash::Dotted, "merging"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vibroimpact::continuation::BranchEvent;
+    use vibroimpact::{Label, Side};
+
+    /// A renamed event would lose its mark without an error.
+    #[test]
+    fn marks_on_branches_have_the_names_of_events() {
+        let (side, phase, impact) = (Side::Upper, 0.0, 0);
+        let (before, after) = (Label::new(1, 1), Label::new(2, 1));
+        let change = vibroimpact::continuation::Change::Appears;
+        let events = [
+            BranchEvent::Fold,
+            BranchEvent::Flip,
+            BranchEvent::BranchPoint,
+            BranchEvent::Grazing { change, impact, side, phase, before, after, also: None, turns: false },
+            BranchEvent::LossOfContact { side, phase },
+            BranchEvent::SoftLanding { impact, side, phase, before, after },
+            BranchEvent::EndOfRest { side, phase },
+            BranchEvent::RestForEver { side },
+            BranchEvent::Chatter { side, phase, before },
+        ];
+        assert_eq!(BRANCH_MARKS.map(|(name, ..)| name), events.map(|event| event.name()));
+    }
+}
