@@ -46,6 +46,7 @@
 //! | periodic orbits, stable or not | [`orbit`] |
 //! | how orbits change with a parameter, and the events on the way | [`continuation`] |
 //! | Lyapunov exponents, dimension, sections of an attractor | [`chaos`] |
+//! | impact speeds, impulses, energies, amplitudes, spectrum | [`quantities`] |
 //! | the points of the 1971 paper | [`scenario`] |
 //!
 //! # Units
@@ -70,12 +71,15 @@ mod lyapunov;
 pub mod math;
 pub mod motion;
 pub mod orbit;
+pub mod quantities;
 pub mod scenario;
 pub mod system;
 pub mod verdict;
 
 pub use orbit::Label;
-pub use system::{Frequency, Machine, Oscillator, Parameter, ParameterPath, Scales, Side, Start, Stop, SystemError};
+pub use system::{
+    Dimension, Frequency, Machine, Oscillator, Parameter, ParameterPath, Scales, Side, Start, Stop, SystemError,
+};
 
 /// The listings of the README are compiled and run.
 #[cfg(doctest)]

@@ -52,12 +52,12 @@ impl Window {
         Self { b2, b3: beta + fastest + zeta2 * b2 }
     }
 
-    fn b4(&self, flight: &Flight) -> f64 {
+    pub(super) fn b4(&self, flight: &Flight) -> f64 {
         let (beta, zeta2) = (flight.response().beta(), 2.0 * flight.response().damping());
         beta * beta + self.b2 + zeta2 * self.b3
     }
 
-    fn b5(&self, flight: &Flight) -> f64 {
+    pub(super) fn b5(&self, flight: &Flight) -> f64 {
         let (beta, zeta2) = (flight.response().beta(), 2.0 * flight.response().damping());
         beta * beta * beta + self.b3 + zeta2 * self.b4(flight)
     }

@@ -9,9 +9,11 @@
 //! | a line through two parameters | [`ParameterPath`] |
 //! | a start within the stops | [`Start`] |
 //! | conversion from physical units to nondimensional numbers and back | [`Machine`] |
+//! | the dimension of a quantity, and its unit | [`Dimension`] |
 //! | the phase of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 
 mod commensurable;
+mod dimension;
 mod error;
 mod free;
 mod oscillator;
@@ -22,6 +24,7 @@ mod response;
 mod start;
 mod units;
 
+pub use dimension::Dimension;
 pub use error::SystemError;
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;

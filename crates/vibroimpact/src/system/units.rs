@@ -68,6 +68,8 @@ pub struct Scales {
     pub length_m: f64,
     /// One unit of time, $`1/\omega_n`$, in s.
     pub time_s: f64,
+    /// One unit of mass, the moving mass, in kg.
+    pub mass_kg: f64,
 }
 
 impl Scales {
@@ -105,7 +107,8 @@ impl Machine {
             });
         }
         let natural = (self.stiffness_n_per_m / self.mass_kg).sqrt();
-        let scales = Scales { length_m: self.force_n / self.stiffness_n_per_m, time_s: 1.0 / natural };
+        let scales =
+            Scales { length_m: self.force_n / self.stiffness_n_per_m, time_s: 1.0 / natural, mass_kg: self.mass_kg };
         for (name, value) in [("F/k", scales.length_m), ("omega_n", natural), ("1/omega_n", scales.time_s)] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(SystemError::Scaling { name, value });
@@ -117,12 +120,12 @@ impl Machine {
         Ok((osc, scales))
     }
 
-    /// The machine with the mass `mass_kg` that `osc` describes if one unit of length is `scales.length_m` and one unit
-    /// of time is `scales.time_s`.
+    /// The machine that `osc` describes in the units `scales`.
     ///
     /// # Errors
-    /// [`SystemError`] for scales or a mass that are not positive and finite.
-    pub fn from_nondimensional(osc: &Oscillator, scales: Scales, mass_kg: f64) -> Result<Self, SystemError> {
+    /// [`SystemError`] for scales that are not positive and finite.
+    pub fn from_nondimensional(osc: &Oscillator, scales: Scales) -> Result<Self, SystemError> {
+        let mass_kg = scales.mass_kg;
         positive("mass m", mass_kg, "kg", "the mass moves, so it must weigh something")?;
         positive("unit of length", scales.length_m, "m", "it is F/k")?;
         positive("unit of time", scales.time_s, "s", "it is 1/omega_n")?;
@@ -165,7 +168,7 @@ mod tests {
     #[test]
     fn there_and_back() {
         let (osc, scales) = MACHINE.nondimensional().unwrap();
-        let back = Machine::from_nondimensional(&osc, scales, MACHINE.mass_kg).unwrap();
+        let back = Machine::from_nondimensional(&osc, scales).unwrap();
         for (a, b) in [
             (back.stiffness_n_per_m, MACHINE.stiffness_n_per_m),
             (back.damping_ns_per_m, MACHINE.damping_ns_per_m),

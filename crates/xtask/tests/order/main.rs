@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The folders of the core, in order.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "math",
     "system",
     "scenario.rs",
@@ -22,6 +22,7 @@ const ORDER: [&str; 12] = [
     "orbit",
     "lyapunov",
     "verdict",
+    "quantities",
     "chaos",
     "continuation",
 ];

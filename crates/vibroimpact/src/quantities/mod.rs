@@ -1,0 +1,28 @@
+//! Quantities of a motion: impact speeds, impulses, energies, displacements, the spectrum.
+//!
+//! They come from the closed form of each flight and are right to rounding. Impacts are sums; work, loss in the damper
+//! and mean squares are integrals ([`FlightIntegrals`](crate::flight::FlightIntegrals)); extremes miss no maximum
+//! ([`Extremes`](crate::flight::Extremes)).
+//!
+//! | idea | file |
+//! |---|---|
+//! | the quantities by name, with their dimensions | [`Quantity`], [`Dimension`](crate::system::Dimension) |
+//! | a part of a motion: a flight, an impact, the rest of a chatter, an interval of sticking | [`Segment`] |
+//! | the sums over the parts of a motion, and the quantities from them | [`Tally`], [`Quantities`] |
+//! | the parts of a cycle, and its quantities | [`of_cycle`], [`cycle_segments`] |
+//! | the quantities of a verdict, and of the way from a start | [`of_verdict`], [`of_transient`] |
+//! | amplitudes and phases of the harmonics of a cycle | [`harmonics`] |
+
+mod cycle;
+mod harmonic;
+mod quantity;
+mod segment;
+mod tally;
+mod verdict;
+
+pub use cycle::{cycle_segments, of_cycle};
+pub use harmonic::{Harmonic, harmonics};
+pub use quantity::Quantity;
+pub use segment::Segment;
+pub use tally::{Quantities, Tally};
+pub use verdict::{MEASURED_IMPACTS, SKIPPED_IMPACTS, of_transient, of_verdict};

@@ -1,0 +1,175 @@
+//! The quantities by name.
+
+use crate::system::Dimension;
+
+/// A quantity of a motion. For a periodic motion it refers to its smallest period, for chaos to the impacts that were
+/// followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// The largest speed of arrival at a stop.
+    ImpactSpeedMax,
+    /// The mean speed of arrival; not defined without impacts, or with infinitely many in a chatter.
+    ImpactSpeedMean,
+    /// Impacts in one forcing period; infinite with a complete chatter.
+    ImpactsPerPeriod,
+    /// Impacts per unit of time.
+    ImpactRate,
+    /// The largest impulse of an impact, $`(1+\varepsilon)U`$ times the mass.
+    ImpulseMax,
+    /// The impulses of all impacts in one forcing period.
+    ImpulsePerPeriod,
+    /// The energy lost in impacts in one forcing period, $`\sum\tfrac12(1-\varepsilon^2)U^2`$ times the mass.
+    ImpactLossPerPeriod,
+    /// The power lost in impacts.
+    ImpactPower,
+    /// The energy lost in the damper in one forcing period.
+    DampingLossPerPeriod,
+    /// The power lost in the damper.
+    DampingPower,
+    /// The work of the force in one forcing period. Over a cycle it equals the two losses.
+    WorkPerPeriod,
+    /// The power of the force.
+    Power,
+    /// The smallest position.
+    DisplacementMin,
+    /// The largest position.
+    DisplacementMax,
+    /// Half the difference of the largest and smallest position.
+    DisplacementAmplitude,
+    /// The mean position.
+    DisplacementMean,
+    /// The root of the mean square of the position.
+    DisplacementRms,
+    /// The largest speed.
+    VelocityMax,
+    /// The root of the mean square of the velocity.
+    VelocityRms,
+    /// The largest absolute value of the acceleration between impacts.
+    AccelerationMax,
+    /// The part of the time in which the mass sticks on a stop.
+    StickingFraction,
+}
+
+impl Quantity {
+    /// All quantities, in the order of reports.
+    pub const ALL: [Self; 21] = [
+        Self::ImpactSpeedMax,
+        Self::ImpactSpeedMean,
+        Self::ImpactsPerPeriod,
+        Self::ImpactRate,
+        Self::ImpulseMax,
+        Self::ImpulsePerPeriod,
+        Self::ImpactLossPerPeriod,
+        Self::ImpactPower,
+        Self::DampingLossPerPeriod,
+        Self::DampingPower,
+        Self::WorkPerPeriod,
+        Self::Power,
+        Self::DisplacementMin,
+        Self::DisplacementMax,
+        Self::DisplacementAmplitude,
+        Self::DisplacementMean,
+        Self::DisplacementRms,
+        Self::VelocityMax,
+        Self::VelocityRms,
+        Self::AccelerationMax,
+        Self::StickingFraction,
+    ];
+
+    /// Its name in JSON, CSV and plans.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ImpactSpeedMax => "impact_speed_max",
+            Self::ImpactSpeedMean => "impact_speed_mean",
+            Self::ImpactsPerPeriod => "impacts_per_period",
+            Self::ImpactRate => "impact_rate",
+            Self::ImpulseMax => "impulse_max",
+            Self::ImpulsePerPeriod => "impulse_per_period",
+            Self::ImpactLossPerPeriod => "impact_loss_per_period",
+            Self::ImpactPower => "impact_power",
+            Self::DampingLossPerPeriod => "damping_loss_per_period",
+            Self::DampingPower => "damping_power",
+            Self::WorkPerPeriod => "work_per_period",
+            Self::Power => "power",
+            Self::DisplacementMin => "displacement_min",
+            Self::DisplacementMax => "displacement_max",
+            Self::DisplacementAmplitude => "displacement_amplitude",
+            Self::DisplacementMean => "displacement_mean",
+            Self::DisplacementRms => "displacement_rms",
+            Self::VelocityMax => "velocity_max",
+            Self::VelocityRms => "velocity_rms",
+            Self::AccelerationMax => "acceleration_max",
+            Self::StickingFraction => "sticking_fraction",
+        }
+    }
+
+    /// The quantity with this name; hyphens and underscores are equal.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        let name = name.trim().replace('-', "_");
+        Self::ALL.into_iter().find(|quantity| quantity.name() == name)
+    }
+
+    /// What it is, in words.
+    #[must_use]
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::ImpactSpeedMax => "largest impact speed",
+            Self::ImpactSpeedMean => "mean impact speed",
+            Self::ImpactsPerPeriod => "impacts per forcing period",
+            Self::ImpactRate => "impacts per unit of time",
+            Self::ImpulseMax => "largest impulse of an impact",
+            Self::ImpulsePerPeriod => "impulse per forcing period",
+            Self::ImpactLossPerPeriod => "energy lost in impacts per forcing period",
+            Self::ImpactPower => "power lost in impacts",
+            Self::DampingLossPerPeriod => "energy lost in the damper per forcing period",
+            Self::DampingPower => "power lost in the damper",
+            Self::WorkPerPeriod => "work of the force per forcing period",
+            Self::Power => "power of the force",
+            Self::DisplacementMin => "smallest displacement",
+            Self::DisplacementMax => "largest displacement",
+            Self::DisplacementAmplitude => "displacement amplitude",
+            Self::DisplacementMean => "mean displacement",
+            Self::DisplacementRms => "rms displacement",
+            Self::VelocityMax => "largest speed",
+            Self::VelocityRms => "rms velocity",
+            Self::AccelerationMax => "largest acceleration between impacts",
+            Self::StickingFraction => "part of the time on a stop",
+        }
+    }
+
+    /// Its dimension, which determines its unit.
+    #[must_use]
+    pub const fn dimension(self) -> Dimension {
+        match self {
+            Self::ImpactSpeedMax | Self::ImpactSpeedMean | Self::VelocityMax | Self::VelocityRms => Dimension::Velocity,
+            Self::ImpactsPerPeriod | Self::StickingFraction => Dimension::Number,
+            Self::ImpactRate => Dimension::Rate,
+            Self::ImpulseMax | Self::ImpulsePerPeriod => Dimension::Impulse,
+            Self::ImpactLossPerPeriod | Self::DampingLossPerPeriod | Self::WorkPerPeriod => Dimension::Energy,
+            Self::ImpactPower | Self::DampingPower | Self::Power => Dimension::Power,
+            Self::DisplacementMin
+            | Self::DisplacementMax
+            | Self::DisplacementAmplitude
+            | Self::DisplacementMean
+            | Self::DisplacementRms => Dimension::Length,
+            Self::AccelerationMax => Dimension::Acceleration,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_name_gives_its_quantity() {
+        for quantity in Quantity::ALL {
+            assert_eq!(Quantity::from_name(quantity.name()), Some(quantity));
+            assert_eq!(Quantity::from_name(&quantity.name().replace('_', "-")), Some(quantity));
+        }
+        assert_eq!(Quantity::from_name("speed"), None);
+    }
+}

@@ -1,0 +1,177 @@
+//! Sums over the parts of a motion, and the quantities from them.
+
+use super::{Quantity, Segment};
+use crate::contact::mirrored;
+use crate::flight::{Extremes, FlightIntegrals};
+use crate::math::sin_cos;
+use crate::system::{Oscillator, Side};
+use core::f64::consts::TAU;
+
+/// The quantities of a motion, nondimensional. A quantity that is not defined is NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quantities([f64; Quantity::ALL.len()]);
+
+impl Quantities {
+    /// The value of a quantity; NaN if it is not defined for this motion.
+    #[must_use]
+    pub const fn get(&self, quantity: Quantity) -> f64 {
+        self.0[quantity as usize]
+    }
+
+    /// All quantities with their values.
+    pub fn iter(&self) -> impl Iterator<Item = (Quantity, f64)> {
+        Quantity::ALL.into_iter().zip(self.0)
+    }
+
+    /// From a function that gives the value of each quantity.
+    pub(super) fn from_fn(value: impl Fn(Quantity) -> f64) -> Self {
+        Self(Quantity::ALL.map(value))
+    }
+}
+
+/// Sums over the parts of a motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Tally<'a> {
+    osc: &'a Oscillator,
+    integrals: FlightIntegrals,
+    extremes: Extremes,
+    time: f64,
+    sticking: f64,
+    impacts: f64,
+    speeds: f64,
+    fastest: f64,
+    impulse: f64,
+    hardest: f64,
+    lost: f64,
+}
+
+impl<'a> Tally<'a> {
+    /// Empty sums.
+    #[must_use]
+    pub fn new(osc: &'a Oscillator) -> Self {
+        Self {
+            osc,
+            integrals: FlightIntegrals::default(),
+            extremes: Extremes::default(),
+            time: 0.0,
+            sticking: 0.0,
+            impacts: 0.0,
+            speeds: 0.0,
+            fastest: 0.0,
+            impulse: 0.0,
+            hardest: 0.0,
+            lost: 0.0,
+        }
+    }
+
+    /// Adds a part of the motion.
+    pub fn add(&mut self, segment: &Segment) {
+        self.time += segment.duration();
+        match *segment {
+            Segment::Flight { flight, duration } => {
+                self.integrals.add(&flight, duration);
+                self.extremes.add(&flight, duration);
+            }
+            Segment::Impact { side, speed } => self.impact(side, speed),
+            Segment::Chatter { side, phase, rebound, duration } => self.chatter(side, phase, rebound, duration),
+            Segment::Rest { side, duration, .. } => {
+                self.sticking += duration;
+                self.hold(side, duration);
+            }
+        }
+    }
+
+    fn impact(&mut self, side: Side, speed: f64) {
+        let rebound = self.osc.stop(side).map_or(0.0, |stop| stop.rebound(speed));
+        self.impacts += 1.0;
+        self.speeds += speed;
+        self.fastest = self.fastest.max(speed);
+        self.impulse += speed + rebound;
+        self.hardest = self.hardest.max(speed + rebound);
+        self.lost += 0.5 * (speed - rebound) * (speed + rebound);
+    }
+
+    /// The rest of a chatter. Over a flight of it with the rebound speed $`w`$, to leading order in $`w`$, the mass
+    /// moves as $`-ws + as^2/2`$ with the acceleration $`a = \sin\theta - \delta`$ into the stop. So the damper takes
+    /// $`\tfrac43\zeta w^3/a`$ and the force does the work $`\tfrac23\beta\cos\theta\,w^3/a^2`$. The speeds are
+    /// $`w\varepsilon^k`$, whose cubes have the sum $`w^3/(1-\varepsilon^3)`$. The next terms are smaller by the factor
+    /// $`w/a`$, of the order $`10^{-4}`$, and $`w^3`$ itself is of the order $`10^{-12}`$.
+    fn chatter(&mut self, side: Side, phase: f64, rebound: f64, duration: f64) {
+        let Some(stop) = self.osc.stop(side) else { return };
+        let (sin, cos) = sin_cos(mirrored(side, phase));
+        let (beta, zeta, eps) = (self.osc.beta(), self.osc.damping(), stop.restitution);
+        let a = sin - stop.gap;
+        let k = rebound / a;
+        let cubes = rebound * k / (1.0 - eps * eps * eps);
+        let v_squared = 2.0 / 3.0 * rebound * cubes;
+        let work = 2.0 / 3.0 * beta * cos * k * cubes;
+        self.integrals.v_squared += v_squared;
+        self.integrals.work += work;
+        // the mass is at rest at the end, so all its energy is lost
+        self.lost += 0.5 * rebound * rebound + work - 2.0 * zeta * v_squared;
+        // The impulses balance the force over this time, and the speed at its beginning. With h = beta t / 2, the
+        // integral of sin(theta + beta s) is t sin(theta + h) sin(h) / h.
+        let half = 0.5 * beta * duration;
+        let (sin_half, cos_half) = sin_cos(half);
+        let (sin_middle, ratio) = (sin * cos_half + cos * sin_half, if half > 0.0 { sin_half / half } else { 1.0 });
+        let impulse = duration * (sin_middle * ratio - stop.gap) - rebound + 2.0 / 3.0 * k * cubes;
+        self.impulse += impulse;
+        self.speeds += impulse / (1.0 + eps);
+        self.impacts = f64::INFINITY;
+        self.extremes.acceleration = self.extremes.acceleration.max(a);
+        self.hold(side, duration);
+    }
+
+    /// The mass is at the stop for this time.
+    fn hold(&mut self, side: Side, duration: f64) {
+        let x = side.sign() * self.osc.stop(side).map_or(0.0, |stop| stop.gap);
+        self.integrals.x += x * duration;
+        self.integrals.x_squared += x * x * duration;
+        self.extremes.rest(x);
+    }
+
+    /// The number of impacts.
+    #[must_use]
+    pub const fn impacts(&self) -> f64 {
+        self.impacts
+    }
+
+    /// The quantities of a motion whose parts, all added, take `periods` forcing periods.
+    #[must_use]
+    pub fn over(&self, periods: f64) -> Quantities {
+        let time = periods * TAU / self.osc.beta();
+        let damped = 2.0 * self.osc.damping() * self.integrals.v_squared;
+        let mean_speed =
+            if self.impacts > 0.0 && self.impacts.is_finite() { self.speeds / self.impacts } else { f64::NAN };
+        let rms = |squares: f64| (squares.max(0.0) / time).sqrt();
+        Quantities::from_fn(|quantity| match quantity {
+            Quantity::ImpactSpeedMax => self.fastest,
+            Quantity::ImpactSpeedMean => mean_speed,
+            Quantity::ImpactsPerPeriod => self.impacts / periods,
+            Quantity::ImpactRate => self.impacts / time,
+            Quantity::ImpulseMax => self.hardest,
+            Quantity::ImpulsePerPeriod => self.impulse / periods,
+            Quantity::ImpactLossPerPeriod => self.lost / periods,
+            Quantity::ImpactPower => self.lost / time,
+            Quantity::DampingLossPerPeriod => damped / periods,
+            Quantity::DampingPower => damped / time,
+            Quantity::WorkPerPeriod => self.integrals.work / periods,
+            Quantity::Power => self.integrals.work / time,
+            Quantity::DisplacementMin => self.extremes.lowest,
+            Quantity::DisplacementMax => self.extremes.highest,
+            Quantity::DisplacementAmplitude => 0.5 * (self.extremes.highest - self.extremes.lowest),
+            Quantity::DisplacementMean => self.integrals.x / time,
+            Quantity::DisplacementRms => rms(self.integrals.x_squared),
+            Quantity::VelocityMax => self.extremes.speed.max(self.fastest),
+            Quantity::VelocityRms => rms(self.integrals.v_squared),
+            Quantity::AccelerationMax => self.extremes.acceleration,
+            Quantity::StickingFraction => self.sticking / time,
+        })
+    }
+
+    /// The same over the time of all parts.
+    #[must_use]
+    pub fn over_all(&self) -> Quantities {
+        self.over(self.time * self.osc.beta() / TAU)
+    }
+}

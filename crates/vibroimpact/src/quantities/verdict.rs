@@ -1,0 +1,110 @@
+//! The quantities of a verdict, and those of the way from a start to the motion it settles into.
+
+use super::cycle::{after_release, of_cycle};
+use super::segment::follow;
+use super::{Quantities, Quantity, Segment, Tally};
+use crate::motion::{EventKind, Motion, Path};
+use crate::orbit;
+use crate::system::{Oscillator, Side, Start};
+use crate::verdict::{NoImpact, Verdict};
+
+/// The number of impacts over which the quantities of a chaotic motion are measured.
+pub const MEASURED_IMPACTS: u64 = 4000;
+/// The number of impacts of a chaotic motion before them, which are left out as a transient.
+pub const SKIPPED_IMPACTS: u64 = 1000;
+/// The number of forcing periods of a last flight without end that count as part of the way.
+const LAST_PERIODS: f64 = 100.0;
+
+/// The quantities of the motion with this verdict. `start` leads to it; only a chaotic motion is followed again from
+/// there, and measured over [`MEASURED_IMPACTS`] impacts.
+///
+/// `None` for an undecided motion, and for chaos that ends before it was measured. Without damping, motions without
+/// impacts depend on the start: their positions and velocities are NaN.
+#[must_use]
+pub fn of_verdict(osc: &Oscillator, verdict: &Verdict, start: Start) -> Option<Quantities> {
+    match verdict {
+        Verdict::Periodic(cycle) => of_cycle(osc, cycle),
+        Verdict::NoImpact(NoImpact::Landing { side, periods }) => {
+            let mut tally = Tally::new(osc);
+            after_release(osc, *side, *periods)?.iter().for_each(|part| tally.add(part));
+            Some(tally.over(f64::from(*periods)))
+        }
+        Verdict::NoImpact(_) => match orbit::without_impacts(osc) {
+            Some(cycle) => of_cycle(osc, &cycle),
+            None => Some(Quantities::from_fn(quiet)),
+        },
+        Verdict::Stuck(side) => Some(stuck(osc, *side)),
+        Verdict::Chaotic(_) => measured(osc, start),
+        Verdict::Undecided(_) => None,
+    }
+}
+
+/// What is known of all motions without impacts and without damping.
+fn quiet(quantity: Quantity) -> f64 {
+    match quantity {
+        Quantity::ImpactSpeedMean
+        | Quantity::DisplacementMin
+        | Quantity::DisplacementMax
+        | Quantity::DisplacementAmplitude
+        | Quantity::DisplacementMean
+        | Quantity::DisplacementRms
+        | Quantity::VelocityMax
+        | Quantity::VelocityRms
+        | Quantity::AccelerationMax => f64::NAN,
+        _ => 0.0,
+    }
+}
+
+fn stuck(osc: &Oscillator, side: Side) -> Quantities {
+    let mut tally = Tally::new(osc);
+    tally.add(&Segment::Rest { side, phase: 0.0, duration: osc.period() });
+    tally.over(1.0)
+}
+
+/// The quantities of a motion that goes on, over a number of impacts after a transient.
+fn measured(osc: &Oscillator, start: Start) -> Option<Quantities> {
+    let mut motion = Motion::new(osc, start);
+    let mut tally = Tally::new(osc);
+    let (mut count, mut done) = (0, false);
+    let begin = core::cell::Cell::new(false);
+    follow(
+        &mut motion,
+        |part| {
+            if begin.get() {
+                tally.add(&part);
+            }
+        },
+        |event| {
+            count += u64::from(matches!(event.kind, EventKind::Impact { .. }));
+            begin.set(count >= SKIPPED_IMPACTS);
+            done = count >= SKIPPED_IMPACTS + MEASURED_IMPACTS;
+            !done
+        },
+    );
+    done.then(|| tally.over_all())
+}
+
+/// The quantities of the way from `start` over its first `impacts` impacts: the largest values on the way, and means
+/// over it. If no stop is reached again, the first hundred forcing periods of the last flight belong to it.
+#[must_use]
+pub fn of_transient(osc: &Oscillator, start: Start, impacts: u64) -> Quantities {
+    let mut motion = Motion::new(osc, start);
+    let mut tally = Tally::new(osc);
+    let mut count = 0;
+    follow(
+        &mut motion,
+        |part| tally.add(&part),
+        |event| {
+            count += u64::from(matches!(event.kind, EventKind::Impact { .. }));
+            count < impacts
+        },
+    );
+    if let Some(leg) = motion.leg().filter(|leg| leg.duration.is_infinite()) {
+        let duration = LAST_PERIODS * osc.period();
+        tally.add(&match leg.path {
+            Path::Flight(flight) => Segment::Flight { flight, duration },
+            Path::Rest(side) => Segment::Rest { side, phase: leg.phase, duration },
+        });
+    }
+    tally.over_all()
+}

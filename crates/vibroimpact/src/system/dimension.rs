@@ -1,0 +1,110 @@
+//! Dimensions of quantities, and their units.
+
+use super::Scales;
+
+/// The dimension of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// A pure number.
+    Number,
+    /// A length.
+    Length,
+    /// A velocity.
+    Velocity,
+    /// An acceleration.
+    Acceleration,
+    /// An impulse.
+    Impulse,
+    /// An energy.
+    Energy,
+    /// A power.
+    Power,
+    /// A number per unit of time.
+    Rate,
+}
+
+impl Dimension {
+    /// One nondimensional unit in SI units.
+    #[must_use]
+    pub fn in_si(self, scales: &Scales) -> f64 {
+        let Scales { length_m, time_s, mass_kg } = *scales;
+        let velocity = length_m / time_s;
+        match self {
+            Self::Number => 1.0,
+            Self::Length => length_m,
+            Self::Velocity => velocity,
+            Self::Acceleration => velocity / time_s,
+            Self::Impulse => mass_kg * velocity,
+            Self::Energy => mass_kg * velocity * velocity,
+            Self::Power => mass_kg * velocity * velocity / time_s,
+            Self::Rate => 1.0 / time_s,
+        }
+    }
+
+    /// The SI unit, as in text; empty for a number.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Number => "",
+            Self::Length => "m",
+            Self::Velocity => "m/s",
+            Self::Acceleration => "m/s²",
+            Self::Impulse => "N s",
+            Self::Energy => "J",
+            Self::Power => "W",
+            Self::Rate => "1/s",
+        }
+    }
+
+    /// The SI unit at the end of the name of a column, such as `_m_per_s`; empty for a number.
+    #[must_use]
+    pub const fn suffix(self) -> &'static str {
+        match self {
+            Self::Number => "",
+            Self::Length => "_m",
+            Self::Velocity => "_m_per_s",
+            Self::Acceleration => "_m_per_s2",
+            Self::Impulse => "_n_s",
+            Self::Energy => "_j",
+            Self::Power => "_w",
+            Self::Rate => "_per_s",
+        }
+    }
+
+    /// The SI unit in the notation of UDUNITS; `1` for a number.
+    #[must_use]
+    pub const fn udunits(self) -> &'static str {
+        match self {
+            Self::Number => "1",
+            Self::Length => "m",
+            Self::Velocity => "m s-1",
+            Self::Acceleration => "m s-2",
+            Self::Impulse => "N s",
+            Self::Energy => "J",
+            Self::Power => "W",
+            Self::Rate => "s-1",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The units follow from their definitions: J = N m, W = J/s, and N = kg m/s^2.
+    #[test]
+    fn derived_units() {
+        let scales = Scales { length_m: 0.003, time_s: 0.02, mass_kg: 0.7 };
+        let of = |dimension: Dimension| dimension.in_si(&scales);
+        let newton = of(Dimension::Acceleration) * 0.7;
+        for (value, expected) in [
+            (of(Dimension::Impulse), newton * 0.02),
+            (of(Dimension::Energy), newton * 0.003),
+            (of(Dimension::Power), newton * 0.003 / 0.02),
+            (of(Dimension::Rate), 50.0),
+            (of(Dimension::Velocity), 0.15),
+        ] {
+            assert!((value / expected - 1.0).abs() < 1e-14);
+        }
+    }
+}

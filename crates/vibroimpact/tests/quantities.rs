@@ -1,0 +1,194 @@
+//! Quantities of random attractors: the energy balance, and every quantity against a fine waveform.
+
+use vibroimpact::motion::{EventKind, Motion};
+use vibroimpact::quantities::{Quantities, Quantity, cycle_segments, harmonics, of_cycle, of_transient, of_verdict};
+use vibroimpact::verdict::{SettleOptions, Verdict, settle};
+use vibroimpact::{Oscillator, Start};
+
+/// Numbers in [0, 1), the same in every run.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(self.0 >> 32).unwrap()) / 4_294_967_296.0
+    }
+}
+
+/// A random oscillator: with and without damping and a second stop, any restitution, preloaded or not.
+fn random(numbers: &mut Numbers) -> Oscillator {
+    let beta = 0.2 * 20.0_f64.powf(numbers.next());
+    let gap = 3.0 * numbers.next() - 1.2;
+    let restitution = match (numbers.next() * 8.0) as u32 {
+        0 => 0.0,
+        1 => 1.0,
+        _ => numbers.next(),
+    };
+    let damping = if numbers.next() < 0.4 { 0.0 } else { 2.0 * numbers.next().powi(4) };
+    let osc = Oscillator::new(beta, gap, restitution).unwrap().with_damping(damping).unwrap();
+    if numbers.next() < 0.3 {
+        osc.with_second_stop(gap.abs() + numbers.next(), numbers.next()).unwrap()
+    } else {
+        osc
+    }
+}
+
+/// Work of the force less both losses, relative to the energies in play.
+fn imbalance(found: &Quantities) -> f64 {
+    let [work, impacts, damper] =
+        [Quantity::WorkPerPeriod, Quantity::ImpactLossPerPeriod, Quantity::DampingLossPerPeriod].map(|q| found.get(q));
+    (work - impacts - damper) / (1.0 + impacts + damper)
+}
+
+#[test]
+fn work_is_lost_in_impacts_and_damper_for_a_thousand_attractors() {
+    let mut numbers = Numbers(17);
+    let (mut sticking, mut chatter, mut undamped, mut two, mut count) = (0, 0, 0, 0, 0);
+    let mut worst = 0.0_f64;
+    while count < 1000 {
+        let osc = random(&mut numbers);
+        let settled = settle(&osc, Start::at_rest(&osc), &SettleOptions::default());
+        let Verdict::Periodic(cycle) = &settled.verdict else { continue };
+        let found = of_cycle(&osc, cycle).unwrap_or_else(|| panic!("{osc:?}: no quantities of {}", cycle.label));
+        let error = imbalance(&found).abs();
+        assert!(error < 1e-12, "{osc:?} {}: {error:e}", cycle.label);
+        worst = worst.max(error);
+        count += 1;
+        sticking += u32::from(!cycle.rests.is_empty());
+        chatter += u32::from(cycle.rests.iter().any(|rest| rest.chatter));
+        undamped += u32::from(osc.damping() == 0.0);
+        two += u32::from(osc.stop(vibroimpact::Side::Lower).is_some());
+    }
+    println!("worst {worst:e}; sticking {sticking}, chatter {chatter}, undamped {undamped}, two stops {two}");
+    assert!(sticking > 50 && chatter > 30 && undamped > 150 && two > 100, "{sticking} {chatter} {undamped} {two}");
+}
+
+/// The same quantities from a fine waveform by the trapezoidal rule, over whole periods of the settled motion.
+#[test]
+fn quantities_agree_with_a_fine_waveform() {
+    let mut numbers = Numbers(3);
+    let mut count = 0;
+    while count < 60 {
+        let osc = random(&mut numbers);
+        let settled = settle(&osc, Start::at_rest(&osc), &SettleOptions::default());
+        let Verdict::Periodic(cycle) = &settled.verdict else { continue };
+        // a slow transient would blur the comparison
+        if cycle.multipliers[0].modulus() > 0.9 {
+            continue;
+        }
+        count += 1;
+        let exact = of_cycle(&osc, cycle).unwrap();
+        let start = match (cycle.rests.last(), cycle.points.first()) {
+            (Some(rest), _) => Motion::released(&osc, rest.side),
+            (None, Some(point)) => Motion::after(&osc, &point.state, Default::default()),
+            _ => continue,
+        };
+        let total = f64::from(cycle.label.periods) * osc.period();
+        let (mut motion, mut time) = (start, 0.0);
+        let (mut squares, mut speeds, mut work) = (0.0, 0.0, 0.0);
+        let (mut lowest, mut highest, mut fastest, mut hard) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64, 0.0_f64);
+        let (mut loss, mut impulse) = (0.0, 0.0);
+        let mut impact = |u: f64, v: f64| {
+            loss += 0.5 * (u * u - v * v);
+            impulse += u - v;
+        };
+        if let (true, Some(point)) = (cycle.rests.is_empty(), cycle.points.first()) {
+            let stop = osc.stop(point.state.side).unwrap();
+            impact(point.state.velocity, -stop.restitution * point.state.velocity);
+            fastest = fastest.max(point.state.velocity);
+        }
+        while time < total * (1.0 - 1e-9) {
+            let event = motion.next().expect("a cycle goes on");
+            let leg = *motion.leg().unwrap();
+            let n = 2000_u32;
+            let h = leg.duration / f64::from(n);
+            for k in 0..=n {
+                let s = h * f64::from(k);
+                let (x, v) = leg.state(&osc, s);
+                let force = (leg.phase + osc.beta() * s).sin();
+                let weight = if k == 0 || k == n { 0.5 * h } else { h };
+                squares += weight * x * x;
+                speeds += weight * v * v;
+                work += weight * force * v;
+                (lowest, highest, fastest) = (lowest.min(x), highest.max(x), fastest.max(v.abs()));
+                if leg.state(&osc, 0.5 * leg.duration).1 != 0.0 {
+                    hard = hard.max((force - x - 2.0 * osc.damping() * v).abs());
+                }
+            }
+            time += leg.duration;
+            if let EventKind::Impact { velocity_before, velocity_after } = event.kind
+                && time < total * (1.0 - 1e-9)
+            {
+                impact(velocity_before, velocity_after);
+            }
+        }
+        let periods = f64::from(cycle.label.periods);
+        let near = |quantity: Quantity, value: f64, tolerance: f64| {
+            let found = exact.get(quantity);
+            assert!((found - value).abs() < tolerance * (1.0 + value.abs()), "{osc:?} {quantity:?}: {found} {value}");
+        };
+        let chatters = cycle.rests.iter().any(|rest| rest.chatter);
+        near(Quantity::DisplacementRms, (squares / total).sqrt(), 1e-4);
+        near(Quantity::VelocityRms, (speeds / total).sqrt(), 1e-4);
+        near(Quantity::WorkPerPeriod, work / periods, 1e-3);
+        near(Quantity::DisplacementMin, lowest, 1e-4);
+        near(Quantity::DisplacementMax, highest, 1e-4);
+        near(Quantity::VelocityMax, fastest, 1e-4);
+        near(Quantity::ImpactLossPerPeriod, loss / periods, 1e-6);
+        // the impulses of the summed part of a chatter are not among those listed
+        near(Quantity::ImpulsePerPeriod, impulse / periods, if chatters { 0.05 } else { 1e-8 });
+        if !chatters {
+            near(Quantity::AccelerationMax, hard, 2e-3);
+        }
+    }
+}
+
+/// Parseval: the harmonics of a motion carry its mean square.
+#[test]
+fn harmonics_carry_the_mean_square() {
+    for (inverse, gap, damping, label) in [(1.8, 0.25, 0.0, "4/1"), (0.6, 0.75, 0.02, "1/1"), (1.11, -0.5, 0.0, "inf/1")] {
+        let osc = Oscillator::from_inverse_beta(inverse, gap, 0.5).unwrap().with_damping(damping).unwrap();
+        let settled = settle(&osc, Start::at_rest(&osc), &SettleOptions::default());
+        let Verdict::Periodic(cycle) = &settled.verdict else { panic!("{label} is periodic") };
+        assert_eq!(cycle.label.to_string(), label);
+        let exact = of_cycle(&osc, cycle).unwrap();
+        let mean = exact.get(Quantity::DisplacementMean);
+        let carried: f64 = harmonics(&osc, cycle, 400).unwrap().iter().map(|h| 0.5 * h.amplitude * h.amplitude).sum();
+        let square = exact.get(Quantity::DisplacementRms).powi(2);
+        // x has corners at impacts, so its amplitudes fall as 1/k^2 and what is left out as 1/k^3
+        assert!((mean * mean + carried - square).abs() < 1e-7, "{label}: {} {square}", mean * mean + carried);
+        let time: f64 = cycle_segments(&osc, cycle).unwrap().iter().map(|part| part.duration()).sum();
+        assert!((time / osc.period() - f64::from(cycle.label.periods)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn other_verdicts() {
+    let options = SettleOptions::default();
+    let of = |osc: &Oscillator| {
+        let start = Start::at_rest(osc);
+        of_verdict(osc, &settle(osc, start, &options).verdict, start)
+    };
+    // damped and clear of the stop: amplitude |f|, and the damper takes pi c w X^2
+    let clear = Oscillator::new(0.7, 5.0, 0.5).unwrap().with_damping(0.1).unwrap();
+    let found = of(&clear).unwrap();
+    let amplitude = clear.free_amplitude();
+    assert!((found.get(Quantity::DisplacementMax) - amplitude).abs() < 1e-14 * amplitude);
+    let loss = std::f64::consts::PI * 0.2 * 0.7 * amplitude * amplitude;
+    assert!((found.get(Quantity::DampingLossPerPeriod) - loss).abs() < 1e-13);
+    assert_eq!(found.get(Quantity::ImpactsPerPeriod), 0.0);
+    assert!(found.get(Quantity::ImpactSpeedMean).is_nan());
+    // held on the stop
+    let held = of(&Oscillator::new(0.9, -1.5, 0.5).unwrap()).unwrap();
+    assert_eq!((held.get(Quantity::StickingFraction), held.get(Quantity::DisplacementRms)), (1.0, 1.5));
+    // chaos: the balance holds up to the change of energy between both ends
+    let chaos = Oscillator::from_inverse_beta(1.11, 3.0, 0.5).unwrap();
+    let found = of(&chaos).unwrap();
+    assert!(imbalance(&found).abs() < 0.02 && found.get(Quantity::ImpactLossPerPeriod) > 0.1);
+    // the way from the start reaches at least what the motion does in the end
+    let n = Oscillator::from_inverse_beta(1.8, 0.25, 0.5).unwrap();
+    let settled = settle(&n, Start::at_rest(&n), &options);
+    let way = of_transient(&n, Start::at_rest(&n), settled.impacts);
+    let end = of_verdict(&n, &settled.verdict, Start::at_rest(&n)).unwrap();
+    assert!(way.get(Quantity::ImpactSpeedMax) > end.get(Quantity::ImpactSpeedMax) - 1e-6);
+}
