@@ -7,6 +7,7 @@ use vibroimpact::Oscillator;
 use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::orbit::Cycle;
+use vibroimpact::quantities::of_verdict;
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
 
 /// The fields of a motion.
@@ -30,6 +31,7 @@ pub(crate) struct Fields<'py> {
     horizon: Option<HorizonFields>,
     side: Option<&'static str>,
     tried: Option<Tried>,
+    quantities: Option<Vec<(&'static str, f64)>>,
 }
 
 /// One phase of sticking.
@@ -105,6 +107,8 @@ impl<'py> Fields<'py> {
             horizon: None,
             side: None,
             tried: None,
+            quantities: of_verdict(osc, verdict)
+                .map(|of| of.iter().map(|(quantity, value)| (quantity.name(), value)).collect()),
         };
         let tried = |impacts, periods, lyapunov| Some(Tried { impacts, periods, lyapunov });
         match verdict {

@@ -16,7 +16,7 @@ fn hash_of(numbers: impl Iterator<Item = f64>) -> u64 {
     hasher.finish()
 }
 
-/// The physical units of length and time of an oscillator.
+/// The physical units of length, time and mass of an oscillator.
 ///
 /// Multiply a nondimensional result by a unit to get a physical value; divide a physical start by it to get a
 /// nondimensional one.
@@ -32,16 +32,20 @@ pub(crate) struct Units(Scales);
 #[pymethods]
 impl Units {
     #[new]
-    #[pyo3(signature = (*, length_m, time_s))]
-    fn new(length_m: f64, time_s: f64) -> Result<Self, Trouble> {
-        for (name, value, meaning) in [("length_m", length_m, "F/k in m"), ("time_s", time_s, "1/omega_n in s")] {
+    #[pyo3(signature = (*, length_m, time_s, mass_kg))]
+    fn new(length_m: f64, time_s: f64, mass_kg: f64) -> Result<Self, Trouble> {
+        for (name, value, meaning) in [
+            ("length_m", length_m, "F/k in m"),
+            ("time_s", time_s, "1/omega_n in s"),
+            ("mass_kg", mass_kg, "the moving mass in kg"),
+        ] {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Trouble::question(format!(
                     "{name} = {value} lies outside 0 < {name} < infinity\nhint: it is {meaning}"
                 )));
             }
         }
-        Ok(Self(Scales { length_m, time_s }))
+        Ok(Self(Scales { length_m, time_s, mass_kg }))
     }
 
     /// One unit of length, F/k, in m.
@@ -56,6 +60,12 @@ impl Units {
         self.0.time_s
     }
 
+    /// The moving mass, in kg.
+    #[getter]
+    const fn mass_kg(&self) -> f64 {
+        self.0.mass_kg
+    }
+
     /// One unit of velocity, in m/s.
     #[getter]
     fn velocity_m_per_s(&self) -> f64 {
@@ -63,7 +73,8 @@ impl Units {
     }
 
     fn __repr__(&self) -> String {
-        format!("Units(length_m={:?}, time_s={:?})", self.0.length_m, self.0.time_s)
+        let Scales { length_m, time_s, mass_kg } = self.0;
+        format!("Units(length_m={length_m:?}, time_s={time_s:?}, mass_kg={mass_kg:?})")
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -71,13 +82,14 @@ impl Units {
     }
 
     fn __hash__(&self) -> u64 {
-        hash_of([self.0.length_m, self.0.time_s].into_iter())
+        hash_of([self.0.length_m, self.0.time_s, self.0.mass_kg].into_iter())
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
         let keywords = PyDict::new(py);
         keywords.set_item("length_m", self.0.length_m)?;
         keywords.set_item("time_s", self.0.time_s)?;
+        keywords.set_item("mass_kg", self.0.mass_kg)?;
         Ok((PyTuple::empty(py), keywords))
     }
 }

@@ -45,7 +45,7 @@ def test_oscillators_in_the_words_of_the_command(
     [
         (lambda osc: vi.Oscillator(beta=1, inverse_beta=1, gap=0, restitution=0.5), "the frequency is given twice"),
         (lambda osc: vi.Oscillator(**GOOD, second_restitution=0.5), "the second stop has a restitution but no gap"),
-        (lambda osc: vi.Units(length_m=0, time_s=1), "length_m = 0 lies outside"),
+        (lambda osc: vi.Units(length_m=0, time_s=1, mass_kg=1), "length_m = 0 lies outside"),
         (lambda osc: vi.Oscillator.from_units(**{**MACHINE, "mass": -1}), "mass m = -1 kg lies outside"),
         (lambda osc: vi.Oscillator.from_units(**MACHINE, frequency=3), "the frequency is given twice"),
         (lambda osc: vi.Oscillator.from_units(**{**MACHINE, "omega": None}), "the frequency is given nowhere"),

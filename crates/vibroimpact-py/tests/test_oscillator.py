@@ -61,7 +61,7 @@ def test_units_lead_there_and_back() -> None:
     osc = vi.Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.010, restitution=0.5, second_gap=0.02)
     # 25 rad/s over sqrt(800/2) = 20 rad/s; 10 mm over 4/800 m = 5 mm
     assert (osc.beta, osc.gap, osc.second_gap, osc.damping) == (1.25, 2.0, 4.0, 0.0)
-    assert osc.units == vi.Units(length_m=0.005, time_s=0.05) and osc.units is not None
+    assert osc.units == vi.Units(length_m=0.005, time_s=0.05, mass_kg=2) and osc.units is not None
     assert osc.units.velocity_m_per_s == 0.005 / 0.05
     assert pickle.loads(pickle.dumps(osc.units)) == osc.units and len({osc.units, osc.replace(gap_m=0.005).units}) == 1
     hertz = vi.Oscillator.from_units(

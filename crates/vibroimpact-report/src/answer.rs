@@ -197,8 +197,8 @@ impl Answer {
                 let view = Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?;
                 view.table()?.kept()
             }
-            (_, Results::Attractors(found)) => table::attractors::table(found, osc),
-            (_, Results::Basin(found)) => table::basin::table(found, units)?,
+            (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
+            (_, Results::Basin(found)) => table::basin::table(found, osc, units)?,
             (_, Results::Map(found)) => table::map::table(found),
             (_, Results::Diagram(found)) => table::diagram::table(found, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),

@@ -1,6 +1,7 @@
 //! The units of lengths, velocities and times in results.
 
-use vibroimpact::Scales;
+use crate::number::short;
+use vibroimpact::{QuantityKind, Scales};
 use vibroimpact_study::{Parameter, PlanError, Span, SystemPlan, Values, is_length};
 
 /// The system of a plan, and the units of its results.
@@ -42,6 +43,25 @@ impl Units {
     #[must_use]
     pub fn velocity(&self) -> f64 {
         self.factor(Scales::velocity_m_per_s)
+    }
+
+    /// The unit of a kind of quantity.
+    #[must_use]
+    pub fn of_kind(&self, kind: QuantityKind) -> f64 {
+        self.factor(|scales| kind.in_si(scales))
+    }
+
+    /// The name of a column with values of this kind, which ends in the unit if there is one.
+    #[must_use]
+    pub fn column(&self, name: &str, kind: QuantityKind) -> String {
+        if self.si { format!("{name}{}", kind.suffix()) } else { name.to_owned() }
+    }
+
+    /// A value of this kind as text, with its unit if there is one.
+    #[must_use]
+    pub fn text(&self, value: f64, kind: QuantityKind) -> String {
+        let number = short(value * self.of_kind(kind));
+        if self.si && !kind.unit().is_empty() { format!("{number} {}", kind.unit()) } else { number }
     }
 
     /// The unit of a parameter.

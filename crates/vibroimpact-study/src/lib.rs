@@ -24,6 +24,7 @@
 //! | the regions where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
+//! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
 pub mod axis;
 pub mod basin;
@@ -44,6 +45,7 @@ mod map;
 mod parameter;
 mod plan;
 mod plan_text;
+mod quantity;
 mod region;
 mod run;
 mod simulate;
@@ -70,6 +72,7 @@ pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use parameter::{Parameter, is_length};
 pub use plan::{Plan, Task};
+pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
 pub use run::{Results, run};
 pub use simulate::Simulated;

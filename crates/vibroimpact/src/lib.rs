@@ -78,7 +78,7 @@ pub mod verdict;
 
 pub use orbit::Label;
 pub use system::{
-    Dimension, Frequency, Machine, Oscillator, Parameter, ParameterPath, Scales, Side, Start, Stop, SystemError,
+    Frequency, Machine, Oscillator, Parameter, ParameterPath, QuantityKind, Scales, Side, Start, Stop, SystemError,
 };
 
 /// The listings of the README are compiled and run.

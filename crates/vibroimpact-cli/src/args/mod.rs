@@ -1,6 +1,7 @@
 //! Groups of arguments that several commands share. Arguments of one command are in the file of that command.
 
 mod axes;
+mod fields;
 mod numbers;
 mod output;
 mod plane;
@@ -11,6 +12,7 @@ mod system;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
+pub(crate) use fields::FieldsArgs;
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;
 pub(crate) use plane::{Ends, Named, Over, Place};

@@ -1,6 +1,6 @@
 //! `vibro basin`: the motion to which each start of a plane leads.
 
-use crate::args::{StoreArgs, SystemArgs, number, whole};
+use crate::args::{FieldsArgs, StoreArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -47,13 +47,16 @@ pub(crate) struct Basin {
     #[arg(long, value_parser = whole::<u32>, value_name = "K", requires = "store", help_heading = "Store")]
     refine: Option<u32>,
 
-    /// Write one row a start, columns x, v, label, to this file; - for stdout
+    /// Write one row a start, columns x, v, label and --fields, to this file; - for stdout
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
     /// Draw the basin into this file, .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    fields: FieldsArgs,
 
     /// Print one JSON object with the motions and their shares
     #[arg(long, help_heading = "Output")]
@@ -64,7 +67,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let units = asked.units;
     let plane = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
-    let task = BasinPlan { refine: args.refine, impacts: args.impacts, ..plane };
+    let task = BasinPlan { refine: args.refine, impacts: args.impacts, fields: args.fields.fields.clone(), ..plane };
     let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task)), &units)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;

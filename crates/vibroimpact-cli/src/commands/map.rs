@@ -1,6 +1,6 @@
 //! `vibro map`: the motions at each point of a plane of parameters.
 
-use crate::args::{AxesArgs, Ranged, StoreArgs, whole};
+use crate::args::{AxesArgs, FieldsArgs, Ranged, StoreArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -48,13 +48,16 @@ pub(crate) struct Map {
     #[arg(long, value_parser = whole::<u32>, value_name = "K", requires = "store", help_heading = "Store")]
     refine: Option<u32>,
 
-    /// Write one row a motion to this file; - for stdout. Columns: what varies, then label, share
+    /// Write one row a motion to this file; - for stdout. Columns: what varies, then label, share, and --fields
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
     /// Draw the map into this file, .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    fields: FieldsArgs,
 
     /// Print one JSON object with the labels and how often they occur
     #[arg(long, help_heading = "Output")]
@@ -147,7 +150,14 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
             "nothing varies\nhint: give one of the parameters a range, --gap 0:5:41; `vibro attractors` answers for one point",
         ));
     }
-    let task = MapPlan { axes, starts: args.starts, seed: args.seed, refine: args.refine, impacts: args.impacts };
+    let task = MapPlan {
+        axes,
+        starts: args.starts,
+        seed: args.seed,
+        refine: args.refine,
+        impacts: args.impacts,
+        fields: args.fields.fields.clone(),
+    };
     let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(system, Task::Map(task)), &Units::default())?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;

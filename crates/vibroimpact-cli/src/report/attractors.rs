@@ -2,14 +2,18 @@
 
 use crate::report::words::{meaning, multipliers, table};
 use vibroimpact::Oscillator;
-use vibroimpact::verdict::{Census, StartBox};
+use vibroimpact::quantities::{Quantity, of_verdict};
+use vibroimpact::verdict::{Census, StartBox, Verdict};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, short};
 
 /// The box of the starts, and one row for each motion.
 pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units) -> String {
     let StartBox { x, v, .. } = StartBox::natural(osc);
-    let heads = ["share", "starts", "<label", "multipliers", "<meaning"].map(str::to_owned);
+    let heads = ["share", "starts", "<label", "multipliers", "impact speed", "power", "<meaning"].map(str::to_owned);
+    let of = |verdict: &Verdict, quantity: Quantity| {
+        of_verdict(osc, verdict).map_or_else(|| "-".into(), |of| units.text(of.get(quantity), quantity.kind()))
+    };
     let rows: Vec<Vec<String>> = census
         .by_share()
         .iter()
@@ -19,6 +23,8 @@ pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units
                 found.count.to_string(),
                 found.verdict.label().into_owned(),
                 found.verdict.multipliers(osc).map_or_else(|| "-".into(), multipliers),
+                of(&found.verdict, Quantity::ImpactSpeedMax),
+                of(&found.verdict, Quantity::Power),
                 meaning(&found.verdict),
             ]
         })

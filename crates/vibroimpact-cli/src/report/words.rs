@@ -5,6 +5,7 @@ use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::Cycle;
+use vibroimpact::quantities::{Quantities, Quantity, of_verdict};
 use vibroimpact::verdict::{Count, NoImpact, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_report::json::motion::side;
@@ -222,7 +223,46 @@ pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Stri
         }
         None => {}
     }
+    if let Some(of) = of_verdict(osc, verdict) {
+        text.push_str(&quantities(&of, units));
+    }
     let _ = writeln!(text, "  shown by: {}", grounds(verdict, units));
+    text
+}
+
+/// The quantities of a motion that matter most; all of them are in the JSON.
+pub(crate) fn quantities(all: &Quantities, units: &Units) -> String {
+    let of = |quantity: Quantity| units.text(all.get(quantity), quantity.kind());
+    let defined = |quantity: Quantity| all.get(quantity).is_finite();
+    let mut text = String::new();
+    if all.get(Quantity::ImpactSpeedMax) > 0.0 {
+        let _ = write!(text, "  impact speed largest {}", of(Quantity::ImpactSpeedMax));
+        if defined(Quantity::ImpactSpeedMean) {
+            let _ = write!(text, ", mean {}", of(Quantity::ImpactSpeedMean));
+        }
+        let _ = writeln!(text, "; impulse {} per forcing period", of(Quantity::ImpulsePerPeriod));
+    }
+    if all.get(Quantity::WorkPerPeriod) > 0.0 {
+        let _ = writeln!(
+            text,
+            "  work of the force {} per forcing period: {} lost in impacts, {} in the damper; power {}",
+            of(Quantity::WorkPerPeriod),
+            of(Quantity::ImpactLossPerPeriod),
+            of(Quantity::DampingLossPerPeriod),
+            of(Quantity::Power)
+        );
+    }
+    if defined(Quantity::DisplacementRms) {
+        let _ = writeln!(
+            text,
+            "  position {} to {}, rms {}; largest speed {}, acceleration {}",
+            of(Quantity::DisplacementMin),
+            of(Quantity::DisplacementMax),
+            of(Quantity::DisplacementRms),
+            of(Quantity::VelocityMax),
+            of(Quantity::AccelerationMax)
+        );
+    }
     text
 }
 

@@ -14,8 +14,9 @@ const MACHINE: &str =
 fn units(object: &Value) -> Units {
     let scales = &object["system"]["scales"];
     let number = |key: &str| scales[key].as_f64();
-    let scales = number("length_m").zip(number("time_s"));
-    Units { scales: scales.map(|(length_m, time_s)| Scales { length_m, time_s }), si: object["units"] == "si" }
+    let scales =
+        || Some(Scales { length_m: number("length_m")?, time_s: number("time_s")?, mass_kg: number("mass_kg")? });
+    Units { scales: scales(), si: object["units"] == "si" }
 }
 
 /// Runs a command with all its outputs, and compares them with the answer of the library to the printed plan.

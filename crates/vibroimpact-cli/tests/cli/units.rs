@@ -4,6 +4,8 @@
 use crate::{json, vibro};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use vibroimpact::QuantityKind;
+use vibroimpact::quantities::Quantity;
 
 /// A system in physical units: omega_n = 8 rad/s, F/k = 0.5 m. Its units are powers of two, so that conversion is
 /// exact.
@@ -50,7 +52,20 @@ fn unit(key: &str) -> Option<f64> {
         "x" | "gap" => Some(LENGTH),
         "v" | "velocity" | "velocity_before" | "velocity_after" => Some(VELOCITY),
         "t" | "time" | "interval" => Some(TIME),
-        _ => None,
+        // the columns of quantities end in their units
+        _ => Quantity::ALL.into_iter().find(|quantity| key == quantity.name()).map(|quantity| {
+            let mass = 1.0;
+            match quantity.kind() {
+                QuantityKind::Number => 1.0,
+                QuantityKind::Length => LENGTH,
+                QuantityKind::Velocity => VELOCITY,
+                QuantityKind::Acceleration => VELOCITY / TIME,
+                QuantityKind::Impulse => mass * VELOCITY,
+                QuantityKind::Energy => mass * VELOCITY * VELOCITY,
+                QuantityKind::Power => mass * VELOCITY * VELOCITY / TIME,
+                QuantityKind::Rate => 1.0 / TIME,
+            }
+        }),
     }
 }
 

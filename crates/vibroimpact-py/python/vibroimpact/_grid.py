@@ -1,6 +1,6 @@
 """Studies over grids as xarray Datasets, in memory or in a store."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -102,6 +102,7 @@ def basin(
     phase: Axis | float = 0.0,
     refine: int | None = None,
     impacts: int | None = None,
+    fields: Sequence[str] = (),
     store: str | PathLike[str] | None = None,
     client: "Client | None" = None,
     tile: int | None = None,
@@ -124,6 +125,8 @@ def basin(
         Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
     impacts : int
         Budget of impacts for each start. Motions that have not settled by then are undecided.
+    fields : sequence of str
+        Quantities of each motion as further variables: ["impact_speed_max", "power"]. `Motion.quantities` has the names.
     store : path
         The store for the results; tiles that it already contains are not computed again.
     client : distributed.Client
@@ -160,7 +163,9 @@ def basin(
         x=fixed.get("x"),
         v=fixed.get("v") or 0.0,
         phase=fixed.get("phase") or 0.0,
-        refine=refine, impacts=impacts,
+        refine=refine,
+        impacts=impacts,
+        fields=fields,
         tile=tile,
     )
     return computed(plan, osc.units, store, client, threads, progress)
@@ -174,6 +179,7 @@ def region_map(
     seed: int = 1,
     refine: int | None = None,
     impacts: int | None = None,
+    fields: Sequence[str] = (),
     store: str | PathLike[str] | None = None,
     client: "Client | None" = None,
     tile: int | None = None,
@@ -197,6 +203,8 @@ def region_map(
         Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
     impacts : int
         Budget of impacts for each start. Motions that have not settled by then are undecided.
+    fields : sequence of str
+        Quantities of each motion as further variables, as for `basin`.
     store, client, tile, threads, progress
         As for `basin`.
 
@@ -213,7 +221,9 @@ def region_map(
     >>> ds.vibro.labels().sel(inverse_beta=1.3, gap=0.75, motion=0).item()
     '2/1'
     """
-    plan = Plan.map(bare(osc, store), over, starts=starts, seed=seed, refine=refine, impacts=impacts, tile=tile)
+    plan = Plan.map(
+        bare(osc, store), over, starts=starts, seed=seed, refine=refine, impacts=impacts, fields=fields, tile=tile
+    )
     return computed(plan, osc.units, store, client, threads, progress)
 
 

@@ -57,6 +57,9 @@ class Motion:
         For a stuck motion: the stop, "upper" or "lower".
     tried : dict or None
         For an undecided motion: the budget used and the measurements made.
+    quantities : dict or None
+        Quantities of the motion by name, nondimensional, from the closed form of its flights: "impact_speed_max",
+        "work_per_period", "displacement_rms" and others; nan where one is not defined. None for an undecided motion.
 
     Examples
     --------
@@ -85,6 +88,7 @@ class Motion:
     horizon: dict[str, Any] | None
     side: str | None
     tried: dict[str, Any] | None
+    quantities: dict[str, float] | None
 
     def __repr__(self) -> str:
         words = {True: ", stable", False: ", unstable", None: ""}
@@ -136,6 +140,8 @@ class Motion:
             if "lyapunov" in tried:
                 tried["lyapunov"] = _estimate(tried["lyapunov"])
             fields["tried"] = tried
+        quantities = self.quantities
+        fields["quantities"] = None if quantities is None else {name: finite(value) for name, value in quantities.items()}
         return fields
 
     def start(self) -> tuple[float, float, float]:
@@ -195,4 +201,6 @@ def horizon_object(horizon: dict[str, Any]) -> dict[str, Any]:
 
 def fields_of(osc: Oscillator, fields: dict[str, Any]) -> dict[str, Any]:
     """The keyword arguments of a Motion, from the fields returned by the compiled module."""
-    return {**fields, "osc": osc, "cycle": Cycle(**fields["cycle"])}
+    quantities = fields["quantities"]
+    named = None if quantities is None else dict(quantities)
+    return {**fields, "osc": osc, "cycle": Cycle(**fields["cycle"]), "quantities": named}

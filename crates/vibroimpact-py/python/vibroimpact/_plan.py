@@ -1,7 +1,7 @@
 """A plan: everything on which a study depends, and nothing else."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
@@ -81,6 +81,7 @@ class Plan:
         seed: int = 1,
         refine: int | None = None,
         impacts: int | None = None,
+        fields: Sequence[str] = (),
         tile: int | None = None,
     ) -> "Plan":
         """A plan for the motions at each point of a plane of parameters; the arguments are those of `region_map`."""
@@ -90,6 +91,7 @@ class Plan:
             "seed": whole("seed", seed, SEED),
             "refine": maybe("refine", refine, REFINE),
             "impacts": maybe("impacts", impacts, BUDGET),
+            "fields": _names(fields),
         }
         return cls._of(osc, "map", task, tile)
 
@@ -104,6 +106,7 @@ class Plan:
         phase: float = 0.0,
         refine: int | None = None,
         impacts: int | None = None,
+        fields: Sequence[str] = (),
         tile: int | None = None,
     ) -> "Plan":
         """A plan for the motion to which each start leads, over "x", "v", "phase" and parameters. Other values are those given."""
@@ -112,6 +115,7 @@ class Plan:
             "start": _start(x, v, phase),
             "refine": maybe("refine", refine, REFINE),
             "impacts": maybe("impacts", impacts, BUDGET),
+            "fields": _names(fields),
         }
         return cls._of(osc, "basin", task, tile)
 
@@ -198,6 +202,12 @@ class Plan:
 def _known(what: str, given: str, known: tuple[str, ...]) -> None:
     if given not in known:
         raise _core.QuestionError(f"{what} = `{given}` is none of {', '.join(known)}")
+
+
+def _names(fields: Sequence[str]) -> list[str] | None:
+    if isinstance(fields, str):
+        raise _core.QuestionError(f"fields = `{fields}` is one text\nhint: a list of names, fields=[\"{fields}\"]")
+    return [str(name) for name in fields] or None
 
 
 def _start(x: float | None, v: float, phase: float) -> dict[str, float]:

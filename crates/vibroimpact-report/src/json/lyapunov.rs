@@ -19,7 +19,7 @@ struct LyapunovFields {
     /// The exact value of the sum.
     identity: Option<f64>,
     impacts_per_period: Quantity,
-    dimension: Dimension,
+    dimension: QuantityKind,
     grounds: GroundsObject,
 }
 
@@ -45,10 +45,10 @@ struct Quantity {
 
 /// Kaplan-Yorke dimensions; `null` if the larger exponent is not known to differ from 0.
 #[derive(Serialize)]
-struct Dimension {
-    /// Dimension of the stroboscopic section.
+struct QuantityKind {
+    /// QuantityKind of the stroboscopic section.
     section: Option<Quantity>,
-    /// Dimension of the flow in the space of position, velocity and phase.
+    /// QuantityKind of the flow in the space of position, velocity and phase.
     flow: Option<Quantity>,
 }
 
@@ -88,7 +88,7 @@ impl LyapunovFields {
             sum: per_time(found.sum),
             identity: identity.is_finite().then_some(identity),
             impacts_per_period: Quantity::new(found.impacts_per_period),
-            dimension: Dimension {
+            dimension: QuantityKind {
                 section: found.section_dimension.map(Quantity::new),
                 flow: found.flow_dimension().map(Quantity::new),
             },

@@ -11,6 +11,7 @@ pub mod lyapunov;
 pub mod map;
 pub mod motion;
 pub mod orbit;
+mod quantities;
 pub mod region;
 pub mod settle;
 pub mod simulate;
@@ -74,6 +75,7 @@ struct SecondStop {
 struct Scales {
     length_m: f64,
     time_s: f64,
+    mass_kg: f64,
     velocity_m_per_s: f64,
 }
 
@@ -103,7 +105,12 @@ impl Scales {
     /// The physical units, if there are any.
     fn new(units: &Units) -> Option<Self> {
         let scales = units.scales?;
-        Some(Self { length_m: scales.length_m, time_s: scales.time_s, velocity_m_per_s: scales.velocity_m_per_s() })
+        Some(Self {
+            length_m: scales.length_m,
+            time_s: scales.time_s,
+            mass_kg: scales.mass_kg,
+            velocity_m_per_s: scales.velocity_m_per_s(),
+        })
     }
 }
 

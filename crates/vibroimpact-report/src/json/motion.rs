@@ -1,11 +1,13 @@
 //! A motion: its label, its impacts and phases of sticking, its stability, and the grounds of the verdict.
 
+use super::quantities::QuantityFields;
 use crate::Units;
 use serde::Serialize;
 use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::Cycle;
+use vibroimpact::quantities::of_verdict;
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side};
 
@@ -51,6 +53,7 @@ pub struct MotionFields {
     side: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tried: Option<Tried>,
+    quantities: Option<QuantityFields>,
 }
 
 /// An impact of a cycle.
@@ -156,6 +159,7 @@ impl MotionFields {
             residual: None,
             side: None,
             tried: None,
+            quantities: of_verdict(osc, verdict).map(|values| QuantityFields::new(values, units)),
         };
         match verdict {
             Verdict::Periodic(cycle) => Self::periodic(cycle, bare, units),

@@ -1,18 +1,22 @@
 //! A basin: one row for each start, in the order of the cells.
 
 use super::Table;
+use super::quantities::{cells, columns};
 use crate::Units;
 use crate::figure::plane::unit;
 use crate::number::Number;
 use crate::units::shown;
+use vibroimpact::Oscillator;
+use vibroimpact::quantities::of_verdict;
+use vibroimpact::verdict::CountedMotion;
 use vibroimpact_study::{Basin, PlanError};
 
-/// The table of `vibro basin`: the quantities that vary, in the units and with exactly the numbers of the question, and
-/// the label.
+/// The table of `vibro basin`: the quantities that vary, in the units and with exactly the numbers of the question, the
+/// label, and the quantities that the plan asks for.
 ///
 /// # Errors
 /// [`PlanError`] if a value of an axis overflows in these units.
-pub fn table<'a>(found: &'a Basin, units: &Units) -> Result<Table<'a>, PlanError> {
+pub fn table<'a>(found: &'a Basin, osc: &Oscillator, units: &Units) -> Result<Table<'a>, PlanError> {
     let axes = &found.plan.axes;
     let names: Vec<&str> = axes.iter().map(|axis| axis.vary.name()).collect();
     let texts = axes.iter().map(|axis| {
@@ -20,7 +24,12 @@ pub fn table<'a>(found: &'a Basin, units: &Units) -> Result<Table<'a>, PlanError
         Ok(values.all().into_iter().map(|value| Number(value).to_string()).collect())
     });
     let texts = texts.collect::<Result<Vec<Vec<String>>, PlanError>>()?;
-    let labels: Vec<String> = found.motions.iter().map(|motion| motion.verdict.label().into_owned()).collect();
+    let fields = &found.plan.fields;
+    let ending = |motion: &CountedMotion| {
+        let quantities = if fields.is_empty() { None } else { of_verdict(osc, &motion.verdict) };
+        format!("{}{}", motion.verdict.label(), cells(fields, quantities, units))
+    };
+    let endings: Vec<String> = found.motions.iter().map(ending).collect();
     let rows = found.cells.iter().enumerate().map(move |(k, motion)| {
         let mut rest = k;
         let mut row = String::new();
@@ -29,7 +38,7 @@ pub fn table<'a>(found: &'a Basin, units: &Units) -> Result<Table<'a>, PlanError
             row.push(',');
             rest /= values.len();
         }
-        row + &labels[usize::from(*motion)]
+        row + &endings[usize::from(*motion)]
     });
-    Ok(Table::new(format!("{},label", names.join(",")), rows))
+    Ok(Table::new(format!("{},label{}", names.join(","), columns(fields, units)), rows))
 }

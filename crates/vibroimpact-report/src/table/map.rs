@@ -1,6 +1,8 @@
 //! A map: one row for each motion at each point.
 
 use super::Table;
+use super::quantities::{cells, columns};
+use crate::Units;
 use crate::number::Number;
 use vibroimpact_study::RegionMap;
 
@@ -11,8 +13,10 @@ pub fn table(found: &RegionMap) -> Table<'_> {
     let rows = found.points.iter().flat_map(|point| {
         point.motions.iter().map(|motion| {
             let place: Vec<String> = point.at.iter().map(|at| Number(*at).to_string()).collect();
-            format!("{},{},{}", place.join(","), motion.verdict.label(), Number(motion.share))
+            let own = cells(&found.plan.fields, motion.quantities, &Units::default());
+            format!("{},{},{}{own}", place.join(","), motion.verdict.label(), Number(motion.share))
         })
     });
-    Table::new(format!("{},label,share", names.join(",")), rows)
+    let columns = columns(&found.plan.fields, &Units::default());
+    Table::new(format!("{},label,share{columns}", names.join(",")), rows)
 }

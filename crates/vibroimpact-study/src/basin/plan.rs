@@ -2,6 +2,7 @@
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::map::{check_impacts, check_refine};
+use crate::quantity::Quantity;
 use crate::{PlanError, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::verdict::SettleOptions;
@@ -23,6 +24,10 @@ pub struct BasinPlan {
     /// takes, within the default of `SettleOptions`, when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
+    /// Quantities of each motion to report beside its label.
+    #[serde(default, with = "crate::quantity", skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "crate::quantity::Names")]
+    pub fields: Vec<Quantity>,
 }
 
 /// Maximum number of axes.
@@ -33,7 +38,13 @@ impl BasinPlan {
     #[must_use]
     pub fn plane(x: Span, v: Span, phase: f64) -> Self {
         let axes = vec![Axis::new(Coordinate::X, x), Axis::new(Coordinate::V, v)];
-        Self { axes, start: StartPlan { phase, ..StartPlan::default() }, refine: None, impacts: None }
+        Self {
+            axes,
+            start: StartPlan { phase, ..StartPlan::default() },
+            refine: None,
+            impacts: None,
+            fields: Vec::new(),
+        }
     }
 
     /// Checks everything that can be checked without running the plan.

@@ -7,6 +7,7 @@ pub(crate) use plan::{check_impacts, check_refine};
 
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;
+use vibroimpact::quantities::{Quantities, of_verdict};
 use vibroimpact::verdict::{
     CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
 };
@@ -18,6 +19,8 @@ pub struct Share {
     pub verdict: Verdict,
     /// The share of starts that lead to it, from 0 to 1.
     pub share: f64,
+    /// Its quantities, if the plan asks for any and they are defined.
+    pub quantities: Option<Quantities>,
 }
 
 /// A point of the map.
@@ -47,5 +50,11 @@ pub(crate) fn motions(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions)
     found.sort_by_key(|found| core::cmp::Reverse(found.count));
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     let share = |count: u64| count as f64 / plan.starts as f64;
-    found.into_iter().map(|f| Share { verdict: f.verdict, share: share(f.count) }).collect()
+    let quantities = |verdict: &Verdict| if plan.fields.is_empty() { None } else { of_verdict(osc, verdict) };
+    let share = |found: CountedMotion| Share {
+        quantities: quantities(&found.verdict),
+        share: share(found.count),
+        verdict: found.verdict,
+    };
+    found.into_iter().map(share).collect()
 }

@@ -2,6 +2,7 @@
 
 use crate::axis::{self, Axis, Coordinate};
 use crate::limits::starts;
+use crate::quantity::Quantity;
 use crate::{Parameter, PlanError, Span, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
@@ -29,6 +30,10 @@ pub struct MapPlan {
     /// takes, within the default of `SettleOptions`, when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
+    /// Quantities of each motion to report beside its label.
+    #[serde(default, with = "crate::quantity", skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "crate::quantity::Names")]
+    pub fields: Vec<Quantity>,
 }
 
 /// Maximum number of axes.
@@ -66,7 +71,7 @@ impl MapPlan {
     #[must_use]
     pub fn plane(inverse_beta: Span, gap: Span, starts: u64, seed: u64) -> Self {
         let axes = vec![Axis::parameter(Parameter::InverseBeta, inverse_beta), Axis::parameter(Parameter::Gap, gap)];
-        Self { axes, starts, seed, refine: None, impacts: None }
+        Self { axes, starts, seed, refine: None, impacts: None, fields: Vec::new() }
     }
 
     /// Checks everything that can be checked without running the plan.

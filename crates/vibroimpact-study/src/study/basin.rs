@@ -10,10 +10,12 @@ use crate::basin::start_at;
 use crate::field::{Column, Field, NumberType};
 use crate::grid::{Block, Dimension, Grid};
 use crate::limits::MOST_STARTS;
+use crate::quantity::{self, Quantities, Quantity};
 use crate::{BasinPlan, PlanError, SystemPlan};
 use core::cell::RefCell;
 use std::sync::OnceLock;
 use vibroimpact::lanes::Width;
+use vibroimpact::quantities::of_verdict;
 use vibroimpact::verdict::{
     Census, CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
 };
@@ -58,8 +60,9 @@ pub(crate) struct BasinTile {
     /// For a basin of one oscillator: the motions of the tile, in the order of the first start that was settled into
     /// each.
     pub(crate) met: Census,
-    /// For a basin that also varies parameters: the codes of the labels in the tile.
-    codes: Vec<i32>,
+    /// For a basin that also varies parameters: the codes of the labels in the tile. With quantities, each start has
+    /// an entry of its own.
+    codes: Vec<(i32, Option<Quantities>)>,
     /// For each point, the index of its motion in `met` or of its code in `codes`.
     pub(crate) cells: Vec<Cell<u32>>,
 }
@@ -156,7 +159,7 @@ impl BasinFill {
         &self,
         block: &Block,
         wanted: &[usize],
-        (met, codes): (&mut Census, &mut Vec<i32>),
+        (met, codes): (&mut Census, &mut Vec<(i32, Option<Quantities>)>),
         tick: &(dyn Fn() -> bool + Sync),
     ) -> Option<Vec<u32>> {
         let options = self.options;
@@ -165,10 +168,13 @@ impl BasinFill {
             let alone = |k: &usize| {
                 let index = block.index(*k);
                 // the corners are valid; a point between them that is not is undecided
-                let found = self.oscillator(&index).map_or(super::UNDECIDED, |osc| {
-                    code(&vibroimpact::verdict::settle(&osc, self.start(&osc, &index), &options).verdict)
+                let found = self.oscillator(&index).map_or((super::UNDECIDED, None), |osc| {
+                    let verdict = vibroimpact::verdict::settle(&osc, self.start(&osc, &index), &options).verdict;
+                    let quantities = if self.asked().is_empty() { None } else { of_verdict(&osc, &verdict) };
+                    (code(&verdict), quantities)
                 });
-                let number = codes.iter().position(|known| *known == found).unwrap_or_else(|| {
+                let known = codes.iter().position(|known| *known == found).filter(|_| self.asked().is_empty());
+                let number = known.unwrap_or_else(|| {
                     codes.push(found);
                     codes.len() - 1
                 });
@@ -193,11 +199,48 @@ impl BasinFill {
     fn leads(&self, tile: &BasinTile) -> (Vec<Leads>, Census) {
         let mut unknown = Census::default();
         let Some(one) = &self.one else {
-            return (tile.codes.iter().map(|code| (*code, cycles::NONE)).collect(), unknown);
+            return (tile.codes.iter().map(|(code, _)| (*code, cycles::NONE)).collect(), unknown);
         };
         let known = self.cycles(one);
         let leads = |found: &CountedMotion| (code(&found.verdict), cycles::number(known, &mut unknown, found));
         (tile.met.motions().iter().map(leads).collect(), unknown)
+    }
+
+    /// The quantities that the plan asks for.
+    fn asked(&self) -> &[Quantity] {
+        if let Starts::Grid(plan) = &self.starts { &plan.fields } else { &[] }
+    }
+
+    /// The columns of the quantities that the plan asks for. The quantities of a cycle that the survey has found are
+    /// those of the survey, so that they are the same in all tiles. Cells that took the motion of their neighbours have
+    /// its quantities if all starts belong to one system.
+    fn quantities(&self, tile: &BasinTile) -> Vec<Column> {
+        let asked = self.asked();
+        let mut columns = vec![Vec::with_capacity(tile.cells.len()); asked.len()];
+        if asked.is_empty() {
+            return Vec::new();
+        }
+        let known: Vec<Option<Quantities>> = match &self.one {
+            Some(one) => {
+                let survey = self.cycles(one);
+                let same = |found: &Verdict| survey.iter().find(|known| cycles::same(known, found));
+                let of = |found: &CountedMotion| of_verdict(&one.osc, same(&found.verdict).unwrap_or(&found.verdict));
+                tile.met.motions().iter().map(of).collect()
+            }
+            None => tile.codes.iter().map(|(_, quantities)| *quantities).collect(),
+        };
+        for cell in &tile.cells {
+            let number = match cell {
+                Cell::Computed(number) => Some(number),
+                Cell::Like(corner) => match &tile.cells[*corner] {
+                    Cell::Computed(number) if self.one.is_some() => Some(number),
+                    _ => None,
+                },
+            };
+            let of = number.and_then(|number| known.get(*number as usize).copied().flatten());
+            columns.iter_mut().zip(quantity::values(asked, of)).for_each(|(column, value)| column.push(value));
+        }
+        columns.into_iter().map(Column::F64).collect()
     }
 
     /// Whether two indices of a tile stand for the same motion, or for two motions with the same label that are no
@@ -245,6 +288,7 @@ impl Fill for BasinFill {
                 ..label.clone()
             });
         }
+        fields.extend(self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new())));
         if let Starts::Scattered { .. } = self.starts {
             let coordinate = |name, long_name, units| Field {
                 name,
@@ -299,6 +343,7 @@ impl Fill for BasinFill {
         if self.one.is_some() {
             columns.push(Column::I32(cells.iter().map(|cell| of(cell).1).collect()));
         }
+        columns.extend(self.quantities(&tile));
         if let (Starts::Scattered { .. }, Some(one)) = (&self.starts, &self.one) {
             let starts: Vec<Start> = (0..block.points()).map(|k| self.start(&one.osc, &block.index(k))).collect();
             for coordinate in [|s: &Start| s.x, |s: &Start| s.v, |s: &Start| s.phase] {

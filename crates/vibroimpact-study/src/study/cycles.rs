@@ -21,7 +21,7 @@ pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &CountedMot
         return NONE;
     }
     let whole = |n: usize| i32::try_from(n).unwrap_or(i32::MAX / 2);
-    match known.iter().position(|other| other.same_as(&found.verdict, SAME)) {
+    match known.iter().position(|other| same(other, &found.verdict)) {
         Some(k) => whole(k),
         None => UNKNOWN - whole(unknown.add_found(found)),
     }
@@ -29,6 +29,11 @@ pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &CountedMot
 
 /// Two cycles closer than this are the same one, as in a census.
 const SAME: f64 = 1e-6;
+
+/// Whether two verdicts are the same cycle.
+pub(super) fn same(a: &Verdict, b: &Verdict) -> bool {
+    matches!(a, Verdict::Periodic(_)) && a.same_as(b, SAME)
+}
 
 /// The cycles found by a survey.
 pub(super) fn survey(found: &Census) -> Vec<Verdict> {

@@ -5,6 +5,7 @@ use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::refine::{self, Cell};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::map::motions;
+use crate::quantity;
 use crate::{Block, Grid, MapPlan, PlanError, Share, SystemPlan};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{SettleOptions, Verdict};
@@ -119,6 +120,7 @@ impl Fill for MapFill {
             },
             Field { name: "multiplier", long_name: "largest modulus of the Floquet multipliers", ..real },
         ];
+        fields.extend(self.plan.fields.iter().map(|quantity| quantity::field(*quantity, motion.clone())));
         if self.plan.refine.is_some() {
             fields.push(computed());
         }
@@ -140,6 +142,7 @@ impl Fill for MapFill {
         let points = block.points();
         let mut label = vec![super::NO_MOTION; points * self.kept];
         let mut numbers = [(); 3].map(|()| vec![f64::NAN; points * self.kept]);
+        let mut quantities = vec![vec![f64::NAN; points * self.kept]; self.plan.fields.len()];
         for (k, cell) in cells.iter().enumerate() {
             let (point, own) = match cell {
                 Cell::Computed(point) => (point, true),
@@ -157,11 +160,13 @@ impl Fill for MapFill {
                 // the labels are those of the corner that agreed, but the other numbers would be those of another point
                 if let Some(osc) = &osc {
                     (numbers[1][at], numbers[2][at]) = (speed(&found.verdict), multiplier(&found.verdict, osc));
+                    let values = quantity::values(&self.plan.fields, found.quantities);
+                    quantities.iter_mut().zip(values).for_each(|(column, value)| column[at] = value);
                 }
             }
         }
         let mut columns = vec![Column::I32(label)];
-        columns.extend(numbers.map(Column::F64));
+        columns.extend(numbers.into_iter().chain(quantities).map(Column::F64));
         if self.plan.refine.is_some() {
             columns.push(computed_column(&cells));
         }

@@ -140,14 +140,14 @@ fn scattered_starts_exponents_and_three_axes() {
         assert!(row[0] > 0.005 && row[2] < -0.005, "{row:?}");
     }
     let axes = vec![speeds, Axis::new(Coordinate::X, span("-1:0:2")), gaps];
-    let basin = BasinPlan { axes, start: StartPlan::default(), refine: None, impacts: None };
+    let basin = BasinPlan { axes, start: StartPlan::default(), refine: None, impacts: None, fields: Vec::new() };
     let found = sheet(u, Task::Basin(basin), None, 1);
     assert!(found.tables.is_empty() && found.fields.len() == 1);
     let labels = columns(&found, "label").whole();
     let second = crate::SecondStop { gap: 1.0, restitution: 0.5 };
     let two = SystemPlan { second_stop: Some(second), ..u };
     let over = vec![Axis::new(Coordinate::V, span("-9:9:5")), Axis::parameter(Parameter::SecondGap, span("1:2:2"))];
-    let starts = BasinPlan { axes: over, start: StartPlan::default(), refine: None, impacts: None };
+    let starts = BasinPlan { axes: over, start: StartPlan::default(), refine: None, impacts: None, fields: Vec::new() };
     let between = sheet(two, Task::Basin(starts), None, 1);
     for (k, found) in columns(&between, "label").whole().iter().enumerate() {
         let gap = if k < 5 { 1.0 } else { 2.0 };

@@ -6,7 +6,7 @@
 //!
 //! | idea | file |
 //! |---|---|
-//! | the quantities by name, with their dimensions | [`Quantity`], [`Dimension`](crate::system::Dimension) |
+//! | the quantities by name, with their kinds | [`Quantity`], [`QuantityKind`](crate::system::QuantityKind) |
 //! | a part of a motion: a flight, an impact, the rest of a chatter, an interval of sticking | [`Segment`] |
 //! | the sums over the parts of a motion, and the quantities from them | [`Tally`], [`Quantities`] |
 //! | the parts of a cycle, and its quantities | [`of_cycle`], [`cycle_segments`] |
@@ -25,4 +25,4 @@ pub use harmonic::{Harmonic, harmonics};
 pub use quantity::Quantity;
 pub use segment::Segment;
 pub use tally::{Quantities, Tally};
-pub use verdict::{MEASURED_IMPACTS, SKIPPED_IMPACTS, of_transient, of_verdict};
+pub use verdict::{MEASURED_IMPACTS, of_transient, of_verdict};

@@ -1,6 +1,6 @@
 //! The quantities by name.
 
-use crate::system::Dimension;
+use crate::system::QuantityKind;
 
 /// A quantity of a motion. For a periodic motion it refers to its smallest period, for chaos to the impacts that were
 /// followed.
@@ -140,22 +140,24 @@ impl Quantity {
         }
     }
 
-    /// Its dimension, which determines its unit.
+    /// Its kind, which determines its unit.
     #[must_use]
-    pub const fn dimension(self) -> Dimension {
+    pub const fn kind(self) -> QuantityKind {
         match self {
-            Self::ImpactSpeedMax | Self::ImpactSpeedMean | Self::VelocityMax | Self::VelocityRms => Dimension::Velocity,
-            Self::ImpactsPerPeriod | Self::StickingFraction => Dimension::Number,
-            Self::ImpactRate => Dimension::Rate,
-            Self::ImpulseMax | Self::ImpulsePerPeriod => Dimension::Impulse,
-            Self::ImpactLossPerPeriod | Self::DampingLossPerPeriod | Self::WorkPerPeriod => Dimension::Energy,
-            Self::ImpactPower | Self::DampingPower | Self::Power => Dimension::Power,
+            Self::ImpactSpeedMax | Self::ImpactSpeedMean | Self::VelocityMax | Self::VelocityRms => {
+                QuantityKind::Velocity
+            }
+            Self::ImpactsPerPeriod | Self::StickingFraction => QuantityKind::Number,
+            Self::ImpactRate => QuantityKind::Rate,
+            Self::ImpulseMax | Self::ImpulsePerPeriod => QuantityKind::Impulse,
+            Self::ImpactLossPerPeriod | Self::DampingLossPerPeriod | Self::WorkPerPeriod => QuantityKind::Energy,
+            Self::ImpactPower | Self::DampingPower | Self::Power => QuantityKind::Power,
             Self::DisplacementMin
             | Self::DisplacementMax
             | Self::DisplacementAmplitude
             | Self::DisplacementMean
-            | Self::DisplacementRms => Dimension::Length,
-            Self::AccelerationMax => Dimension::Acceleration,
+            | Self::DisplacementRms => QuantityKind::Length,
+            Self::AccelerationMax => QuantityKind::Acceleration,
         }
     }
 }

@@ -3,25 +3,24 @@
 use super::cycle::{after_release, of_cycle};
 use super::segment::follow;
 use super::{Quantities, Quantity, Segment, Tally};
-use crate::motion::{EventKind, Motion, Path};
+use crate::flight::SearchLimits;
+use crate::motion::{EventKind, ImpactState, Motion, Path};
 use crate::orbit;
 use crate::system::{Oscillator, Side, Start};
 use crate::verdict::{NoImpact, Verdict};
 
 /// The number of impacts over which the quantities of a chaotic motion are measured.
 pub const MEASURED_IMPACTS: u64 = 4000;
-/// The number of impacts of a chaotic motion before them, which are left out as a transient.
-pub const SKIPPED_IMPACTS: u64 = 1000;
 /// The number of forcing periods of a last flight without end that count as part of the way.
 const LAST_PERIODS: f64 = 100.0;
 
-/// The quantities of the motion with this verdict. `start` leads to it; only a chaotic motion is followed again from
-/// there, and measured over [`MEASURED_IMPACTS`] impacts.
+/// The quantities of the motion with this verdict. A chaotic motion is followed further, from the last impact of the
+/// verdict, and measured over [`MEASURED_IMPACTS`] impacts.
 ///
 /// `None` for an undecided motion, and for chaos that ends before it was measured. Without damping, motions without
 /// impacts depend on the start: their positions and velocities are NaN.
 #[must_use]
-pub fn of_verdict(osc: &Oscillator, verdict: &Verdict, start: Start) -> Option<Quantities> {
+pub fn of_verdict(osc: &Oscillator, verdict: &Verdict) -> Option<Quantities> {
     match verdict {
         Verdict::Periodic(cycle) => of_cycle(osc, cycle),
         Verdict::NoImpact(NoImpact::Landing { side, periods }) => {
@@ -34,7 +33,7 @@ pub fn of_verdict(osc: &Oscillator, verdict: &Verdict, start: Start) -> Option<Q
             None => Some(Quantities::from_fn(quiet)),
         },
         Verdict::Stuck(side) => Some(stuck(osc, *side)),
-        Verdict::Chaotic(_) => measured(osc, start),
+        Verdict::Chaotic(chaos) => measured(osc, &chaos.spectrum.last),
         Verdict::Undecided(_) => None,
     }
 }
@@ -61,23 +60,17 @@ fn stuck(osc: &Oscillator, side: Side) -> Quantities {
     tally.over(1.0)
 }
 
-/// The quantities of a motion that goes on, over a number of impacts after a transient.
-fn measured(osc: &Oscillator, start: Start) -> Option<Quantities> {
-    let mut motion = Motion::new(osc, start);
+/// The quantities of a motion over the impacts that follow one of them; `None` if the motion ends before.
+fn measured(osc: &Oscillator, last: &ImpactState) -> Option<Quantities> {
+    let mut motion = Motion::after(osc, last, SearchLimits::default());
     let mut tally = Tally::new(osc);
     let (mut count, mut done) = (0, false);
-    let begin = core::cell::Cell::new(false);
     follow(
         &mut motion,
-        |part| {
-            if begin.get() {
-                tally.add(&part);
-            }
-        },
+        |part| tally.add(&part),
         |event| {
             count += u64::from(matches!(event.kind, EventKind::Impact { .. }));
-            begin.set(count >= SKIPPED_IMPACTS);
-            done = count >= SKIPPED_IMPACTS + MEASURED_IMPACTS;
+            done = count >= MEASURED_IMPACTS;
             !done
         },
     );

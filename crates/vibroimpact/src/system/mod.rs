@@ -9,26 +9,26 @@
 //! | a line through two parameters | [`ParameterPath`] |
 //! | a start within the stops | [`Start`] |
 //! | conversion from physical units to nondimensional numbers and back | [`Machine`] |
-//! | the dimension of a quantity, and its unit | [`Dimension`] |
+//! | the kind of a quantity, and its unit | [`QuantityKind`] |
 //! | the phase of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 
 mod commensurable;
-mod dimension;
 mod error;
 mod free;
 mod oscillator;
 mod parameter;
 mod parameter_path;
 pub mod phase;
+mod quantity_kind;
 mod response;
 mod start;
 mod units;
 
-pub use dimension::Dimension;
 pub use error::SystemError;
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;
+pub use quantity_kind::QuantityKind;
 pub use response::{Propagator, Response};
 pub use start::Start;
 pub use units::{Frequency, Machine, Scales};

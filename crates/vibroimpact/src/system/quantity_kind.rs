@@ -1,10 +1,10 @@
-//! Dimensions of quantities, and their units.
+//! Kinds of quantities, and their units.
 
 use super::Scales;
 
-/// The dimension of a quantity.
+/// The kind of a quantity: what is measured, which determines its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dimension {
+pub enum QuantityKind {
     /// A pure number.
     Number,
     /// A length.
@@ -23,7 +23,7 @@ pub enum Dimension {
     Rate,
 }
 
-impl Dimension {
+impl QuantityKind {
     /// One nondimensional unit in SI units.
     #[must_use]
     pub fn in_si(self, scales: &Scales) -> f64 {
@@ -71,6 +71,21 @@ impl Dimension {
         }
     }
 
+    /// The nondimensional unit; `1` for a number.
+    #[must_use]
+    pub const fn nondimensional(self) -> &'static str {
+        match self {
+            Self::Number => "1",
+            Self::Length => "F/k",
+            Self::Velocity => "omega_n F/k",
+            Self::Acceleration => "omega_n^2 F/k",
+            Self::Impulse => "m omega_n F/k",
+            Self::Energy => "F^2/k",
+            Self::Power => "omega_n F^2/k",
+            Self::Rate => "omega_n",
+        }
+    }
+
     /// The SI unit in the notation of UDUNITS; `1` for a number.
     #[must_use]
     pub const fn udunits(self) -> &'static str {
@@ -95,14 +110,14 @@ mod tests {
     #[test]
     fn derived_units() {
         let scales = Scales { length_m: 0.003, time_s: 0.02, mass_kg: 0.7 };
-        let of = |dimension: Dimension| dimension.in_si(&scales);
-        let newton = of(Dimension::Acceleration) * 0.7;
+        let of = |kind: QuantityKind| kind.in_si(&scales);
+        let newton = of(QuantityKind::Acceleration) * 0.7;
         for (value, expected) in [
-            (of(Dimension::Impulse), newton * 0.02),
-            (of(Dimension::Energy), newton * 0.003),
-            (of(Dimension::Power), newton * 0.003 / 0.02),
-            (of(Dimension::Rate), 50.0),
-            (of(Dimension::Velocity), 0.15),
+            (of(QuantityKind::Impulse), newton * 0.02),
+            (of(QuantityKind::Energy), newton * 0.003),
+            (of(QuantityKind::Power), newton * 0.003 / 0.02),
+            (of(QuantityKind::Rate), 50.0),
+            (of(QuantityKind::Velocity), 0.15),
         ] {
             assert!((value / expected - 1.0).abs() < 1e-14);
         }

@@ -1,0 +1,56 @@
+//! Lists of quantities, as they are written in plans.
+
+use crate::field::{Extra, Field, NumberType};
+use serde::{Deserialize, Deserializer, Serializer};
+pub use vibroimpact::quantities::{Quantities, Quantity};
+
+/// In a plan a list of quantities is a list of their names.
+pub(crate) fn serialize<S: Serializer>(list: &[Quantity], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_seq(list.iter().map(|quantity| quantity.name()))
+}
+
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Quantity>, D::Error> {
+    let names = Vec::<String>::deserialize(from)?;
+    let quantity = |name: &String| Quantity::from_name(name).ok_or_else(|| serde::de::Error::custom(unknown(name)));
+    names.iter().map(quantity).collect()
+}
+
+/// The message about a name that is no quantity.
+#[must_use]
+pub fn unknown(name: &str) -> String {
+    let name: String = name.chars().take(60).collect();
+    format!("`{name}` is no quantity; there are {}", Quantity::ALL.map(Quantity::name).join(", "))
+}
+
+/// A list of names, for the schema of plans.
+pub(crate) struct Names;
+
+impl schemars::JsonSchema for Names {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Quantities".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let names = Quantity::ALL.map(Quantity::name);
+        schemars::json_schema!({ "type": "array", "items": { "type": "string", "enum": names } })
+    }
+}
+
+/// The field of a quantity, with these dimensions in addition to those of the grid.
+pub(crate) fn field(quantity: Quantity, extra: Vec<Extra>) -> Field {
+    Field {
+        name: quantity.name(),
+        long_name: quantity.description(),
+        units: quantity.kind().nondimensional(),
+        kind: NumberType::F64,
+        fill: 0,
+        extra,
+        flags: Vec::new(),
+        comment: "",
+    }
+}
+
+/// The values of a list of quantities; not-a-number where they are not defined.
+pub(crate) fn values(list: &[Quantity], of: Option<Quantities>) -> impl Iterator<Item = f64> {
+    list.iter().map(move |quantity| of.map_or(f64::NAN, |of| of.get(*quantity)))
+}
