@@ -58,6 +58,17 @@ pub(crate) fn pairs<T: numpy::Element>(
     flat.into_pyarray(py).reshape([rows, 2])
 }
 
+/// Rows of `width` values each as an array.
+pub(crate) fn grid<T: numpy::Element>(
+    py: Python<'_>,
+    rows: impl Iterator<Item = Vec<T>>,
+    width: usize,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let flat: Vec<T> = rows.flatten().collect();
+    let count = flat.len() / width;
+    flat.into_pyarray(py).reshape([count, width])
+}
+
 /// Multipliers as complex numbers.
 pub(crate) fn complex(multipliers: [Multiplier; 2]) -> [Complex64; 2] {
     multipliers.map(|m| Complex64::new(m.re, m.im))

@@ -18,6 +18,7 @@ mod orbits;
 mod oscillator;
 mod plan;
 mod region;
+mod response;
 mod settle;
 mod simulate;
 mod store;
@@ -45,6 +46,8 @@ mod _core {
     use crate::plan::{checked_plan, fixed_coordinates, system_fields};
     #[pymodule_export]
     use crate::region::{contains, region};
+    #[pymodule_export]
+    use crate::response::response;
     #[pymodule_export]
     use crate::settle::{settle, settle_many};
     #[pymodule_export]

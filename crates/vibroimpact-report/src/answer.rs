@@ -82,7 +82,8 @@ impl From<ReportError> for AnswerError {
     }
 }
 
-/// Runs a plan in memory, like [`run`]. A map is nondimensional in all units.
+/// Runs a plan in memory, like [`run`]. The units of the plan, if it has any, are those of the results; `units` are
+/// those of a plan without units.
 ///
 /// # Errors
 /// [`AnswerError`] for an invalid plan, or when stopped.
@@ -90,6 +91,7 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
     let plan = plan.complete()?;
     let results = run(&plan, control)?;
     let (system, osc) = (plan.system, plan.system.oscillator()?);
+    let units = plan.units.as_ref().map_or(units, Units::from);
     Ok(Answer { asked: Asked { system, units }, osc, results, plan, paper_rule: None })
 }
 
@@ -108,7 +110,7 @@ impl Serialize for Answer {
             }
             (_, Results::Orbit(found)) => json::orbit::document(asked, plan, osc, found).serialize(to),
             (_, Results::Basin(found)) => json::basin::document(asked, plan, osc, found).serialize(to),
-            (_, Results::Map(found)) => json::map::document(plan, found).serialize(to),
+            (_, Results::Map(found)) => json::map::document(asked, plan, found).serialize(to),
             (_, Results::Diagram(found)) => json::diagram::document(asked, plan, osc, found).serialize(to),
             (_, Results::Lyapunov(start, found, _)) => {
                 json::lyapunov::document(asked, plan, (osc, start), found).serialize(to)
@@ -122,6 +124,9 @@ impl Serialize for Answer {
             }
             (Task::Region(task), Results::Region(found)) => {
                 json::region::document(asked, plan, (task, found)).serialize(to)
+            }
+            (Task::Response(task), Results::Response(found)) => {
+                json::response::document(asked, plan, osc, (task, found)).serialize(to)
             }
             // `answer` combines each plan with its own results, so this does not occur
             _ => Err(S::Error::custom("the results belong to another task than the plan's")),
@@ -159,11 +164,12 @@ impl Answer {
             _ if !default => return Ok(None),
             (_, Results::Simulate(start, found)) => {
                 let span = (0.0, found.shown_until(osc));
-                figure::waveform::figure(osc, *start, span, &asked.units, title(&asked.system))
+                figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
             (_, Results::Basin(found)) => figure::basin::figure(found, asked)?,
-            (_, Results::Map(found)) => figure::map::figure(found, &asked.system)?,
+            (_, Results::Map(found)) => figure::map::figure(found, asked)?,
             (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
+            (_, Results::Response(found)) => figure::response::figure(found, asked)?,
             (Task::Branch(task), Results::Branch(found)) => {
                 let behind = if shown.diagram {
                     let plan = Plan::new(asked.system, Task::Diagram(task.diagram(&asked.system)?));
@@ -199,7 +205,7 @@ impl Answer {
             }
             (_, Results::Attractors(found)) => table::attractors::table(found, osc, units),
             (_, Results::Basin(found)) => table::basin::table(found, osc, units)?,
-            (_, Results::Map(found)) => table::map::table(found),
+            (_, Results::Map(found)) => table::map::table(found, *units)?,
             (_, Results::Diagram(found)) => table::diagram::table(found, *units)?,
             (_, Results::Lyapunov(_, _, Some(points))) => table::section::table(points, osc, *units),
             (Task::Branch(task), Results::Branch(found)) => {
@@ -207,6 +213,7 @@ impl Answer {
             }
             (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task, units),
             (Task::Region(task), Results::Region(found)) => table::region::table(found, task, units),
+            (_, Results::Response(found)) => table::response::table(found, units),
             _ => return Ok(None),
         }))
     }

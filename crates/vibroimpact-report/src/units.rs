@@ -2,7 +2,9 @@
 
 use crate::number::short;
 use vibroimpact::{QuantityKind, Scales};
-use vibroimpact_study::{Parameter, PlanError, Span, SystemPlan, Values, is_length};
+use vibroimpact_study::{
+    Axis, Coordinate, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length, natural_hertz,
+};
 
 /// The system of a plan, and the units of its results.
 #[derive(Clone, Copy, Debug)]
@@ -20,9 +22,29 @@ pub struct Units {
     pub scales: Option<Scales>,
     /// Whether results are in metres and seconds.
     pub si: bool,
+    /// Whether the frequency ratio is reported as the frequency of the force in Hz.
+    pub hertz: bool,
+}
+
+impl From<&UnitsPlan> for Units {
+    fn from(plan: &UnitsPlan) -> Self {
+        Self { scales: Some(plan.scales()), si: true, hertz: plan.hertz }
+    }
 }
 
 impl Units {
+    /// The units of the results of a plan.
+    #[must_use]
+    pub fn of_plan(plan: &Plan) -> Self {
+        plan.units.as_ref().map_or_else(Self::default, Self::from)
+    }
+
+    /// These units as a part of a plan; `None` for nondimensional results.
+    #[must_use]
+    pub fn plan(&self) -> Option<UnitsPlan> {
+        self.scales.as_ref().filter(|_| self.si).map(|scales| UnitsPlan::new(scales, self.hertz))
+    }
+
     fn factor(&self, of: impl Fn(&Scales) -> f64) -> f64 {
         self.scales.as_ref().filter(|_| self.si).map_or(1.0, of)
     }
@@ -67,7 +89,70 @@ impl Units {
     /// The unit of a parameter.
     #[must_use]
     pub fn of(&self, parameter: Parameter) -> f64 {
-        if is_length(parameter) { self.length() } else { 1.0 }
+        match parameter {
+            Parameter::Beta if self.hertz => self.factor(natural_hertz),
+            _ if is_length(parameter) => self.length(),
+            _ => 1.0,
+        }
+    }
+
+    /// The SI unit of a parameter; empty for a pure number and in nondimensional units.
+    #[must_use]
+    pub const fn unit_of(&self, parameter: Parameter) -> &'static str {
+        match parameter {
+            Parameter::Beta if self.si && self.hertz => "Hz",
+            _ if self.si && is_length(parameter) => "m",
+            _ => "",
+        }
+    }
+
+    /// The name of a parameter in JSON.
+    #[must_use]
+    pub const fn name_of(&self, parameter: Parameter) -> &'static str {
+        match parameter {
+            Parameter::Beta if self.si && self.hertz => "frequency_hz",
+            _ => parameter.name(),
+        }
+    }
+
+    /// The values of an axis in these units, exactly as they were given.
+    ///
+    /// # Errors
+    /// [`PlanError`] if a value overflows.
+    pub fn shown(&self, axis: &Axis) -> Result<Values, PlanError> {
+        shown(&axis.over, self.of_coordinate(axis.vary))
+    }
+
+    /// The unit of what varies on an axis.
+    #[must_use]
+    pub fn of_coordinate(&self, vary: Coordinate) -> f64 {
+        match vary {
+            Coordinate::Parameter(parameter) => self.of(parameter),
+            Coordinate::X => self.length(),
+            Coordinate::V => self.velocity(),
+            Coordinate::Phase => 1.0,
+        }
+    }
+
+    /// The name of the column of an axis, which ends in its unit if it has one.
+    #[must_use]
+    pub const fn column_of_coordinate(&self, vary: Coordinate) -> &'static str {
+        match vary {
+            Coordinate::Parameter(parameter) => self.column_of(parameter),
+            Coordinate::X if self.si => "x_m",
+            Coordinate::V if self.si => "v_m_per_s",
+            _ => vary.name(),
+        }
+    }
+
+    /// The name of the column of a parameter, which ends in its unit if it has one.
+    #[must_use]
+    pub const fn column_of(&self, parameter: Parameter) -> &'static str {
+        match parameter {
+            Parameter::Gap if self.si => "gap_m",
+            Parameter::SecondGap if self.si => "second_gap_m",
+            _ => self.name_of(parameter),
+        }
     }
 
     /// `name` followed by its unit in brackets, if there is one, such as `time (s)`.

@@ -84,6 +84,22 @@ pub enum PlanError {
         "a plan that asks to {0} fills no grid, so there is nothing to store\nhint: tasks for a store are map, basin, attractors, diagram and lyapunov"
     )]
     NoStudy(&'static str),
+    /// Too many values of a parameter.
+    #[error("values = {given} lies outside 2 <= values <= {most}")]
+    Values {
+        /// The given number.
+        given: u32,
+        /// The largest allowed number.
+        most: u32,
+    },
+    /// A physical unit is not positive and finite.
+    #[error("{name} = {value} lies outside 0 < {name} < infinity")]
+    Unit {
+        /// The name of the unit.
+        name: &'static str,
+        /// The given value.
+        value: f64,
+    },
     /// The size of a tile is outside its allowed range.
     #[error("tile = {given} lies outside 1 <= tile <= {most}")]
     Tile {

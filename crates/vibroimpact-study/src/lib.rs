@@ -22,8 +22,10 @@
 //! | the orbit at which a branch begins; the data of an event on a branch | [`Chosen`], [`EventRecord`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
 //! | the regions where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
+//! | a quantity of all motions over one parameter | [`ResponsePlan`], [`ResponseCurves`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
+//! | the physical units of a plan | [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
 pub mod axis;
@@ -47,12 +49,14 @@ mod plan;
 mod plan_text;
 mod quantity;
 mod region;
+mod response;
 mod run;
 mod simulate;
 mod span;
 mod stretch;
 pub mod study;
 mod system;
+mod units;
 mod words;
 
 pub use axis::{Axis, Coordinate, Values};
@@ -74,12 +78,14 @@ pub use parameter::{Parameter, is_length};
 pub use plan::{Plan, Task};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
+pub use response::{ResponseBranch, ResponseCurves, ResponsePlan, ResponsePoint, SweptMotion};
 pub use run::{Results, run};
 pub use simulate::Simulated;
 pub use span::Span;
 pub use stretch::Stretch;
 pub use study::Study;
 pub use system::{SecondStop, StartPlan, SystemPlan};
+pub use units::{UnitsPlan, natural_hertz};
 pub use words::counted;
 
 /// Compiles and runs the listing of this crate's README as a documentation test.

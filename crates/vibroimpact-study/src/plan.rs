@@ -6,8 +6,8 @@
 use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
 use crate::simulate::most_impacts;
 use crate::{
-    BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, Parameter, PlanError, RegionPlan, StartPlan,
-    SystemPlan,
+    BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, Parameter, PlanError, RegionPlan,
+    ResponsePlan, StartPlan, SystemPlan, UnitsPlan,
 };
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
@@ -26,6 +26,10 @@ pub struct Plan {
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tile: Option<u32>,
+    /// The physical units in which results are reported; nondimensional when absent. The numbers of the plan are
+    /// nondimensional in any case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsPlan>,
 }
 
 /// Maximum number of points of a tile along one axis.
@@ -35,7 +39,7 @@ impl Plan {
     /// A plan of the current version.
     #[must_use]
     pub const fn new(system: SystemPlan, task: Task) -> Self {
-        Self { version: PLAN_VERSION, system, task, tile: None }
+        Self { version: PLAN_VERSION, system, task, tile: None, units: None }
     }
 
     /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
@@ -91,6 +95,7 @@ impl Plan {
             Task::Map(map) => Some((map.points(), "points")),
             Task::Diagram(diagram) => Some((u64::from(diagram.over.count()).saturating_mul(diagram.runs()), "motions")),
             Task::Region(_) => Some((2, "regions")),
+            Task::Response(response) => Some((response.motions(), "motions")),
             _ => None,
         }
     }
@@ -106,6 +111,9 @@ impl Plan {
         let osc = self.system.oscillator()?;
         if let Some(given) = self.tile.filter(|tile| !(1..=MOST_TILE).contains(tile)) {
             return Err(PlanError::Tile { given, most: MOST_TILE });
+        }
+        if let Some(units) = &self.units {
+            units.check()?;
         }
         match &self.task {
             Task::Simulate { start, impacts, periods } => {
@@ -127,6 +135,7 @@ impl Plan {
             Task::Branch(branch) => branch.check(&self.system),
             Task::Curve(curve) => curve.check(&self.system),
             Task::Region(region) => region.check(&self.system),
+            Task::Response(response) => response.check(&self.system),
         }
     }
 }
@@ -175,6 +184,8 @@ pub enum Task {
     Curve(CurvePlan),
     /// Where a motion exists and is stable in a plane of two.
     Region(RegionPlan),
+    /// A quantity of all motions over one parameter.
+    Response(ResponsePlan),
 }
 
 #[cfg(test)]

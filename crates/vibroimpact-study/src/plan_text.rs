@@ -2,7 +2,7 @@
 
 use crate::plan::{Plan, Task};
 use crate::system::{SecondStop, SystemPlan};
-use crate::{Axis, Coordinate, Parameter, PlanError};
+use crate::{Axis, Coordinate, Parameter, PlanError, UnitsPlan};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -22,6 +22,10 @@ pub(crate) struct PlanText {
     #[serde(default)]
     #[schemars(range(min = 1, max = 4096))]
     tile: Option<u32>,
+    /// The physical units in which results are reported; nondimensional when absent. The numbers of the plan are
+    /// nondimensional in any case.
+    #[serde(default)]
+    units: Option<UnitsPlan>,
 }
 
 /// The oscillator: exactly one of beta and inverse_beta, one or two stops.
@@ -186,7 +190,8 @@ impl TryFrom<PlanText> for Plan {
             damping: asked.damping,
             second_stop: asked.second_stop,
         };
-        Self { version: written.version, system, task: written.task, tile: written.tile }.canonical()
+        Self { version: written.version, system, task: written.task, tile: written.tile, units: written.units }
+            .canonical()
     }
 }
 

@@ -22,6 +22,35 @@ pub fn unknown(name: &str) -> String {
     format!("`{name}` is no quantity; there are {}", Quantity::ALL.map(Quantity::name).join(", "))
 }
 
+/// One quantity in a plan.
+pub(crate) mod one {
+    use super::{Quantity, unknown};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    /// It is written as its name.
+    pub(crate) fn serialize<S: Serializer>(quantity: &Quantity, to: S) -> Result<S::Ok, S::Error> {
+        quantity.name().serialize(to)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Quantity, D::Error> {
+        let name = String::deserialize(from)?;
+        Quantity::from_name(&name).ok_or_else(|| serde::de::Error::custom(unknown(&name)))
+    }
+}
+
+/// One name, for the schema of plans.
+pub(crate) struct Name;
+
+impl schemars::JsonSchema for Name {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Quantity".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "type": "string", "enum": Quantity::ALL.map(Quantity::name) })
+    }
+}
+
 /// A list of names, for the schema of plans.
 pub(crate) struct Names;
 

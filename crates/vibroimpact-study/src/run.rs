@@ -4,10 +4,11 @@ use crate::branch::branches;
 use crate::curve::curve;
 use crate::in_memory::{attractors, basin, diagram, map};
 use crate::region::regions;
+use crate::response::response;
 use crate::simulate::simulate;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, Plan, PlanError, RegionMap, Regions, RunError, Simulated, Stopped,
-    Task,
+    Basin, Branches, Control, Diagram, EventCurve, Plan, PlanError, RegionMap, Regions, ResponseCurves, RunError,
+    Simulated, Stopped, Task,
 };
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
 use vibroimpact::orbit::{FindOptions, Orbit, find_while};
@@ -40,6 +41,8 @@ pub enum Results {
     Curve(EventCurve),
     /// The regions where a motion exists and where it is stable.
     Region(Regions),
+    /// The motions of two sweeps, and their branches.
+    Response(ResponseCurves),
 }
 
 /// Computes the result of a plan: every point of a grid, without refinement.
@@ -100,5 +103,6 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
         Task::Branch(task) => Results::Branch(branches(system, task, control)?),
         Task::Curve(task) => Results::Curve(curve(system, task, control)?),
         Task::Region(task) => Results::Region(regions(system, task, control)?),
+        Task::Response(task) => Results::Response(response(system, task, control)?),
     })
 }

@@ -34,6 +34,7 @@ pub(crate) fn check(plan: &Plan) -> Result<(), Refusal> {
             within("motions", motions, 20_000)?;
             within("impacts", motions.saturating_mul(diagram.transient + diagram.keep), 20 * MOST_IMPACTS)
         }
+        Task::Response(response) => within("motions", response.motions(), 2_000),
         Task::Lyapunov(lyapunov) => {
             // exponents over axes are a study, which is refused
             let impacts = lyapunov.impacts.saturating_add(lyapunov.transient);

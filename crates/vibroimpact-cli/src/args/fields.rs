@@ -15,7 +15,8 @@ pub(crate) struct FieldsArgs {
     pub(crate) fields: Vec<Quantity>,
 }
 
-fn quantity(name: &str) -> Result<Quantity, String> {
+/// Parses the name of a quantity.
+pub(crate) fn quantity(name: &str) -> Result<Quantity, String> {
     Quantity::from_name(name).ok_or_else(|| unknown_quantity(name).replace('_', "-"))
 }
 

@@ -2,22 +2,27 @@
 
 mod axes;
 mod fields;
+mod machine_ranges;
 mod numbers;
 mod output;
+mod parameter_flag;
 mod plane;
 mod ranged;
+mod ranged_system;
 mod start;
 mod store;
 mod system;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
-pub(crate) use fields::FieldsArgs;
+pub(crate) use fields::{FieldsArgs, quantity};
+use machine_ranges::MachineRangesArgs;
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;
+pub(crate) use parameter_flag::{ParameterFlag, parameter};
 pub(crate) use plane::{Ends, Named, Over, Place};
 pub(crate) use ranged::Ranged;
+pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;
 pub(crate) use store::{StoreArgs, Tiles};
 pub(crate) use system::{Convention, MachineArgs, SystemArgs};
-pub(crate) use vary::parameter;

@@ -1,6 +1,6 @@
 //! PLANE: ranges of parameters, `A:B`, with or without the name of the parameter.
 
-use super::vary::flag;
+use super::parameter_flag::ParameterFlag;
 use core::str::FromStr;
 use vibroimpact_study::{Parameter, Stretch};
 
@@ -73,7 +73,7 @@ impl FromStr for Ends {
 
 /// `PARAMETER=...`: a parameter with a value or range.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Named<T>(pub(crate) Parameter, pub(crate) T);
+pub(crate) struct Named<T>(pub(crate) ParameterFlag, pub(crate) T);
 
 /// `PARAMETER=A:B`.
 pub(crate) type Over = Named<Interval>;
@@ -83,15 +83,15 @@ impl<T: FromStr<Err: core::fmt::Display>> FromStr for Named<T> {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let (name, range) = text.split_once('=').unwrap_or((text, ""));
-        let parameter = Parameter::ALL.into_iter().find(|parameter| flag(*parameter) == name.trim());
-        let parameter = parameter.ok_or_else(|| {
-            let known = Parameter::ALL.map(flag).join(", ");
+        let named = ParameterFlag::all().find(|named| named.flag() == name.trim());
+        let named = named.ok_or_else(|| {
+            let known = ParameterFlag::all().map(ParameterFlag::flag).collect::<Vec<_>>().join(", ");
             format!(
                 "`{}` does not begin with PARAMETER=; parameters: {known}",
                 text.chars().take(60).collect::<String>()
             )
         })?;
-        Ok(Self(parameter, range.trim().parse().map_err(|error: T::Err| error.to_string())?))
+        Ok(Self(named, range.trim().parse().map_err(|error: T::Err| error.to_string())?))
     }
 }
 
@@ -104,9 +104,12 @@ mod tests {
         assert_eq!("-1:5".parse(), Ok(Interval(-1.0, 5.0)));
         assert_eq!("0.5".parse(), Ok(Place::At(0.5)));
         assert_eq!("0.4:2".parse(), Ok(Place::Over(Interval(0.4, 2.0))));
-        assert_eq!("second-gap=1:2".parse(), Ok(Named(Parameter::SecondGap, Interval(1.0, 2.0))));
-        assert_eq!("gap=2:1".parse(), Ok(Named(Parameter::Gap, Ends(2.0, 1.0))));
-        assert_eq!("gap= -0.5".parse(), Ok(Named(Parameter::Gap, -0.5)));
+        let plain = |parameter| ParameterFlag { parameter, si: false };
+        assert_eq!("second-gap=1:2".parse(), Ok(Named(plain(Parameter::SecondGap), Interval(1.0, 2.0))));
+        assert_eq!("gap=2:1".parse(), Ok(Named(plain(Parameter::Gap), Ends(2.0, 1.0))));
+        assert_eq!("gap= -0.5".parse(), Ok(Named(plain(Parameter::Gap), -0.5)));
+        let hertz = ParameterFlag { parameter: Parameter::Beta, si: true };
+        assert_eq!("frequency-hz=15:25".parse(), Ok(Named(hertz, Interval(15.0, 25.0))));
         for bad in ["gap=1:2:3", "gap=1", "gap=1:nan", "1:2"] {
             assert!(bad.parse::<Named<Ends>>().is_err(), "{bad}");
         }

@@ -4,16 +4,13 @@ use super::whole;
 use crate::failure::Failure;
 use clap::Args;
 use core::str::FromStr;
-use vibroimpact_report::Units;
-use vibroimpact_report::number::Number;
 use vibroimpact_store::Part;
 use vibroimpact_study::Plan;
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Store")]
 pub(crate) struct StoreArgs {
-    /// Keep the results in a Zarr store in this folder, tile by tile: what is there already is not computed again; in
-    /// nondimensional units only
+    /// Keep the results in a Zarr store in this folder, tile by tile: what is there already is not computed again
     #[arg(long, value_name = "DIR")]
     pub(crate) store: Option<String>,
 
@@ -23,16 +20,8 @@ pub(crate) struct StoreArgs {
 }
 
 impl StoreArgs {
-    /// The plan with the requested size of tiles. Results in metres and seconds are refused, because a store contains
-    /// its plan, which is nondimensional.
-    pub(crate) fn tiled(&self, plan: Plan, units: &Units) -> Result<Plan, Failure> {
-        if let (Some(_), Some(scales), true) = (&self.store, &units.scales, units.si) {
-            return Err(Failure::bad(format!(
-                "--units si cannot go together with --store: a store is nondimensional\nhint: leave out one of them; here one unit of length is {} m, and one of time {} s",
-                Number(scales.length_m),
-                Number(scales.time_s)
-            )));
-        }
+    /// The plan with the requested size of tiles.
+    pub(crate) fn tiled(&self, plan: Plan) -> Result<Plan, Failure> {
         let plan = Plan { tile: self.tile, ..plan };
         plan.check()?;
         Ok(plan)

@@ -1,6 +1,7 @@
 //! SYSTEM: the oscillator, in nondimensional or in physical units.
 
-use super::number;
+use super::parameter_flag::ParameterFlag;
+use super::{Place, number};
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
 use vibroimpact::{Frequency, Machine};
@@ -39,7 +40,7 @@ pub(crate) struct SystemArgs {
     second_restitution: Option<f64>,
 
     #[command(flatten)]
-    machine: MachineArgs,
+    pub(super) machine: MachineArgs,
 
     /// Units of starts, ranges and results
     #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional)]
@@ -52,35 +53,39 @@ pub(crate) struct SystemArgs {
 pub(crate) struct MachineArgs {
     /// Mass in kg, positive
     #[arg(long, value_parser = number, value_name = "M", allow_hyphen_values = true)]
-    mass_kg: Option<f64>,
+    pub(super) mass_kg: Option<f64>,
 
     /// Viscous damping in N s/m, 0 or more [default: 0]
-    #[arg(long, value_parser = number, value_name = "C", allow_hyphen_values = true)]
-    damping_ns_per_m: Option<f64>,
+    #[arg(long, value_parser = number, value_name = "C", allow_hyphen_values = true, conflicts_with = "damping_ratio")]
+    pub(super) damping_ns_per_m: Option<f64>,
+
+    /// Damping ratio c / (2 sqrt(k m)) instead
+    #[arg(long, value_parser = number, value_name = "Z", allow_hyphen_values = true)]
+    pub(super) damping_ratio: Option<f64>,
 
     /// Stiffness in N/m, positive
     #[arg(long, value_parser = number, value_name = "K", allow_hyphen_values = true)]
-    stiffness_n_per_m: Option<f64>,
+    pub(super) stiffness_n_per_m: Option<f64>,
 
     /// Amplitude of the force in N, positive
     #[arg(long, value_parser = number, value_name = "F", allow_hyphen_values = true)]
-    force_n: Option<f64>,
+    pub(super) force_n: Option<f64>,
 
-    /// Frequency of the force in Hz, positive
-    #[arg(long, value_parser = number, value_name = "HZ", allow_hyphen_values = true, conflicts_with = "omega_rad_per_s")]
-    frequency_hz: Option<f64>,
+    /// Frequency of the force in Hz, positive; a range A:B where this command takes ranges
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true, conflicts_with = "omega_rad_per_s")]
+    pub(super) frequency_hz: Option<Place>,
 
     /// Frequency of the force in rad/s instead
     #[arg(long, value_parser = number, value_name = "W", allow_hyphen_values = true)]
-    omega_rad_per_s: Option<f64>,
+    pub(super) omega_rad_per_s: Option<f64>,
 
     /// Distance of the stop from the rest position in m
-    #[arg(long, value_parser = number, value_name = "D", allow_hyphen_values = true)]
-    gap_m: Option<f64>,
+    #[arg(long, value_name = "D", allow_hyphen_values = true)]
+    pub(super) gap_m: Option<Place>,
 
     /// A second stop on the other side, its distance in m
-    #[arg(long, value_parser = number, value_name = "D2", allow_hyphen_values = true)]
-    second_gap_m: Option<f64>,
+    #[arg(long, value_name = "D2", allow_hyphen_values = true)]
+    pub(super) second_gap_m: Option<Place>,
 }
 
 /// What lengths, velocities and times are measured in.
@@ -93,10 +98,23 @@ pub(crate) enum Convention {
 }
 
 impl SystemArgs {
+    /// The system, in which no quantity is a range.
     pub(crate) fn asked(&self) -> Result<Asked, Failure> {
+        if let Some((named, _)) = self.machine.ranges().iter().find(|(_, place)| matches!(place, Some(Place::Over(_))))
+        {
+            return Err(Failure::bad(format!(
+                "--{0} is a range, and here it has one value\nhint: `vibro map`, `vibro region` and `vibro response` take ranges; --vary {0} elsewhere",
+                named.flag()
+            )));
+        }
+        self.first()
+    }
+
+    /// The system with the first value of each range.
+    pub(crate) fn first(&self) -> Result<Asked, Failure> {
         let restitution = self.restitution.unwrap_or(0.0);
         let machine = self.machine.machine(self.restitution)?;
-        let second = self.second_gap.or(self.machine.second_gap_m);
+        let second = self.second_gap.or(self.machine.second_gap_m.map(Place::first));
         let second_stop = |unit: f64| {
             second
                 .map(|gap| SecondStop { gap: gap / unit, restitution: self.second_restitution.unwrap_or(restitution) })
@@ -137,11 +155,12 @@ impl SystemArgs {
             inverse_beta: None,
             gap: osc.gap(),
             restitution,
-            damping: osc.damping(),
+            // a given ratio is not rounded by a conversion
+            damping: self.machine.damping_ratio.unwrap_or_else(|| osc.damping()),
             second_stop: second_stop(scales.length_m),
         };
         let si = self.units == Convention::Si;
-        let units = Units { scales: Some(scales), si };
+        let units = Units { scales: Some(scales), si, hertz: false };
         Ok(Asked { system, units })
     }
 }
@@ -214,10 +233,27 @@ impl SystemArgs {
 }
 
 impl MachineArgs {
+    /// The ranges among its quantities, in SI units.
+    pub(crate) fn ranges(&self) -> [(ParameterFlag, Option<Place>); 3] {
+        [(Parameter::Beta, self.frequency_hz), (Parameter::Gap, self.gap_m), (Parameter::SecondGap, self.second_gap_m)]
+            .map(|(parameter, place)| (ParameterFlag { parameter, si: true }, place))
+    }
+
+    /// Gives a quantity this value if it has none.
+    pub(super) fn complete_with(&mut self, named: ParameterFlag, value: f64) {
+        let slot = match named.parameter {
+            Parameter::Beta if self.omega_rad_per_s.is_none() => &mut self.frequency_hz,
+            Parameter::Gap => &mut self.gap_m,
+            Parameter::SecondGap => &mut self.second_gap_m,
+            _ => return,
+        };
+        slot.get_or_insert(Place::At(value));
+    }
+
     /// The machine in physical units, if any of its quantities is given; then all are required.
     fn machine(&self, restitution: Option<f64>) -> Result<Option<Machine>, Failure> {
         let frequency = match (self.frequency_hz, self.omega_rad_per_s) {
-            (Some(hertz), _) => Some(Frequency::Hz(hertz)),
+            (Some(hertz), _) => Some(Frequency::Hz(hertz.first())),
             (None, omega) => omega.map(Frequency::RadPerS),
         };
         let given = [
@@ -225,9 +261,12 @@ impl MachineArgs {
             ("--stiffness-n-per-m", self.stiffness_n_per_m),
             ("--force-n", self.force_n),
             ("--frequency-hz", frequency.map(Frequency::rad_per_s)),
-            ("--gap-m", self.gap_m),
+            ("--gap-m", self.gap_m.map(Place::first)),
         ];
-        if given.iter().all(|(_, value)| value.is_none()) && self.damping_ns_per_m.is_none() {
+        if given.iter().all(|(_, value)| value.is_none())
+            && self.damping_ns_per_m.is_none()
+            && self.damping_ratio.is_none()
+        {
             return match self.second_gap_m {
                 Some(_) => Err(Failure::bad(
                     "--second-gap-m needs the system in physical units\nhint: --second-gap D2 is its nondimensional twin",
@@ -238,14 +277,15 @@ impl MachineArgs {
         let needed = given.into_iter().chain([("--restitution", restitution)]);
         let missing: Vec<&str> = needed.filter(|(_, value)| value.is_none()).map(|(flag, _)| flag).collect();
         let (Some(mass_kg), Some(stiffness_n_per_m), Some(force_n), Some(frequency), Some(gap_m), Some(restitution)) =
-            (self.mass_kg, self.stiffness_n_per_m, self.force_n, frequency, self.gap_m, restitution)
+            (self.mass_kg, self.stiffness_n_per_m, self.force_n, frequency, self.gap_m.map(Place::first), restitution)
         else {
             return Err(Failure::bad(format!(
                 "a system in physical units needs all of its quantities; missing: {}",
                 missing.join(", ")
             )));
         };
-        let damping_ns_per_m = self.damping_ns_per_m.unwrap_or(0.0);
+        let of_ratio = |ratio: f64| 2.0 * ratio * (stiffness_n_per_m.sqrt() * mass_kg.sqrt());
+        let damping_ns_per_m = self.damping_ns_per_m.or(self.damping_ratio.map(of_ratio)).unwrap_or(0.0);
         Ok(Some(Machine { mass_kg, damping_ns_per_m, stiffness_n_per_m, force_n, frequency, gap_m, restitution }))
     }
 }

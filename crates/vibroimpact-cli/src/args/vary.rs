@@ -1,52 +1,37 @@
 //! VARY: a parameter that varies over a range, and the system without it.
 
 use super::SystemArgs;
+use super::parameter_flag::{ParameterFlag, flag};
 use crate::failure::Failure;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use vibroimpact_report::Asked;
 use vibroimpact_study::{Parameter, SystemPlan};
 
-/// Parses a parameter from the name of its flag.
-pub(crate) fn parameter() -> impl TypedValueParser<Value = Parameter> {
-    let values = Parameter::ALL.map(|parameter| PossibleValue::new(flag(parameter)).help(meaning(parameter)));
-    PossibleValuesParser::new(values).try_map(|name| {
-        let named = Parameter::ALL.into_iter().find(|parameter| flag(*parameter) == name);
-        named.ok_or_else(|| format!("`{name}` is no parameter"))
-    })
-}
-
-/// The name of the flag of a parameter, without the dashes.
-pub(crate) const fn flag(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::Beta => "beta",
-        Parameter::InverseBeta => "inverse-beta",
-        Parameter::Gap => "gap",
-        Parameter::Restitution => "restitution",
-        Parameter::Damping => "damping",
-        Parameter::SecondGap => "second-gap",
-        Parameter::SecondRestitution => "second-restitution",
-    }
-}
-
-const fn meaning(parameter: Parameter) -> &'static str {
-    match parameter {
-        Parameter::Beta => "Frequency ratio omega/omega_n",
-        Parameter::InverseBeta => "Its inverse omega_n/omega",
-        Parameter::Gap => "Distance of the stop",
-        Parameter::Restitution => "Restitution of the stop",
-        Parameter::Damping => "Damping ratio zeta",
-        Parameter::SecondGap => "Distance of the second stop",
-        Parameter::SecondRestitution => "Restitution of the second stop",
-    }
-}
-
 impl SystemArgs {
+    /// The system with results in SI units if one of these parameters is in SI units.
+    pub(crate) fn over(&self, varied: &[ParameterFlag]) -> Result<Asked, Failure> {
+        let mut asked = self.asked()?;
+        let Some(si) = varied.iter().find(|named| named.si) else { return Ok(asked) };
+        if asked.units.scales.is_none() {
+            return Err(Failure::bad(format!(
+                "{} needs the system in physical units\nhint: --mass-kg, --stiffness-n-per-m, --force-n ...; {} is nondimensional",
+                si.flag(),
+                flag(si.parameter)
+            )));
+        }
+        asked.units.si = true;
+        asked.units.hertz = varied.iter().any(|named| named.si && named.parameter == Parameter::Beta);
+        Ok(asked)
+    }
+
     /// The system in which the parameters that vary have their first values. They may not have other values. For each
     /// parameter the flags are given that make it vary and set its range. A system in physical units must be given
     /// completely, because its units depend on all quantities; its values are then replaced.
-    pub(crate) fn varied(&self, varied: &[(Parameter, f64, [&str; 2])]) -> Result<Asked, Failure> {
+    pub(crate) fn varied(&self, varied: &[(ParameterFlag, f64, [&str; 2])]) -> Result<Asked, Failure> {
         let mut args = *self;
-        for (parameter, _, [varies, over]) in varied {
+        for (named, first, _) in varied.iter().filter(|(named, ..)| named.si) {
+            args.machine.complete_with(*named, *first);
+        }
+        for (ParameterFlag { parameter, .. }, _, [varies, over]) in varied {
             let same = |other: &Parameter| other == parameter || other.is_frequency() && parameter.is_frequency();
             if let Some(given) = Parameter::ALL.into_iter().filter(same).find(|p| args.slot(*p).is_some()) {
                 return Err(Failure::bad(format!(
@@ -66,14 +51,14 @@ impl SystemArgs {
         let replaced = |parameter: Parameter| {
             machine && ![Parameter::Restitution, Parameter::SecondRestitution].contains(&parameter)
         };
-        for (parameter, first, _) in varied.iter().filter(|(parameter, ..)| !replaced(*parameter)) {
-            *args.slot(*parameter) = Some(*first);
+        for (named, first, _) in varied.iter().filter(|(named, ..)| !replaced(named.parameter)) {
+            *args.slot(named.parameter) = Some(*first);
         }
-        let asked = args.asked()?;
-        let set = |system: SystemPlan, (parameter, first, _): &(Parameter, f64, _)| {
-            system.with(*parameter, first / asked.units.of(*parameter))
+        let asked = args.over(&varied.iter().map(|(named, ..)| *named).collect::<Vec<_>>())?;
+        let set = |system: SystemPlan, (named, first, _): &(ParameterFlag, f64, _)| {
+            system.with(named.parameter, first / asked.units.of(named.parameter))
         };
-        let mut own = varied.iter().filter(|(parameter, ..)| replaced(*parameter));
+        let mut own = varied.iter().filter(|(named, ..)| replaced(named.parameter));
         Ok(Asked { system: own.try_fold(asked.system, set)?, ..asked })
     }
 }

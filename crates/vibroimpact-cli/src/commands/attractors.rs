@@ -46,7 +46,7 @@ pub(crate) struct Attractors {
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed };
-    let plan = args.store.tiled(Plan::new(asked.system, task), &asked.units)?;
+    let plan = args.store.tiled(Plan::new(asked.system, task))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), None, args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), Some(&args.store), session)
 }

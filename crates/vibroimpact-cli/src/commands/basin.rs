@@ -69,7 +69,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let plane = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
     let task = BasinPlan { refine: args.refine, impacts: args.impacts, fields: args.fields.fields.clone(), ..plane };
     let axes = task.axes.clone();
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task)), &units)?;
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task)))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     outputs.drawable(&axes)?;
     respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)

@@ -1,6 +1,6 @@
 //! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
-use crate::args::{Named, SystemArgs, number, parameter, whole};
+use crate::args::{Named, ParameterFlag, SystemArgs, number, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -8,7 +8,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Parameter, Plan, Target, Task};
+use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Plan, Target, Task};
 
 /// Follow an orbit in one parameter, stable or unstable, with all events on the branch
 ///
@@ -44,7 +44,7 @@ pub(crate) struct Branch {
 
     /// The parameter that varies, from its value in the system
     #[arg(long, value_parser = parameter(), value_name = "PARAMETER", help_heading = "Branch")]
-    vary: Parameter,
+    vary: ParameterFlag,
 
     /// The other end of its range
     #[arg(long, value_parser = number, value_name = "VALUE", allow_hyphen_values = true, help_heading = "Branch")]
@@ -87,8 +87,9 @@ pub(crate) struct Branch {
 }
 
 pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
-    let asked = args.system.asked()?;
-    let vary = args.vary;
+    let also = args.also.map(|Named(named, _)| named);
+    let asked = args.system.over(&[args.vary].into_iter().chain(also).collect::<Vec<_>>())?;
+    let vary = args.vary.parameter;
     if args.plot.is_none() && (args.no_diagram || args.show_virtual) {
         return Err(Failure::bad("--no-diagram and --virtual say how the figure is drawn\nhint: --plot FILE"));
     }
@@ -96,7 +97,9 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
         label: args.label.clone(),
         vary,
         to: args.to / asked.units.of(vary),
-        also: args.also.map(|Named(parameter, to)| Target { parameter, to: to / asked.units.of(parameter) }),
+        also: args
+            .also
+            .map(|Named(ParameterFlag { parameter, .. }, to)| Target { parameter, to: to / asked.units.of(parameter) }),
         orbit: args.orbit,
         follow: args.follow,
         points: args.points,

@@ -1,6 +1,6 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
-use crate::args::{Named, Over, SystemArgs, whole};
+use crate::args::{Named, Over, ParameterFlag, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -80,7 +80,7 @@ enum Kind {
 
 impl Curve {
     fn plan(&self, units: &Units) -> CurvePlan {
-        let stretch = |Named(parameter, range): &Over| {
+        let stretch = |Named(ParameterFlag { parameter, .. }, range): &Over| {
             let unit = units.of(*parameter);
             Stretch { parameter: *parameter, from: range.0 / unit, to: range.1 / unit }
         };
@@ -100,7 +100,7 @@ impl Curve {
 }
 
 pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
-    let asked = args.system.asked()?;
+    let asked = args.system.over(&[args.vary.0, args.and.0])?;
     let plan = Plan::new(asked.system, Task::Curve(args.plan(&asked.units)));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;

@@ -1,6 +1,6 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
-use crate::args::{Ends, Named, StoreArgs, SystemArgs, parameter, whole};
+use crate::args::{Ends, Named, ParameterFlag, StoreArgs, SystemArgs, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
-use vibroimpact_study::{DiagramPlan, Parameter, Plan, Span, Stretch, Task};
+use vibroimpact_study::{DiagramPlan, Plan, Span, Stretch, Task};
 
 /// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
 ///
@@ -43,7 +43,7 @@ pub(crate) struct Diagram {
 
     /// The parameter that varies
     #[arg(long, value_parser = parameter(), value_name = "PARAMETER", help_heading = "Sweep")]
-    vary: Parameter,
+    vary: ParameterFlag,
 
     /// Its values: N from A to B, both included
     #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Sweep")]
@@ -131,12 +131,12 @@ impl Diagram {
 
 pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
     let first = (args.vary, args.over.ends().0, ["vary", "over"]);
-    let also = args.also.map(|Named(parameter, ends)| (parameter, ends.0, ["also", "also"]));
+    let also = args.also.map(|Named(named, ends)| (named, ends.0, ["also", "also"]));
     let asked = args.system.varied(&[first].into_iter().chain(also).collect::<Vec<_>>())?;
-    let (units, vary) = (asked.units, args.vary);
-    let stretch = |Named(parameter, Ends(from, to)): Named<Ends>| {
-        let unit = units.of(parameter);
-        Stretch { parameter, from: from / unit, to: to / unit }
+    let (units, vary) = (asked.units, args.vary.parameter);
+    let stretch = |Named(named, Ends(from, to)): Named<Ends>| {
+        let unit = units.of(named.parameter);
+        Stretch { parameter: named.parameter, from: from / unit, to: to / unit }
     };
     let task = DiagramPlan {
         vary,
@@ -150,7 +150,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         transient: args.transient,
         keep: args.keep,
     };
-    let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)), &asked.units)?;
+    let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
 }

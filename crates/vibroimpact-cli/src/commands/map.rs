@@ -1,14 +1,14 @@
 //! `vibro map`: the motions at each point of a plane of parameters.
 
-use crate::args::{AxesArgs, FieldsArgs, Ranged, StoreArgs, whole};
+use crate::args::{FieldsArgs, RangedSystemArgs, StoreArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact_report::{Shown, Units};
-use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, Task};
+use vibroimpact_report::{Asked, Shown};
+use vibroimpact_study::{MapPlan, Plan, Task};
 
 /// Which motions exist at each point of a plane of parameters
 ///
@@ -27,7 +27,7 @@ use vibroimpact_study::{Axis, MapPlan, Parameter, Plan, SecondStop, SystemPlan, 
 )]
 pub(crate) struct Map {
     #[command(flatten)]
-    plane: PlaneArgs,
+    plane: RangedSystemArgs,
 
     /// Starts at each point, 1 to 1e9
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
@@ -64,87 +64,9 @@ pub(crate) struct Map {
     json: bool,
 }
 
-/// The parameters of a map, values or ranges.
-#[derive(Clone, Debug, Args)]
-#[command(next_help_heading = "System and plane")]
-#[command(group = clap::ArgGroup::new("frequency").required(true).args(["beta", "inverse_beta"]))]
-struct PlaneArgs {
-    /// Frequency ratio omega/omega_n, positive
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true, conflicts_with = "inverse_beta")]
-    beta: Option<Ranged>,
-
-    /// Its inverse omega_n/omega instead, the abscissa of the 1971 paper; positive
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
-    inverse_beta: Option<Ranged>,
-
-    /// Gap, in units of F/k
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
-    gap: Ranged,
-
-    /// Restitution: rebound speed over arrival speed, 0 to 1
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
-    restitution: Ranged,
-
-    /// Damping ratio zeta, 0 or more [default: 0]
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
-    damping: Option<Ranged>,
-
-    /// A second stop on the other side, at x = -D2
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
-    second_gap: Option<Ranged>,
-
-    /// Restitution of the second stop [default: that of the first, if that is one value]
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true, requires = "second_gap")]
-    second_restitution: Option<Ranged>,
-
-    #[command(flatten)]
-    axes: AxesArgs,
-}
-
-impl PlaneArgs {
-    /// The given parameters, in the order of the flags.
-    fn given(&self) -> impl Iterator<Item = (Parameter, &Ranged)> {
-        let all = [
-            (Parameter::Beta, self.beta.as_ref()),
-            (Parameter::InverseBeta, self.inverse_beta.as_ref()),
-            (Parameter::Gap, Some(&self.gap)),
-            (Parameter::Restitution, Some(&self.restitution)),
-            (Parameter::Damping, self.damping.as_ref()),
-            (Parameter::SecondGap, self.second_gap.as_ref()),
-            (Parameter::SecondRestitution, self.second_restitution.as_ref()),
-        ];
-        all.into_iter().filter_map(|(parameter, given)| Some((parameter, given?)))
-    }
-
-    fn system(&self) -> Result<SystemPlan, Failure> {
-        let first = |given: &Option<Ranged>| given.as_ref().map(Ranged::first);
-        let second_restitution = match (&self.second_restitution, &self.restitution) {
-            (None, Ranged::Over(_)) if self.second_gap.is_some() => {
-                return Err(Failure::bad(
-                    "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
-                ));
-            }
-            (None, one) => one.first(),
-            (Some(own), _) => own.first(),
-        };
-        Ok(SystemPlan {
-            beta: first(&self.beta),
-            inverse_beta: first(&self.inverse_beta),
-            gap: self.gap.first(),
-            restitution: self.restitution.first(),
-            damping: first(&self.damping).unwrap_or(0.0),
-            second_stop: first(&self.second_gap).map(|gap| SecondStop { gap, restitution: second_restitution }),
-        })
-    }
-
-    fn axes(&self) -> Result<Vec<Axis>, Failure> {
-        let varied = self.given().filter_map(|(parameter, given)| Some((parameter, given.axis(parameter)?))).collect();
-        Ok(self.axes.order(varied, |(parameter, _)| *parameter)?.into_iter().map(|(_, axis)| axis).collect())
-    }
-}
-
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
-    let (system, axes) = (args.plane.system()?, args.plane.axes()?);
+    let Asked { system, units } = args.plane.asked()?;
+    let axes = args.plane.axes(&units)?;
     if axes.is_empty() {
         return Err(Failure::bad(
             "nothing varies\nhint: give one of the parameters a range, --gap 0:5:41; `vibro attractors` answers for one point",
@@ -159,8 +81,8 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         fields: args.fields.fields.clone(),
     };
     let axes = task.axes.clone();
-    let plan = args.store.tiled(Plan::new(system, Task::Map(task)), &Units::default())?;
+    let plan = args.store.tiled(Plan::new(system, Task::Map(task)))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     outputs.drawable(&axes)?;
-    respond::run(&plan, Units::default(), (outputs, Shown::default()), Some(&args.store), session)
+    respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
 }

@@ -19,6 +19,7 @@ mod region;
 #[cfg(feature = "reproduce")]
 mod reproduce;
 mod respond;
+mod response;
 mod resume;
 mod run;
 mod schema;
@@ -67,6 +68,7 @@ enum Command {
     Branch(branch::Branch),
     Curve(curve::Curve),
     Region(region::Region),
+    Response(response::Response),
     Basin(basin::Basin),
     Map(map::Map),
     Diagram(diagram::Diagram),
@@ -96,6 +98,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Branch(args) => branch::run(args, session),
         Command::Curve(args) => curve::run(args, session),
         Command::Region(args) => region::run(args, session),
+        Command::Response(args) => response::run(args, session),
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),
         Command::Diagram(args) => diagram::run(args, session),

@@ -109,8 +109,13 @@ impl Region {
                 machine && !restitution(parameter) && place.is_some_and(|place| place.over(parameter).is_some());
             (parameter, place.filter(|_| !replaces).map(Place::first))
         };
-        let mut asked = SystemArgs::of(&self.places().map(own), self.machine, self.units).asked()?;
+        let mut asked = SystemArgs::of(&self.places().map(own), self.machine, self.units).first()?;
         let Asked { system, units } = &mut asked;
+        let physical = self.machine.ranges().into_iter().filter_map(|(named, place)| place?.over(named.parameter));
+        for stretch in physical {
+            units.si = true;
+            units.hertz |= stretch.parameter == Parameter::Beta;
+        }
         for stretch in self.over(units).iter().filter(|_| machine) {
             *system = system.with(stretch.parameter, stretch.from)?;
         }
@@ -123,7 +128,8 @@ impl Region {
             let (stretch, unit) = (place?.over(parameter)?, units.of(parameter));
             Some(Stretch { from: stretch.from / unit, to: stretch.to / unit, ..stretch })
         };
-        self.places().into_iter().filter_map(over).collect()
+        let physical = self.machine.ranges().map(|(named, place)| (named.parameter, place));
+        self.places().into_iter().chain(physical).filter_map(over).collect()
     }
 
     /// The two parameters with ranges, the abscissa first.

@@ -18,6 +18,7 @@ pub(super) fn run(
     store: Option<&StoreArgs>,
     session: &Session,
 ) -> Result<(), Failure> {
+    let plan = &Plan { units: units.plan().or(plan.units), ..plan.clone() };
     if let Some(place) = store.and_then(|store| store.store.as_ref()) {
         return stored::run(plan, place, Part::ALL, outputs, session);
     }
@@ -27,6 +28,7 @@ pub(super) fn run(
 
 /// Computes the answer of a plan, with a progress bar if the plan reports progress.
 pub(super) fn compute(plan: &Plan, units: Units, session: &Session) -> Result<Answer, Failure> {
+    let plan = &Plan { units: units.plan().or(plan.units), ..plan.clone() };
     let work = plan.work();
     session.watched(work, |control| answer(plan, units, control)).map_err(|error| match error {
         AnswerError::Stopped(Stopped { done, total }) => {

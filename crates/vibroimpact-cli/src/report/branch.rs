@@ -12,7 +12,11 @@ use vibroimpact_study::{Branches, Chosen, Cut, Followed, counted};
 /// The name of a parameter in a sentence, such as `gap` or `inverse beta`.
 pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
     let name = parameter.name().replace('_', " ");
-    if vibroimpact_study::is_length(parameter) { units.named(&name, "m") } else { name }
+    match units.unit_of(parameter) {
+        "" => name,
+        "Hz" => "frequency (Hz)".to_owned(),
+        unit => units.named(&name, unit),
+    }
 }
 
 /// The number of the orbit, if there are several.

@@ -9,6 +9,7 @@ mod lyapunov;
 mod map;
 mod orbit;
 mod region;
+mod response;
 mod settle;
 mod simulate;
 pub(crate) mod stored;
@@ -40,6 +41,7 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
         }
         (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, task, units),
         (Task::Region(task), Results::Region(found)) => region::text(found, task, asked),
+        (_, Results::Response(found)) => response::text(found, units),
         _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
     })
 }

@@ -6,13 +6,14 @@ use crate::report::words::table as columns_of_text;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
+use vibroimpact::QuantityKind;
 use vibroimpact_report::json::map::LabelCount;
 use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
 use vibroimpact_store::{Store, StoreError};
 use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, diagram_of, label_of};
-use vibroimpact_study::{Block, Column, Field, Plan, Task};
+use vibroimpact_study::{Axis, Block, Column, Dimension, Field, Plan, PlanError, Quantity, Task};
 
 /// A JSON object about a store.
 #[derive(Serialize)]
@@ -103,20 +104,33 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     if let Task::Diagram(plan) = &store.plan().task {
         let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
         let found = diagram_of(plan, &columns.map_err(io::Error::other)?);
-        return diagram::table(&found, Units::default()).map_err(io::Error::other)?.write(out);
+        return diagram::table(&found, Units::of_plan(store.plan())).map_err(io::Error::other)?.write(out);
     }
     let (study, all) = (store.study(), store.study().fields());
-    let shown: Vec<usize> =
-        (0..all.len()).filter(|k| long || !has_short(&all) || SHORT.contains(&all[*k].name)).collect();
+    let units = Units::of_plan(store.plan());
+    let short = |field: &Field| SHORT.contains(&field.name) || Quantity::from_name(field.name).is_some();
+    let shown: Vec<usize> = (0..all.len()).filter(|k| long || !has_short(&all) || short(&all[*k])).collect();
     // scattered starts have no axes; their coordinates are fields
-    let along: Vec<Option<Vec<f64>>> = (study.grid().dimensions.iter())
-        .map(|d| study.coordinates().into_iter().find(|along| along.name == d.name).map(|along| along.values))
-        .collect();
+    let axes = plan_axes(store.plan());
+    let along = study.grid().dimensions.iter().map(|d| {
+        let axis = axes.iter().find(|axis| axis.vary.name() == d.name);
+        let own = || study.coordinates().into_iter().find(|along| along.name == d.name).map(|along| along.values);
+        Ok(match axis {
+            Some(axis) => Some(units.shown(axis)?.all()),
+            None => own(),
+        })
+    });
+    let along = along.collect::<Result<Vec<Option<Vec<f64>>>, PlanError>>().map_err(io::Error::other)?;
+    let kinds: Vec<QuantityKind> = all.iter().map(kind).collect();
     let extra = all.iter().find_map(|field| field.extra.first());
-    let mut head: Vec<&str> = study.grid().dimensions.iter().rev().map(|d| d.name.as_str()).collect();
+    let name = |d: &Dimension| {
+        let axis = axes.iter().find(|axis| axis.vary.name() == d.name);
+        axis.map_or_else(|| d.name.clone(), |axis| units.column_of_coordinate(axis.vary).to_owned())
+    };
+    let mut head: Vec<String> = study.grid().dimensions.iter().rev().map(name).collect();
     let numbered = extra.filter(|extra| extra.name == "direction");
-    head.extend(numbered.map(|extra| extra.name));
-    head.extend(shown.iter().map(|k| all[*k].name));
+    head.extend(numbered.map(|extra| extra.name.to_owned()));
+    head.extend(shown.iter().map(|k| units.column(all[*k].name, kinds[*k])));
     writeln!(out, "{}", head.join(","))?;
     let width = extra.map_or(1, |extra| extra.count);
     bands(store, |block, columns| {
@@ -129,7 +143,8 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
             let place = place.collect::<Vec<_>>().join(",");
             for i in 0..width {
                 let cell = |k: &usize| {
-                    text(&all[*k], &columns[*k], p * all[*k].width() + if all[*k].width() > 1 { i } else { 0 })
+                    let at = p * all[*k].width() + if all[*k].width() > 1 { i } else { 0 };
+                    text(&all[*k], &columns[*k], at, units.of_kind(kinds[*k]))
                 };
                 if i > 0 && all.iter().enumerate().all(|(k, f)| f.width() == 1 || cell(&k).is_empty()) {
                     continue;
@@ -143,15 +158,29 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     })
 }
 
+/// The kind of the numbers of a field, from its nondimensional unit.
+fn kind(field: &Field) -> QuantityKind {
+    QuantityKind::ALL.into_iter().find(|kind| kind.nondimensional() == field.units).unwrap_or(QuantityKind::Number)
+}
+
+/// The axes of a plan.
+fn plan_axes(plan: &Plan) -> &[Axis] {
+    match &plan.task {
+        Task::Map(map) => &map.axes,
+        Task::Basin(basin) => &basin.axes,
+        _ => &[],
+    }
+}
+
 fn has_short(fields: &[Field]) -> bool {
     fields.iter().any(|field| SHORT.contains(&field.name))
 }
 
 /// The text of a number of a column: the name of a flag, and an empty text for a missing value.
-fn text(field: &Field, column: &Column, at: usize) -> String {
+fn text(field: &Field, column: &Column, at: usize, unit: f64) -> String {
     match column {
         Column::F64(values) if values[at].is_nan() => String::new(),
-        Column::F64(values) => Number(values[at]).to_string(),
+        Column::F64(values) => Number(values[at] * unit).to_string(),
         Column::I32(values) if field.name == "label" => match values[at] {
             NOT_COMPUTED => "not_computed".to_owned(),
             code => label_of(code).unwrap_or_default(),

@@ -149,10 +149,11 @@ fn a_line_through_two_parameters() {
     let answer = json(&format!("{line} --also gap=1:0.5"));
     assert_eq!(answer["also"], serde_json::json!({ "parameter": "gap", "from": 1.0, "to": 0.5 }));
     assert_eq!(answer["columns"][1], "gap");
-    // the same in metres
+    // the same in metres, by both names
     let machine = "diagram --mass-kg 2 --stiffness-n-per-m 8000 --force-n 40 --frequency-hz 10 --gap-m 0.004 \
                    --restitution 0.7 --units si --vary damping --over 0.01:0.02:2 --also gap-m=0.004:0.005";
-    let refused = vibro(machine).output().expect("vibro runs");
+    assert_eq!(table(machine), table(&machine.replace("gap-m=", "gap=")));
+    let refused = vibro(&machine.replace("gap-m=", "gap_m=")).output().expect("vibro runs");
     assert!(String::from_utf8_lossy(&refused.stderr).contains("does not begin with PARAMETER=; parameters: beta"));
     let rows = table(&machine.replace("gap-m=", "gap="));
     let pairs: Vec<(&str, &str)> = rows.iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();

@@ -16,7 +16,8 @@ fn units(object: &Value) -> Units {
     let number = |key: &str| scales[key].as_f64();
     let scales =
         || Some(Scales { length_m: number("length_m")?, time_s: number("time_s")?, mass_kg: number("mass_kg")? });
-    Units { scales: scales(), si: object["units"] == "si" }
+    let hertz = object["plan"]["units"]["hertz"] == true;
+    Units { scales: scales(), si: object["units"] == "si", hertz }
 }
 
 /// Runs a command with all its outputs, and compares them with the answer of the library to the printed plan.

@@ -71,6 +71,12 @@ fn unit(key: &str) -> Option<f64> {
 
 const UNITS: [f64; 5] = [1.0, LENGTH, TIME, VELOCITY, 1.0 / TIME];
 
+/// The name of a column without its unit.
+fn bare(head: &str) -> String {
+    let suffixes = QuantityKind::ALL.map(QuantityKind::suffix).into_iter().chain(["_s"]).filter(|end| !end.is_empty());
+    suffixes.filter_map(|end| head.strip_suffix(end)).min_by_key(|bare| bare.len()).unwrap_or(head).to_owned()
+}
+
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-14
 }
@@ -83,6 +89,11 @@ fn compare(path: &str, key: &str, plain: &Value, si: &Value, factors: &mut BTree
             for (name, value) in a {
                 compare(&format!("{path}.{name}"), name, value, &b[name], factors);
             }
+        }
+        // names of columns end in their units
+        (Value::Array(a), Value::Array(b)) if key == "columns" => {
+            let bare: Vec<Value> = b.iter().map(|name| Value::from(bare(name.as_str().unwrap()))).collect();
+            assert_eq!(a, &bare, "{path}");
         }
         (Value::Array(a), Value::Array(b)) => {
             assert_eq!(a.len(), b.len(), "{path}");
@@ -117,7 +128,10 @@ fn f08_every_command_converts_its_json() {
             }
         }
         assert!(factors.len() > 1 || name == "attractors", "{name}: nothing is converted");
-        assert_eq!(a["plan"], b["plan"], "{name}");
+        // the plans differ in their units alone
+        let mut plan = b["plan"].clone();
+        let units = plan.as_object_mut().unwrap().remove("units").unwrap();
+        assert_eq!((&a["plan"], units["length_m"].as_f64()), (&plan, Some(LENGTH)), "{name}");
     }
 }
 
@@ -135,7 +149,8 @@ fn f08_every_command_converts_its_table() {
         }
         let flag = if name == "lyapunov" { " --points 20 --section -" } else { " --csv -" };
         let (a, b) = (rows(&(line(name, plain, false) + flag)), rows(&(line(name, si, true) + flag)));
-        assert!(a.len() == b.len() && a.len() > 1 && a[0] == b[0], "{name}");
+        assert!(a.len() == b.len() && a.len() > 1, "{name}");
+        assert_eq!(a[0], b[0].iter().map(|head| bare(head)).collect::<Vec<_>>(), "{name}");
         let mut factors = BTreeSet::new();
         for (left, right) in a.iter().zip(&b).skip(1) {
             for ((head, left), right) in a[0].iter().zip(left).zip(right) {
@@ -151,34 +166,106 @@ fn f08_every_command_converts_its_table() {
     }
 }
 
-/// A store has no units: every command that fills one refuses physical units, whatever its other outputs.
+/// A store keeps its units: the table exported from it is that of the command without a store.
 #[test]
-fn f08_no_command_fills_a_store_in_metres() {
+fn stores_keep_their_units() {
     let mut stores = 0;
     for (name, plain, si, store, _) in COMMANDS {
-        let folder = tempfile::tempdir().unwrap();
-        for more in ["", " --csv t.csv", " --csv -", " --json", " --tile 4"] {
-            let output =
-                vibro(&(line(name, si, true) + " --store s.zarr" + more)).current_dir(&folder).output().unwrap();
-            let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
-            assert_eq!(output.status.code(), Some(2), "{name}{more}: {complaint}");
-            assert!(output.stdout.is_empty() && folder.path().read_dir().unwrap().count() == 0, "{name}{more}");
-            assert_eq!(complaint.contains("--units si cannot go together with --store"), store, "{name}: {complaint}");
+        if !store {
+            continue;
         }
-        if store {
-            stores += 1;
-            let output = vibro(&(line(name, plain, false) + " --store s.zarr --quiet")).current_dir(&folder).output();
-            assert!(output.unwrap().status.success(), "{name}");
+        stores += 1;
+        for (place, rest, flag) in [("plain.zarr", plain, false), ("si.zarr", si, true)] {
+            let folder = tempfile::tempdir().unwrap();
+            let line = line(name, rest, flag);
+            let filled = vibro(&format!("{line} --store {place} --quiet")).current_dir(&folder).output().unwrap();
+            assert!(filled.status.success(), "{name}: {}", String::from_utf8_lossy(&filled.stderr));
             if name == "attractors" {
                 continue;
             }
-            // the exported table is equal to that of the command without a store
-            let exported = vibro("export s.zarr --csv -").current_dir(&folder).output().unwrap().stdout;
-            let printed = vibro(&(line(name, plain, false) + " --csv -")).output().unwrap().stdout;
-            let (exported, printed) = (String::from_utf8(exported).unwrap(), String::from_utf8(printed).unwrap());
-            let first = |text: &str| text.lines().nth(1).unwrap().split(',').next().unwrap().to_owned();
-            assert_eq!(first(&exported), first(&printed), "{name}");
+            let again = vibro(&format!("{line} --store {place} --quiet --csv -")).current_dir(&folder).output();
+            let exported = again.unwrap().stdout;
+            let printed = vibro(&format!("{line} --csv -")).output().unwrap().stdout;
+            assert_eq!(String::from_utf8(exported).unwrap(), String::from_utf8(printed).unwrap(), "{name}");
+            // the figure of the store is that of the command
+            let draw = |line: &str, file: &str| {
+                let drawn = vibro(line).current_dir(&folder).output().unwrap();
+                assert!(drawn.status.success(), "{line}: {}", String::from_utf8_lossy(&drawn.stderr));
+                std::fs::read_to_string(folder.path().join(file)).unwrap()
+            };
+            let stored = draw(&format!("plot {place} stored.svg"), "stored.svg");
+            assert_eq!(stored, draw(&format!("{line} --plot own.svg"), "own.svg"), "{name}");
         }
     }
-    assert_eq!(stores, 3, "attractors, basin and diagram; a map takes no units");
+    assert_eq!(stores, 3, "attractors, basin and diagram");
+}
+
+/// A map in physical units, in memory and in a store: each number is the nondimensional one times its unit.
+#[test]
+fn a_map_in_hertz() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = |line: &str| {
+        let output = vibro(line).current_dir(&folder).output().unwrap();
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        let text = String::from_utf8(output.stdout).unwrap();
+        text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect::<Vec<Vec<_>>>()
+    };
+    // omega_n = 8 rad/s
+    let hertz = 8.0 / std::f64::consts::TAU;
+    let tail = "--restitution 0.5 --starts 4 --fields impact-speed-max,power,displacement-rms,impulse-max";
+    let machine = "--mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --damping-ratio 0.05";
+    let si = format!("map {machine} --frequency-hz 0.8:1.6:3 --gap-m 0.25:0.75:3 {tail}");
+    let (low, high) = (0.8 / hertz, 1.6 / hertz);
+    let plain = rows(&format!("map --beta {low:?}:{high:?}:3 --gap 0.5:1.5:3 --damping 0.05 {tail} --csv -"));
+    let found = rows(&format!("{si} --csv -"));
+    let head = "frequency_hz,gap_m,label,share,impact_speed_max_m_per_s,power_w,displacement_rms_m,impulse_max_n_s";
+    assert_eq!(found[0].join(","), head);
+    assert_eq!(found[1][0], "0.8");
+    assert_eq!(plain.len(), found.len());
+    let factors = [hertz, LENGTH, 1.0, 1.0, VELOCITY, VELOCITY * VELOCITY / TIME, LENGTH, VELOCITY];
+    for (a, b) in plain.iter().zip(&found).skip(1) {
+        for ((a, b), factor) in a.iter().zip(b).zip(factors) {
+            match (a.parse::<f64>(), b.parse::<f64>()) {
+                (Ok(a), Ok(b)) => assert!(near(a * factor, b), "{a} {b} {factor}"),
+                _ => assert_eq!(a, b),
+            }
+        }
+    }
+    let filled = vibro(&format!("{si} --store map.zarr --quiet")).current_dir(&folder).output().unwrap();
+    assert!(filled.status.success(), "{}", String::from_utf8_lossy(&filled.stderr));
+    assert_eq!(rows(&format!("{si} --store map.zarr --csv -")), found);
+}
+
+/// A sweep in Hz moves the frequency ratio alone, in every command that varies a parameter.
+#[test]
+fn frequencies_in_hertz() {
+    let hertz = 8.0 / std::f64::consts::TAU;
+    let same = |si: &str, plain: &str, head: &str| {
+        let text = |line: &str| String::from_utf8(vibro(line).output().unwrap().stdout).unwrap();
+        let (a, b) = (text(&format!("{si} --csv -")), text(&format!("{plain} --csv -")));
+        assert!(a.starts_with(head), "{si}: {a}");
+        assert_eq!(a.lines().count(), b.lines().count(), "{si}");
+        assert!(a.lines().count() > 3, "{si}");
+    };
+    let machine = "--mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --gap-m 0.75 --restitution 0.5";
+    let (low, high) = (0.8 / hertz, 1.2 / hertz);
+    same(
+        &format!("diagram {machine} --vary frequency-hz --over 0.8:1.2:5 --keep 8"),
+        &format!("diagram --gap 1.5 --restitution 0.5 --vary beta --over {low:?}:{high:?}:5 --keep 8"),
+        "frequency_hz,sweep,kind,side,phase,velocity_m_per_s",
+    );
+    let begin = 1.146 / hertz;
+    same(
+        &format!("branch {machine} --frequency-hz 1.146 --label 1/1 --vary frequency-hz --to 1.2"),
+        &format!("branch --gap 1.5 --restitution 0.5 --beta {begin:?} --label 1/1 --vary beta --to {high:?}"),
+        "branch,frequency_hz,label",
+    );
+    same(
+        "region --mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --restitution 0.5 --label 1/1 --frequency-hz 1.1:1.2 --gap-m 0.5:1.25 --grid 3",
+        &format!("region --restitution 0.5 --label 1/1 --beta {:?}:{high:?} --gap 1:2.5 --grid 3", 1.1 / hertz),
+        "region,polygon,hole,sheet,frequency_hz,gap_m,bound",
+    );
+    let refused = vibro("diagram --gap 1 --restitution 0.5 --vary frequency-hz --over 1:2:3").output().unwrap();
+    let complaint = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(refused.status.code() == Some(2) && complaint.contains("physical units"), "{complaint}");
 }

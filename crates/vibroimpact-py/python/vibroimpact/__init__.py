@@ -24,6 +24,7 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 | a branch of periodic orbits in one parameter, through its events | `branch` |
 | a curve of folds, flips or grazing impacts in two parameters | `curve` |
 | the regions where a motion exists and where it is stable | `region` |
+| a quantity of all motions over one parameter: branches, and sweeps up and down | `response` |
 | Lyapunov exponents and the dimension of the attractor | `lyapunov` |
 | the motion after its transient at each value of a parameter | `orbit_diagram` |
 | the motion to which each start leads; the motions at each point of a parameter plane | `basin`, `region_map` |
@@ -44,6 +45,7 @@ from vibroimpact._motion import Motion
 from vibroimpact._orbits import EarlierContact, Orbit, orbits
 from vibroimpact._plan import Plan
 from vibroimpact._region import Part, Polygon, Region, region
+from vibroimpact._response import Response, ResponseCurve, response
 from vibroimpact._settle import Settlement, settle, settle_many
 from vibroimpact._simulate import Simulation, simulate
 from vibroimpact._store import Ran, Status, Verified, open, resume, run, status, verify
@@ -69,6 +71,8 @@ __all__ = [
     "QuestionError",
     "Ran",
     "Region",
+    "Response",
+    "ResponseCurve",
     "Settlement",
     "Simulation",
     "Status",
@@ -88,6 +92,7 @@ __all__ = [
     "orbits",
     "region",
     "region_map",
+    "response",
     "resume",
     "run",
     "settle",

@@ -26,7 +26,7 @@ pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
     let motion = |m: usize| BasinMotion { label: found.motions[m].verdict.label().into_owned(), share: found.share(m) };
     let motions: Vec<BasinMotion> = (0..found.motions.len()).map(motion).collect();
     let plane = Plane::of(&found.plan.axes, &asked.units)?;
-    draw(&plane, &motions, found.cells.clone(), title(&asked.system))
+    draw(&plane, &motions, found.cells.clone(), title(asked))
 }
 
 /// Draws a basin. `cells` has the index of the motion of each start; other numbers are left blank.

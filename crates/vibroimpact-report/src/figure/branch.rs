@@ -101,7 +101,7 @@ pub fn figure(
     }
     Ok(Figure::new(panel)
         .size(680.0, 520.0)
-        .title(title_without(&asked.system, &cut.parameters().collect::<Vec<_>>()))
+        .title(title_without(asked, &cut.parameters().collect::<Vec<_>>()))
         .legend(legend))
 }
 

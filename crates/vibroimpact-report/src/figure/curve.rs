@@ -58,7 +58,7 @@ pub fn figure(found: &EventCurve, plan: &CurvePlan, asked: &Asked) -> Figure {
         legend = legend.points(&points, "found on the branch");
         panel.add(points);
     }
-    Figure::new(panel).size(680.0, 520.0).title(title_without(&asked.system, &[p, q])).legend(legend)
+    Figure::new(panel).size(680.0, 520.0).title(title_without(asked, &[p, q])).legend(legend)
 }
 
 /// The marks of points of codimension two, by kind. Ends of the curve have no marks.

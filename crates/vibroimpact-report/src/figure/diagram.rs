@@ -50,7 +50,7 @@ pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
     let dots: usize = clouds.iter().map(|cloud| cloud.large.len() + cloud.small.len()).sum();
     let (panel, legend) =
         if dots > MOST_DOTS { as_cells(panel, &clouds, (over, &side), range)? } else { as_dots(panel, clouds, over) };
-    Ok(Figure::new(panel).title(title_without(&asked.system, &cut.parameters().collect::<Vec<_>>())).legend(legend))
+    Ok(Figure::new(panel).title(title_without(asked, &cut.parameters().collect::<Vec<_>>())).legend(legend))
 }
 
 /// All dots of a diagram in one colour, to be drawn behind curves. Dots of motions that repeat are wider than a curve.
@@ -87,7 +87,7 @@ pub(super) fn ordinate(show: Show, asked: &Asked) -> FigureAxis {
 }
 
 fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
-    let symbol = symbol(found.plan.vary);
+    let symbol = if asked.units.unit_of(found.plan.vary) == "Hz" { "frequency" } else { symbol(found.plan.vary) };
     let cloud = |name: String, colour| Cloud { name, colour, large: Vec::new(), small: Vec::new() };
     let rising = || cloud(format!("{symbol} rising"), SERIES[0]);
     let falling = || cloud(format!("{symbol} falling"), SERIES[1]);

@@ -2,11 +2,11 @@
 
 use crate::figure::plane::{Plane, varied};
 use crate::figure::title_without;
-use crate::{ReportError, Units};
+use crate::{Asked, ReportError};
 use vibroimpact_plot::{
     ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_group, legend_text,
 };
-use vibroimpact_study::{MapPoint, RegionMap, SystemPlan};
+use vibroimpact_study::{MapPoint, RegionMap};
 
 /// With more points than this, coexisting motions would be too small to be visible, and only the most frequent one is
 /// drawn.
@@ -16,11 +16,11 @@ const SPLIT: usize = 40_000;
 ///
 /// # Errors
 /// [`ReportError`] if there are not two axes with rising or falling values, or if an axis is too long.
-pub fn figure(found: &RegionMap, system: &SystemPlan) -> Result<Figure, ReportError> {
+pub fn figure(found: &RegionMap, asked: &Asked) -> Result<Figure, ReportError> {
     let axes = &found.plan.axes;
     let cell = |point: &MapPoint| groups(point.motions.iter().map(|motion| motion.verdict.label()));
     let cells: Vec<Vec<usize>> = found.points.iter().map(cell).collect();
-    draw(&Plane::of(axes, &Units::default())?, &cells, title_without(system, &varied(axes)))
+    draw(&Plane::of(axes, &asked.units)?, &cells, title_without(asked, &varied(axes)))
 }
 
 /// The index of the group of a label in the legend.

@@ -7,6 +7,7 @@ pub mod diagram;
 pub mod map;
 pub mod plane;
 pub mod region;
+pub mod response;
 pub mod section;
 pub mod settle;
 pub mod stored;
@@ -14,20 +15,21 @@ pub mod styles;
 mod tracks;
 pub mod waveform;
 
-use crate::Units;
 use crate::number::short;
+use crate::{Asked, Units};
 use vibroimpact_plot::{Colour, plain};
-use vibroimpact_study::{Cut, Parameter, SystemPlan, is_length};
+use vibroimpact_study::{Cut, Parameter};
 
-/// The title of a figure: the parameters, with the frequency in the form in which it was given.
+/// The title of a figure: the parameters, with the frequency in the form in which it was given, in the units of the
+/// results.
 #[must_use]
-pub fn title(system: &SystemPlan) -> String {
-    title_without(system, &[])
+pub fn title(asked: &Asked) -> String {
+    title_without(asked, &[])
 }
 
 /// The title without the parameters that vary in the figure.
 #[must_use]
-pub fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String {
+pub fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> String {
     let frequency = match (system.inverse_beta, system.beta) {
         (Some(inverse), _) => (Parameter::InverseBeta, inverse),
         (None, beta) => (Parameter::Beta, beta.unwrap_or(f64::NAN)),
@@ -45,8 +47,16 @@ pub fn title_without(system: &SystemPlan, varied: &[Parameter]) -> String {
     let is_frequency = |parameter: &Parameter| matches!(parameter, Parameter::Beta | Parameter::InverseBeta);
     let tuned = varied.iter().any(is_frequency);
     given.retain(|(parameter, _)| !(varied.contains(parameter) || tuned && is_frequency(parameter)));
-    let parts: Vec<String> =
-        given.iter().map(|(parameter, value)| format!("{} = {}", symbol(*parameter), short(*value))).collect();
+    let part = |(parameter, value): &(Parameter, f64)| {
+        let (unit, number) = (units.unit_of(*parameter), short(value * units.of(*parameter)));
+        match unit {
+            "" => format!("{} = {number}", symbol(*parameter)),
+            "Hz" => format!("*f* = {number} Hz"),
+            unit if *parameter == Parameter::SecondGap => format!("*d*_2 = {number} {unit}"),
+            unit => format!("*d* = {number} {unit}"),
+        }
+    };
+    let parts: Vec<String> = given.iter().map(part).collect();
     parts.join(", ").replace('-', "−")
 }
 
@@ -79,7 +89,12 @@ pub const fn symbol(parameter: Parameter) -> &'static str {
 /// The symbol of a parameter with its unit, for an axis.
 #[must_use]
 pub fn named(parameter: Parameter, units: &Units) -> String {
-    if is_length(parameter) { units.named(symbol(parameter), "m") } else { symbol(parameter).into() }
+    match units.unit_of(parameter) {
+        "" => symbol(parameter).into(),
+        "Hz" => "frequency (Hz)".into(),
+        unit if parameter == Parameter::SecondGap => format!("second gap ({unit})"),
+        unit => format!("gap ({unit})"),
+    }
 }
 
 /// The text of a label in a figure.

@@ -1,10 +1,9 @@
 //! A plane of two axes with a cell around each point.
 
-use crate::figure::symbol;
-use crate::units::shown;
+use crate::figure::named;
 use crate::{ReportError, Units};
 use vibroimpact_plot::FigureAxis;
-use vibroimpact_study::{Axis as Along, Coordinate, Parameter, Values, is_length};
+use vibroimpact_study::{Axis as Along, Coordinate, Parameter, Values};
 
 /// Maximum number of points along one axis of a figure.
 const MOST: usize = 16_384;
@@ -23,16 +22,6 @@ pub struct Plane {
     pub x: PlaneAxis,
     /// The ordinate.
     pub y: PlaneAxis,
-}
-
-/// The unit of the quantity that varies on an axis.
-pub(crate) fn unit(vary: Coordinate, units: &Units) -> f64 {
-    match vary {
-        Coordinate::Parameter(parameter) => units.of(parameter),
-        Coordinate::X => units.length(),
-        Coordinate::V => units.velocity(),
-        Coordinate::Phase => 1.0,
-    }
 }
 
 /// The parameters among the quantities that vary.
@@ -76,14 +65,13 @@ impl PlaneAxis {
     /// # Errors
     /// [`ReportError::Order`] as for [`Self::new`], and [`ReportError::Plan`] if a value overflows in these units.
     pub fn of(axis: &Along, units: &Units) -> Result<Self, ReportError> {
-        let (name, name_of_unit) = match axis.vary {
-            Coordinate::Parameter(parameter) => (symbol(parameter), is_length(parameter).then_some("m")),
-            Coordinate::X => ("*ξ*_0", Some("m")),
-            Coordinate::V => ("*ξ*_0′", Some("m/s")),
-            Coordinate::Phase => ("phase *φ*", None),
+        let name = match axis.vary {
+            Coordinate::Parameter(parameter) => named(parameter, units),
+            Coordinate::X => units.named("*ξ*_0", "m"),
+            Coordinate::V => units.named("*ξ*_0′", "m/s"),
+            Coordinate::Phase => "phase *φ*".to_owned(),
         };
-        let name = name_of_unit.map_or_else(|| name.to_owned(), |unit| units.named(name, unit));
-        Self::new(name, &shown(&axis.over, unit(axis.vary, units))?)
+        Self::new(name, &units.shown(axis)?)
     }
 
     /// The number of values.

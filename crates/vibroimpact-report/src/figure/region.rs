@@ -19,7 +19,7 @@ const THIN: f64 = 1.5;
 /// The figure of `vibro region`.
 #[must_use]
 pub fn figure(found: &Regions, plan: &RegionPlan, asked: &Asked) -> Figure {
-    let (units, title) = (&asked.units, title_without(&asked.system, &[plan.across.parameter, plan.up.parameter]));
+    let (units, title) = (&asked.units, title_without(asked, &[plan.across.parameter, plan.up.parameter]));
     let axis = |stretch: &Stretch| {
         let unit = units.of(stretch.parameter);
         FigureAxis::new(named(stretch.parameter, units)).range(stretch.from * unit, stretch.to * unit)

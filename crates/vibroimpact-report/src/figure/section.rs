@@ -50,7 +50,7 @@ pub fn figure(found: &Section, osc: &Oscillator, asked: &Asked) -> Figure {
         .caption("states at phase 0")
         .with(dots(xs, ys, Colour::BLACK));
     // the legend names the second stop; a title with all parameters would be too long for a column
-    let title = title(&SystemPlan { second_stop: None, ..asked.system });
+    let title = title(&Asked { system: SystemPlan { second_stop: None, ..asked.system }, ..*asked });
     let figure = Figure::grid(1, vec![above, below]).size(COLUMN, 860.0).title(title);
     if second.is_some() { figure.legend(legend) } else { figure }
 }

@@ -18,7 +18,7 @@ const MOST_EVENTS: usize = 200_000;
 pub fn figure(osc: &Oscillator, start: Start, settled: &Settled, asked: &Asked) -> Figure {
     let (from, span) = steady(osc, start, settled);
     let label = label(&settled.verdict.label());
-    let name = format!("{}: {label}", title(&asked.system));
+    let name = format!("{}: {label}", title(asked));
     waveform::figure(osc, from, span, &asked.units, name)
 }
 

@@ -6,21 +6,21 @@ use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
 use vibroimpact_study::study::{StudyArrays, diagram_of, label_of};
-use vibroimpact_study::{Axis as Along, LyapunovPlan, SystemPlan, Task};
+use vibroimpact_study::{Axis as Along, LyapunovPlan, Task};
 
 /// Draws the figure of a study.
 ///
 /// # Errors
 /// [`ReportError`] for a study without a figure, and the error of the store if it cannot be read.
 pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(store: &A) -> Result<Figure, E> {
-    let system = store.plan().system;
+    let asked = Asked { system: store.plan().system, units: Units::of_plan(store.plan()) };
     match &store.plan().task {
-        Task::Map(plan) => of_map(store, &plan.axes, title_without(&system, &varied(&plan.axes))),
-        Task::Basin(plan) => of_basin(store, &plan.axes, title_without(&system, &varied(&plan.axes))),
-        Task::Lyapunov(plan) => of_exponents(store, plan, &system),
+        Task::Map(plan) => of_map(store, &plan.axes, title_without(&asked, &varied(&plan.axes))),
+        Task::Basin(plan) => of_basin(store, &plan.axes, title_without(&asked, &varied(&plan.axes))),
+        Task::Lyapunov(plan) => of_exponents(store, plan, &asked),
         Task::Diagram(plan) => {
             let columns = (0..store.study().fields().len()).map(|k| store.array(k)).collect::<Result<Vec<_>, _>>()?;
-            Ok(diagram::figure(&diagram_of(plan, &columns), &Asked { system, units: Units::default() })?)
+            Ok(diagram::figure(&diagram_of(plan, &columns), &asked)?)
         }
         _ => Err(ReportError::Scattered.into()),
     }
@@ -31,7 +31,7 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     axes: &[Along],
     title: String,
 ) -> Result<Figure, E> {
-    let plane = Plane::of(axes, &Units::default())?;
+    let plane = Plane::of(axes, &Units::of_plan(store.plan()))?;
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
     let mut known: BTreeMap<i32, usize> = BTreeMap::new();
@@ -57,7 +57,7 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     axes: &[Along],
     title: String,
 ) -> Result<Figure, E> {
-    let plane = Plane::of(axes, &Units::default())?;
+    let plane = Plane::of(axes, &Units::of_plan(store.plan()))?;
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let labels = store.array(label)?;
     let cycles = store.field_number("cycle").map(|cycle| store.array(cycle)).transpose()?;
@@ -88,7 +88,7 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
 fn of_exponents<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     plan: &LyapunovPlan,
-    system: &SystemPlan,
+    asked: &Asked,
 ) -> Result<Figure, E> {
     let ([axis], Some(field)) = (plan.axes.as_slice(), store.field_number("exponent")) else {
         return Err(ReportError::Exponents.into());
@@ -106,5 +106,5 @@ fn of_exponents<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         .with(zero)
         .with(of(0, SERIES[0]))
         .with(of(1, SERIES[1]));
-    Ok(Figure::new(panel).title(title_without(system, &varied(&plan.axes))))
+    Ok(Figure::new(panel).title(title_without(asked, &varied(&plan.axes))))
 }

@@ -123,7 +123,7 @@ impl BranchFields {
         let first = rest.next();
         Self {
             label: found.chosen.orbit.cycle.label.to_string(),
-            vary: cut.vary.name(),
+            vary: units.name_of(cut.vary),
             from: cut.ends.0 * unit,
             to: cut.ends.1 * unit,
             also: Pair::of(cut, units),

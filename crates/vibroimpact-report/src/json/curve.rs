@@ -69,7 +69,7 @@ impl CurveFields {
         Self {
             label: plan.label.trim().to_owned(),
             kind: plan.kind.name(),
-            parameters: [plan.vary.parameter.name(), plan.and.parameter.name()],
+            parameters: [plan.vary.parameter, plan.and.parameter].map(|parameter| units.name_of(parameter)),
             orbit: ChosenObject::new(&found.chosen),
             found_at: found.events.iter().map(|event| event.value * units.of(plan.vary.parameter)).collect(),
             through: Through { event: found.through + 1, point: found.begin },

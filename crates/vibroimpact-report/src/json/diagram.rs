@@ -25,7 +25,13 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Dia
     let task = &found.plan;
     let over = Range::new(&task.over, asked.units.of(task.vary));
     let also = Pair::of(&task.cut(), &asked.units);
-    let answer = DiagramFields { vary: task.vary.name(), over, also, columns: columns(found), sweeps: counts(found) };
+    let answer = DiagramFields {
+        vary: asked.units.name_of(task.vary),
+        over,
+        also,
+        columns: columns(found, &asked.units),
+        sweeps: counts(found),
+    };
     Document::new(asked, osc, plan, answer)
 }
 

@@ -1,14 +1,15 @@
 //! The labels of a map and their frequencies.
 
 use super::Range;
-use crate::PROGRAM;
+use crate::units::given;
+use crate::{Asked, PROGRAM, Units};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use vibroimpact_plot::{GROUPS, legend_group};
 use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, RegionMap, SystemPlan, Values};
 
-/// The fields of `vibro map`. A map is nondimensional in all units.
+/// The fields of `vibro map`.
 #[derive(Serialize)]
 struct MapFields<'a> {
     system: serde_json::Map<String, Value>,
@@ -17,6 +18,7 @@ struct MapFields<'a> {
     starts: u64,
     seed: u64,
     points: usize,
+    units: &'static str,
     coexisting: usize,
     labels: Vec<LabelCount>,
     plan: &'a Plan,
@@ -36,15 +38,16 @@ pub struct LabelCount {
 
 /// The object of `vibro map`.
 #[must_use]
-pub fn document<'a>(plan: &'a Plan, found: &RegionMap) -> impl Serialize + use<'a> {
+pub fn document<'a>(asked: &Asked, plan: &'a Plan, found: &RegionMap) -> impl Serialize + use<'a> {
     let task = &found.plan;
-    let (system, axes) = objects(&plan.system, &task.axes);
+    let (system, axes) = objects(&plan.system, &task.axes, &asked.units);
     MapFields {
         system,
         axes,
         starts: task.starts,
         seed: task.seed,
         points: found.points.len(),
+        units: asked.units.name(),
         coexisting: coexisting(found),
         labels: counts(found),
         plan,
@@ -59,7 +62,11 @@ pub fn coexisting(found: &RegionMap) -> usize {
 }
 
 /// The parameters with one value, and those that vary.
-fn objects(system: &SystemPlan, axes: &[Axis]) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
+fn objects(
+    system: &SystemPlan,
+    axes: &[Axis],
+    units: &Units,
+) -> (serde_json::Map<String, Value>, serde_json::Map<String, Value>) {
     let mut fixed = serde_json::Map::new();
     for parameter in Parameter::ALL {
         let given = match parameter {
@@ -76,10 +83,18 @@ fn objects(system: &SystemPlan, axes: &[Axis]) -> (serde_json::Map<String, Value
         fixed.insert("second_stop".into(), serde_json::json!({ "gap": stop.gap, "restitution": stop.restitution }));
     }
     let range = |axis: &Axis| match &axis.over {
-        Values::Span(span) => serde_json::to_value(Range::new(span, 1.0)).unwrap_or_default(),
-        Values::Listed(values) => values.clone().into(),
+        Values::Span(span) => {
+            serde_json::to_value(Range::new(span, units.of_coordinate(axis.vary))).unwrap_or_default()
+        }
+        Values::Listed(values) => {
+            values.iter().map(|value| given(*value, units.of_coordinate(axis.vary))).collect::<Vec<f64>>().into()
+        }
     };
-    (fixed, axes.iter().map(|axis| (axis.vary.name().to_owned(), range(axis))).collect())
+    let name = |vary: Coordinate| match vary {
+        Coordinate::Parameter(parameter) => units.name_of(parameter),
+        start => start.name(),
+    };
+    (fixed, axes.iter().map(|axis| (name(axis.vary).to_owned(), range(axis))).collect())
 }
 
 /// Labels in the order of a legend, then by name.

@@ -13,6 +13,7 @@ pub mod motion;
 pub mod orbit;
 mod quantities;
 pub mod region;
+pub mod response;
 pub mod settle;
 pub mod simulate;
 
@@ -141,7 +142,7 @@ impl Pair {
     fn of(cut: &Cut, units: &Units) -> Option<Self> {
         let Stretch { parameter, from, to } = cut.also?;
         let unit = units.of(parameter);
-        Some(Self { parameter: parameter.name(), from: given(from, unit), to: given(to, unit) })
+        Some(Self { parameter: units.name_of(parameter), from: given(from, unit), to: given(to, unit) })
     }
 }
 

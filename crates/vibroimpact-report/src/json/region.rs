@@ -89,7 +89,7 @@ impl RegionFields {
         let unit = unit(plan, units);
         Self {
             label: plan.label.trim().to_owned(),
-            parameters: [plan.across.parameter.name(), plan.up.parameter.name()],
+            parameters: [plan.across.parameter, plan.up.parameter].map(|parameter| units.name_of(parameter)),
             neutrally_stable: plan.neutral(system),
             existence: RegionObject::new(&found.existence, unit),
             stability: RegionObject::new(&found.stability, unit),

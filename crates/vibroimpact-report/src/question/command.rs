@@ -4,7 +4,7 @@ use super::number;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, Parameter, Plan, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
+    MapPlan, Parameter, Plan, Quantity, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
 /// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan, in
@@ -35,6 +35,10 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
         Task::Branch(task) => branch(system, task),
         Task::Curve(task) => curve(system, task),
         Task::Region(task) => region(system, task),
+        Task::Response(task) => {
+            let line = Line::new("response").system(system, &[(task.vary, Some(task.over.to_string()))]);
+            line.unless_amplitude(task.quantity)
+        }
     };
     let (refine, name) = match &plan.task {
         Task::Map(task) => (task.refine, "map.zarr"),
@@ -105,6 +109,18 @@ impl Line {
         self
     }
 
+    /// Adds the quantities of a plan.
+    fn fields(self, fields: &[Quantity]) -> Self {
+        let names: Vec<String> = fields.iter().map(|field| field.name().replace('_', "-")).collect();
+        self.given("fields", (!names.is_empty()).then(|| names.join(",")))
+    }
+
+    /// Adds the quantity of a response unless it is the default.
+    fn unless_amplitude(self, quantity: Quantity) -> Self {
+        let named = (quantity != Quantity::DisplacementAmplitude).then(|| quantity.name().replace('_', "-"));
+        self.given("quantity", named)
+    }
+
     fn start(self, start: &StartPlan) -> Self {
         self.given("x", start.x.map(number)).zero("v", start.v).zero("phase", start.phase)
     }
@@ -119,7 +135,7 @@ fn basin(system: &SystemPlan, task: &BasinPlan) -> Option<Line> {
         return None;
     }
     let line = Line::new("basin").system(system, &[]).flag("x", x).flag("v", v).zero("phase", task.start.phase);
-    Some(line.given("impacts", task.impacts))
+    Some(line.given("impacts", task.impacts).fields(&task.fields))
 }
 
 fn map(system: &SystemPlan, task: &MapPlan) -> Option<Line> {
@@ -135,7 +151,7 @@ fn map(system: &SystemPlan, task: &MapPlan) -> Option<Line> {
     let varied = task.axes.iter().map(words).collect::<Option<Vec<_>>>()?;
     let line = Line::new("map").system(system, &varied).given("axes", order(&varied));
     let line = line.flag("starts", task.starts).unless("seed", task.seed, 1);
-    Some(line.given("impacts", task.impacts))
+    Some(line.given("impacts", task.impacts).fields(&task.fields))
 }
 
 /// The name of the flag of a parameter, without the dashes.

@@ -4,8 +4,8 @@ use super::number;
 use crate::scene::{SECTION_POINTS, View};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
-    Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, Plan, StartPlan,
-    Stretch, SystemPlan, Target, Task, Values,
+    Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, Plan, Quantity,
+    StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
 /// A few lines of Python for a plan, in nondimensional units; `None` for an invalid plan.
@@ -29,7 +29,7 @@ pub fn python(plan: &Plan) -> Option<String> {
         Task::Map(task) => {
             let call = Call::new("region_map").then(axes(&task.axes)).named("starts", task.starts);
             let call = call.unless("seed", task.seed, 1).given("refine", task.refine);
-            ("motions", call.given("impacts", task.impacts))
+            ("motions", call.given("impacts", task.impacts).given("fields", names(&task.fields)))
         }
         Task::Diagram(task) => ("diagram", diagram(task)),
         Task::Lyapunov(task) => ("exponents", lyapunov(task)),
@@ -48,6 +48,11 @@ pub fn python(plan: &Plan) -> Option<String> {
         Task::Region(task) => {
             let call = Call::new("region").then(text(&task.label)).then(plane(&task.across, &task.up));
             ("region", call.unless("grid", task.grid, DEFAULT_GRID))
+        }
+        Task::Response(task) => {
+            let call = Call::new("response").then(text(task.vary.name())).then(text(&task.over.to_string()));
+            let usual = task.quantity == Quantity::DisplacementAmplitude;
+            ("found", call.given("quantity", (!usual).then(|| text(task.quantity.name()))))
         }
     };
     let told = match &plan.task {
@@ -73,6 +78,12 @@ pub fn python_showing(plan: &Plan, view: View) -> Option<String> {
         }
     };
     Some(format!("{text}{shown}\n"))
+}
+
+/// A list of quantities; `None` for an empty one.
+fn names(fields: &[Quantity]) -> Option<String> {
+    let all: Vec<String> = fields.iter().map(|field| text(field.name())).collect();
+    (!all.is_empty()).then(|| format!("[{}]", all.join(", ")))
 }
 
 /// A call under construction; its first argument is the oscillator.

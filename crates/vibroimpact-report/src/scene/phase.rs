@@ -77,7 +77,7 @@ pub fn phase_portrait(asked: &Asked, osc: &Oscillator, start: Start, (from, unti
         legend = legend.points(&at, "start");
         panel.add(at);
     }
-    Figure::new(panel).size(680.0, 560.0).title(title(&asked.system)).legend(legend.patch(stop_key(), "stop"))
+    Figure::new(panel).size(680.0, 560.0).title(title(asked)).legend(legend.patch(stop_key(), "stop"))
 }
 
 #[cfg(test)]

@@ -3,9 +3,7 @@
 use super::Table;
 use super::quantities::{cells, columns};
 use crate::Units;
-use crate::figure::plane::unit;
 use crate::number::Number;
-use crate::units::shown;
 use vibroimpact::Oscillator;
 use vibroimpact::quantities::of_verdict;
 use vibroimpact::verdict::CountedMotion;
@@ -18,9 +16,9 @@ use vibroimpact_study::{Basin, PlanError};
 /// [`PlanError`] if a value of an axis overflows in these units.
 pub fn table<'a>(found: &'a Basin, osc: &Oscillator, units: &Units) -> Result<Table<'a>, PlanError> {
     let axes = &found.plan.axes;
-    let names: Vec<&str> = axes.iter().map(|axis| axis.vary.name()).collect();
+    let names: Vec<&str> = axes.iter().map(|axis| units.column_of_coordinate(axis.vary)).collect();
     let texts = axes.iter().map(|axis| {
-        let values = shown(&axis.over, unit(axis.vary, units))?;
+        let values = units.shown(axis)?;
         Ok(values.all().into_iter().map(|value| Number(value).to_string()).collect())
     });
     let texts = texts.collect::<Result<Vec<Vec<String>>, PlanError>>()?;

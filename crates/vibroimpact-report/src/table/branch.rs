@@ -4,19 +4,21 @@ use super::Table;
 use crate::Units;
 use crate::json::motion::pairs;
 use crate::number::Number;
+use vibroimpact::QuantityKind;
 use vibroimpact::orbit::Cycle;
 use vibroimpact_study::{Branches, Cut};
 
 /// The table of `vibro branch`.
 #[must_use]
 pub fn table<'a>(found: &'a Branches, cut: &Cut, units: &'a Units) -> Table<'a> {
-    Table::new(columns(cut), rows(found, *cut, units))
+    Table::new(columns(cut, units), rows(found, *cut, units))
 }
 
 /// The columns of the table.
-fn columns(cut: &Cut) -> String {
-    let names: Vec<&str> = cut.parameters().map(|parameter| parameter.name()).collect();
-    format!("branch,{},label,physical,stable,event,re_1,im_1,re_2,im_2,phases,velocities", names.join(","))
+fn columns(cut: &Cut, units: &Units) -> String {
+    let names: Vec<&str> = cut.parameters().map(|parameter| units.column_of(parameter)).collect();
+    let velocities = units.column("velocities", QuantityKind::Velocity);
+    format!("branch,{},label,physical,stable,event,re_1,im_1,re_2,im_2,phases,{velocities}", names.join(","))
 }
 
 /// One row for each point. Phases and velocities are lists separated by blanks.

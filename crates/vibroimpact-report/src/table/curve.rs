@@ -5,18 +5,20 @@ use super::branch::cells;
 use crate::Units;
 use crate::json::curve::values;
 use crate::number::Number;
+use vibroimpact::QuantityKind;
 use vibroimpact_study::{CurvePlan, EventCurve};
 
 /// The table of `vibro curve`.
 #[must_use]
 pub fn table<'a>(found: &'a EventCurve, plan: &'a CurvePlan, units: &'a Units) -> Table<'a> {
-    Table::new(columns(plan), rows(found, plan, units))
+    Table::new(columns(plan, units), rows(found, plan, units))
 }
 
 /// The columns of the table.
-fn columns(plan: &CurvePlan) -> String {
-    let (p, q) = (plan.vary.parameter.name(), plan.and.parameter.name());
-    format!("{p},{q},physical,event,re_1,im_1,re_2,im_2,phases,velocities")
+fn columns(plan: &CurvePlan, units: &Units) -> String {
+    let (p, q) = (units.column_of(plan.vary.parameter), units.column_of(plan.and.parameter));
+    let velocities = units.column("velocities", QuantityKind::Velocity);
+    format!("{p},{q},physical,event,re_1,im_1,re_2,im_2,phases,{velocities}")
 }
 
 /// One row for each point, from one end to the other.

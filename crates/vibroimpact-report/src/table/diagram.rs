@@ -6,7 +6,7 @@ use crate::json::motion::side;
 use crate::number::Number;
 use crate::units::shown_span;
 use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep};
-use vibroimpact_study::{Parameter, PlanError, Span};
+use vibroimpact_study::{PlanError, Span};
 
 /// The table of `vibro diagram`.
 ///
@@ -14,17 +14,20 @@ use vibroimpact_study::{Parameter, PlanError, Span};
 /// [`PlanError`] if a value of the parameter overflows in these units.
 pub fn table(found: &Diagram, units: Units) -> Result<Table<'_>, PlanError> {
     let over = shown_span(&found.plan.over, units.of(found.plan.vary))?;
-    Ok(Table::new(columns(found).join(","), rows(found, over, units)))
+    Ok(Table::new(columns(found, &units).join(","), rows(found, over, units)))
 }
 
 /// The columns of the table.
 #[must_use]
-pub fn columns(found: &Diagram) -> Vec<&'static str> {
-    let shown: &[&str] = match found.plan.show {
-        Show::Velocity => &["sweep", "kind", "side", "phase", "velocity"],
-        Show::Strobe => &["sweep", "kind", "x", "v"],
+pub fn columns(found: &Diagram, units: &Units) -> Vec<&'static str> {
+    let shown: &[&str] = match (found.plan.show, units.si) {
+        (Show::Velocity, false) => &["sweep", "kind", "side", "phase", "velocity"],
+        (Show::Velocity, true) => &["sweep", "kind", "side", "phase", "velocity_m_per_s"],
+        (Show::Strobe, false) => &["sweep", "kind", "x", "v"],
+        (Show::Strobe, true) => &["sweep", "kind", "x_m", "v_m_per_s"],
     };
-    found.plan.cut().parameters().map(Parameter::name).chain(shown.iter().copied()).collect()
+    let parameters = found.plan.cut().parameters().map(|parameter| units.column_of(parameter));
+    parameters.chain(shown.iter().copied()).collect()
 }
 
 /// One row for each point; a motion without points has one row with empty cells. Values of the parameter are exactly

@@ -9,6 +9,7 @@ pub mod diagram;
 pub mod map;
 mod quantities;
 pub mod region;
+pub mod response;
 pub mod section;
 pub mod waveform;
 

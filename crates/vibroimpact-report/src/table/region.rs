@@ -16,12 +16,13 @@ pub fn both(found: &Regions) -> [(&'static str, &Region); 2] {
 /// The table of `vibro region`.
 #[must_use]
 pub fn table<'a>(found: &'a Regions, plan: &RegionPlan, units: &Units) -> Table<'a> {
-    Table::new(columns(plan), rows(found, plan, units))
+    Table::new(columns(plan, units), rows(found, plan, units))
 }
 
 /// The columns of the table.
-fn columns(plan: &RegionPlan) -> String {
-    format!("region,polygon,hole,sheet,{},{},bound", plan.across.parameter.name(), plan.up.parameter.name())
+fn columns(plan: &RegionPlan, units: &Units) -> String {
+    let (across, up) = (units.column_of(plan.across.parameter), units.column_of(plan.up.parameter));
+    format!("region,polygon,hole,sheet,{across},{up},bound")
 }
 
 /// One row for each vertex.

@@ -4,17 +4,15 @@ use super::Table;
 use crate::Units;
 use crate::json::motion::side;
 use crate::number::Number;
-use vibroimpact::Oscillator;
 use vibroimpact::chaos::Section;
+use vibroimpact::{Oscillator, QuantityKind};
 
 /// The table of `vibro lyapunov`.
 #[must_use]
 pub fn table<'a>(points: &'a Section, osc: &'a Oscillator, units: Units) -> Table<'a> {
-    Table::new(COLUMNS.to_owned(), rows(points, osc, units))
+    let (x, v) = (units.column("x", QuantityKind::Length), units.column("v", QuantityKind::Velocity));
+    Table::new(format!("section,side,phase,{x},{v}"), rows(points, osc, units))
 }
-
-/// The columns of the table of both sections.
-const COLUMNS: &str = "section,side,phase,x,v";
 
 /// One row for each point, the impacts first.
 fn rows<'a>(points: &'a Section, osc: &'a Oscillator, units: Units) -> impl Iterator<Item = String> + 'a {

@@ -6,7 +6,7 @@ use crate::number::Number;
 use crate::{ReportError, Units};
 use vibroimpact::motion::sample;
 use vibroimpact::verdict::Settled;
-use vibroimpact::{Oscillator, Start};
+use vibroimpact::{Oscillator, QuantityKind, Start};
 
 /// Maximum number of points of a waveform.
 const MOST_POINTS: f64 = 1e7;
@@ -34,7 +34,9 @@ pub fn table(
             Number(point.v * units.velocity())
         )
     });
-    Ok(Table::new("t,x,v".to_owned(), rows))
+    let time = if units.si { "t_s" } else { "t" };
+    let (x, v) = (units.column("x", QuantityKind::Length), units.column("v", QuantityKind::Velocity));
+    Ok(Table::new(format!("{time},{x},{v}"), rows))
 }
 
 /// The table of `vibro settle`: the settled motion, from its last event before it was recognised, for the duration

@@ -68,7 +68,7 @@ pub(super) fn budget(transient: u64, keep: u64) -> u64 {
 
 /// The state `from` of the oscillator `before` as a start of `osc`. A mass on a stop stays on it. If a moved stop has
 /// passed the mass, the mass is placed on that stop.
-pub(super) fn carried(from: Start, before: &Oscillator, osc: &Oscillator) -> Start {
+pub(crate) fn carried_state(from: Start, before: &Oscillator, osc: &Oscillator) -> Start {
     let (was_lowest, was_highest) = Start::room(before);
     let (lowest, highest) = Start::room(osc);
     let x = if from.x >= was_highest {
@@ -91,10 +91,10 @@ mod tests {
         let at = |x| Start { x, v: 1.0, phase: 2.0 };
         let (wide, narrow) = (osc(2.0, 2.0), osc(1.0, 0.5));
         for (x, expected) in [(2.0, 1.0), (1.5, 1.0), (0.25, 0.25), (-1.0, -0.5), (-2.0, -0.5)] {
-            assert_eq!(carried(at(x), &wide, &narrow), at(expected));
+            assert_eq!(carried_state(at(x), &wide, &narrow), at(expected));
         }
         for (x, expected) in [(1.0, 2.0), (0.25, 0.25), (-0.5, -2.0)] {
-            assert_eq!(carried(at(x), &narrow, &wide), at(expected));
+            assert_eq!(carried_state(at(x), &narrow, &wide), at(expected));
         }
     }
 }

@@ -11,6 +11,7 @@ mod impacts;
 mod plan;
 mod strobes;
 
+pub(crate) use follow::carried_state;
 pub use follow::{DiagramPoint, MotionKind};
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirection};
 
@@ -77,7 +78,7 @@ pub(crate) fn step(
         (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
             scattered_starts(&osc, StartBox::natural(&osc), seed, k)
         }
-        (_, _, Some((old, left))) => follow::carried(left, &old, &osc),
+        (_, _, Some((old, left))) => carried_state(left, &old, &osc),
         (_, _, None) => Start::at_rest(&osc),
     };
     let AfterTransient { kind, points, last } = match plan.show {

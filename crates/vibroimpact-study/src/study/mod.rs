@@ -55,6 +55,7 @@ impl Study {
             Task::Branch(_) => return Err(PlanError::NoStudy("follow a branch")),
             Task::Curve(_) => return Err(PlanError::NoStudy("follow a curve")),
             Task::Region(_) => return Err(PlanError::NoStudy("find a region")),
+            Task::Response(_) => return Err(PlanError::NoStudy("find a response")),
         };
         Ok(Self { fill })
     }

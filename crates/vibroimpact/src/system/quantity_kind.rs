@@ -24,6 +24,18 @@ pub enum QuantityKind {
 }
 
 impl QuantityKind {
+    /// All kinds.
+    pub const ALL: [Self; 8] = [
+        Self::Number,
+        Self::Length,
+        Self::Velocity,
+        Self::Acceleration,
+        Self::Impulse,
+        Self::Energy,
+        Self::Power,
+        Self::Rate,
+    ];
+
     /// One nondimensional unit in SI units.
     #[must_use]
     pub fn in_si(self, scales: &Scales) -> f64 {

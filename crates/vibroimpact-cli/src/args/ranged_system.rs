@@ -1,0 +1,110 @@
+//! SYSTEM with ranges: each parameter is one value or the values of an axis.
+
+use super::parameter_flag::ParameterFlag;
+use super::{AxesArgs, MachineRangesArgs, Ranged};
+use crate::failure::Failure;
+use clap::Args;
+use vibroimpact_report::{Asked, Units};
+use vibroimpact_study::{Axis, Parameter, SecondStop, SystemPlan};
+
+/// The parameters of a system, values or ranges.
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "System")]
+#[command(group = clap::ArgGroup::new("frequency").required(true).args(["beta", "inverse_beta", "frequency_hz"]))]
+#[command(group = clap::ArgGroup::new("distance").required(true).args(["gap", "gap_m"]))]
+pub(crate) struct RangedSystemArgs {
+    /// Frequency ratio omega/omega_n, positive
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true, conflicts_with = "inverse_beta")]
+    beta: Option<Ranged>,
+
+    /// Its inverse omega_n/omega instead, the abscissa of the 1971 paper; positive
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    inverse_beta: Option<Ranged>,
+
+    /// Gap, in units of F/k
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    gap: Option<Ranged>,
+
+    /// Restitution: rebound speed over arrival speed, 0 to 1
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    restitution: Ranged,
+
+    /// Damping ratio zeta, 0 or more [default: 0]
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    damping: Option<Ranged>,
+
+    /// A second stop on the other side, at x = -D2
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    second_gap: Option<Ranged>,
+
+    /// Restitution of the second stop [default: that of the first, if that is one value]
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
+    second_restitution: Option<Ranged>,
+
+    #[command(flatten)]
+    axes: AxesArgs,
+
+    #[command(flatten)]
+    machine: MachineRangesArgs,
+}
+
+impl RangedSystemArgs {
+    /// The given parameters, in the order of the flags.
+    fn given(&self) -> impl Iterator<Item = (Parameter, &Ranged)> {
+        let all = [
+            (Parameter::Beta, self.beta.as_ref()),
+            (Parameter::InverseBeta, self.inverse_beta.as_ref()),
+            (Parameter::Gap, self.gap.as_ref()),
+            (Parameter::Restitution, Some(&self.restitution)),
+            (Parameter::Damping, self.damping.as_ref()),
+            (Parameter::SecondGap, self.second_gap.as_ref()),
+            (Parameter::SecondRestitution, self.second_restitution.as_ref()),
+        ];
+        all.into_iter().filter_map(|(parameter, given)| Some((parameter, given?)))
+    }
+
+    /// The system with the first value of each range, and the units of the results.
+    pub(crate) fn asked(&self) -> Result<Asked, Failure> {
+        let first = |given: &Option<Ranged>| given.as_ref().map(Ranged::first);
+        let second = self.second_gap.is_some() || self.machine.has_second_stop();
+        if !second && self.second_restitution.is_some() {
+            return Err(Failure::bad("the second stop has a restitution but no gap\nhint: --second-gap D2"));
+        }
+        let second_restitution = match (&self.second_restitution, &self.restitution) {
+            (None, Ranged::Over(_)) if second => {
+                return Err(Failure::bad(
+                    "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
+                ));
+            }
+            (None, one) => one.first(),
+            (Some(own), _) => own.first(),
+        };
+        if self.machine.given() {
+            let twins = MachineRangesArgs::nondimensional_twins();
+            let twice = |named: &&ParameterFlag| self.given().any(|(parameter, _)| parameter == named.parameter);
+            if let Some(named) = twins.iter().find(twice) {
+                return Err(Failure::bad(format!(
+                    "--{} cannot go together with a system in physical units",
+                    named.flag()
+                )));
+            }
+            return self.machine.first((self.restitution.first(), second.then_some(second_restitution)));
+        }
+        let system = SystemPlan {
+            beta: first(&self.beta),
+            inverse_beta: first(&self.inverse_beta),
+            gap: first(&self.gap).unwrap_or(0.0),
+            restitution: self.restitution.first(),
+            damping: first(&self.damping).unwrap_or(0.0),
+            second_stop: first(&self.second_gap).map(|gap| SecondStop { gap, restitution: second_restitution }),
+        };
+        Ok(Asked { system, units: Units::default() })
+    }
+
+    /// The parameters that vary, in the order of the axes, in nondimensional values.
+    pub(crate) fn axes(&self, units: &Units) -> Result<Vec<Axis>, Failure> {
+        let mut varied = self.machine.axes(units)?;
+        varied.extend(self.given().filter_map(|(parameter, given)| Some((parameter, given.axis(parameter)?))));
+        Ok(self.axes.order(varied, |(parameter, _)| *parameter)?.into_iter().map(|(_, axis)| axis).collect())
+    }
+}

@@ -1,0 +1,67 @@
+//! `vibro response`: a quantity of all motions over one parameter.
+
+use crate::args::{RangedSystemArgs, quantity};
+use crate::commands::outputs::Outputs;
+use crate::commands::respond;
+use crate::failure::Failure;
+use crate::session::Session;
+use clap::Args;
+use std::path::PathBuf;
+use vibroimpact_report::{Asked, Shown};
+use vibroimpact_study::{Coordinate, Plan, Quantity, ResponsePlan, Task, Values};
+
+/// The response over a parameter, such as the frequency: a quantity of all motions, from branches and sweeps
+///
+/// One parameter takes a range A:B:N. A sweep with rising values and one with falling values settle the motion at each
+/// value from the state of the motion at the value before. The branch of each cycle that they find is followed over the
+/// range through its folds and grazing impacts, stable or not. Orbits on branches that no sweep meets are not found.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro response --beta A:B:N --gap D --restitution E [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro response --beta 0.5:1.5:201 --gap 1.5 --restitution 0.7 --damping 0.02 --plot response.png\n  \
+        vibro response --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --gap-m 0.0015 \\\n    \
+        --restitution 0.65 --frequency-hz 15:25:201 --quantity impact-speed-max --csv response.csv --plot response.png"
+)]
+pub(crate) struct Response {
+    #[command(flatten)]
+    system: RangedSystemArgs,
+
+    /// The quantity, such as displacement-amplitude, displacement-max, impact-speed-max, power [default:
+    /// displacement-amplitude]
+    #[arg(long, value_name = "NAME", value_parser = quantity, help_heading = "Output")]
+    quantity: Option<Quantity>,
+
+    /// Write one row for each motion of a sweep and each point of a branch to this file; - for stdout. Columns: curve (up,
+    /// down or the number of a branch), the parameter, label, physical, stable, all quantities
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw the response into this file, .svg or .png: stable branches solid, unstable dashed, the sweeps as triangles
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    plot: Option<PathBuf>,
+
+    /// Print one JSON object instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
+    let Asked { system, units } = args.system.asked()?;
+    let axes = args.system.axes(&units)?;
+    let [axis] = axes.as_slice() else {
+        return Err(Failure::bad(format!(
+            "a response is over one parameter, and ranges are given for {}\nhint: --beta 0.5:1.5:201; `vibro map` takes several",
+            axes.len()
+        )));
+    };
+    let (Coordinate::Parameter(vary), Values::Span(over)) = (axis.vary, &axis.over) else {
+        return Err(Failure::bad("a response is over a range A:B:N, and a list is given\nhint: --beta 0.5:1.5:201"));
+    };
+    let task = ResponsePlan::new(vary, *over);
+    let task = ResponsePlan { quantity: args.quantity.unwrap_or(task.quantity), ..task };
+    let plan = Plan::new(system, Task::Response(task));
+    plan.check()?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    respond::run(&plan, units, (outputs, Shown::default()), None, session)
+}

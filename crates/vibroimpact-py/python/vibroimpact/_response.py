@@ -1,0 +1,192 @@
+"""A quantity of all motions over one parameter: branches, stable or not, and the motions of sweeps up and down."""
+
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact import _core
+from vibroimpact._axis import Axis, span
+from vibroimpact._core import Oscillator
+from vibroimpact._cycle import finite
+from vibroimpact._figure import Scale, legend, named, new_axes, title
+from vibroimpact._palette import SERIES
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Number of colours of branches; the others of the series are for dots and too light for a line.
+_USABLE = 6
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class ResponseCurve:
+    """The motions of a sweep, or the points of a branch from one end to the other.
+
+    Attributes
+    ----------
+    parameter : ndarray
+        The value of the parameter.
+    label : ndarray of str
+        The label of each motion.
+    stable, physical : ndarray of bool
+        Whether it is stable; whether it is admissible. Motions of a sweep are both.
+    quantities : dict of ndarray
+        All quantities by name; nan where one is not defined.
+    """
+
+    parameter: NDArray[np.float64]
+    label: NDArray[np.str_]
+    stable: NDArray[np.bool_]
+    physical: NDArray[np.bool_]
+    quantities: dict[str, NDArray[np.float64]]
+
+    def __len__(self) -> int:
+        return len(self.parameter)
+
+    def __repr__(self) -> str:
+        return f"<ResponseCurve with {len(self)} points: {', '.join(dict.fromkeys(self.label.tolist()))}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class Response:
+    """A quantity of all motions over one parameter.
+
+    Attributes
+    ----------
+    osc : Oscillator
+        The system.
+    vary, quantity : str
+        The parameter, and the quantity that is drawn.
+    up, down : ResponseCurve
+        The motions of the sweeps with rising and with falling values.
+    branches : list of ResponseCurve
+        The branches on which their cycles lie.
+    plan : str
+        The plan as JSON.
+    """
+
+    osc: Oscillator
+    vary: str
+    quantity: str
+    up: ResponseCurve
+    down: ResponseCurve
+    branches: list[ResponseCurve]
+    plan: str
+
+    def __repr__(self) -> str:
+        return f"<Response of {self.quantity} over {self.vary}: {len(self.up)} values, {len(self.branches)} branches>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of the JSON of the command; numbers that are not finite are None."""
+
+        def points(of: ResponseCurve, branch: bool) -> list[dict[str, Any]]:
+            values = of.quantities[self.quantity].tolist()
+            rows = zip(of.parameter.tolist(), of.label.tolist(), values, of.stable.tolist(), of.physical.tolist(), strict=True)
+            return [
+                {"parameter": at, "label": label, "value": finite(value)}
+                | ({"stable": stable, "physical": physical} if branch else {})
+                for at, label, value, stable, physical in rows
+            ]
+
+        sweeps = (("up", self.up), ("down", self.down))
+        return {
+            "vary": self.vary,
+            "quantity": self.quantity,
+            "sweeps": [{"direction": name, "points": points(of, False)} for name, of in sweeps],
+            "branches": [{"points": points(of, True)} for of in self.branches],
+            "plan": json.loads(self.plan),
+        }
+
+    def plot(self, ax: "Axes | None" = None, *, quantity: str | None = None) -> "Axes":
+        """Draw a quantity over the parameter: stable branches solid, unstable ones dashed, the motions of the sweeps as dots.
+
+        Parameters
+        ----------
+        ax : Axes
+            The axes to draw in; new ones by default.
+        quantity : str
+            Another quantity than that of the response.
+        """
+        quantity = quantity or self.quantity
+        if quantity not in self.up.quantities:
+            known = ", ".join(self.up.quantities)
+            raise _core.QuestionError(f"`{quantity}` is no quantity; there are {known}")
+        ax = new_axes(ax, (7.2, 4.8))
+        for name, of, size, colour in (("sweep up", self.up, 6.0, "0.77"), ("sweep down", self.down, 3.0, "0.38")):
+            ax.plot(of.parameter, of.quantities[quantity], "o", color=colour, markersize=size, markeredgewidth=0, label=name)
+        colours: dict[str, str] = {}
+        for branch in self.branches:
+            for begin, end in _runs(branch):
+                label, stable = str(branch.label[end]), bool(branch.stable[end])
+                new = label not in colours
+                colour = colours.setdefault(label, SERIES[len(colours) % _USABLE])
+                xs, ys = branch.parameter[begin : end + 1], branch.quantities[quantity][begin : end + 1]
+                ax.plot(xs, ys, "-" if stable else "--", color=colour, linewidth=1.8, label=named(label) if new else None)
+        ax.set_xlabel(Scale(self.osc, False).axis(self.vary))
+        ax.set_ylabel(quantity.replace("_", " "))
+        ax.set_title(title(self.osc, (self.vary,)))
+        legend(ax)
+        return ax
+
+
+def _runs(branch: ResponseCurve) -> list[tuple[int, int]]:
+    """The first and last point of each part with one label and stability; parts share a point. Inadmissible ones are left out."""
+    runs: list[tuple[int, int]] = []
+    for k in range(1, len(branch)):
+        if not branch.physical[k]:
+            continue
+        last = runs[-1] if runs else None
+        same = last is not None and last[1] == k - 1 and branch.label[k] == branch.label[k - 1]
+        if same and branch.stable[k] == branch.stable[k - 1] and last is not None:
+            runs[-1] = (last[0], k)
+        else:
+            runs.append((k - 1, k))
+    return runs
+
+
+def response(osc: Oscillator, vary: str, over: Axis, *, quantity: str = "displacement_amplitude") -> Response:
+    """Compute the response over a parameter, such as the frequency.
+
+    A sweep with rising values and one with falling values settle the motion at each value from the state of the motion at
+    the value before. The branch of each cycle that they find is followed through its folds and grazing impacts. Orbits on
+    branches that no sweep meets are not found.
+
+    Parameters
+    ----------
+    osc : Oscillator
+        The system; its value of the parameter that varies is ignored.
+    vary : str
+        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution".
+    over : str or array
+        Its values: a range ("0.5:1.5:201" has 201 values) or an evenly spaced array.
+    quantity : str
+        The quantity that is drawn; all are computed. `Motion.quantities` has the names.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, response
+    >>> osc = Oscillator(inverse_beta=1.3, gap=0.5, restitution=0.5)
+    >>> found = response(osc, "gap", "0.5:1.5:11", quantity="impact_speed_max")
+    >>> found.up.label.tolist()[-1], found.down.label.tolist()[-1], len(found.branches)
+    ('1/1', '2/1', 2)
+    """
+    found = _core.response(osc.replace(units=None), vary, span(over), quantity.replace("-", "_"))
+
+    def curve(fields: dict[str, Any]) -> ResponseCurve:
+        values = fields["values"]
+        quantities = {name: values[:, k] for k, name in enumerate(found["names"])}
+        label = np.array(fields["label"], dtype=np.str_)
+        return ResponseCurve(fields["parameter"], label, fields["stable"], fields["physical"], quantities)
+
+    return Response(
+        osc=osc,
+        vary=vary,
+        quantity=quantity.replace("-", "_"),
+        up=curve(found["up"]),
+        down=curve(found["down"]),
+        branches=[curve(fields) for fields in found["branches"]],
+        plan=found["plan"],
+    )

@@ -1,0 +1,86 @@
+//! A quantity of all motions over a parameter.
+
+use crate::axis::parameter;
+use crate::columns::{column, grid};
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use crate::oscillator::Oscillator;
+use crate::simulate::text;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+use vibroimpact_study::{
+    Plan, Quantities, Quantity, ResponseBranch, ResponsePlan, Results, SweptMotion, Task, unknown_quantity,
+};
+
+/// The fields of a `ResponseCurve`.
+#[derive(IntoPyObject)]
+pub(crate) struct Fields<'py> {
+    parameter: Bound<'py, PyArray1<f64>>,
+    label: Vec<String>,
+    stable: Bound<'py, PyArray1<bool>>,
+    physical: Bound<'py, PyArray1<bool>>,
+    /// One row for each point, one column for each quantity.
+    values: Bound<'py, PyArray2<f64>>,
+}
+
+/// The names of the quantities; the sweeps up and down; the branches.
+#[derive(IntoPyObject)]
+pub(crate) struct Found<'py> {
+    names: Vec<&'static str>,
+    up: Fields<'py>,
+    down: Fields<'py>,
+    branches: Vec<Fields<'py>>,
+    plan: String,
+}
+
+fn row(of: Option<Quantities>) -> Vec<f64> {
+    Quantity::ALL.into_iter().map(|quantity| of.map_or(f64::NAN, |of| of.get(quantity))).collect()
+}
+
+impl<'py> Fields<'py> {
+    /// A sweep; each of its motions is stable and admissible.
+    fn swept(py: Python<'py>, motions: &[SweptMotion]) -> PyResult<Self> {
+        Ok(Self {
+            parameter: column(py, motions.iter().map(|motion| motion.value)),
+            label: motions.iter().map(|motion| motion.label.clone()).collect(),
+            stable: column(py, motions.iter().map(|_| true)),
+            physical: column(py, motions.iter().map(|_| true)),
+            values: grid(py, motions.iter().map(|motion| row(motion.quantities)), Quantity::ALL.len())?,
+        })
+    }
+
+    fn branch(py: Python<'py>, branch: &ResponseBranch) -> PyResult<Self> {
+        let points = || branch.points.iter();
+        Ok(Self {
+            parameter: column(py, points().map(|point| point.solution.value)),
+            label: points().map(|point| point.solution.cycle.label.to_string()).collect(),
+            stable: column(py, points().map(|point| point.solution.stable())),
+            physical: column(py, points().map(|point| point.solution.physical)),
+            values: grid(py, points().map(|point| row(point.quantities)), Quantity::ALL.len())?,
+        })
+    }
+}
+
+/// Computes both sweeps and the branches.
+#[pyfunction]
+pub(crate) fn response<'py>(
+    py: Python<'py>,
+    osc: Oscillator,
+    vary: &str,
+    over: &str,
+    quantity: &str,
+) -> Result<Found<'py>, Trouble> {
+    let quantity = Quantity::from_name(quantity).ok_or_else(|| Trouble::question(unknown_quantity(quantity)))?;
+    let task = ResponsePlan { quantity, ..ResponsePlan::new(parameter(vary)?, over.parse()?) };
+    let plan = Plan::new(osc.plan, Task::Response(task));
+    let watch = Watch::alone("computing a response");
+    let found =
+        door::result(py, watch, &plan, |of| if let Results::Response(found) = of { Some(found) } else { None })?;
+    Ok(Found {
+        names: Quantity::ALL.map(Quantity::name).to_vec(),
+        up: Fields::swept(py, &found.up)?,
+        down: Fields::swept(py, &found.down)?,
+        branches: found.branches.iter().map(|branch| Fields::branch(py, branch)).collect::<PyResult<_>>()?,
+        plan: text(&plan)?,
+    })
+}

@@ -1,0 +1,68 @@
+"""Quantities of motions, as attributes, as fields of Datasets, and over a parameter."""
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+
+def test_the_work_of_the_force_is_lost() -> None:
+    osc = vi.Oscillator(inverse_beta=1.8, gap=0.25, restitution=0.5, damping=0.01)
+    of = vi.settle(osc).quantities
+    assert of is not None
+    lost = of["impact_loss_per_period"] + of["damping_loss_per_period"]
+    assert abs(of["work_per_period"] - lost) < 1e-13 and lost > 0.1
+    # the largest speed of arrival is that of the cycle
+    assert of["impact_speed_max"] == vi.settle(osc).cycle.velocity_before.max()
+    assert vi.settle(osc).to_dict()["quantities"]["impacts_per_period"] == of["impacts_per_period"]
+
+
+def test_against_a_waveform() -> None:
+    osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+    motion = vi.settle(osc)
+    t, x, v = motion.waveform(points_per_period=20000)
+    of = motion.quantities
+    assert of is not None
+    mean = np.trapezoid(x**2, t) / (t[-1] - t[0]) if hasattr(np, "trapezoid") else np.trapz(x**2, t) / (t[-1] - t[0])
+    assert abs(of["displacement_rms"] - np.sqrt(mean)) < 1e-6
+    assert abs(of["displacement_min"] - x.min()) < 1e-6 and of["displacement_max"] == pytest.approx(0.75)
+
+
+def test_fields_of_maps_and_basins() -> None:
+    osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
+    ds = vi.region_map(osc, {"gap": [0.5, 0.75]}, starts=8, fields=["impact_speed_max", "power"])
+    assert ds["power"].attrs["units"] == "omega_n F^2/k"
+    here = ds.sel(gap=0.75)
+    assert np.allclose(here["impact_speed_max"].values[:2], here["speed"].values[:2])
+    basin = vi.basin(osc, x="-4:0.75:20", v="-4:4:20", fields=["impact_speed_max"])
+    of = {m.label: m.quantities["impact_speed_max"] for m in vi.attractors(osc, starts=50) if m.quantities}
+    for label, values in zip(basin.vibro.labels().values.ravel(), basin["impact_speed_max"].values.ravel(), strict=True):
+        assert abs(values - of[label]) < 1e-9
+    with pytest.raises(vi.QuestionError, match="a list of names"):
+        vi.region_map(osc, {"gap": [0.5, 0.75]}, fields="power")
+    with pytest.raises(vi.QuestionError, match="`speed` is no quantity"):
+        vi.region_map(osc, {"gap": [0.5, 0.75]}, fields=["speed"])
+
+
+def test_fields_in_si_units() -> None:
+    osc = vi.Oscillator.from_units(mass=2, stiffness=800, force=4, omega=25, gap=0.010, restitution=0.5)
+    ds = vi.region_map(osc, {"gap": [1.5, 2.0]}, starts=4, fields=["impact_speed_max", "impact_loss_per_period"])
+    si = ds.vibro.si()
+    units = osc.units
+    assert units is not None and units.mass_kg == 2
+    assert si["impact_loss_per_period"].attrs["units"] == "J"
+    ratio = (si["impact_loss_per_period"] / ds["impact_loss_per_period"]).values.ravel()
+    assert np.allclose(ratio[np.isfinite(ratio)], 2 * units.velocity_m_per_s**2)
+
+
+def test_a_response() -> None:
+    osc = vi.Oscillator(inverse_beta=1.3, gap=0.5, restitution=0.5)
+    found = vi.response(osc, "gap", "0.5:1.5:21", quantity="impact-speed-max")
+    assert found.quantity == "impact_speed_max" and len(found.up) == 21
+    labels = {label for branch in found.branches for label in branch.label.tolist()}
+    assert {"1/1", "2/1"} <= labels and any(not branch.stable.all() for branch in found.branches)
+    ax = found.plot(quantity="power")
+    assert ax.get_ylabel() == "power" and len(ax.lines) > 4
+    assert found.to_dict()["sweeps"][0]["points"][0]["label"] == "2/1"
+    with pytest.raises(vi.QuestionError, match="no quantity"):
+        found.plot(quantity="speed")

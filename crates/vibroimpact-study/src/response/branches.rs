@@ -1,0 +1,116 @@
+//! The branches on which the cycles of the sweeps lie.
+
+use super::{ResponsePlan, SweptMotion};
+use crate::{Control, Cut, PlanError, RunError, SystemPlan};
+use core::ops::RangeInclusive;
+use vibroimpact::continuation::{Branch, BranchOptions, Direction, SolutionPoint};
+use vibroimpact::orbit::{Cycle, refine, without_impacts};
+use vibroimpact::quantities::{Quantities, of_cycle};
+use vibroimpact::{Oscillator, ParameterPath};
+
+/// A point of a branch with its quantities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponsePoint {
+    /// The point.
+    pub solution: SolutionPoint,
+    /// The quantities of its cycle.
+    pub quantities: Option<Quantities>,
+}
+
+/// A branch through a cycle of the sweeps, from one end to the other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponseBranch {
+    /// Its points.
+    pub points: Vec<ResponsePoint>,
+}
+
+/// Maximum number of branches, and of points in each direction along one.
+const MOST_BRANCHES: usize = 40;
+const MOST_POINTS: u32 = 3_000;
+/// Two cycles closer than this are the same one.
+const SAME: f64 = 1e-6;
+
+/// Follows the branch of each cycle of the sweeps that lies on none of the branches so far. With damping, the motion
+/// without impacts has a branch too.
+pub(super) fn branches<'a>(
+    system: &SystemPlan,
+    plan: &ResponsePlan,
+    motions: impl Iterator<Item = &'a SweptMotion>,
+    control: &Control<'_>,
+) -> Result<Vec<ResponseBranch>, RunError> {
+    let cut = plan.cut();
+    let ground = Ground { system, cut, vary: cut.varying()?, range: cut.ends.0..=cut.ends.1, control };
+    let mut found: Vec<Vec<SolutionPoint>> = Vec::new();
+    for motion in motions {
+        if control.stopping() || found.len() >= MOST_BRANCHES {
+            break;
+        }
+        let osc = ground.oscillator(motion.value)?;
+        let still = || if motion.label == "0" { without_impacts(&osc) } else { None };
+        let Some(cycle) = motion.cycle.clone().or_else(still) else { continue };
+        if found.iter().any(|points| ground.passes(points, &osc, &cycle, motion.value)) {
+            continue;
+        }
+        found.push(ground.both_ways(&osc, &cycle));
+    }
+    let quantities = |solution: SolutionPoint| {
+        let osc = ground.oscillator(solution.value)?;
+        Ok(ResponsePoint { quantities: of_cycle(&osc, &solution.cycle), solution })
+    };
+    let branch = |points: Vec<SolutionPoint>| {
+        Ok(ResponseBranch { points: points.into_iter().map(quantities).collect::<Result<_, RunError>>()? })
+    };
+    found.into_iter().map(branch).collect()
+}
+
+/// The data common to all branches.
+struct Ground<'a, 'c> {
+    system: &'a SystemPlan,
+    cut: Cut,
+    vary: ParameterPath,
+    range: RangeInclusive<f64>,
+    control: &'a Control<'c>,
+}
+
+impl Ground<'_, '_> {
+    fn oscillator(&self, value: f64) -> Result<Oscillator, PlanError> {
+        self.cut.oscillator(self.system, value)
+    }
+
+    /// The points of the branch through a cycle, from the end of the branch downwards to the end upwards.
+    fn both_ways(&self, osc: &Oscillator, cycle: &Cycle) -> Vec<SolutionPoint> {
+        let options = BranchOptions { points: MOST_POINTS, ..BranchOptions::default() };
+        let way = |direction| -> Vec<SolutionPoint> {
+            let branch = Branch::new(osc, cycle, self.vary, self.range.clone(), direction, options);
+            // a cycle that cannot be followed, such as one at the end of the range, is no branch
+            branch.map_or_else(|_| Vec::new(), |branch| branch.take_while(|_| !self.control.stopping()).collect())
+        };
+        let (down, up) = (way(Direction::Down), way(Direction::Up));
+        let mut points = down;
+        points.reverse();
+        // both begin with the cycle itself
+        points.extend(up.into_iter().skip(usize::from(!points.is_empty())));
+        points
+    }
+
+    /// Whether a branch passes through a cycle at a value: Newton's method from a point beside it leads to the cycle.
+    fn passes(&self, points: &[SolutionPoint], osc: &Oscillator, cycle: &Cycle, value: f64) -> bool {
+        points.windows(2).any(|pair| {
+            let (a, b) = (&pair[0], &pair[1]);
+            if !(a.value.min(b.value)..=a.value.max(b.value)).contains(&value) {
+                return false;
+            }
+            [a, b].into_iter().any(|point| {
+                let guess = &point.cycle;
+                if guess.label != cycle.label {
+                    return false;
+                }
+                if guess.points.is_empty() || !cycle.rests.is_empty() {
+                    // the only motion of its label: the steady one, or that of a release
+                    return guess.rests.len() == cycle.rests.len();
+                }
+                refine(osc, guess).is_some_and(|orbit| orbit.cycle.same_as(cycle, SAME))
+            })
+        })
+    }
+}

@@ -1,0 +1,102 @@
+//! The response over a parameter: a quantity of the motions that sweeps up and down find, and of all branches, stable or
+//! not, on which their cycles lie.
+
+mod branches;
+mod plan;
+mod sweep;
+
+pub use branches::{ResponseBranch, ResponsePoint};
+pub use plan::ResponsePlan;
+pub use sweep::SweptMotion;
+
+use crate::{Control, RunError, Stopped, SystemPlan};
+
+/// The response over a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponseCurves {
+    /// The plan.
+    pub plan: ResponsePlan,
+    /// The motions of the sweep with rising values, in this order.
+    pub up: Vec<SweptMotion>,
+    /// The motions of the sweep with falling values, in this order.
+    pub down: Vec<SweptMotion>,
+    /// The branches.
+    pub branches: Vec<ResponseBranch>,
+}
+
+/// Computes both sweeps and the branches.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped. The stop flag is read at every event of a motion and at every point
+/// of a branch.
+pub(crate) fn response(
+    system: &SystemPlan,
+    plan: &ResponsePlan,
+    control: &Control<'_>,
+) -> Result<ResponseCurves, RunError> {
+    plan.check(system)?;
+    let total = plan.motions();
+    let stopped = |done: usize| Stopped { done: done as u64, total };
+    let mut done = 0;
+    let mut sweep = |rising: bool| {
+        let motions = sweep::sweep(system, plan, rising, done, control)?;
+        done += motions.len();
+        (motions.len() as u64 == total / 2).then_some(motions).ok_or_else(|| RunError::from(stopped(done)))
+    };
+    let (up, down) = (sweep(true)?, sweep(false)?);
+    let branches = branches::branches(system, plan, up.iter().chain(&down), control)?;
+    if control.stopping() {
+        return Err(stopped(done).into());
+    }
+    Ok(ResponseCurves { plan: *plan, up, down, branches })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Parameter, Quantity};
+
+    /// A damped oscillator with a wide gap has the classical response of a linear oscillator.
+    #[test]
+    fn a_linear_oscillator() {
+        let system =
+            SystemPlan { beta: Some(0.5), gap: 20.0, restitution: 0.5, damping: 0.05, ..SystemPlan::default() };
+        let plan = ResponsePlan::new(Parameter::Beta, "0.5:1.5:11".parse().unwrap());
+        let found = response(&system, &plan, &Control::default()).unwrap();
+        let exact = |beta: f64| 1.0 / (1.0 - beta * beta).hypot(0.1 * beta);
+        for motion in found.up.iter().chain(&found.down) {
+            let value = motion.quantities.unwrap().get(Quantity::DisplacementAmplitude);
+            assert!((value - exact(motion.value)).abs() < 1e-12 && motion.label == "0", "{motion:?}");
+        }
+        let [branch] = found.branches.as_slice() else { panic!("{} branches", found.branches.len()) };
+        assert!(branch.points.len() > 5);
+        for point in &branch.points {
+            let value = point.quantities.unwrap().get(Quantity::DisplacementAmplitude);
+            assert!((value - exact(point.solution.value)).abs() < 1e-12);
+        }
+    }
+
+    /// At S of the 1971 paper 1/1 and 2/1 coexist: the sweeps differ there, and both have a branch. Each motion of a
+    /// sweep lies on a branch.
+    #[test]
+    fn sweeps_lie_on_branches() {
+        let system = SystemPlan { inverse_beta: Some(1.3), gap: 0.5, restitution: 0.5, ..SystemPlan::default() };
+        let plan = ResponsePlan::new(Parameter::Gap, "0.5:1.5:21".parse().unwrap());
+        let found = response(&system, &plan, &Control::default()).unwrap();
+        let at = |list: &[SweptMotion]| list.iter().find(|m| (m.value - 0.75).abs() < 1e-12).unwrap().label.clone();
+        assert_eq!((at(&found.up), at(&found.down)), ("2/1".to_owned(), "1/1".to_owned()));
+        for motion in found.up.iter().chain(&found.down).filter(|motion| motion.cycle.is_some()) {
+            let value = motion.quantities.unwrap().get(Quantity::DisplacementAmplitude);
+            // the branch passes the point within its steps
+            let near = found.branches.iter().flat_map(|branch| branch.points.windows(2)).any(|pair| {
+                let of = |k: usize| (pair[k].solution.value, pair[k].quantities);
+                let ((a, Some(qa)), (b, Some(qb))) = (of(0), of(1)) else { return false };
+                let (qa, qb) = (qa.get(Quantity::DisplacementAmplitude), qb.get(Quantity::DisplacementAmplitude));
+                (a.min(b) - 1e-9..=a.max(b) + 1e-9).contains(&motion.value)
+                    && value > qa.min(qb) - 1e-3
+                    && value < qa.max(qb) + 1e-3
+            });
+            assert!(near, "{} at {} lies on no branch", motion.label, motion.value);
+        }
+    }
+}
