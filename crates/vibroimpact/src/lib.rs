@@ -78,7 +78,8 @@ pub mod verdict;
 
 pub use orbit::Label;
 pub use system::{
-    Frequency, Machine, Oscillator, Parameter, ParameterPath, QuantityKind, Scales, Side, Start, Stop, SystemError,
+    EquivalentMachine, Excitation, Frequency, Machine, Oscillator, Parameter, ParameterPath, QuantityKind, Scales,
+    Shaking, Side, Start, Stop, SystemError,
 };
 
 /// The listings of the README are compiled and run.

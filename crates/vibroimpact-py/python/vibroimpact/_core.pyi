@@ -27,6 +27,7 @@ __all__ = [
     "StoreError",
     "branch",
     "curve",
+    "response",
     "QuestionError",
     "StoppedError",
     "lyapunov",

@@ -18,16 +18,6 @@ if TYPE_CHECKING:
     from distributed import Client
 
 
-def bare(osc: Oscillator, store: str | PathLike[str] | None) -> Oscillator:
-    """The oscillator without physical units, which a plan does not contain. With units, a store is refused."""
-    if osc.units is not None and store is not None:
-        raise _core.QuestionError(
-            "a store keeps no units of a machine\n"
-            "hint: osc.replace(units=None) fills a nondimensional one, and ds.vibro.si(osc.units) converts what is read from it"
-        )
-    return osc.replace(units=None)
-
-
 def computed(
     plan: Plan,
     units: Units | None,
@@ -115,7 +105,7 @@ def basin(
     ----------
     osc : Oscillator
         The system. For an oscillator with physical units the starts and the Dataset are nondimensional too; the units are
-        kept in the attributes, and `ds.vibro.si()` converts the Dataset. Such an oscillator cannot be used with a store.
+        kept in the attributes, and `ds.vibro.si()` converts the Dataset.
     over : mapping
         Parameters that vary in addition to the start, with their values. At least one coordinate of the start must vary too.
     x, v, phase : float, str or array
@@ -158,7 +148,7 @@ def basin(
         else:
             axes[name] = of
     plan = Plan.basin(
-        bare(osc, store),
+        osc,
         {**axes, **(over or {})},
         x=fixed.get("x"),
         v=fixed.get("v") or 0.0,
@@ -222,7 +212,7 @@ def region_map(
     '2/1'
     """
     plan = Plan.map(
-        bare(osc, store), over, starts=starts, seed=seed, refine=refine, impacts=impacts, fields=fields, tile=tile
+        osc, over, starts=starts, seed=seed, refine=refine, impacts=impacts, fields=fields, tile=tile
     )
     return computed(plan, osc.units, store, client, threads, progress)
 
@@ -286,7 +276,7 @@ def orbit_diagram(
     2
     """
     plan = Plan.diagram(
-        bare(osc, store),
+        osc,
         vary,
         over,
         also=also,

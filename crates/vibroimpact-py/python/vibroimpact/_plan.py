@@ -187,15 +187,14 @@ class Plan:
 
     @classmethod
     def _of(cls, osc: Oscillator, name: str, task: dict[str, Any], tile: int | None) -> "Plan":
-        if osc.units is not None:
-            raise _core.QuestionError(
-                "a plan is nondimensional and keeps no units of a machine\n"
-                "hint: osc.replace(units=None); ds.vibro.si(osc.units) converts its Dataset"
-            )
         given = {key: value for key, value in task.items() if value is not None}
         plan: dict[str, Any] = {"version": _VERSION, "system": json.loads(_core.system_fields(osc)), "task": {name: given}}
         if tile is not None:
             plan["tile"] = whole("tile", tile, TILE)
+        units = osc.units
+        if units is not None:
+            # the numbers of the plan are nondimensional; its results can be converted with these units
+            plan["units"] = {"length_m": units.length_m, "time_s": units.time_s, "mass_kg": units.mass_kg}
         return cls(json.dumps(plan))
 
 

@@ -171,7 +171,7 @@ def response(osc: Oscillator, vary: str, over: Axis, *, quantity: str = "displac
     >>> osc = Oscillator(inverse_beta=1.3, gap=0.5, restitution=0.5)
     >>> found = response(osc, "gap", "0.5:1.5:11", quantity="impact_speed_max")
     >>> found.up.label.tolist()[-1], found.down.label.tolist()[-1], len(found.branches)
-    ('1/1', '2/1', 2)
+    ('1/1', '2/1', 1)
     """
     found = _core.response(osc.replace(units=None), vary, span(over), quantity.replace("-", "_"))
 

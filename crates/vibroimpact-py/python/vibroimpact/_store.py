@@ -1,5 +1,6 @@
 """Studies in stores: run, resume, status, verify and open."""
 
+import json
 import os
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -202,13 +203,17 @@ def open(store: str | PathLike[str]) -> "xr.Dataset":
     """
     import xarray as xr
 
-    from vibroimpact import _accessor  # noqa: F401  registers ds.vibro
+    from vibroimpact import _accessor, _si  # the import of _accessor registers ds.vibro
     from vibroimpact._stated import with_fixed
 
     place = fspath(store)
     _core.Store(place)
     need_readers(place)
     ds: xr.Dataset = xr.open_zarr(place, storage_options=_bucket() if place.startswith("s3://") else None)
+    units = json.loads(ds.attrs["plan"]).get("units")
+    if units is not None:
+        of = {name: float(units[name]) for name in ("length_m", "time_s", "mass_kg")}
+        ds.attrs |= _si.attributes(_core.Units(**of))
     return with_fixed(ds)
 
 

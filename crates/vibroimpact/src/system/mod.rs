@@ -9,11 +9,13 @@
 //! | a line through two parameters | [`ParameterPath`] |
 //! | a start within the stops | [`Start`] |
 //! | conversion from physical units to nondimensional numbers and back | [`Machine`] |
+//! | a moving base, an unbalance, a moving stop, a constant force: the equivalent machine | [`Excitation`] |
 //! | the kind of a quantity, and its unit | [`QuantityKind`] |
 //! | the phase of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
 
 mod commensurable;
 mod error;
+mod excitation;
 mod free;
 mod oscillator;
 mod parameter;
@@ -25,6 +27,7 @@ mod start;
 mod units;
 
 pub use error::SystemError;
+pub use excitation::{EquivalentMachine, Excitation, Shaking};
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;
