@@ -3,7 +3,8 @@
 use crate::number::short;
 use vibroimpact::{QuantityKind, Scales};
 use vibroimpact_study::{
-    Axis, Coordinate, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length, natural_hertz,
+    Axis, Coordinate, FramePlan, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length,
+    natural_hertz,
 };
 
 /// The system of a plan, and the units of its results.
@@ -24,11 +25,13 @@ pub struct Units {
     pub si: bool,
     /// Whether the frequency ratio is reported as the frequency of the force in Hz.
     pub hertz: bool,
+    /// The frame of positions and phases, if the machine is driven by more than a force.
+    pub frame: Option<FramePlan>,
 }
 
 impl From<&UnitsPlan> for Units {
     fn from(plan: &UnitsPlan) -> Self {
-        Self { scales: Some(plan.scales()), si: true, hertz: plan.hertz }
+        Self { scales: Some(plan.scales()), si: true, hertz: plan.hertz, frame: plan.frame }
     }
 }
 
@@ -42,7 +45,7 @@ impl Units {
     /// These units as a part of a plan; `None` for nondimensional results.
     #[must_use]
     pub fn plan(&self) -> Option<UnitsPlan> {
-        self.scales.as_ref().filter(|_| self.si).map(|scales| UnitsPlan::new(scales, self.hertz))
+        self.scales.as_ref().filter(|_| self.si).map(|scales| UnitsPlan::new(scales, self.hertz, self.frame))
     }
 
     fn factor(&self, of: impl Fn(&Scales) -> f64) -> f64 {

@@ -84,6 +84,14 @@ pub enum PlanError {
         "a plan that asks to {0} fills no grid, so there is nothing to store\nhint: tasks for a store are map, basin, attractors, diagram and lyapunov"
     )]
     NoStudy(&'static str),
+    /// The frame of positions and phases is not finite.
+    #[error("the frame of positions and phases is not finite: phase = {phase}, offset_m = {offset_m}")]
+    Frame {
+        /// The given phase.
+        phase: f64,
+        /// The given offset.
+        offset_m: f64,
+    },
     /// Too many values of a parameter.
     #[error("values = {given} lies outside 2 <= values <= {most}")]
     Values {

@@ -85,7 +85,7 @@ pub use span::Span;
 pub use stretch::Stretch;
 pub use study::Study;
 pub use system::{SecondStop, StartPlan, SystemPlan};
-pub use units::{UnitsPlan, natural_hertz};
+pub use units::{FramePlan, UnitsPlan, natural_hertz};
 pub use words::counted;
 
 /// Compiles and runs the listing of this crate's README as a documentation test.

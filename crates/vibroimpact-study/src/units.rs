@@ -19,14 +19,28 @@ pub struct UnitsPlan {
     /// Whether the frequency ratio is reported as the frequency of the force in Hz.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
     pub hertz: bool,
+    /// The frame of positions and phases, if the machine is driven by more than a force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<FramePlan>,
+}
+
+/// The frame of positions and phases of a machine that is driven by more than a force: its positions are those relative
+/// to the motion of the stop, from the equilibrium under the constant force.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FramePlan {
+    /// Phase of the equivalent force relative to sin(omega t): the phase of an event is omega t plus this.
+    pub phase: f64,
+    /// The position of the equilibrium in m, to be added to positions.
+    pub offset_m: f64,
 }
 
 impl UnitsPlan {
     /// The units with these scales.
     #[must_use]
-    pub const fn new(scales: &Scales, hertz: bool) -> Self {
+    pub const fn new(scales: &Scales, hertz: bool, frame: Option<FramePlan>) -> Self {
         let Scales { length_m, time_s, mass_kg } = *scales;
-        Self { length_m, time_s, mass_kg, hertz }
+        Self { length_m, time_s, mass_kg, hertz, frame }
     }
 
     /// The units as scales.
@@ -43,7 +57,10 @@ impl UnitsPlan {
         let all = [("length_m", self.length_m), ("time_s", self.time_s), ("mass_kg", self.mass_kg)];
         match all.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
             Some((name, value)) => Err(PlanError::Unit { name, value }),
-            None => Ok(()),
+            None => match self.frame.filter(|frame| !(frame.phase.is_finite() && frame.offset_m.is_finite())) {
+                Some(frame) => Err(PlanError::Frame { phase: frame.phase, offset_m: frame.offset_m }),
+                None => Ok(()),
+            },
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Groups of arguments that several commands share. Arguments of one command are in the file of that command.
 
 mod axes;
+mod excitation;
 mod fields;
 mod machine_ranges;
 mod numbers;

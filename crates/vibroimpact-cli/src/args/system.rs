@@ -1,12 +1,13 @@
 //! SYSTEM: the oscillator, in nondimensional or in physical units.
 
+use super::excitation::ExcitationArgs;
 use super::parameter_flag::ParameterFlag;
 use super::{Place, number};
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
 use vibroimpact::{Frequency, Machine};
 use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{Parameter, SecondStop, SystemPlan};
+use vibroimpact_study::{FramePlan, Parameter, SecondStop, SystemPlan};
 
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "System")]
@@ -41,6 +42,9 @@ pub(crate) struct SystemArgs {
 
     #[command(flatten)]
     pub(super) machine: MachineArgs,
+
+    #[command(flatten)]
+    pub(super) excitation: ExcitationArgs,
 
     /// Units of starts, ranges and results
     #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional)]
@@ -113,11 +117,13 @@ impl SystemArgs {
     /// The system with the first value of each range.
     pub(crate) fn first(&self) -> Result<Asked, Failure> {
         let restitution = self.restitution.unwrap_or(0.0);
-        let machine = self.machine.machine(self.restitution)?;
+        let machine = self.machine.machine(self.restitution, &self.excitation)?;
         let second = self.second_gap.or(self.machine.second_gap_m.map(Place::first));
-        let second_stop = |unit: f64| {
-            second
-                .map(|gap| SecondStop { gap: gap / unit, restitution: self.second_restitution.unwrap_or(restitution) })
+        let second_stop = |unit: f64, offset: f64| {
+            second.map(|gap| SecondStop {
+                gap: (gap + offset) / unit,
+                restitution: self.second_restitution.unwrap_or(restitution),
+            })
         };
         if second.is_none() && self.second_restitution.is_some() {
             return Err(Failure::bad("the second stop has a restitution but no gap\nhint: --second-gap D2"));
@@ -135,7 +141,7 @@ impl SystemArgs {
                 gap,
                 restitution,
                 damping: self.damping.unwrap_or(0.0),
-                second_stop: second_stop(1.0),
+                second_stop: second_stop(1.0, 0.0),
             };
             return Ok(Asked { system, units: Units::default() });
         };
@@ -149,7 +155,11 @@ impl SystemArgs {
         if let Some((flag, _)) = twice.iter().find(|(_, value)| value.is_some()) {
             return Err(Failure::bad(format!("{flag} cannot go together with a system in physical units")));
         }
+        let frame = self.excitation.given().then(|| self.excitation.equivalent(&machine)).transpose()?;
+        let machine = frame.map_or(machine, |same| same.machine);
         let (osc, scales) = machine.nondimensional()?;
+        // the constant force moves the equilibrium away from the second stop
+        let offset = frame.map_or(0.0, |same| same.offset_m);
         let system = SystemPlan {
             beta: Some(osc.beta()),
             inverse_beta: None,
@@ -157,10 +167,11 @@ impl SystemArgs {
             restitution,
             // a given ratio is not rounded by a conversion
             damping: self.machine.damping_ratio.unwrap_or_else(|| osc.damping()),
-            second_stop: second_stop(scales.length_m),
+            second_stop: second_stop(scales.length_m, offset),
         };
         let si = self.units == Convention::Si;
-        let units = Units { scales: Some(scales), si, hertz: false };
+        let frame = frame.map(|same| FramePlan { phase: same.phase, offset_m: same.offset_m });
+        let units = Units { scales: Some(scales), si, hertz: false, frame };
         Ok(Asked { system, units })
     }
 }
@@ -198,6 +209,7 @@ impl SystemArgs {
             second_gap: None,
             second_restitution: None,
             machine,
+            excitation: ExcitationArgs::default(),
             units,
         };
         for (parameter, value) in values {
@@ -251,7 +263,7 @@ impl MachineArgs {
     }
 
     /// The machine in physical units, if any of its quantities is given; then all are required.
-    fn machine(&self, restitution: Option<f64>) -> Result<Option<Machine>, Failure> {
+    fn machine(&self, restitution: Option<f64>, excitation: &ExcitationArgs) -> Result<Option<Machine>, Failure> {
         let frequency = match (self.frequency_hz, self.omega_rad_per_s) {
             (Some(hertz), _) => Some(Frequency::Hz(hertz.first())),
             (None, omega) => omega.map(Frequency::RadPerS),
@@ -259,7 +271,7 @@ impl MachineArgs {
         let given = [
             ("--mass-kg", self.mass_kg),
             ("--stiffness-n-per-m", self.stiffness_n_per_m),
-            ("--force-n", self.force_n),
+            ("--force-n", self.force_n.or(excitation.drives().then_some(0.0))),
             ("--frequency-hz", frequency.map(Frequency::rad_per_s)),
             ("--gap-m", self.gap_m.map(Place::first)),
         ];
@@ -274,10 +286,10 @@ impl MachineArgs {
                 None => Ok(None),
             };
         }
-        let needed = given.into_iter().chain([("--restitution", restitution)]);
+        let needed = given.iter().copied().chain([("--restitution", restitution)]);
         let missing: Vec<&str> = needed.filter(|(_, value)| value.is_none()).map(|(flag, _)| flag).collect();
         let (Some(mass_kg), Some(stiffness_n_per_m), Some(force_n), Some(frequency), Some(gap_m), Some(restitution)) =
-            (self.mass_kg, self.stiffness_n_per_m, self.force_n, frequency, self.gap_m.map(Place::first), restitution)
+            (self.mass_kg, self.stiffness_n_per_m, given[2].1, frequency, self.gap_m.map(Place::first), restitution)
         else {
             return Err(Failure::bad(format!(
                 "a system in physical units needs all of its quantities; missing: {}",

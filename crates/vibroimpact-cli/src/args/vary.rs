@@ -9,6 +9,7 @@ use vibroimpact_study::{Parameter, SystemPlan};
 impl SystemArgs {
     /// The system with results in SI units if one of these parameters is in SI units.
     pub(crate) fn over(&self, varied: &[ParameterFlag]) -> Result<Asked, Failure> {
+        varied.iter().try_for_each(|parameter| self.excitation.allows(*parameter))?;
         let mut asked = self.asked()?;
         let Some(si) = varied.iter().find(|named| named.si) else { return Ok(asked) };
         if asked.units.scales.is_none() {

@@ -38,6 +38,14 @@ pub(crate) fn system(asked: &Asked, osc: &Oscillator) -> String {
             short(scales.velocity_m_per_s())
         );
     }
+    if let Some(frame) = asked.units.frame {
+        let _ = writeln!(
+            text,
+            "frame   positions relative to the motion of the stop, from {} m; phases {} rad ahead of sin(omega t)",
+            short(frame.offset_m),
+            short(frame.phase)
+        );
+    }
     text
 }
 

@@ -5,6 +5,7 @@ mod arguments;
 mod branches;
 mod diagrams;
 mod edges;
+mod excitation;
 mod files;
 mod lyapunov;
 mod planes;

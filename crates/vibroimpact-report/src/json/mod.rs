@@ -21,7 +21,7 @@ use crate::units::given;
 use crate::{Asked, PROGRAM, Units};
 use serde::Serialize;
 use vibroimpact::{Oscillator, Side, Start};
-use vibroimpact_study::{Cut, Plan, Span, Stretch, Values};
+use vibroimpact_study::{Cut, FramePlan, Plan, Span, Stretch, Values};
 
 /// The object that a command prints: the system, the start, the fields of the command, and the plan.
 #[derive(Serialize)]
@@ -78,6 +78,8 @@ struct Scales {
     time_s: f64,
     mass_kg: f64,
     velocity_m_per_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frame: Option<FramePlan>,
 }
 
 #[derive(Serialize)]
@@ -111,6 +113,7 @@ impl Scales {
             time_s: scales.time_s,
             mass_kg: scales.mass_kg,
             velocity_m_per_s: scales.velocity_m_per_s(),
+            frame: units.frame,
         })
     }
 }
