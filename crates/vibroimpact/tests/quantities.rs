@@ -1,6 +1,7 @@
 //! Quantities of random attractors: the energy balance, and every quantity against a fine waveform.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may stop at what it did not expect")]
 
+use vibroimpact::chaos::{ExponentOptions, exponents};
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::quantities::{Quantities, Quantity, cycle_segments, harmonics, of_cycle, of_transient, of_verdict};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
@@ -136,6 +137,34 @@ fn quantities_agree_with_a_fine_waveform() {
         near(Quantity::ImpulsePerPeriod, impulse / periods, if chatters { 0.05 } else { 1e-8 });
         if !chatters {
             near(Quantity::AccelerationMax, hard, 2e-3);
+        }
+    }
+}
+
+/// Chaos that ends after the verdict in ever gentler impacts and grazing contacts has no quantities, and the search for
+/// them ends.
+#[test]
+fn chaos_that_ends_in_grazing_contacts() {
+    let osc = Oscillator::new(0.5, 0.998_319_288_924_331_5, 0.920_639_422_999_646_9).unwrap();
+    let start = Start::new(&osc, 0.0, 0.0, 2.979_927_068_960_900_5).unwrap();
+    let options = ExponentOptions { impacts: 1000, transient: 100, ..ExponentOptions::default() };
+    let measured = exponents(&osc, start, &options);
+    assert!(matches!(measured.motion, Verdict::Chaotic(_)), "{measured:?}");
+    assert!(of_verdict(&osc, &measured.motion).is_none());
+}
+
+/// At huge and tiny frequency ratios the sums over impacts are known, and nothing takes long.
+#[test]
+fn huge_and_tiny_frequency_ratios() {
+    for (beta, gap, restitution) in
+        [(1e9, -1e-18, 0.0), (3e5, -0.2, 0.5), (1e-7, 0.3, 0.6), (1e-3, 0.3, 0.6), (300.0, 0.0, 0.7)]
+    {
+        let osc = Oscillator::new(beta, gap, restitution).unwrap().with_damping(0.01).unwrap();
+        let verdict = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
+        let Some(found) = of_verdict(&osc, &verdict) else { continue };
+        assert!(!found.get(Quantity::ImpactLossPerPeriod).is_nan(), "beta {beta}: {verdict:?}");
+        if found.get(Quantity::WorkPerPeriod).is_finite() && matches!(verdict, Verdict::Periodic(_)) {
+            assert!(imbalance(&found).abs() < 1e-11, "beta {beta}: {}", imbalance(&found));
         }
     }
 }

@@ -41,19 +41,43 @@ pub(super) fn system() -> Words {
     prop_oneof![9 => system::system().prop_map(|values| flags(&values)), 1 => machine()].boxed()
 }
 
-/// A system in physical units, of which something may be missing.
-fn machine() -> Words {
-    let positive = || prop_oneof![8 => (0.05..20.0_f64).prop_map(typed), 1 => number()].boxed();
-    let parts: Vec<Words> = vec![
+fn positive() -> ProptestText {
+    prop_oneof![8 => (0.05..20.0_f64).prop_map(typed), 1 => number()].boxed()
+}
+
+/// The mass, spring, force, gap and restitution of a system in physical units, of which something may be missing.
+pub(super) fn machine_without_frequency() -> Words {
+    all(vec![
         flag("mass-kg", 0.97, positive()),
         flag("stiffness-n-per-m", 0.97, positive()),
         flag("force-n", 0.97, positive()),
+        flag("gap-m", 0.97, prop_oneof![(-0.1..0.5_f64).prop_map(typed), number()].boxed()),
+        flag("restitution", 0.97, restitution()),
+    ])
+}
+
+/// What drives a machine besides its force.
+fn excitation() -> Words {
+    let all = all(vec![
+        flag("base-displacement-m", 0.4, positive()),
+        flag("base-acceleration-m-per-s2", 0.1, positive()),
+        switch("stop-in-space", 0.3),
+        flag("stop-displacement-m", 0.1, positive()),
+        flag("unbalance-kg-m", 0.2, positive()),
+        flag("constant-force-n", 0.2, number()),
+    ]);
+    prop_oneof![4 => Just(Vec::new()), 1 => all].boxed()
+}
+
+/// A system in physical units, of which something may be missing.
+fn machine() -> Words {
+    let parts: Vec<Words> = vec![
+        machine_without_frequency(),
         flag("frequency-hz", 0.95, positive()),
         flag("omega-rad-per-s", 0.05, positive()),
-        flag("gap-m", 0.97, prop_oneof![(-0.1..0.5_f64).prop_map(typed), number()].boxed()),
+        excitation(),
         flag("damping-ns-per-m", 0.4, positive()),
         flag("second-gap-m", 0.2, positive()),
-        flag("restitution", 0.97, restitution()),
         flag("units", 0.6, word(&["si", "nondimensional", "imperial"])),
         flag("gap", 0.03, number()),
     ];

@@ -1,4 +1,4 @@
-//! Command lines with ranges: basin, map, diagram, region and curve.
+//! Command lines with ranges: basin, map, diagram, region, curve and response.
 
 use super::parts::{Words, all, flag, flags, line, outputs, start, switch, word};
 use crate::system::{parameter, system, without};
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 /// Any of these command lines.
 pub(super) fn lines() -> Words {
-    prop_oneof![3 => basin(), 3 => map(), 3 => diagram(), 2 => region(), 2 => curve()].boxed()
+    prop_oneof![3 => basin(), 3 => map(), 3 => diagram(), 2 => region(), 2 => curve(), 1 => response()].boxed()
 }
 
 fn few() -> ProptestText {
@@ -38,10 +38,16 @@ fn basin() -> Words {
             flag("v", 0.98, range(-4.0, 4.0)),
             flag("phase", 0.3, crate::values::number()),
             flag("impacts", 0.6, budget()),
+            fields(),
             store(),
             outputs("csv"),
         ],
     )
+}
+
+/// Quantities to report.
+fn fields() -> Words {
+    flag("fields", 0.2, word(&["power", "impact-speed-max,displacement_rms", "speed", "", "power,power"]))
 }
 
 /// A system in which this number of parameters vary over ranges.
@@ -81,6 +87,7 @@ fn map() -> Words {
             flag("seed", 0.2, count()),
             flag("impacts", 0.6, budget()),
             flag("axes", 0.05, word(&["gap,inverse-beta", "gap", "mass", ""])),
+            fields(),
             store(),
             outputs("csv"),
         ],
@@ -120,6 +127,23 @@ fn region() -> Words {
             flag("label", 0.98, label()),
             flag("grid", 0.97, word(&["2", "3", "4", "1", "401", "-1"])),
             flag("axes", 0.05, word(&["gap,inverse-beta", "gap", ""])),
+            outputs("csv"),
+        ],
+    )
+}
+
+fn response() -> Words {
+    let nondimensional = varied(1, range).prop_map(|(over, system)| [flags(&over), flags(&system)].concat()).boxed();
+    let machine = all(vec![
+        super::parts::machine_without_frequency(),
+        flag("frequency-hz", 0.97, range(0.05, 2.0)),
+        flag("damping-ratio", 0.3, word(&["0.02", "0", "-1", "0:0.1:3"])),
+    ]);
+    line(
+        "response",
+        vec![
+            prop_oneof![3 => nondimensional, 1 => machine].boxed(),
+            flag("quantity", 0.4, word(&["power", "impact-speed-max", "sticking_fraction", "speed", ""])),
             outputs("csv"),
         ],
     )

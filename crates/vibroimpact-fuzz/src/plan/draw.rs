@@ -83,14 +83,46 @@ fn basin() -> Tasks {
 fn map() -> Tasks {
     let over = || parameter().prop_flat_map(|(name, low, high)| (Just(name), range(low, high), any::<bool>()));
     let refine = prop::option::weighted(0.2, 2..9_u32);
-    (prop::collection::vec(over(), 1..3), 1..4_u64, prop::option::weighted(0.7, 1..400_u32), refine, system())
-        .prop_map(|(over, starts, impacts, refine, system)| {
+    (
+        prop::collection::vec(over(), 1..3),
+        1..4_u64,
+        prop::option::weighted(0.7, 1..400_u32),
+        (refine, fields()),
+        system(),
+    )
+        .prop_map(|(over, starts, impacts, (refine, fields), system)| {
             let axes: Vec<Value> = over.iter().map(|(name, range, listed)| axis(name, range, *listed)).collect();
             let names: Vec<&str> = over.iter().map(|(name, ..)| *name).collect();
-            let task = json!({ "axes": axes, "starts": starts, "impacts": impacts, "refine": refine });
+            let task =
+                json!({ "axes": axes, "starts": starts, "impacts": impacts, "refine": refine, "fields": fields });
             (json!({ "map": task }), without(system, &names))
         })
         .boxed()
+}
+
+/// Quantities to report.
+fn fields() -> BoxedStrategy<Option<Vec<&'static str>>> {
+    let names = prop::sample::select(vec!["power", "impact_speed_max", "displacement_rms", "sticking_fraction"]);
+    prop::option::weighted(0.3, prop::collection::vec(names, 0..3)).boxed()
+}
+
+fn response() -> Tasks {
+    let over = parameter().prop_flat_map(|(name, low, high)| (Just(name), range(low, high)));
+    let quantity = prop::sample::select(vec![json!(null), json!("power"), json!("velocity-max")]);
+    (over, quantity, system())
+        .prop_map(|((name, over), quantity, system)| {
+            let task = json!({ "vary": name, "over": over, "quantity": quantity });
+            (json!({ "response": task }), without(system, &[name]))
+        })
+        .boxed()
+}
+
+/// The physical units of a plan, most of them valid.
+fn units() -> BoxedStrategy<Option<Value>> {
+    let scale = prop::sample::select(vec![json!(0.005), json!(1e-300), json!(2.0), json!(0), json!(-1)]);
+    let units = (scale, any::<bool>())
+        .prop_map(|(scale, hertz)| json!({ "length_m": scale, "time_s": 0.05, "mass_kg": 2.0, "hertz": hertz }));
+    prop::option::weighted(0.15, units).boxed()
 }
 
 fn diagram() -> Tasks {
@@ -151,11 +183,15 @@ fn region(system: SystemValues, p: &'static str, first: &Value, q: &'static str,
 
 /// A plan, which is valid in most cases.
 pub fn plan() -> BoxedStrategy<Value> {
-    let task = prop_oneof![5 => one_start(), 2 => basin(), 2 => map(), 2 => diagram(), 3 => continuation()];
+    let task =
+        prop_oneof![5 => one_start(), 2 => basin(), 2 => map(), 2 => diagram(), 3 => continuation(), 1 => response()];
     let tile = prop::option::weighted(0.1, prop::sample::select(vec![1, 2, 4096, 0, 4097]));
-    (task, tile)
-        .prop_map(|((task, system), tile)| {
+    (task, tile, units())
+        .prop_map(|((task, system), tile, units)| {
             let mut plan = json!({ "version": 1, "system": of(&system), "task": task });
+            if let Some(units) = units {
+                plan["units"] = units;
+            }
             if let Some(tile) = tile {
                 plan["tile"] = json!(tile);
             }

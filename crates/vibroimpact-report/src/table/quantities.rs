@@ -9,11 +9,12 @@ pub(super) fn columns(list: &[Quantity], units: &Units) -> String {
     list.iter().map(|quantity| format!(",{}", units.column(quantity.name(), quantity.kind()))).collect()
 }
 
-/// The cells of a row, each after a comma. A quantity that is not defined is an empty cell.
+/// The cells of a row, each after a comma. A quantity that is not defined or infinite is an
+/// empty cell.
 pub(super) fn cells(list: &[Quantity], of: Option<Quantities>, units: &Units) -> String {
     let cell = |quantity: &Quantity| {
         let value = of.map_or(f64::NAN, |of| of.get(*quantity)) * units.of_kind(quantity.kind());
-        if value.is_nan() { ",".to_owned() } else { format!(",{}", Number(value)) }
+        if !value.is_finite() { ",".to_owned() } else { format!(",{}", Number(value)) }
     };
     list.iter().map(cell).collect()
 }

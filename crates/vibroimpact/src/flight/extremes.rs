@@ -92,10 +92,12 @@ impl Extremes {
         let snap = -beta * beta * force - point.a - zeta2 * point.j;
         let r = radius(point.x, point.v);
         let window = Window::new(flight, r, point.v.abs(), h);
-        let small = ACCURACY * r;
+        // relative to the largest values so far: at rest in the middle the radius itself is 0
+        let size = r.max(self.speed).max(self.highest.abs().min(f64::MAX)).max(self.lowest.abs().min(f64::MAX));
+        let small = ACCURACY * size;
         let x = Local { value: point.x, first: point.v, second: point.a, bound: window.b3, small };
         let v = Local { value: point.v, first: point.a, second: point.j, bound: window.b4(flight), small };
-        let small = ACCURACY * (1.0 + r + zeta2 * point.v.abs());
+        let small = ACCURACY * (1.0 + size + zeta2 * point.v.abs());
         let a = Local { value: point.a, first: point.j, second: snap, bound: window.b5(flight), small };
         let mut open = false;
         let targets = [

@@ -140,6 +140,22 @@ impl Quantity {
         }
     }
 
+    /// Whether it is a sum over impacts, or a time on a stop, and needs no integral over the flights.
+    pub(super) const fn of_impacts(self) -> bool {
+        matches!(
+            self,
+            Self::ImpactSpeedMax
+                | Self::ImpactSpeedMean
+                | Self::ImpactsPerPeriod
+                | Self::ImpactRate
+                | Self::ImpulseMax
+                | Self::ImpulsePerPeriod
+                | Self::ImpactLossPerPeriod
+                | Self::ImpactPower
+                | Self::StickingFraction
+        )
+    }
+
     /// Its kind, which determines its unit.
     #[must_use]
     pub const fn kind(self) -> QuantityKind {

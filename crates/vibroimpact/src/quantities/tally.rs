@@ -29,10 +29,17 @@ impl Quantities {
     }
 }
 
-/// Sums over the parts of a motion.
+/// The longest time in flight, in units of the fastest change of a flight, over which integrals and extremes are
+/// computed. They need a few steps for each unit, so far longer flights would take seconds: at frequency ratios above
+/// 1e4 or below 1e-5. All other quantities are sums over impacts.
+const LONGEST: f64 = 3e5;
+
+/// Sums over the parts of a motion. Integrals and extremes are NaN if its flights are longer than $`3\cdot 10^5`$ units
+/// of $`1/\max(\beta, 1 + 2\zeta)`$ in total.
 #[derive(Clone, Copy, Debug)]
 pub struct Tally<'a> {
     osc: &'a Oscillator,
+    flown: f64,
     integrals: FlightIntegrals,
     extremes: Extremes,
     time: f64,
@@ -51,6 +58,7 @@ impl<'a> Tally<'a> {
     pub fn new(osc: &'a Oscillator) -> Self {
         Self {
             osc,
+            flown: 0.0,
             integrals: FlightIntegrals::default(),
             extremes: Extremes::default(),
             time: 0.0,
@@ -69,8 +77,11 @@ impl<'a> Tally<'a> {
         self.time += segment.duration();
         match *segment {
             Segment::Flight { flight, duration } => {
-                self.integrals.add(&flight, duration);
-                self.extremes.add(&flight, duration);
+                self.flown += duration * self.osc.beta().max(1.0 + 2.0 * self.osc.damping());
+                if self.flown <= LONGEST {
+                    self.integrals.add(&flight, duration);
+                    self.extremes.add(&flight, duration);
+                }
             }
             Segment::Impact { side, speed } => self.impact(side, speed),
             Segment::Chatter { side, phase, rebound, duration } => self.chatter(side, phase, rebound, duration),
@@ -144,7 +155,8 @@ impl<'a> Tally<'a> {
         let mean_speed =
             if self.impacts > 0.0 && self.impacts.is_finite() { self.speeds / self.impacts } else { f64::NAN };
         let rms = |squares: f64| (squares.max(0.0) / time).sqrt();
-        Quantities::from_fn(|quantity| match quantity {
+        let short = self.flown <= LONGEST;
+        let value = |quantity: Quantity| match quantity {
             Quantity::ImpactSpeedMax => self.fastest,
             Quantity::ImpactSpeedMean => mean_speed,
             Quantity::ImpactsPerPeriod => self.impacts / periods,
@@ -166,7 +178,8 @@ impl<'a> Tally<'a> {
             Quantity::VelocityRms => rms(self.integrals.v_squared),
             Quantity::AccelerationMax => self.extremes.acceleration,
             Quantity::StickingFraction => self.sticking / time,
-        })
+        };
+        Quantities::from_fn(|quantity| if short || quantity.of_impacts() { value(quantity) } else { f64::NAN })
     }
 
     /// The same over the time of all parts.

@@ -11,6 +11,10 @@ use crate::verdict::{NoImpact, Verdict};
 
 /// The number of impacts over which the quantities of a chaotic motion are measured.
 pub const MEASURED_IMPACTS: u64 = 4000;
+/// Events for each impact, at most: impacts, grazing contacts, beginnings and ends of sticking. And impacts that are
+/// always granted.
+const EVENTS: u64 = 4;
+const LEAST: u64 = 100;
 /// The number of forcing periods of a last flight without end that count as part of the way.
 const LAST_PERIODS: f64 = 100.0;
 
@@ -64,14 +68,16 @@ fn stuck(osc: &Oscillator, side: Side) -> Quantities {
 fn measured(osc: &Oscillator, last: &ImpactState) -> Option<Quantities> {
     let mut motion = Motion::after(osc, last, SearchLimits::default());
     let mut tally = Tally::new(osc);
-    let (mut count, mut done) = (0, false);
+    let (mut count, mut events, mut done) = (0, 0, false);
     follow(
         &mut motion,
         |part| tally.add(&part),
         |event| {
             count += u64::from(matches!(event.kind, EventKind::Impact { .. }));
+            events += 1;
             done = count >= MEASURED_IMPACTS;
-            !done
+            // chaos that ends in grazing contacts without impacts has no end of events
+            !done && events < EVENTS * MEASURED_IMPACTS
         },
     );
     done.then(|| tally.over_all())
@@ -83,13 +89,14 @@ fn measured(osc: &Oscillator, last: &ImpactState) -> Option<Quantities> {
 pub fn of_transient(osc: &Oscillator, start: Start, impacts: u64) -> Quantities {
     let mut motion = Motion::new(osc, start);
     let mut tally = Tally::new(osc);
-    let mut count = 0;
+    let (mut count, mut events) = (0, 0);
     follow(
         &mut motion,
         |part| tally.add(&part),
         |event| {
             count += u64::from(matches!(event.kind, EventKind::Impact { .. }));
-            count < impacts
+            events += 1;
+            count < impacts && events < EVENTS.saturating_mul(impacts.saturating_add(LEAST))
         },
     );
     if let Some(leg) = motion.leg().filter(|leg| leg.duration.is_infinite()) {
