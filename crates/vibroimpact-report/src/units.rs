@@ -1,6 +1,7 @@
 //! The units of lengths, velocities and times in results.
 
 use crate::number::short;
+use vibroimpact::quantities::{Quantities, Quantity};
 use vibroimpact::{QuantityKind, Scales};
 use vibroimpact_study::{
     Axis, Coordinate, FramePlan, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length,
@@ -76,17 +77,30 @@ impl Units {
         self.factor(|scales| kind.in_si(scales))
     }
 
+    /// The value of a quantity in these units; not-a-number if it is not defined.
+    #[must_use]
+    pub fn value_of(&self, of: &Quantities, quantity: Quantity) -> f64 {
+        let equivalent = matches!(
+            quantity,
+            Quantity::DampingLossPerPeriod | Quantity::DampingPower | Quantity::WorkPerPeriod | Quantity::Power
+        );
+        if equivalent && self.frame.is_some_and(|frame| frame.apart) {
+            return f64::NAN;
+        }
+        of.get(quantity) * self.of_kind(quantity.kind())
+    }
+
     /// The name of a column with values of this kind, which ends in the unit if there is one.
     #[must_use]
     pub fn column(&self, name: &str, kind: QuantityKind) -> String {
         if self.si { format!("{name}{}", kind.suffix()) } else { name.to_owned() }
     }
 
-    /// A value of this kind as text, with its unit if there is one.
+    /// A quantity as text, with its unit if there is one.
     #[must_use]
-    pub fn text(&self, value: f64, kind: QuantityKind) -> String {
-        let number = short(value * self.of_kind(kind));
-        if self.si && !kind.unit().is_empty() { format!("{number} {}", kind.unit()) } else { number }
+    pub fn text(&self, of: &Quantities, quantity: Quantity) -> String {
+        let (number, unit) = (short(self.value_of(of, quantity)), quantity.kind().unit());
+        if self.si && !unit.is_empty() { format!("{number} {unit}") } else { number }
     }
 
     /// The unit of a parameter.

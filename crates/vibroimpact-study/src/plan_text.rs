@@ -64,6 +64,7 @@ impl Task {
             Self::Basin(basin) => on(&basin.axes),
             Self::Lyapunov(lyapunov) => on(&lyapunov.axes),
             Self::Diagram(diagram) => diagram.cut().values(diagram.over.at(0)).collect(),
+            Self::Response(response) => vec![(response.vary, response.over.at(0))],
             _ => Vec::new(),
         }
     }

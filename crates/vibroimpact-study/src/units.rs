@@ -33,6 +33,10 @@ pub struct FramePlan {
     pub phase: f64,
     /// The position of the equilibrium in m, to be added to positions.
     pub offset_m: f64,
+    /// Whether the stop moves otherwise than the base. Then the loss in the damper and the work of the equivalent force
+    /// are not those of the machine, and are not reported.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub apart: bool,
 }
 
 impl UnitsPlan {

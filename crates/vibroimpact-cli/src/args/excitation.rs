@@ -11,15 +11,15 @@ use vibroimpact::{EquivalentMachine, Excitation, Machine, Parameter, Shaking, Sy
 #[command(next_help_heading = "Excitation of a system in physical units, besides --force-n or instead of it")]
 pub(crate) struct ExcitationArgs {
     /// Amplitude of the displacement of the base, in m; the stop is on the base
-    #[arg(long, value_parser = number, value_name = "Y", conflicts_with_all = ["base_velocity_m_per_s", "base_acceleration_m_per_s2"])]
+    #[arg(long, value_parser = number, value_name = "Y", group = "base")]
     base_displacement_m: Option<f64>,
 
     /// Amplitude of the velocity of the base instead, in m/s
-    #[arg(long, value_parser = number, value_name = "V", conflicts_with = "base_acceleration_m_per_s2")]
+    #[arg(long, value_parser = number, value_name = "V", group = "base")]
     base_velocity_m_per_s: Option<f64>,
 
     /// Amplitude of the acceleration of the base instead, in m/s^2
-    #[arg(long, value_parser = number, value_name = "A")]
+    #[arg(long, value_parser = number, value_name = "A", group = "base")]
     base_acceleration_m_per_s2: Option<f64>,
 
     /// Phase of the base relative to the force, in radians
@@ -27,11 +27,11 @@ pub(crate) struct ExcitationArgs {
     base_phase: f64,
 
     /// The stop is fixed in space and does not move with the base
-    #[arg(long)]
+    #[arg(long, requires = "base")]
     stop_in_space: bool,
 
     /// Amplitude of the displacement of the stop, in m, of a base at rest
-    #[arg(long, value_parser = number, value_name = "R", conflicts_with_all = ["base_displacement_m", "base_velocity_m_per_s", "base_acceleration_m_per_s2"])]
+    #[arg(long, value_parser = number, value_name = "R", conflicts_with = "base")]
     stop_displacement_m: Option<f64>,
 
     /// Phase of the stop relative to the force, in radians
@@ -61,7 +61,8 @@ impl ExcitationArgs {
     pub(super) fn allows(&self, varied: ParameterFlag) -> Result<(), Failure> {
         use Parameter::{Beta, Damping, Gap, InverseBeta, SecondGap};
         let why = match varied.parameter {
-            Beta | InverseBeta | Damping if self.drives() => "the force of a moving base or stop and of an unbalance",
+            Beta | InverseBeta if self.drives() => "the force of a moving base or stop and of an unbalance",
+            Damping if self.apart() => "the force of a moving base or stop and of an unbalance",
             Gap | SecondGap if self.constant_force_n.is_some() => "the gap from the equilibrium under a constant force",
             _ => return Ok(()),
         };
@@ -69,6 +70,11 @@ impl ExcitationArgs {
             "{why} changes with {}, and cannot vary here yet\nhint: `vibro settle` and `vibro attractors` answer value by value",
             varied.flag()
         )))
+    }
+
+    /// Whether the stop moves otherwise than the base.
+    pub(super) const fn apart(&self) -> bool {
+        self.stop_in_space || self.stop_displacement_m.is_some()
     }
 
     /// Whether anything is given.

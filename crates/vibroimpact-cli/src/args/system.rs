@@ -170,7 +170,8 @@ impl SystemArgs {
             second_stop: second_stop(scales.length_m, offset),
         };
         let si = self.units == Convention::Si;
-        let frame = frame.map(|same| FramePlan { phase: same.phase, offset_m: same.offset_m });
+        let frame =
+            frame.map(|same| FramePlan { phase: same.phase, offset_m: same.offset_m, apart: self.excitation.apart() });
         let units = Units { scales: Some(scales), si, hertz: false, frame };
         Ok(Asked { system, units })
     }

@@ -34,7 +34,7 @@ pub(crate) struct Attractors {
     #[command(flatten)]
     store: StoreArgs,
 
-    /// Write one row a motion to this file; - for stdout. Columns: label, share, starts, real and imaginary part of both multipliers
+    /// Write one row a motion to this file; - for stdout. Columns: label, share, starts, real and imaginary part of both multipliers, all quantities
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 

@@ -12,7 +12,7 @@ pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units
     let StartBox { x, v, .. } = StartBox::natural(osc);
     let heads = ["share", "starts", "<label", "multipliers", "impact speed", "power", "<meaning"].map(str::to_owned);
     let of = |verdict: &Verdict, quantity: Quantity| {
-        of_verdict(osc, verdict).map_or_else(|| "-".into(), |of| units.text(of.get(quantity), quantity.kind()))
+        of_verdict(osc, verdict).map_or_else(|| "-".into(), |of| units.text(&of, quantity))
     };
     let rows: Vec<Vec<String>> = census
         .by_share()

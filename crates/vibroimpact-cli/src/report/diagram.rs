@@ -1,5 +1,6 @@
 //! The motions of an orbit diagram as text.
 
+use crate::report::branch::named;
 use crate::report::words::table;
 use vibroimpact_report::Units;
 use vibroimpact_report::json::diagram::{Counts, counts};
@@ -10,7 +11,7 @@ use vibroimpact_study::{Diagram, Stretch, counted};
 pub(crate) fn text(found: &Diagram, units: &Units) -> String {
     let plan = &found.plan;
     let ((from, to), unit) = (plan.over.ends(), units.of(plan.vary));
-    let name = plan.vary.name().replace('_', " ");
+    let name = named(plan.vary, units);
     let heads = ["<sweep", "motions", "with impacts", "none", "stuck", "undecided", "points"].map(str::to_owned);
     let row = |c: &Counts| {
         let counts = [c.motions, c.impact, c.none, c.stuck, c.undecided, c.points];
@@ -19,7 +20,7 @@ pub(crate) fn text(found: &Diagram, units: &Units) -> String {
     let rows: Vec<Vec<String>> = counts(found).iter().map(row).collect();
     let also = plan.also.map_or_else(String::new, |Stretch { parameter, from, to }| {
         let unit = units.of(parameter);
-        format!(", {} from {} to {}", parameter.name().replace('_', " "), short(from * unit), short(to * unit))
+        format!(", {} from {} to {}", named(parameter, units), short(from * unit), short(to * unit))
     });
     format!(
         "{} of {name} from {} to {}{also}\n\n{}",

@@ -1,6 +1,6 @@
 //! Lyapunov exponents as text.
 
-use crate::report::words::{meaning, stop_name, table};
+use crate::report::words::{meaning, seconds, stop_name, table};
 use std::fmt::Write;
 use vibroimpact::chaos::{Exponents, Grounds, Measured};
 use vibroimpact::verdict::NoImpact;
@@ -57,7 +57,7 @@ fn grounds(found: &Exponents, units: &Units) -> String {
         Grounds::Measured { impacts, transient, time, blocks } => {
             let mut text = format!(
                 "measured over {impacts} impacts and a time of {}, after {transient} impacts; +- is three standard errors, from {blocks} blocks",
-                short(time * units.time())
+                seconds(time, units)
             );
             if found.identity.is_finite() {
                 let _ = write!(

@@ -12,17 +12,15 @@ pub(crate) fn text(found: &ResponseCurves, units: &Units) -> String {
     let (unit, quantity) = (units.of(found.plan.vary), found.plan.quantity);
     let (from, to) = found.plan.cut().ends;
     let name = named(found.plan.vary, units);
-    let kind = quantity.kind();
     let of = |motion: &SweptMotion| value(motion.quantities, quantity, units);
     let mut text =
         format!("{} over {name} from {} to {}\n\n", quantity.description(), short(from * unit), short(to * unit));
     for (sweep, motions) in [("up", &found.up), ("down", &found.down)] {
         let most = motions.iter().filter(|motion| of(motion).is_finite()).max_by(|a, b| of(a).total_cmp(&of(b)));
         if let Some(most) = most {
-            let raw = most.quantities.map_or(f64::NAN, |of| of.get(quantity));
             text.push_str(&format!(
                 "sweep {sweep}: at most {} at {}, {}\n",
-                units.text(raw, kind),
+                most.quantities.map_or_else(String::new, |of| units.text(&of, quantity)),
                 short(most.value * unit),
                 most.label
             ));

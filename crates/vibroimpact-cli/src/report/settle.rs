@@ -1,6 +1,6 @@
 //! A settled motion as text.
 
-use crate::report::words::motion;
+use crate::report::words::{motion, seconds};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
 use vibroimpact_report::Units;
@@ -18,7 +18,7 @@ pub(crate) fn text(
     text.push_str(&format!(
         "  followed for {}, until time {}\n",
         counted(settled.impacts, "impact"),
-        short(settled.time * units.time())
+        seconds(settled.time, units)
     ));
     if let Some(chaos) = settled.transient {
         text.push_str(&format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts));

@@ -49,6 +49,12 @@ pub(crate) fn system(asked: &Asked, osc: &Oscillator) -> String {
     text
 }
 
+/// A time with its unit, if there is one.
+pub(crate) fn seconds(time: f64, units: &Units) -> String {
+    let number = short(time * units.time());
+    if units.si { format!("{number} s") } else { number }
+}
+
 pub(crate) fn start(start: &Start, units: &Units) -> String {
     format!(
         "start   {} {}, {} {}, phase {}\n",
@@ -240,8 +246,8 @@ pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Stri
 
 /// The quantities of a motion that matter most; all of them are in the JSON.
 pub(crate) fn quantities(all: &Quantities, units: &Units) -> String {
-    let of = |quantity: Quantity| units.text(all.get(quantity), quantity.kind());
-    let defined = |quantity: Quantity| all.get(quantity).is_finite();
+    let of = |quantity: Quantity| units.text(all, quantity);
+    let defined = |quantity: Quantity| units.value_of(all, quantity).is_finite();
     let mut text = String::new();
     if all.get(Quantity::ImpactSpeedMax) > 0.0 {
         let _ = write!(text, "  impact speed largest {}", of(Quantity::ImpactSpeedMax));
@@ -250,7 +256,7 @@ pub(crate) fn quantities(all: &Quantities, units: &Units) -> String {
         }
         let _ = writeln!(text, "; impulse {} per forcing period", of(Quantity::ImpulsePerPeriod));
     }
-    if all.get(Quantity::WorkPerPeriod) > 0.0 {
+    if units.value_of(all, Quantity::WorkPerPeriod) > 0.0 {
         let _ = writeln!(
             text,
             "  work of the force {} per forcing period: {} lost in impacts, {} in the damper; power {}",
@@ -259,6 +265,8 @@ pub(crate) fn quantities(all: &Quantities, units: &Units) -> String {
             of(Quantity::DampingLossPerPeriod),
             of(Quantity::Power)
         );
+    } else if all.get(Quantity::ImpactLossPerPeriod) > 0.0 {
+        let _ = writeln!(text, "  lost in impacts {} per forcing period", of(Quantity::ImpactLossPerPeriod));
     }
     if defined(Quantity::DisplacementRms) {
         let _ = writeln!(

@@ -27,6 +27,8 @@ fn a_shaken_base_is_a_force() {
     let space = json(&format!("settle {MACHINE} --base-displacement-m 0.002 --stop-in-space"));
     assert!((speed(&space) / speed(&by_force) - 1.0).abs() > 1e-3);
     let phase = space["system"]["scales"]["frame"]["phase"].as_f64().unwrap();
+    let of = &space["motion"]["quantities"];
+    assert!(of["impact_loss_per_period"].as_f64().unwrap() > 0.0 && of["work_per_period"].is_null());
     assert!((phase - (2.1_f64 * 31.0 / 900.0).atan()).abs() < 1e-14);
 }
 
@@ -54,7 +56,7 @@ fn a_weight_moves_the_equilibrium() {
 fn sweeps_that_would_be_wrong_are_refused() {
     for line in [
         format!("diagram {MACHINE} --base-displacement-m 0.002 --vary frequency-hz --over 4:6:3"),
-        format!("diagram {MACHINE} --unbalance-kg-m 0.002 --vary damping --over 0:0.1:3"),
+        format!("diagram {MACHINE} --base-displacement-m 0.002 --stop-in-space --vary damping --over 0:0.1:3"),
         format!("branch {MACHINE} --force-n 3 --constant-force-n 1 --label 1/1 --vary gap-m --to 0.005"),
     ] {
         let refused = vibro(&line).output().unwrap();

@@ -77,7 +77,8 @@ class Response:
     plan: str
 
     def __repr__(self) -> str:
-        return f"<Response of {self.quantity} over {self.vary}: {len(self.up)} values, {len(self.branches)} branches>"
+        count = len(self.branches)
+        return f"<Response of {self.quantity} over {self.vary}: {len(self.up)} values, {count} branch{'' if count == 1 else 'es'}>"
 
     def to_dict(self) -> dict[str, Any]:
         """The fields of the JSON of the command; numbers that are not finite are None."""
@@ -121,10 +122,13 @@ class Response:
         for branch in self.branches:
             for begin, end in _runs(branch):
                 label, stable = str(branch.label[end]), bool(branch.stable[end])
-                new = label not in colours
-                colour = colours.setdefault(label, SERIES[len(colours) % _USABLE])
+                if label not in colours:
+                    colours[label] = SERIES[len(colours) % _USABLE]
+                    ax.plot([], [], color=colours[label], linewidth=1.8, label=named(label))
                 xs, ys = branch.parameter[begin : end + 1], branch.quantities[quantity][begin : end + 1]
-                ax.plot(xs, ys, "-" if stable else "--", color=colour, linewidth=1.8, label=named(label) if new else None)
+                ax.plot(xs, ys, "-" if stable else "--", color=colours[label], linewidth=1.8)
+        if any(not branch.stable[branch.physical].all() for branch in self.branches):
+            ax.plot([], [], "--", color="black", linewidth=1.8, label="unstable")
         ax.set_xlabel(Scale(self.osc, False).axis(self.vary))
         ax.set_ylabel(quantity.replace("_", " "))
         ax.set_title(title(self.osc, (self.vary,)))

@@ -2,7 +2,7 @@
 
 use crate::Units;
 use serde::{Serialize, Serializer};
-use vibroimpact::quantities::Quantities;
+use vibroimpact::quantities::{Quantities, Quantity};
 
 /// All quantities of a motion in these units, by name.
 #[derive(Clone, Copy)]
@@ -20,8 +20,6 @@ impl QuantityFields {
 impl Serialize for QuantityFields {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         // numbers that are not finite become null
-        to.collect_map(
-            self.values.iter().map(|(quantity, value)| (quantity.name(), value * self.units.of_kind(quantity.kind()))),
-        )
+        to.collect_map(Quantity::ALL.map(|quantity| (quantity.name(), self.units.value_of(&self.values, quantity))))
     }
 }

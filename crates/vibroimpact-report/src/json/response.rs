@@ -95,5 +95,5 @@ fn object(branch: &ResponseBranch, task: &ResponsePlan, units: &Units) -> Branch
 /// A quantity in these units; not-a-number where it is not defined.
 #[must_use]
 pub fn value(of: Option<Quantities>, quantity: Quantity, units: &Units) -> f64 {
-    of.map_or(f64::NAN, |of| of.get(quantity)) * units.of_kind(quantity.kind())
+    of.map_or(f64::NAN, |of| units.value_of(&of, quantity))
 }

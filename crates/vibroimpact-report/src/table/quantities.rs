@@ -13,7 +13,7 @@ pub(super) fn columns(list: &[Quantity], units: &Units) -> String {
 /// empty cell.
 pub(super) fn cells(list: &[Quantity], of: Option<Quantities>, units: &Units) -> String {
     let cell = |quantity: &Quantity| {
-        let value = of.map_or(f64::NAN, |of| of.get(*quantity)) * units.of_kind(quantity.kind());
+        let value = of.map_or(f64::NAN, |of| units.value_of(&of, *quantity));
         if !value.is_finite() { ",".to_owned() } else { format!(",{}", Number(value)) }
     };
     list.iter().map(cell).collect()

@@ -3,7 +3,7 @@
 use super::{ResponsePlan, SweptMotion};
 use crate::{Control, Cut, PlanError, RunError, SystemPlan};
 use core::ops::RangeInclusive;
-use vibroimpact::continuation::{Branch, BranchOptions, Direction, SolutionPoint};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::orbit::{Cycle, refine, without_impacts};
 use vibroimpact::quantities::{Quantities, of_cycle};
 use vibroimpact::{Oscillator, ParameterPath};
@@ -85,11 +85,15 @@ impl Ground<'_, '_> {
             // a cycle that cannot be followed, such as one at the end of the range, is no branch
             branch.map_or_else(|_| Vec::new(), |branch| branch.take_while(|_| !self.control.stopping()).collect())
         };
-        let (down, up) = (way(Direction::Down), way(Direction::Up));
-        let mut points = down;
+        let mut points = way(Direction::Down);
+        if points.last().is_some_and(|point| point.event == Some(BranchEvent::Closed)) {
+            return points;
+        }
         points.reverse();
         // both begin with the cycle itself
-        points.extend(up.into_iter().skip(usize::from(!points.is_empty())));
+        points.extend(way(Direction::Up).into_iter().skip(usize::from(!points.is_empty())));
+        // at an end of the range a branch has its first point twice
+        points.dedup_by(|b, a| a.value == b.value && a.event.is_some() && a.cycle.same_as(&b.cycle, SAME));
         points
     }
 

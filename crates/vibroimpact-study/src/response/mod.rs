@@ -54,7 +54,7 @@ pub(crate) fn response(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Parameter, Quantity};
+    use crate::{Parameter, Plan, Quantity};
 
     /// A damped oscillator with a wide gap has the classical response of a linear oscillator.
     #[test]
@@ -73,6 +73,20 @@ mod tests {
         for point in &branch.points {
             let value = point.quantities.unwrap().get(Quantity::DisplacementAmplitude);
             assert!((value - exact(point.solution.value)).abs() < 1e-12);
+        }
+    }
+
+    /// The parameter that varies need not be in the system, and the plan is the same when it is written and read.
+    #[test]
+    fn a_plan_survives_its_text() {
+        let short = r#"{"version":1,"system":{"inverse_beta":1.3,"restitution":0.5},"task":{"response":{"vary":"gap","over":"0.5:1:3"}}}"#;
+        let plan = Plan::from_text(short).unwrap();
+        assert_eq!((plan.system.gap, plan.check()), (0.5, Ok(())));
+        assert_eq!(Plan::from_text(&plan.to_toml()).unwrap(), plan);
+        for (over, sentence) in [("1:1:1", "gap is to go from 1 to 1"), ("0:nan:3", "the plan does not read")] {
+            let text = short.replace("0.5:1:3", over);
+            let error = Plan::from_text(&text).and_then(|plan| plan.check()).unwrap_err().to_string();
+            assert!(error.starts_with(sentence), "{error}");
         }
     }
 

@@ -17,7 +17,7 @@ const EVENTS: u32 = 100_000;
 /// use vibroimpact::{Oscillator, orbit, quantities::{Quantity, of_cycle}};
 /// // 1/1 without damping: the work of the force is lost in the impact
 /// let osc = Oscillator::from_inverse_beta(0.6, 0.75, 0.5)?;
-/// let found = orbit::find(&osc, "1/1".parse().unwrap(), &orbit::FindOptions::default());
+/// let found = orbit::find(&osc, "1/1".parse().unwrap(), orbit::FindOptions::default());
 /// let cycle = &found[0].cycle;
 /// let quantities = of_cycle(&osc, cycle).unwrap();
 /// let speed = cycle.points[0].state.velocity;
