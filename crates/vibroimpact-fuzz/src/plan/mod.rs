@@ -144,7 +144,8 @@ fn budget(plan: &Plan) -> u64 {
         Task::Lyapunov(lyapunov) => {
             lyapunov.impacts.saturating_add(lyapunov.transient).saturating_add(lyapunov.points.unwrap_or(0))
         }
-        Task::Response(response) => response.motions().saturating_mul(5000),
+        // its branches have up to 40 times 6000 points
+        Task::Response(response) => response.motions().saturating_mul(5000).saturating_add(100 * 240_000),
         Task::Branch(branch) => {
             u64::from(branch.points).saturating_mul(u64::from(branch.follow) + 1).saturating_mul(100)
         }

@@ -54,6 +54,9 @@ pub(super) fn branches<'a>(
         found.push(ground.both_ways(&osc, &cycle));
     }
     let quantities = |solution: SolutionPoint| {
+        if control.stopping() {
+            return Ok(ResponsePoint { quantities: None, solution });
+        }
         let osc = ground.oscillator(solution.value)?;
         Ok(ResponsePoint { quantities: of_cycle(&osc, &solution.cycle), solution })
     };

@@ -30,11 +30,11 @@ impl Quantities {
 }
 
 /// The longest time in flight, in units of the fastest change of a flight, over which integrals and extremes are
-/// computed. They need a few steps for each unit, so far longer flights would take seconds: at frequency ratios above
-/// 1e4 or below 1e-5. All other quantities are sums over impacts.
-const LONGEST: f64 = 3e5;
+/// computed. They need a few steps for each unit, so longer ones would take more than 10 ms, as at frequency ratios below
+/// 2e-4. All other quantities are sums over impacts.
+const LONGEST: f64 = 3e4;
 
-/// Sums over the parts of a motion. Integrals and extremes are NaN if its flights are longer than $`3\cdot 10^5`$ units
+/// Sums over the parts of a motion. Integrals and extremes are NaN if its flights are longer than $`3\cdot 10^4`$ units
 /// of $`1/\max(\beta, 1 + 2\zeta)`$ in total.
 #[derive(Clone, Copy, Debug)]
 pub struct Tally<'a> {

@@ -175,8 +175,8 @@ mod tests {
             }
             let expected = physical(&machine, &excitation, start.x * scales.length_m + same.offset_m, own.len());
             assert!(own.len() >= 8, "{name}: {} impacts", own.len());
-            for ((t, u), (te, ue)) in own.iter().zip(&expected) {
-                assert!((t - te).abs() < 1e-8 && (u - ue).abs() < 1e-7, "{name}: {t} {te}, {u} {ue}");
+            for ((t, u), (at, speed)) in own.iter().zip(&expected) {
+                assert!((t - at).abs() < 1e-8 && (u - speed).abs() < 1e-7, "{name}: {t} {at}, {u} {speed}");
             }
         }
     }
