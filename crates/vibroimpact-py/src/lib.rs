@@ -35,7 +35,7 @@ mod _core {
     #[pymodule_export]
     use crate::error::{QuestionError, StoppedError, StoreError};
     #[pymodule_export]
-    use crate::grid::{fill, labels_of, span_values};
+    use crate::grid::{basin_measures, fill, labels_of, span_values};
     #[pymodule_export]
     use crate::lyapunov::lyapunov;
     #[pymodule_export]

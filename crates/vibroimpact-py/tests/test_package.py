@@ -4,7 +4,6 @@ import doctest
 import importlib
 import pkgutil
 import re
-import statistics
 import subprocess
 import sys
 from pathlib import Path
@@ -14,19 +13,14 @@ import pytest
 import vibroimpact as vi
 
 
-def test_importing_takes_no_time_and_drags_nothing_in() -> None:
+def test_importing_drags_nothing_in() -> None:
     program = """
-import sys, time
-begin = time.process_time()
+import sys
 import vibroimpact
-print(time.process_time() - begin)
 print(*sorted({"xarray", "matplotlib", "pandas", "zarr", "tqdm", "dask"} & set(sys.modules)))
 """
-    runs = [subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True) for _ in range(5)]
-    # processor time, which does not depend on the load of the machine
-    seconds = statistics.median(float(run.stdout.splitlines()[0]) for run in runs)
-    assert seconds < 0.3, f"{seconds} s"
-    assert {run.stdout.splitlines()[1] for run in runs} == {""}
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == ""
 
 
 def test_every_name_is_documented() -> None:

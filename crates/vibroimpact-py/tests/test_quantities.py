@@ -55,6 +55,21 @@ def test_fields_in_si_units() -> None:
     assert np.allclose(ratio[np.isfinite(ratio)], 2 * units.velocity_m_per_s**2)
 
 
+def test_measures_of_a_basin() -> None:
+    ds = vi.basin(vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), x="-6:0.75:200", v="-6:6:200")
+    of = ds.vibro.measures()
+    # the definition, in numpy
+    labels = ds["label"].values.reshape(40, 5, 40, 5).swapaxes(1, 2).reshape(-1, 25)
+    shares = [np.unique(box, return_counts=True)[1] / 25 for box in labels]
+    entropies = np.array([-(p * np.log(p)).sum() for p in shares])
+    assert of["entropy"] == pytest.approx(entropies.mean(), rel=1e-12)
+    assert of["boundary_entropy"] == pytest.approx(entropies[[len(p) > 1 for p in shares]].mean(), rel=1e-12)
+    value, error = of["uncertainty_exponent"]
+    assert 0.5 < value < 1.1 and 0 < error < 0.2
+    with pytest.raises(vi.QuestionError, match="a basin over two axes"):
+        ds.isel(v=0).vibro.measures()
+
+
 def test_a_response() -> None:
     osc = vi.Oscillator(inverse_beta=1.3, gap=0.5, restitution=0.5)
     found = vi.response(osc, "gap", "0.5:1.5:21", quantity="impact-speed-max")

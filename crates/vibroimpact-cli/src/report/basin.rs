@@ -2,8 +2,9 @@
 
 use crate::report::words::{meaning, table};
 use vibroimpact_report::json::basin::by_count;
-use vibroimpact_report::number::percent;
+use vibroimpact_report::number::{percent, short};
 use vibroimpact_study::Basin;
+use vibroimpact_study::basin::BasinMeasures;
 
 /// One row for each motion.
 pub(crate) fn text(found: &Basin) -> String {
@@ -13,5 +14,29 @@ pub(crate) fn text(found: &Basin) -> String {
         let label = motion.verdict.label().into_owned();
         vec![percent(found.share(m)), motion.count.to_string(), label, meaning(&motion.verdict)]
     };
-    table(&heads, &by_count(found).into_iter().map(row).collect::<Vec<_>>())
+    let text = table(&heads, &by_count(found).into_iter().map(row).collect::<Vec<_>>());
+    text + &found.measures().map_or_else(String::new, |measures| sentences(&measures))
+}
+
+/// The entropies and the uncertainty exponent.
+fn sentences(of: &BasinMeasures) -> String {
+    let Some(boundary) = of.boundary_entropy else { return String::new() };
+    let mut text = format!(
+        "\n  basin entropy {}, boundary entropy {} in boxes of {} x {} starts\n",
+        short(of.entropy),
+        short(boundary),
+        of.side,
+        of.side
+    );
+    if boundary > core::f64::consts::LN_2 {
+        text.push_str("  the boundary entropy exceeds ln 2: the boundary is fractal at this resolution\n");
+    }
+    if let Some(exponent) = &of.uncertainty {
+        text.push_str(&format!(
+            "  uncertainty exponent {} +- {} (1 for a smooth boundary)\n",
+            short(exponent.value),
+            short(exponent.error)
+        ));
+    }
+    text
 }

@@ -1,6 +1,6 @@
 """`ds.vibro`: figures and labels of the Datasets of vibroimpact. The import of this module registers it with xarray."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -56,6 +56,34 @@ class VibroAccessor:
         text = np.array(words, dtype=np.str_)[places].reshape(array.shape)
         return xr.DataArray(text, array.coords, array.dims, attrs={"long_name": array.attrs.get("long_name", name)})
 
+    def measures(self) -> dict[str, Any]:
+        """Measures of a basin in a plane: entropies of its boxes of 5 x 5 starts, and the uncertainty exponent.
+
+        Returns
+        -------
+        dict
+            "entropy" and "boundary_entropy" (Daza et al. 2016, https://doi.org/10.1038/srep31416; None without a boundary),
+            the side "box_side" of their boxes, and "uncertainty_exponent" as value and standard error: 1 for a smooth
+            boundary, less for a fractal one; None for planes that are too small.
+
+        Examples
+        --------
+        >>> from vibroimpact import Oscillator, basin
+        >>> ds = basin(Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5), x="-4:0.75:100", v="-4:4:100")
+        >>> of = ds.vibro.measures()
+        >>> of["box_side"], 0 < of["entropy"] < of["boundary_entropy"] < 0.7
+        (5, True)
+        """
+        label = self._ds.get("label")
+        if label is None or label.ndim != 2:
+            raise QuestionError("measures are those of a basin over two axes, with the variable `label`")
+        codes = np.unique(label.values, return_inverse=True)[1].reshape(-1)
+        if "cycle" in self._ds:
+            # two cycles may have one label
+            pairs = np.stack([codes, self._ds["cycle"].values.reshape(-1)])
+            codes = np.unique(pairs, axis=1, return_inverse=True)[1].reshape(-1)
+        return dict(_core.basin_measures(codes.astype(np.int64), label.shape[1]))
+
     def si(self, units: Units | None = None) -> xr.Dataset:
         """The same Dataset with all lengths and times, in values and coordinates, converted to metres and seconds.
 
@@ -65,7 +93,7 @@ class VibroAccessor:
         ----------
         units : Units
             The units of length and time, `osc.units`. By default those of the oscillator from which the Dataset was
-            computed. A Dataset that was read from a store has no units, so they must be given.
+            computed; the Dataset of a plan without units has none, so they must be given.
 
         Examples
         --------

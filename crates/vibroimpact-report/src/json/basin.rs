@@ -5,6 +5,7 @@ use super::{Document, Place};
 use crate::Asked;
 use serde::Serialize;
 use vibroimpact::{Oscillator, Start};
+use vibroimpact_study::basin::{missed_share, share_interval};
 use vibroimpact_study::{Basin, Coordinate, Plan};
 
 /// The fields of `vibro basin`: the axes of the starts, and the values of coordinates on no axis.
@@ -15,6 +16,46 @@ struct BasinFields {
     phase: Place,
     motions: Vec<SharedMotion>,
     starts: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    measures: Option<MeasureFields>,
+}
+
+/// Measures of the basins in a plane.
+#[derive(Serialize)]
+struct MeasureFields {
+    /// Side of the boxes of the entropies, in starts.
+    box_side: usize,
+    entropy: f64,
+    boundary_entropy: Option<f64>,
+    uncertainty_exponent: Option<ExponentFields>,
+    /// Shares of the motions, in their order, at a confidence of 95 %.
+    share_intervals: Vec<(f64, f64)>,
+    /// Largest share of a motion that no start leads to, at a confidence of 95 %.
+    missed_below: f64,
+}
+
+#[derive(Serialize)]
+struct ExponentFields {
+    value: f64,
+    error: f64,
+}
+
+impl MeasureFields {
+    fn of(found: &Basin) -> Option<Self> {
+        let measures = found.measures()?;
+        let total = found.cells.len() as u64;
+        Some(Self {
+            box_side: measures.side,
+            entropy: measures.entropy,
+            boundary_entropy: measures.boundary_entropy,
+            uncertainty_exponent: measures.uncertainty.map(|of| ExponentFields { value: of.value, error: of.error }),
+            share_intervals: by_count(found)
+                .into_iter()
+                .map(|m| share_interval(found.motions[m].count, total))
+                .collect(),
+            missed_below: missed_share(total),
+        })
+    }
 }
 
 /// The object of `vibro basin`.
@@ -36,6 +77,7 @@ pub fn document<'a>(asked: &Asked, plan: &'a Plan, osc: &Oscillator, found: &Bas
         phase: place(Coordinate::Phase, 1.0, task.start.phase),
         motions: shared.collect(),
         starts: found.cells.len(),
+        measures: MeasureFields::of(found),
     };
     Document::new(asked, osc, plan, answer)
 }

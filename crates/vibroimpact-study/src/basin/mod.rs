@@ -1,7 +1,9 @@
 //! The motion to which each start of a plane leads.
 
+mod measures;
 mod plan;
 
+pub use measures::{BasinMeasures, UncertaintyExponent, measures, missed_share, share_interval};
 pub use plan::BasinPlan;
 
 use crate::axis;
@@ -24,6 +26,13 @@ impl Basin {
     #[must_use]
     pub fn label(&self, k: usize) -> std::borrow::Cow<'static, str> {
         self.motions[usize::from(self.cells[k])].verdict.label()
+    }
+
+    /// The measures of its basins; `None` unless it has two axes.
+    #[must_use]
+    pub fn measures(&self) -> Option<BasinMeasures> {
+        let [across, _] = self.plan.axes.as_slice() else { return None };
+        Some(measures(&self.cells, across.over.count()))
     }
 
     /// The share of starts that lead to motion number `m`.

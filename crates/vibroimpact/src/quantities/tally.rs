@@ -30,16 +30,19 @@ impl Quantities {
 }
 
 /// The longest time in flight, in units of the fastest change of a flight, over which integrals and extremes are
-/// computed. They need a few steps for each unit, so longer ones would take more than 10 ms, as at frequency ratios below
-/// 2e-4. All other quantities are sums over impacts.
+/// computed, and the time that each impact adds to it. They need a few steps for each unit, so the integrals of a cycle
+/// at a frequency ratio below 2e-4 would take more than 10 ms.
 const LONGEST: f64 = 3e4;
+const EACH_IMPACT: f64 = 100.0;
 
-/// Sums over the parts of a motion. Integrals and extremes are NaN if its flights are longer than $`3\cdot 10^4`$ units
-/// of $`1/\max(\beta, 1 + 2\zeta)`$ in total.
+/// Sums over the parts of a motion. Integrals and extremes are NaN if its flights are longer in total than
+/// $`3\cdot 10^4 + 100\,m`$ units of $`1/\max(\beta, 1 + 2\zeta)`$ after $`m`$ impacts; sums over impacts are not.
 #[derive(Clone, Copy, Debug)]
 pub struct Tally<'a> {
     osc: &'a Oscillator,
     flown: f64,
+    /// Whether a flight was left out of the integrals and extremes.
+    skipped: bool,
     integrals: FlightIntegrals,
     extremes: Extremes,
     time: f64,
@@ -59,6 +62,7 @@ impl<'a> Tally<'a> {
         Self {
             osc,
             flown: 0.0,
+            skipped: false,
             integrals: FlightIntegrals::default(),
             extremes: Extremes::default(),
             time: 0.0,
@@ -78,7 +82,8 @@ impl<'a> Tally<'a> {
         match *segment {
             Segment::Flight { flight, duration } => {
                 self.flown += duration * self.osc.beta().max(1.0 + 2.0 * self.osc.damping());
-                if self.flown <= LONGEST {
+                self.skipped |= self.flown > LONGEST + EACH_IMPACT * self.impacts;
+                if !self.skipped {
                     self.integrals.add(&flight, duration);
                     self.extremes.add(&flight, duration);
                 }
@@ -155,7 +160,6 @@ impl<'a> Tally<'a> {
         let mean_speed =
             if self.impacts > 0.0 && self.impacts.is_finite() { self.speeds / self.impacts } else { f64::NAN };
         let rms = |squares: f64| (squares.max(0.0) / time).sqrt();
-        let short = self.flown <= LONGEST;
         let value = |quantity: Quantity| match quantity {
             Quantity::ImpactSpeedMax => self.fastest,
             Quantity::ImpactSpeedMean => mean_speed,
@@ -179,7 +183,7 @@ impl<'a> Tally<'a> {
             Quantity::AccelerationMax => self.extremes.acceleration,
             Quantity::StickingFraction => self.sticking / time,
         };
-        Quantities::from_fn(|quantity| if short || quantity.of_impacts() { value(quantity) } else { f64::NAN })
+        Quantities::from_fn(|quantity| if !self.skipped || quantity.of_impacts() { value(quantity) } else { f64::NAN })
     }
 
     /// The same over the time of all parts.
