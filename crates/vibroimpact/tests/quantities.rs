@@ -3,7 +3,9 @@
 
 use vibroimpact::chaos::{ExponentOptions, exponents};
 use vibroimpact::motion::{EventKind, Motion};
-use vibroimpact::quantities::{Quantities, Quantity, cycle_segments, harmonics, of_cycle, of_transient, of_verdict};
+use vibroimpact::quantities::{
+    Quantities, Quantity, cycle_segments, harmonics, of_cycle, of_transient, of_verdict, of_verdict_only,
+};
 use vibroimpact::verdict::{SettleOptions, Verdict, settle};
 use vibroimpact::{Oscillator, Start};
 
@@ -151,6 +153,22 @@ fn chaos_that_ends_in_grazing_contacts() {
     let measured = exponents(&osc, start, &options);
     assert!(matches!(measured.motion, Verdict::Chaotic(_)), "{measured:?}");
     assert!(of_verdict(&osc, &measured.motion).is_none());
+}
+
+/// Sums over impacts alone are the same numbers as among all quantities.
+#[test]
+fn sums_over_impacts_alone() {
+    let mut numbers = Numbers(5);
+    for _ in 0..100 {
+        let osc = random(&mut numbers);
+        let verdict = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
+        let all = of_verdict(&osc, &verdict);
+        let some = of_verdict_only(&osc, &verdict, &[Quantity::ImpactSpeedMax, Quantity::ImpactPower]);
+        assert_eq!(all.is_some(), some.is_some());
+        for (quantity, value) in all.iter().flat_map(Quantities::iter).filter(|(quantity, _)| quantity.of_impacts()) {
+            assert_eq!(some.unwrap().get(quantity).to_bits(), value.to_bits(), "{osc:?} {quantity:?}");
+        }
+    }
 }
 
 /// At huge and tiny frequency ratios the sums over impacts are known, and nothing takes long.

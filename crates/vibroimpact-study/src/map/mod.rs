@@ -7,7 +7,7 @@ pub(crate) use plan::{check_impacts, check_refine};
 
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;
-use vibroimpact::quantities::{Quantities, of_verdict};
+use vibroimpact::quantities::{Quantities, of_verdict_only};
 use vibroimpact::verdict::{
     CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
 };
@@ -50,7 +50,8 @@ pub(crate) fn motions(osc: &Oscillator, plan: &MapPlan, options: &SettleOptions)
     found.sort_by_key(|found| core::cmp::Reverse(found.count));
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
     let share = |count: u64| count as f64 / plan.starts as f64;
-    let quantities = |verdict: &Verdict| if plan.fields.is_empty() { None } else { of_verdict(osc, verdict) };
+    let quantities =
+        |verdict: &Verdict| if plan.fields.is_empty() { None } else { of_verdict_only(osc, verdict, &plan.fields) };
     let share = |found: CountedMotion| Share {
         quantities: quantities(&found.verdict),
         share: share(found.count),

@@ -15,7 +15,7 @@ use crate::{BasinPlan, PlanError, SystemPlan};
 use core::cell::RefCell;
 use std::sync::OnceLock;
 use vibroimpact::lanes::Width;
-use vibroimpact::quantities::of_verdict;
+use vibroimpact::quantities::of_verdict_only;
 use vibroimpact::verdict::{
     Census, CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
 };
@@ -170,7 +170,8 @@ impl BasinFill {
                 // the corners are valid; a point between them that is not is undecided
                 let found = self.oscillator(&index).map_or((super::UNDECIDED, None), |osc| {
                     let verdict = vibroimpact::verdict::settle(&osc, self.start(&osc, &index), &options).verdict;
-                    let quantities = if self.asked().is_empty() { None } else { of_verdict(&osc, &verdict) };
+                    let quantities =
+                        if self.asked().is_empty() { None } else { of_verdict_only(&osc, &verdict, self.asked()) };
                     (code(&verdict), quantities)
                 });
                 let known = codes.iter().position(|known| *known == found).filter(|_| self.asked().is_empty());
@@ -224,7 +225,9 @@ impl BasinFill {
             Some(one) => {
                 let survey = self.cycles(one);
                 let same = |found: &Verdict| survey.iter().find(|known| cycles::same(known, found));
-                let of = |found: &CountedMotion| of_verdict(&one.osc, same(&found.verdict).unwrap_or(&found.verdict));
+                let of = |found: &CountedMotion| {
+                    of_verdict_only(&one.osc, same(&found.verdict).unwrap_or(&found.verdict), asked)
+                };
                 tile.met.motions().iter().map(of).collect()
             }
             None => tile.codes.iter().map(|(_, quantities)| *quantities).collect(),

@@ -59,8 +59,8 @@ impl Local {
 impl Extremes {
     /// Includes the first `duration` of a flight.
     pub fn add(&mut self, flight: &Flight, duration: f64) {
-        // the bounds hold over windows in which the flight changes little
-        let most = 0.5 / (1.0 + flight.fastest);
+        // over longer windows the bounds are too wide to leave anything out
+        let most = 1.5 / (1.0 + flight.fastest);
         self.include_point(&flight.at(duration));
         let pieces = (duration / most).ceil().max(1.0);
         let step = duration / pieces;

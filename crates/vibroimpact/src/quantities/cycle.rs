@@ -27,7 +27,11 @@ const EVENTS: u32 = 100_000;
 /// ```
 #[must_use]
 pub fn of_cycle(osc: &Oscillator, cycle: &Cycle) -> Option<Quantities> {
-    let mut tally = Tally::new(osc);
+    add_cycle(Tally::new(osc), osc, cycle)
+}
+
+/// The quantities of a cycle from empty sums.
+pub(super) fn add_cycle(mut tally: Tally<'_>, osc: &Oscillator, cycle: &Cycle) -> Option<Quantities> {
     for segment in cycle_segments(osc, cycle)? {
         tally.add(&segment);
     }

@@ -25,4 +25,4 @@ pub use harmonic::{Harmonic, harmonics};
 pub use quantity::Quantity;
 pub use segment::Segment;
 pub use tally::{Quantities, Tally};
-pub use verdict::{MEASURED_IMPACTS, of_transient, of_verdict};
+pub use verdict::{MEASURED_IMPACTS, of_transient, of_verdict, of_verdict_only};

@@ -141,7 +141,8 @@ impl Quantity {
     }
 
     /// Whether it is a sum over impacts, or a time on a stop, and needs no integral over the flights.
-    pub(super) const fn of_impacts(self) -> bool {
+    #[must_use]
+    pub const fn of_impacts(self) -> bool {
         matches!(
             self,
             Self::ImpactSpeedMax

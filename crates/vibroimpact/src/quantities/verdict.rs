@@ -1,6 +1,6 @@
 //! The quantities of a verdict, and those of the way from a start to the motion it settles into.
 
-use super::cycle::{after_release, of_cycle};
+use super::cycle::{add_cycle, after_release, of_cycle};
 use super::segment::follow;
 use super::{Quantities, Quantity, Segment, Tally};
 use crate::flight::SearchLimits;
@@ -25,10 +25,18 @@ const LAST_PERIODS: f64 = 100.0;
 /// impacts depend on the start: their positions and velocities are NaN.
 #[must_use]
 pub fn of_verdict(osc: &Oscillator, verdict: &Verdict) -> Option<Quantities> {
+    of_verdict_only(osc, verdict, &Quantity::ALL)
+}
+
+/// The same for the quantities that are asked for; others may be NaN. Sums over impacts alone need far less time than
+/// integrals and extremes ([`Quantity::of_impacts`]).
+#[must_use]
+pub fn of_verdict_only(osc: &Oscillator, verdict: &Verdict, asked: &[Quantity]) -> Option<Quantities> {
+    let tally = Tally::of_only(osc, asked);
     match verdict {
-        Verdict::Periodic(cycle) => of_cycle(osc, cycle),
+        Verdict::Periodic(cycle) => add_cycle(tally, osc, cycle),
         Verdict::NoImpact(NoImpact::Landing { side, periods }) => {
-            let mut tally = Tally::new(osc);
+            let mut tally = tally;
             after_release(osc, *side, *periods)?.iter().for_each(|part| tally.add(part));
             Some(tally.over(f64::from(*periods)))
         }
@@ -37,7 +45,7 @@ pub fn of_verdict(osc: &Oscillator, verdict: &Verdict) -> Option<Quantities> {
             None => Some(Quantities::from_fn(quiet)),
         },
         Verdict::Stuck(side) => Some(stuck(osc, *side)),
-        Verdict::Chaotic(chaos) => measured(osc, &chaos.spectrum.last),
+        Verdict::Chaotic(chaos) => measured(tally, osc, &chaos.spectrum.last),
         Verdict::Undecided(_) => None,
     }
 }
@@ -65,9 +73,8 @@ fn stuck(osc: &Oscillator, side: Side) -> Quantities {
 }
 
 /// The quantities of a motion over the impacts that follow one of them; `None` if the motion ends before.
-fn measured(osc: &Oscillator, last: &ImpactState) -> Option<Quantities> {
+fn measured(mut tally: Tally<'_>, osc: &Oscillator, last: &ImpactState) -> Option<Quantities> {
     let mut motion = Motion::after(osc, last, SearchLimits::default());
-    let mut tally = Tally::new(osc);
     let (mut count, mut events, mut done) = (0, 0, false);
     follow(
         &mut motion,
