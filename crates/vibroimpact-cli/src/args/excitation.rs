@@ -61,8 +61,9 @@ impl ExcitationArgs {
     pub(super) fn allows(&self, varied: ParameterFlag) -> Result<(), Failure> {
         use Parameter::{Beta, Damping, Gap, InverseBeta, SecondGap};
         let why = match varied.parameter {
-            Beta | InverseBeta if self.drives() => "the force of a moving base or stop and of an unbalance",
-            Damping if self.apart() => "the force of a moving base or stop and of an unbalance",
+            changed if matches!(changed, Beta | InverseBeta) && self.drives() || changed == Damping && self.apart() => {
+                "the force of a moving base or stop and of an unbalance"
+            }
             Gap | SecondGap if self.constant_force_n.is_some() => "the gap from the equilibrium under a constant force",
             _ => return Ok(()),
         };

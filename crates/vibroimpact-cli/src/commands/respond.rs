@@ -18,9 +18,8 @@ pub(super) fn run(
     store: Option<&StoreArgs>,
     session: &Session,
 ) -> Result<(), Failure> {
-    let plan = &Plan { units: units.plan().or(plan.units), ..plan.clone() };
     if let Some(place) = store.and_then(|store| store.store.as_ref()) {
-        return stored::run(plan, place, Part::ALL, outputs, session);
+        return stored::run(&in_units(plan, &units), place, Part::ALL, outputs, session);
     }
     let answer = compute(plan, units, session)?;
     tell(&answer, (outputs, shown), session)
@@ -28,7 +27,7 @@ pub(super) fn run(
 
 /// Computes the answer of a plan, with a progress bar if the plan reports progress.
 pub(super) fn compute(plan: &Plan, units: Units, session: &Session) -> Result<Answer, Failure> {
-    let plan = &Plan { units: units.plan().or(plan.units), ..plan.clone() };
+    let plan = &in_units(plan, &units);
     let work = plan.work();
     session.watched(work, |control| answer(plan, units, control)).map_err(|error| match error {
         AnswerError::Stopped(Stopped { done, total }) => {
@@ -38,6 +37,11 @@ pub(super) fn compute(plan: &Plan, units: Units, session: &Session) -> Result<An
         }
         other => other.into(),
     })
+}
+
+/// The plan with the units of its results, if they are SI units.
+fn in_units(plan: &Plan, units: &Units) -> Plan {
+    Plan { units: units.plan().or(plan.units), ..plan.clone() }
 }
 
 /// Writes the files, then prints the JSON object, or the text unless the table is on stdout. For a grid with an output

@@ -3,7 +3,7 @@
 use crate::report::words::{meaning, multipliers, table};
 use vibroimpact::Oscillator;
 use vibroimpact::quantities::{Quantity, of_verdict};
-use vibroimpact::verdict::{Census, StartBox, Verdict};
+use vibroimpact::verdict::{Census, StartBox};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::{percent, short};
 
@@ -11,20 +11,19 @@ use vibroimpact_report::number::{percent, short};
 pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units) -> String {
     let StartBox { x, v, .. } = StartBox::natural(osc);
     let heads = ["share", "starts", "<label", "multipliers", "impact speed", "power", "<meaning"].map(str::to_owned);
-    let of = |verdict: &Verdict, quantity: Quantity| {
-        of_verdict(osc, verdict).map_or_else(|| "-".into(), |of| units.text(&of, quantity))
-    };
     let rows: Vec<Vec<String>> = census
         .by_share()
         .iter()
         .map(|found| {
+            let all = of_verdict(osc, &found.verdict);
+            let of = |quantity| all.map_or_else(|| "-".into(), |all| units.text(&all, quantity));
             vec![
                 percent(census.share(found)),
                 found.count.to_string(),
                 found.verdict.label().into_owned(),
                 found.verdict.multipliers(osc).map_or_else(|| "-".into(), multipliers),
-                of(&found.verdict, Quantity::ImpactSpeedMax),
-                of(&found.verdict, Quantity::Power),
+                of(Quantity::ImpactSpeedMax),
+                of(Quantity::Power),
                 meaning(&found.verdict),
             ]
         })

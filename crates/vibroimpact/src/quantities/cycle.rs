@@ -46,7 +46,8 @@ pub fn cycle_segments(osc: &Oscillator, cycle: &Cycle) -> Option<Vec<Segment>> {
         return after_release(osc, rest.side, cycle.label.periods);
     }
     if cycle.points.is_empty() {
-        return (osc.damping() > 0.0).then(|| vec![steady(osc)]);
+        return (osc.damping() > 0.0)
+            .then(|| vec![Segment::Flight { flight: Flight::new(osc, Start::steady(osc)), duration: osc.period() }]);
     }
     let parts = cycle.points.iter().flat_map(|point| {
         let flight = Flight::new(osc, point.state.rebound(osc));
@@ -73,13 +74,4 @@ pub(super) fn after_release(osc: &Oscillator, side: Side, periods: u32) -> Optio
         },
     );
     closed.then_some(parts)
-}
-
-/// One period of the steady motion without impacts of a damped oscillator, $`x = S\sin\theta + C\cos\theta`$ with
-/// $`S = (1-\beta^2)f^2`$, $`C = -2\zeta\beta f^2`$.
-fn steady(osc: &Oscillator) -> Segment {
-    let (beta, f) = (osc.beta(), osc.free_amplitude());
-    let start =
-        Start { x: -2.0 * osc.damping() * beta * f * f, v: beta * (1.0 - beta) * (1.0 + beta) * f * f, phase: 0.0 };
-    Segment::Flight { flight: Flight::new(osc, start), duration: osc.period() }
 }

@@ -1,6 +1,6 @@
 //! The quantities of a verdict, and those of the way from a start to the motion it settles into.
 
-use super::cycle::{add_cycle, after_release, of_cycle};
+use super::cycle::{add_cycle, after_release};
 use super::segment::follow;
 use super::{Quantities, Quantity, Segment, Tally};
 use crate::flight::SearchLimits;
@@ -41,7 +41,7 @@ pub fn of_verdict_only(osc: &Oscillator, verdict: &Verdict, asked: &[Quantity]) 
             Some(tally.over(f64::from(*periods)))
         }
         Verdict::NoImpact(_) => match orbit::without_impacts(osc) {
-            Some(cycle) => of_cycle(osc, &cycle),
+            Some(cycle) => add_cycle(tally, osc, &cycle),
             None => Some(Quantities::from_fn(quiet)),
         },
         Verdict::Stuck(side) => Some(stuck(osc, *side)),
@@ -75,19 +75,24 @@ fn stuck(osc: &Oscillator, side: Side) -> Quantities {
 /// The quantities of a motion over the impacts that follow one of them; `None` if the motion ends before.
 fn measured(mut tally: Tally<'_>, osc: &Oscillator, last: &ImpactState) -> Option<Quantities> {
     let mut motion = Motion::after(osc, last, SearchLimits::default());
-    let (mut count, mut events, mut done) = (0, 0, false);
+    let count = add_impacts(&mut tally, &mut motion, MEASURED_IMPACTS, EVENTS * MEASURED_IMPACTS);
+    (count == MEASURED_IMPACTS).then(|| tally.over_all())
+}
+
+/// Adds a motion up to its impact number `impacts`, or its end; returns the number of impacts. At most `most` events are
+/// added, because a motion that ends in grazing contacts without impacts has no end of events.
+fn add_impacts(tally: &mut Tally<'_>, motion: &mut Motion<'_>, impacts: u64, most: u64) -> u64 {
+    let (mut count, mut events) = (0, 0);
     follow(
-        &mut motion,
+        motion,
         |part| tally.add(&part),
         |event| {
             count += u64::from(matches!(event.kind, EventKind::Impact { .. }));
             events += 1;
-            done = count >= MEASURED_IMPACTS;
-            // chaos that ends in grazing contacts without impacts has no end of events
-            !done && events < EVENTS * MEASURED_IMPACTS
+            count < impacts && events < most
         },
     );
-    done.then(|| tally.over_all())
+    count
 }
 
 /// The quantities of the way from `start` over its first `impacts` impacts: the largest values on the way, and means
@@ -96,16 +101,7 @@ fn measured(mut tally: Tally<'_>, osc: &Oscillator, last: &ImpactState) -> Optio
 pub fn of_transient(osc: &Oscillator, start: Start, impacts: u64) -> Quantities {
     let mut motion = Motion::new(osc, start);
     let mut tally = Tally::new(osc);
-    let (mut count, mut events) = (0, 0);
-    follow(
-        &mut motion,
-        |part| tally.add(&part),
-        |event| {
-            count += u64::from(matches!(event.kind, EventKind::Impact { .. }));
-            events += 1;
-            count < impacts && events < EVENTS.saturating_mul(impacts.saturating_add(LEAST))
-        },
-    );
+    add_impacts(&mut tally, &mut motion, impacts, EVENTS.saturating_mul(impacts.saturating_add(LEAST)));
     if let Some(leg) = motion.leg().filter(|leg| leg.duration.is_infinite()) {
         let duration = LAST_PERIODS * osc.period();
         tally.add(&match leg.path {

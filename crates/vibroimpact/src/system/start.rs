@@ -64,10 +64,16 @@ impl Start {
         if !osc.stops().all(|(_, stop)| amplitude < stop.gap) {
             return None;
         }
-        let beta = osc.beta();
+        Some(Self::steady(osc))
+    }
+
+    /// On the steady motion $`x = S\sin\theta + C\cos\theta`$ without stops, at phase 0, whether or not it clears them:
+    /// $`S = (1-\beta^2)f^2`$, $`C = -2\zeta\beta f^2`$.
+    pub(crate) fn steady(osc: &Oscillator) -> Self {
+        let (beta, amplitude) = (osc.beta(), osc.free_amplitude());
         let (re, im) = ((1.0 - beta) * (1.0 + beta), 2.0 * osc.damping() * beta);
         let square = amplitude * amplitude;
-        Some(Self { x: -im * square, v: beta * re * square, phase: 0.0 })
+        Self { x: -im * square, v: beta * re * square, phase: 0.0 }
     }
 
     /// The range of positions within the stops.
