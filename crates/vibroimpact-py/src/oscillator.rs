@@ -6,8 +6,8 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use std::collections::hash_map::DefaultHasher;
 use std::fmt::Write;
 use std::hash::{Hash, Hasher};
-use vibroimpact::{Frequency, Machine, Scales, Side};
-use vibroimpact_study::{SecondStop, SystemPlan};
+use vibroimpact::{Scales, Side};
+use vibroimpact_study::{MachinePlan, Parameter, SecondStop, SystemPlan};
 
 /// A hash of numbers that is equal for equal numbers (0 and -0 are equal).
 fn hash_of(numbers: impl Iterator<Item = f64>) -> u64 {
@@ -196,7 +196,31 @@ impl Oscillator {
         if let Some(units) = self.units {
             keywords.set_item("units", units)?;
         }
+        if let Some(machine) = &self.plan.machine {
+            let text = serde_json::to_string(&MachinePlan::from(machine));
+            keywords.set_item("machine", text.map_err(|_| Trouble::Defect("writing the machine"))?)?;
+        }
         Ok(keywords)
+    }
+
+    /// The same machine with other numbers; `None` if it is no machine, or if something else is to change.
+    fn changed_machine(&self, changes: &Bound<'_, PyDict>) -> PyResult<Option<Self>> {
+        let mut plan = self.plan;
+        for (name, value) in changes {
+            let (name, value) = (name.extract::<String>()?, value.extract::<f64>());
+            let parameter = match name.as_str() {
+                "restitution" => Some(Parameter::Restitution),
+                "second_restitution" => Some(Parameter::SecondRestitution),
+                "beta" => Some(Parameter::Beta),
+                "inverse_beta" => Some(Parameter::InverseBeta),
+                name => Parameter::from_name(name).filter(|parameter| matches!(parameter, Parameter::Machine(_))),
+            };
+            let (Some(parameter), Ok(value), true) = (parameter, value, plan.machine.is_some()) else {
+                return Ok(None);
+            };
+            plan = plan.with(parameter, value).map_err(Trouble::from)?;
+        }
+        Ok(Some(Self::checked(plan, plan.scales().map(Units))?))
     }
 
     /// The numbers among these arguments.
@@ -219,17 +243,21 @@ impl Oscillator {
 
 fn second_stop(gap: Option<f64>, restitution: Option<f64>, first: f64) -> Result<Option<SecondStop>, Trouble> {
     match (gap, restitution) {
-        (None, Some(_)) => Err(Trouble::question(
-            "the second stop has a restitution but no gap\nhint: second_gap, its distance from the rest position",
-        )),
+        (None, Some(_)) => Err(no_second_gap()),
         (gap, restitution) => Ok(gap.map(|gap| SecondStop { gap, restitution: restitution.unwrap_or(first) })),
     }
+}
+
+fn no_second_gap() -> Trouble {
+    Trouble::question(
+        "the second stop has a restitution but no gap\nhint: second_gap, its distance from the rest position",
+    )
 }
 
 #[pymethods]
 impl Oscillator {
     #[new]
-    #[pyo3(signature = (*, beta=None, inverse_beta=None, gap, restitution, damping=0.0, second_gap=None, second_restitution=None, units=None))]
+    #[pyo3(signature = (*, beta=None, inverse_beta=None, gap, restitution, damping=0.0, second_gap=None, second_restitution=None, units=None, machine=None))]
     #[allow(clippy::too_many_arguments)] // keywords
     fn new(
         beta: Option<f64>,
@@ -240,9 +268,17 @@ impl Oscillator {
         second_gap: Option<f64>,
         second_restitution: Option<f64>,
         units: Option<Units>,
+        machine: Option<&str>,
     ) -> Result<Self, Trouble> {
+        // the form in which the oscillator of a machine is pickled
+        if let Some(text) = machine {
+            let machine: MachinePlan = serde_json::from_str(text)
+                .map_err(|error| Trouble::question(format!("machine = {text} does not read: {error}")))?;
+            return Self::checked(SystemPlan::of_machine(machine.driven()?)?, units);
+        }
         let second_stop = second_stop(second_gap, second_restitution, restitution)?;
-        Self::checked(SystemPlan { beta, inverse_beta, gap, restitution, damping, second_stop }, units)
+        let machine = None;
+        Self::checked(SystemPlan { beta, inverse_beta, gap, restitution, damping, second_stop, machine }, units)
     }
 
     /// Create an oscillator from physical units.
@@ -253,20 +289,34 @@ impl Oscillator {
     ///     Mass in kg.
     /// stiffness : float
     ///     Stiffness in N/m.
-    /// force : float
-    ///     Amplitude of the force in N.
     /// gap : float
     ///     Distance of the stop from the rest position in m.
     /// restitution : float
     ///     Coefficient of restitution: speed after an impact over speed before it, 0 to 1.
+    /// force : float
+    ///     Amplitude of the force in N; 0 only if something else drives the machine.
     /// frequency : float
     ///     Frequency of the force in Hz. Give exactly one of `frequency` and `omega`.
     /// omega : float
     ///     Angular frequency of the force in rad/s.
-    /// damping : float
-    ///     Viscous damping in N s/m.
+    /// damping, damping_ratio, log_decrement : float
+    ///     Viscous damping in N s/m, or as damping ratio, or as logarithmic decrement; one of them, or none.
     /// second_gap, second_restitution : float
     ///     Distance in m and restitution of a second stop on the other side.
+    /// base_displacement, base_velocity, base_acceleration : float
+    ///     Amplitude of the motion of the base in m, m/s or m/s^2; one of them, or none. The stop is on the base.
+    /// base_phase : float
+    ///     Phase of the base relative to the force, in radians.
+    /// stop_in_space : bool
+    ///     The stop is fixed in space and does not move with the base.
+    /// stop_displacement, stop_phase : float
+    ///     Amplitude in m and phase of the motion of the stop, if the base is at rest.
+    /// unbalance : float
+    ///     Rotating unbalance in kg m, whose force grows as the square of the frequency.
+    /// constant_force : float
+    ///     Constant force in N towards the stop.
+    ///
+    /// Positions are those relative to the motion of the stop, from the equilibrium under the constant force.
     ///
     /// Examples
     /// --------
@@ -275,54 +325,71 @@ impl Oscillator {
     /// >>> osc.beta, osc.gap
     /// (1.25, 2.0)
     #[classmethod]
-    #[pyo3(signature = (*, mass, stiffness, force, gap, restitution, frequency=None, omega=None, damping=0.0, second_gap=None, second_restitution=None))]
+    #[pyo3(signature = (*, mass, stiffness, gap, restitution, force=0.0, frequency=None, omega=None, damping=None, damping_ratio=None, log_decrement=None, second_gap=None, second_restitution=None, base_displacement=None, base_velocity=None, base_acceleration=None, base_phase=0.0, stop_in_space=false, stop_displacement=None, stop_phase=0.0, unbalance=None, constant_force=None))]
     #[allow(clippy::too_many_arguments)] // keywords
     fn from_units(
         _class: &Bound<'_, PyType>,
         mass: f64,
         stiffness: f64,
-        force: f64,
         gap: f64,
         restitution: f64,
+        force: f64,
         frequency: Option<f64>,
         omega: Option<f64>,
-        damping: f64,
+        damping: Option<f64>,
+        damping_ratio: Option<f64>,
+        log_decrement: Option<f64>,
         second_gap: Option<f64>,
         second_restitution: Option<f64>,
+        base_displacement: Option<f64>,
+        base_velocity: Option<f64>,
+        base_acceleration: Option<f64>,
+        base_phase: f64,
+        stop_in_space: bool,
+        stop_displacement: Option<f64>,
+        stop_phase: f64,
+        unbalance: Option<f64>,
+        constant_force: Option<f64>,
     ) -> Result<Self, Trouble> {
-        let frequency = match (frequency, omega) {
-            (Some(hertz), None) => Frequency::Hz(hertz),
-            (None, Some(omega)) => Frequency::RadPerS(omega),
-            (both, _) => {
-                let how = if both.is_some() { "twice" } else { "nowhere" };
-                return Err(Trouble::question(format!(
-                    "the frequency is given {how}: exactly one of frequency and omega is needed\nhint: frequency in Hz, omega in rad/s"
-                )));
-            }
-        };
-        let machine = Machine {
-            mass_kg: mass,
+        if frequency.is_some() == omega.is_some() {
+            let how = if frequency.is_some() { "twice" } else { "nowhere" };
+            return Err(Trouble::question(format!(
+                "the frequency is given {how}: exactly one of frequency and omega is needed\nhint: frequency in Hz, omega in rad/s"
+            )));
+        }
+        if second_gap.is_none() && second_restitution.is_some() {
+            return Err(no_second_gap());
+        }
+        let machine = MachinePlan {
+            mass_kg: Some(mass),
+            stiffness_n_per_m: Some(stiffness),
+            force_n: Some(force),
+            frequency_hz: frequency,
+            omega_rad_per_s: omega,
             damping_ns_per_m: damping,
-            stiffness_n_per_m: stiffness,
-            force_n: force,
-            frequency,
-            gap_m: gap,
-            restitution,
+            damping_ratio,
+            log_decrement,
+            gap_m: Some(gap),
+            restitution: Some(restitution),
+            second_gap_m: second_gap,
+            second_restitution,
+            base_displacement_m: base_displacement,
+            base_velocity_m_per_s: base_velocity,
+            base_acceleration_m_per_s2: base_acceleration,
+            base_phase,
+            stop_in_space,
+            stop_displacement_m: stop_displacement,
+            stop_phase,
+            unbalance_kg_m: unbalance,
+            constant_force_n: constant_force,
         };
-        let (osc, scales) = machine.nondimensional()?;
-        let second_gap = second_gap.map(|gap| gap / scales.length_m);
-        let plan = SystemPlan {
-            beta: Some(osc.beta()),
-            inverse_beta: None,
-            gap: osc.gap(),
-            restitution,
-            damping: osc.damping(),
-            second_stop: second_stop(second_gap, second_restitution, restitution)?,
-        };
-        Self::checked(plan, Some(Units(scales)))
+        let machine = machine.driven()?;
+        let scales = machine.reduced()?.scales;
+        Self::checked(SystemPlan::of_machine(machine)?, Some(Units(scales)))
     }
 
-    /// Return the same oscillator with other values of some parameters, given by the keywords of `Oscillator`.
+    /// Return the same oscillator with other values of some parameters, given by the keywords of `Oscillator`, or for a
+    /// machine by their names in SI units, such as `force_n`, `mass_kg`, `frequency_hz`, `gap_m`.
     ///
     /// A new `beta` or `inverse_beta` replaces whichever was given. `second_gap=None` removes the second stop. For an
     /// oscillator with physical units, gaps are given in metres as `gap_m` or `second_gap_m`. The keywords `gap`,
@@ -337,6 +404,12 @@ impl Oscillator {
     fn replace<'py>(&self, py: Python<'py>, changes: Option<&Bound<'py, PyDict>>) -> PyResult<Bound<'py, PyAny>> {
         let keywords = self.keywords(py)?;
         if let Some(changes) = changes {
+            if let Some(changed) = self.changed_machine(changes)? {
+                return Ok(Bound::new(py, changed)?.into_any());
+            }
+            if keywords.contains("machine")? {
+                keywords.del_item("machine")?;
+            }
             let changes = &self.nondimensional(changes)?;
             let given = |name| changes.get_item(name).map(|value| value.is_some_and(|value| !value.is_none()));
             let drop_if = |condition: bool, name| if condition { keywords.set_item(name, py.None()) } else { Ok(()) };

@@ -91,7 +91,7 @@ pub fn answer(plan: &Plan, units: Units, control: &Control<'_>) -> Result<Answer
     let plan = plan.complete()?;
     let results = run(&plan, control)?;
     let (system, osc) = (plan.system, plan.system.oscillator()?);
-    let units = plan.units.as_ref().map_or(units, Units::from);
+    let units = if plan.units.is_some() { Units::of_plan(&plan) } else { units };
     Ok(Answer { asked: Asked { system, units }, osc, results, plan, paper_rule: None })
 }
 
@@ -233,6 +233,7 @@ mod tests {
         restitution: 0.5,
         damping: 0.0,
         second_stop: None,
+        machine: None,
     };
 
     #[test]

@@ -2,7 +2,7 @@
 
 use crate::number::short;
 use vibroimpact::quantities::{Quantities, Quantity};
-use vibroimpact::{QuantityKind, Scales};
+use vibroimpact::{DrivenMachine, QuantityKind, Scales};
 use vibroimpact_study::{
     Axis, Coordinate, FramePlan, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length,
     natural_hertz,
@@ -17,6 +17,17 @@ pub struct Asked {
     pub units: Units,
 }
 
+impl Asked {
+    /// The same with the units of the machine, after a number of it has changed.
+    #[must_use]
+    pub fn refreshed(self) -> Self {
+        let Some(plan) = UnitsPlan::of_system(&self.system).filter(|_| self.units.si) else { return self };
+        let units =
+            Units { scales: Some(plan.scales()), frame: plan.frame, machine: self.system.machine, ..self.units };
+        Self { units, ..self }
+    }
+}
+
 /// The units of results: nondimensional, or metres and seconds.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Units {
@@ -28,11 +39,13 @@ pub struct Units {
     pub hertz: bool,
     /// The frame of positions and phases, if the machine is driven by more than a force.
     pub frame: Option<FramePlan>,
+    /// The machine, if the system is one.
+    pub machine: Option<DrivenMachine>,
 }
 
 impl From<&UnitsPlan> for Units {
     fn from(plan: &UnitsPlan) -> Self {
-        Self { scales: Some(plan.scales()), si: true, hertz: plan.hertz, frame: plan.frame }
+        Self { scales: Some(plan.scales()), si: true, hertz: plan.hertz, frame: plan.frame, machine: None }
     }
 }
 
@@ -40,7 +53,32 @@ impl Units {
     /// The units of the results of a plan.
     #[must_use]
     pub fn of_plan(plan: &Plan) -> Self {
-        plan.units.as_ref().map_or_else(Self::default, Self::from)
+        let units = plan.units.as_ref().map_or_else(Self::default, Self::from);
+        Self { machine: plan.system.machine, ..units }
+    }
+
+    /// The units where a parameter has this value: the units of a machine depend on its mass, its stiffness and all that
+    /// drives it.
+    #[must_use]
+    pub fn at(&self, parameter: Parameter, value: f64) -> Self {
+        let (Parameter::Machine(parameter), Some(machine), true) = (parameter, self.machine, self.si) else {
+            return *self;
+        };
+        let changed = parameter.set(&machine, value).and_then(|machine| Ok((machine, machine.reduced()?)));
+        // a value that gives no machine has no result either
+        changed.map_or(*self, |(machine, reduced)| {
+            let frame = self.frame.map(|frame| FramePlan { phase: reduced.phase, offset_m: reduced.offset_m, ..frame });
+            Self { scales: Some(reduced.scales), frame, machine: Some(machine), ..*self }
+        })
+    }
+
+    /// The units at a point of the axes; `value(k)` is the value of axis `k`.
+    #[must_use]
+    pub fn over(&self, axes: &[Axis], value: impl Fn(usize) -> f64) -> Self {
+        axes.iter().enumerate().fold(*self, |units, (k, axis)| match axis.vary {
+            Coordinate::Parameter(parameter) => units.at(parameter, value(k)),
+            _ => units,
+        })
     }
 
     /// These units as a part of a plan; `None` for nondimensional results.
@@ -118,6 +156,7 @@ impl Units {
     pub const fn unit_of(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Beta if self.si && self.hertz => "Hz",
+            Parameter::Machine(parameter) => parameter.unit(),
             _ if self.si && is_length(parameter) => "m",
             _ => "",
         }

@@ -34,8 +34,8 @@ impl Coordinate {
     /// The coordinate with this name, if there is one.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        let parameters = Parameter::ALL.into_iter().map(Self::Parameter);
-        parameters.chain([Self::X, Self::V, Self::Phase]).find(|coordinate| coordinate.name() == name)
+        let own = [Self::X, Self::V, Self::Phase].into_iter().find(|coordinate| coordinate.name() == name);
+        own.or_else(|| Parameter::from_name(name).map(Self::Parameter))
     }
 
     /// One line of text that describes it.
@@ -49,6 +49,7 @@ impl Coordinate {
             Self::Parameter(Parameter::Damping) => "damping ratio zeta",
             Self::Parameter(Parameter::SecondGap) => "gap of the second stop",
             Self::Parameter(Parameter::SecondRestitution) => "coefficient of restitution of the second stop",
+            Self::Parameter(Parameter::Machine(parameter)) => parameter.description(),
             Self::X => "position of the start",
             Self::V => "velocity of the start",
             Self::Phase => "phase of the force at the start",
@@ -62,6 +63,7 @@ impl Coordinate {
             Self::Parameter(Parameter::Gap | Parameter::SecondGap) | Self::X => "F/k",
             Self::V => "omega_n F/k",
             Self::Phase => "radian",
+            Self::Parameter(Parameter::Machine(parameter)) if !parameter.unit().is_empty() => parameter.unit(),
             Self::Parameter(_) => "1",
         }
     }
@@ -85,7 +87,7 @@ impl schemars::JsonSchema for Coordinate {
     }
 
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        let names: Vec<&str> = Parameter::ALL.into_iter().map(Parameter::name).chain(["x", "v", "phase"]).collect();
+        let names: Vec<&str> = crate::parameter::names().into_iter().chain(["x", "v", "phase"]).collect();
         schemars::json_schema!({ "description": "What varies.", "type": "string", "enum": names })
     }
 }
@@ -94,7 +96,7 @@ impl<'de> Deserialize<'de> for Coordinate {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let name = String::deserialize(from)?;
         Self::named(&name).ok_or_else(|| {
-            let known = Parameter::ALL.map(Parameter::name).join(", ");
+            let known = crate::parameter::names().join(", ");
             D::Error::custom(format!("`{name}` cannot vary; what can is {known}, x, v and phase"))
         })
     }
@@ -269,7 +271,14 @@ pub fn system_at(system: &SystemPlan, axes: &[Axis], index: impl Fn(usize) -> us
 }
 
 /// The start at a point of the axes: values on an axis replace those of `start`. `index(k)` is the place on axis `k`.
-pub fn start_at(start: &StartPlan, axes: &[Axis], index: impl Fn(usize) -> usize) -> StartPlan {
+/// Positions and velocities are in the units of `system`, that of the plan. The result is in the units of `there`, the
+/// system at the point: in a machine whose force, mass or stiffness varies, the start is held in SI units.
+pub fn start_at(
+    (system, there): (&SystemPlan, &SystemPlan),
+    start: &StartPlan,
+    axes: &[Axis],
+    index: impl Fn(usize) -> usize,
+) -> StartPlan {
     let mut start = *start;
     for (k, axis) in axes.iter().enumerate() {
         let value = || axis.over.at(index(k));
@@ -280,7 +289,8 @@ pub fn start_at(start: &StartPlan, axes: &[Axis], index: impl Fn(usize) -> usize
             Coordinate::Phase => start.phase = value(),
         }
     }
-    start
+    let (x, v) = system.state_in(there, (start.x.unwrap_or(0.0), start.v));
+    StartPlan { x: start.x.map(|_| x), v, ..start }
 }
 
 /// Checks the number and the kind of the axes, and that none occurs twice.
@@ -296,12 +306,15 @@ pub(crate) fn check(
     if !(least..=most).contains(&axes.len()) {
         return Err(PlanError::Axes { given: axes.len(), task, least, most });
     }
-    let frequency = |c| matches!(c, Coordinate::Parameter(parameter) if parameter.is_frequency());
+    let same_number = |a: Coordinate, b: Coordinate| match (a, b) {
+        (Coordinate::Parameter(a), Coordinate::Parameter(b)) => a.same_number(b),
+        (a, b) => a == b,
+    };
     for (k, axis) in axes.iter().enumerate() {
         if !allowed(axis.vary) {
             return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known });
         }
-        let same = |other: &&Axis| other.vary == axis.vary || (frequency(other.vary) && frequency(axis.vary));
+        let same = |other: &&Axis| same_number(other.vary, axis.vary);
         if let Some(other) = axes[..k].iter().find(same) {
             return Err(PlanError::SameParameter(other.vary.name(), axis.vary.name()));
         }
@@ -349,6 +362,7 @@ mod tests {
         }
         for (text, word) in [
             (r#"{"vary":"mass","over":"0:1:2"}"#, "`mass` cannot vary; what can is beta"),
+            (r#"{"vary":"mass_g","over":"0:1:2"}"#, "second_restitution, mass_kg, stiffness_n_per_m"),
             (r#"{"vary":"v","over":"0:1"}"#, "A:B:N"),
             (r#"{"vary":"v","over":7}"#, "or a list of numbers"),
             (r#"{"vary":"v"}"#, "over"),

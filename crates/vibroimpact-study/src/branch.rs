@@ -135,7 +135,8 @@ pub struct Branches {
 pub(crate) fn branches(system: &SystemPlan, plan: &BranchPlan, control: &Control<'_>) -> Result<Branches, RunError> {
     plan.check(system)?;
     let osc = system.oscillator()?;
-    let vary = plan.cut(system)?.varying()?;
+    let cut = plan.cut(system)?;
+    let vary = cut.varying(system, cut.ends.0)?;
     let from = vary.get(&osc).map_err(PlanError::from)?;
     let label = plan.label.parse().map_err(PlanError::from)?;
     let stopped = |done: usize| Stopped { done: done as u64, total: u64::from(plan.follow) + 1 };

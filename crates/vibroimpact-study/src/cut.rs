@@ -2,7 +2,7 @@
 
 use crate::{Parameter, PlanError, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
-use vibroimpact::{Oscillator, ParameterPath};
+use vibroimpact::{Oscillator, ParameterPath, SystemError};
 
 /// The line of an orbit diagram or a branch. A point on it is given by the value of the first parameter.
 ///
@@ -74,13 +74,20 @@ impl Cut {
         self.system(system, value)?.oscillator()
     }
 
-    /// The same line in the form used for branches.
+    /// The same line in the form used for branches that begin where the first parameter has the value `value`.
     ///
     /// # Errors
-    /// [`PlanError`] if both parameters are the same one, or both ends of the first parameter are equal.
-    pub fn varying(&self) -> Result<ParameterPath, PlanError> {
+    /// [`PlanError`] if both parameters are the same one, if both ends of the first parameter are equal, or for a number of
+    /// a machine together with a second parameter.
+    pub fn varying(&self, system: &SystemPlan, value: f64) -> Result<ParameterPath, PlanError> {
         let (first, last) = self.ends;
-        let alone = ParameterPath::from(self.vary);
+        let alone = match self.vary {
+            Parameter::Machine(parameter) => {
+                let there = self.system(system, value)?.machine;
+                ParameterPath::of_machine(there.ok_or(SystemError::NoMachine(parameter.name()))?, parameter)
+            }
+            parameter => ParameterPath::from(parameter),
+        };
         let Some(also) = self.also else { return Ok(alone) };
         if first == last {
             return Err(PlanError::Nowhere { name: self.vary.name(), value: first });
@@ -97,7 +104,7 @@ impl Cut {
         for end in [self.ends.0, self.ends.1] {
             self.oscillator(system, end)?;
         }
-        self.varying().map(|_| ())
+        self.varying(system, self.ends.0).map(|_| ())
     }
 }
 
@@ -117,7 +124,7 @@ mod tests {
         let ends = [0.3, 2.7].map(|end| line.system(&system, end).unwrap().inverse_beta);
         assert_eq!(ends, [Some(0.7), Some(1.1)]);
         let (from, there) = (line.oscillator(&system, 0.3).unwrap(), line.oscillator(&system, 1.9).unwrap());
-        let followed = line.varying().unwrap().set(&from, 1.9).unwrap();
+        let followed = line.varying(&system, 0.3).unwrap().set(&from, 1.9).unwrap();
         assert!((followed.beta() - there.beta()).abs() < 1e-15 && followed.gap() == there.gap());
         // the frequency is set in the form that varies (beta or its inverse), whichever form the system has
         let other = SystemPlan { beta: Some(3.0), inverse_beta: None, ..system };

@@ -14,6 +14,29 @@ pub enum PlanError {
     /// The system or a start is invalid.
     #[error(transparent)]
     System(#[from] SystemError),
+    /// A number of a machine in two forms.
+    #[error("{0} and {1} are two forms of one number, and both are given")]
+    MachineTwice(&'static str, &'static str),
+    /// A stop that moves by itself, and a base that moves too.
+    #[error("the motion of the stop is given, and a base that moves: a stop moves with its base or is fixed in space")]
+    StopAndBase,
+    /// A system whose numbers are not those of its machine.
+    #[error(
+        "{name} = {given} of the system is not that of its machine, {own}\nhint: leave the nondimensional numbers out"
+    )]
+    NotOfMachine {
+        /// The name of the number.
+        name: &'static str,
+        /// The number that is given.
+        given: f64,
+        /// That of the machine.
+        own: f64,
+    },
+    /// A number of a machine as the side of a plane of parameters.
+    #[error(
+        "{0} cannot vary in a curve or region: their planes have parameters of the oscillator, such as beta and gap"
+    )]
+    MachinePlane(&'static str),
     /// A text that cannot be read as a plan.
     #[error("the plan does not read: {0}")]
     Text(String),

@@ -25,7 +25,7 @@
 //! | a quantity of all motions over one parameter | [`ResponsePlan`], [`ResponseCurves`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
-//! | the physical units of a plan | [`UnitsPlan`] |
+//! | a machine in SI units; the units of a plan | [`MachinePlan`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
 pub mod axis;
@@ -43,6 +43,7 @@ mod grid;
 mod in_memory;
 mod limits;
 mod lyapunov;
+mod machine;
 mod map;
 mod parameter;
 mod plan;
@@ -73,6 +74,7 @@ pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
+pub use machine::MachinePlan;
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use parameter::{Parameter, is_length};
 pub use plan::{Plan, Task};

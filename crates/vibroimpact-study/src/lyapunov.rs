@@ -84,8 +84,9 @@ impl LyapunovPlan {
             ((|_| true) as fn(Coordinate) -> bool, "anything"),
         )?;
         for corner in axis::corners(&self.axes) {
-            let osc = axis::system_at(system, &self.axes, |k| corner[k])?.oscillator()?;
-            axis::start_at(&self.start, &self.axes, |k| corner[k]).start(&osc)?;
+            let there = axis::system_at(system, &self.axes, |k| corner[k])?;
+            let start = axis::start_at((system, &there), &self.start, &self.axes, |k| corner[k]);
+            start.start(&there.oscillator()?)?;
         }
         Ok(())
     }

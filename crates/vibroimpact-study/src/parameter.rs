@@ -3,6 +3,7 @@
 use crate::{PlanError, SecondStop, SystemPlan};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub use vibroimpact::Parameter;
+use vibroimpact::{Damping, DrivenMachine, Frequency, MachineParameter, MachineStop, Reduced, SystemError};
 
 /// Whether a parameter is a length (with unit $`F/k`$).
 #[must_use]
@@ -24,25 +25,33 @@ impl schemars::JsonSchema for Name {
     }
 
     fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        schemars::json_schema!({ "type": "string", "enum": Parameter::ALL.map(Parameter::name) })
+        schemars::json_schema!({ "type": "string", "enum": names() })
     }
 }
 
 pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Parameter, D::Error> {
     let name = String::deserialize(from)?;
-    Parameter::ALL.into_iter().find(|parameter| parameter.name() == name).ok_or_else(|| {
-        let known = Parameter::ALL.map(Parameter::name).join(", ");
-        serde::de::Error::custom(format!("`{name}` is no parameter; there are {known}"))
-    })
+    Parameter::from_name(&name)
+        .ok_or_else(|| serde::de::Error::custom(format!("`{name}` is no parameter; there are {}", names().join(", "))))
+}
+
+/// The names of all parameters, those of a machine last.
+pub(crate) fn names() -> Vec<&'static str> {
+    let machine = MachineParameter::ALL.map(MachineParameter::name);
+    Parameter::ALL.map(Parameter::name).into_iter().chain(machine).collect()
 }
 
 impl SystemPlan {
     /// The same system with another value of one parameter. A value of $`\beta`$ or $`1/\beta`$ replaces whichever was
-    /// given.
+    /// given. For a machine all its other numbers are held.
     ///
     /// # Errors
-    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
+    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none, [`SystemError::NoMachine`] for a
+    /// number of a machine if the system is none, and [`PlanError`] for a value of such a number that gives no system.
     pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
+        if let Some(machine) = self.machine {
+            return Self::of_machine(changed(&machine, parameter, value)?);
+        }
         let second = || self.second_stop.ok_or(PlanError::NoSecondStop(parameter.name()));
         Ok(match parameter {
             Parameter::Beta => Self { beta: Some(value), inverse_beta: None, ..*self },
@@ -54,6 +63,7 @@ impl SystemPlan {
             Parameter::SecondRestitution => {
                 Self { second_stop: Some(SecondStop { restitution: value, ..second()? }), ..*self }
             }
+            Parameter::Machine(parameter) => return Err(SystemError::NoMachine(parameter.name()).into()),
         })
     }
 
@@ -65,8 +75,39 @@ impl SystemPlan {
         if let (Parameter::InverseBeta, Some(inverse)) = (parameter, self.inverse_beta) {
             return Ok(inverse);
         }
+        if let Parameter::Machine(parameter) = parameter {
+            let machine = self.machine.ok_or(SystemError::NoMachine(parameter.name()))?;
+            return parameter.get(&machine).ok_or(PlanError::NoSecondStop(parameter.name()));
+        }
         parameter.get(&self.oscillator()?).ok_or(PlanError::NoSecondStop(parameter.name()))
     }
+}
+
+/// The machine with another value of a parameter of its oscillator or of its own.
+fn changed(driven: &DrivenMachine, parameter: Parameter, value: f64) -> Result<DrivenMachine, PlanError> {
+    if let Parameter::Machine(parameter) = parameter {
+        return Ok(parameter.set(driven, value)?);
+    }
+    let Reduced { scales, offset_m, .. } = driven.reduced()?;
+    let mut changed = *driven;
+    let machine = &mut changed.machine;
+    let second = |stop: Option<MachineStop>| stop.ok_or(PlanError::NoSecondStop(parameter.name()));
+    match parameter {
+        Parameter::Beta => machine.frequency = Frequency::RadPerS(value / scales.time_s),
+        Parameter::InverseBeta => machine.frequency = Frequency::RadPerS(1.0 / (value * scales.time_s)),
+        Parameter::Damping => machine.damping = Damping::Ratio(value),
+        Parameter::Gap => machine.gap_m = value * scales.length_m + offset_m,
+        Parameter::Restitution => machine.restitution = value,
+        Parameter::SecondGap => {
+            let gap_m = value * scales.length_m - offset_m;
+            machine.second_stop = Some(MachineStop { gap_m, ..second(machine.second_stop)? });
+        }
+        Parameter::SecondRestitution => {
+            machine.second_stop = Some(MachineStop { restitution: value, ..second(machine.second_stop)? });
+        }
+        Parameter::Machine(_) => {}
+    }
+    Ok(changed)
 }
 
 #[cfg(test)]

@@ -26,8 +26,8 @@ pub struct Plan {
     /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tile: Option<u32>,
-    /// The physical units in which results are reported; nondimensional when absent. The numbers of the plan are
-    /// nondimensional in any case.
+    /// The physical units in which results are reported; nondimensional when absent. Numbers of the plan are
+    /// nondimensional, in these units, unless their names end in a unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<UnitsPlan>,
 }
@@ -113,7 +113,7 @@ impl Plan {
             return Err(PlanError::Tile { given, most: MOST_TILE });
         }
         if let Some(units) = &self.units {
-            units.check()?;
+            units.check(&self.system)?;
         }
         match &self.task {
             Task::Simulate { start, impacts, periods } => {

@@ -2,9 +2,10 @@
 
 use crate::plan::{Plan, Task};
 use crate::system::{SecondStop, SystemPlan};
-use crate::{Axis, Coordinate, Parameter, PlanError, UnitsPlan};
+use crate::{Axis, Coordinate, MachinePlan, Parameter, PlanError, UnitsPlan};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use vibroimpact::MachineParameter;
 
 /// What is asked, of which system. What varies on an axis need not be given in the system.
 #[derive(Deserialize, JsonSchema)]
@@ -22,8 +23,8 @@ pub(crate) struct PlanText {
     #[serde(default)]
     #[schemars(range(min = 1, max = 4096))]
     tile: Option<u32>,
-    /// The physical units in which results are reported; nondimensional when absent. The numbers of the plan are
-    /// nondimensional in any case.
+    /// The physical units in which results are reported; those of the machine when absent, nondimensional without a
+    /// machine. Numbers of the plan are nondimensional, in these units, unless their names end in a unit.
     #[serde(default)]
     units: Option<UnitsPlan>,
 }
@@ -47,6 +48,8 @@ struct System {
     damping: f64,
     /// A stop on the other side.
     second_stop: Option<SecondStop>,
+    /// A machine in SI units, instead of all numbers above.
+    machine: Option<MachinePlan>,
 }
 
 impl Task {
@@ -65,6 +68,7 @@ impl Task {
             Self::Lyapunov(lyapunov) => on(&lyapunov.axes),
             Self::Diagram(diagram) => diagram.cut().values(diagram.over.at(0)).collect(),
             Self::Response(response) => vec![(response.vary, response.over.at(0))],
+            // the first value of a branch is that of the system
             _ => Vec::new(),
         }
     }
@@ -163,6 +167,42 @@ fn plain(why: &str) -> String {
     })
 }
 
+impl System {
+    /// The system of a machine; `None` if none is given. The numbers of a machine that vary have their first values.
+    fn of_machine(&self, varied: &[(Parameter, f64)]) -> Result<Option<SystemPlan>, PlanError> {
+        let Some(mut machine) = self.machine else { return Ok(None) };
+        for (parameter, value) in varied {
+            match parameter {
+                Parameter::Machine(parameter) => machine.set(*parameter, *value),
+                Parameter::Restitution => machine.restitution = Some(*value),
+                Parameter::SecondRestitution => machine.second_restitution = Some(*value),
+                Parameter::Damping => machine.set(MachineParameter::DampingRatio, *value),
+                _ => {}
+            }
+        }
+        let system = SystemPlan::of_machine(machine.driven()?)?;
+        // printed plans have the numbers of the oscillator too, which must be those of the machine
+        let given = if varied.is_empty() { self.given() } else { [(Parameter::Beta, None); 4] };
+        for (parameter, given) in given {
+            let own = system.value(parameter).unwrap_or(f64::NAN);
+            if let Some(given) = given.filter(|given| *given != own) {
+                return Err(PlanError::NotOfMachine { name: parameter.name(), given, own });
+            }
+        }
+        Ok(Some(system))
+    }
+
+    /// The nondimensional numbers that are given.
+    fn given(&self) -> [(Parameter, Option<f64>); 4] {
+        [
+            (Parameter::Beta, self.beta),
+            (Parameter::Gap, self.gap),
+            (Parameter::Restitution, self.restitution),
+            (Parameter::SecondGap, self.second_stop.map(|stop| stop.gap)),
+        ]
+    }
+}
+
 impl TryFrom<PlanText> for Plan {
     type Error = PlanError;
 
@@ -170,6 +210,11 @@ impl TryFrom<PlanText> for Plan {
         let varied = written.task.varied();
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
         let asked = written.system;
+        if let Some(system) = asked.of_machine(&varied)? {
+            let units = written.units.or_else(|| UnitsPlan::of_system(&system));
+            return Self { version: written.version, system, task: written.task, tile: written.tile, units }
+                .canonical();
+        }
         let needed = [(Parameter::Gap, asked.gap), (Parameter::Restitution, asked.restitution)];
         let mut missing: Vec<&str> = (needed.iter())
             .filter(|(parameter, value)| value.is_none() && !varies(*parameter))
@@ -190,6 +235,7 @@ impl TryFrom<PlanText> for Plan {
             restitution: asked.restitution.unwrap_or(0.0),
             damping: asked.damping,
             second_stop: asked.second_stop,
+            machine: None,
         };
         Self { version: written.version, system, task: written.task, tile: written.tile, units: written.units }
             .canonical()

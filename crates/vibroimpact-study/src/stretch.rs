@@ -45,6 +45,9 @@ const NARROWEST: f64 = 1e-100;
 /// [`PlanError`] for ends out of order or too close, for equal parameters, and for an invalid system at a corner.
 pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
     for stretch in [one, two] {
+        if let Parameter::Machine(parameter) = stretch.parameter {
+            return Err(PlanError::MachinePlane(parameter.name()));
+        }
         if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {
             let name = stretch.parameter.name();
             return Err(PlanError::Stretch { name, from: stretch.from, to: stretch.to });
@@ -57,7 +60,7 @@ pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> 
         }
     }
     let (p, q) = (one.parameter, two.parameter);
-    if p == q || (p.is_frequency() && q.is_frequency()) {
+    if p.same_number(q) {
         return Err(PlanError::SameParameter(p.name(), q.name()));
     }
     for x in [one.from, one.to] {

@@ -2,7 +2,7 @@
 
 use crate::PlanError;
 use serde::{Deserialize, Serialize};
-use vibroimpact::{Oscillator, Start};
+use vibroimpact::{DrivenMachine, Oscillator, Reduced, Scales, Side, Start};
 
 /// The oscillator: exactly one of `beta` and `inverse_beta`, one or two stops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -24,6 +24,10 @@ pub struct SystemPlan {
     /// A stop on the other side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_stop: Option<SecondStop>,
+    /// The machine in SI units, if the system is one. The numbers above are those of its oscillator.
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::machine")]
+    #[schemars(with = "Option<crate::MachinePlan>")]
+    pub machine: Option<DrivenMachine>,
 }
 
 /// A stop at `x = -gap`.
@@ -37,6 +41,45 @@ pub struct SecondStop {
 }
 
 impl SystemPlan {
+    /// The system of a machine.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the invalid number of the machine.
+    pub fn of_machine(machine: DrivenMachine) -> Result<Self, PlanError> {
+        let Reduced { oscillator, .. } = machine.reduced()?;
+        Ok(Self {
+            beta: Some(oscillator.beta()),
+            inverse_beta: None,
+            gap: oscillator.gap(),
+            restitution: oscillator.restitution(),
+            damping: oscillator.damping(),
+            second_stop: (oscillator.stop(Side::Lower))
+                .map(|stop| SecondStop { gap: stop.gap, restitution: stop.restitution }),
+            machine: Some(machine),
+        })
+    }
+
+    /// The units of the machine, if the system is one.
+    #[must_use]
+    pub fn scales(&self) -> Option<Scales> {
+        self.machine.and_then(|machine| machine.reduced().ok()).map(|reduced| reduced.scales)
+    }
+
+    /// A position and a velocity of this system in the units of the system `there`, in which the machine may have another
+    /// force, mass or stiffness.
+    #[must_use]
+    pub(crate) fn state_in(&self, there: &Self, (x, v): (f64, f64)) -> (f64, f64) {
+        if self.machine == there.machine {
+            return (x, v);
+        }
+        match (self.scales(), there.scales()) {
+            (Some(own), Some(other)) => {
+                (x * (own.length_m / other.length_m), v * (own.velocity_m_per_s() / other.velocity_m_per_s()))
+            }
+            _ => (x, v),
+        }
+    }
+
     /// The checked oscillator.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
 //! The physical units of a plan.
 
-use crate::PlanError;
+use crate::{PlanError, SystemPlan};
 use core::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
-use vibroimpact::Scales;
+use vibroimpact::{Excitation, Reduced, Scales};
 
 /// The physical units of a plan. The numbers of a plan are nondimensional; with these units its results are reported in
 /// SI units.
@@ -47,17 +47,38 @@ impl UnitsPlan {
         Self { length_m, time_s, mass_kg, hertz, frame }
     }
 
+    /// The units of a machine; `None` for a system that is none.
+    #[must_use]
+    pub fn of_system(system: &SystemPlan) -> Option<Self> {
+        let machine = system.machine?;
+        let Reduced { scales, phase, offset_m, .. } = machine.reduced().ok()?;
+        let plain = machine.excitation == Excitation::default();
+        let frame = (!plain).then(|| FramePlan { phase, offset_m, apart: machine.stop_apart() });
+        Some(Self::new(&scales, true, frame))
+    }
+
     /// The units as scales.
     #[must_use]
     pub const fn scales(&self) -> Scales {
         Scales { length_m: self.length_m, time_s: self.time_s, mass_kg: self.mass_kg }
     }
 
-    /// Checks that all units are positive and finite.
+    /// Checks that all units are positive and finite, and those of the machine if the system is one.
     ///
     /// # Errors
-    /// [`PlanError::Unit`] for the first that is not.
-    pub(crate) fn check(&self) -> Result<(), PlanError> {
+    /// [`PlanError::Unit`] or [`PlanError::NotOfMachine`] for the first that is not.
+    pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        if let Some(own) = Self::of_system(system) {
+            for (name, given, own) in [
+                ("length_m", self.length_m, own.length_m),
+                ("time_s", self.time_s, own.time_s),
+                ("mass_kg", self.mass_kg, own.mass_kg),
+            ] {
+                if given != own {
+                    return Err(PlanError::NotOfMachine { name, given, own });
+                }
+            }
+        }
         let all = [("length_m", self.length_m), ("time_s", self.time_s), ("mass_kg", self.mass_kg)];
         match all.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
             Some((name, value)) => Err(PlanError::Unit { name, value }),

@@ -78,8 +78,9 @@ pub mod verdict;
 
 pub use orbit::Label;
 pub use system::{
-    EquivalentMachine, Excitation, Frequency, Machine, Oscillator, Parameter, ParameterPath, QuantityKind, Scales,
-    Shaking, Side, Start, Stop, SystemError,
+    Amplitude, Damping, DrivenMachine, EquivalentMachine, Excitation, Frequency, Machine, MachineParameter,
+    MachineStop, Oscillator, Parameter, ParameterPath, QuantityKind, Reduced, Scales, Shaking, Side, Start, Stop,
+    SystemError,
 };
 
 /// The listings of the README are compiled and run.

@@ -44,7 +44,7 @@ mod tests {
     fn each_parameter_once() {
         use Parameter::{Beta, Gap, Restitution};
         let order = |axes: &[Parameter]| {
-            AxesArgs { axes: axes.iter().map(|parameter| ParameterFlag { parameter: *parameter, si: false }).collect() }
+            AxesArgs { axes: axes.iter().map(|parameter| ParameterFlag { parameter: *parameter }).collect() }
                 .order(vec![Beta, Gap], |p| *p)
                 .ok()
         };

@@ -1,9 +1,8 @@
 //! Groups of arguments that several commands share. Arguments of one command are in the file of that command.
 
 mod axes;
-mod excitation;
 mod fields;
-mod machine_ranges;
+mod machine;
 mod numbers;
 mod output;
 mod parameter_flag;
@@ -13,11 +12,12 @@ mod ranged_system;
 mod start;
 mod store;
 mod system;
+mod unit_text;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
 pub(crate) use fields::{FieldsArgs, quantity};
-use machine_ranges::MachineRangesArgs;
+pub(crate) use machine::MachineArgs;
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;
 pub(crate) use parameter_flag::{ParameterFlag, parameter};
@@ -26,4 +26,5 @@ pub(crate) use ranged::Ranged;
 pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;
 pub(crate) use store::{StoreArgs, Tiles};
-pub(crate) use system::{Convention, MachineArgs, SystemArgs};
+pub(crate) use system::{Convention, SystemArgs};
+pub(crate) use vary::of_oscillator;

@@ -1,40 +1,49 @@
 //! A parameter as it is named on the command line.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use vibroimpact::MachineParameter;
 use vibroimpact_study::Parameter;
 
-/// A parameter that varies, named in nondimensional units or in SI units.
+/// A parameter that varies, as it was named: a parameter of the oscillator or a number of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ParameterFlag {
     pub(crate) parameter: Parameter,
-    /// Whether its values are in Hz or m, because it was given by such a name.
-    pub(crate) si: bool,
 }
 
 impl ParameterFlag {
-    /// All of them, those in SI units last.
+    /// A number of a machine.
+    pub(crate) const fn of_machine(parameter: MachineParameter) -> Self {
+        Self { parameter: Parameter::Machine(parameter) }
+    }
+
+    /// All of them, those of a machine last.
     pub(crate) fn all() -> impl Iterator<Item = Self> {
-        let plain = Parameter::ALL.map(|parameter| Self { parameter, si: false });
-        let si = [Parameter::Beta, Parameter::Gap, Parameter::SecondGap];
-        plain.into_iter().chain(si.map(|parameter| Self { parameter, si: true }))
+        let machine = MachineParameter::ALL.into_iter().map(Self::of_machine);
+        Parameter::ALL.into_iter().map(|parameter| Self { parameter }).chain(machine)
+    }
+
+    /// The number of a machine, if it is one.
+    pub(crate) const fn machine(self) -> Option<MachineParameter> {
+        if let Parameter::Machine(parameter) = self.parameter { Some(parameter) } else { None }
     }
 
     /// Its name on the command line, without dashes before it.
     pub(crate) const fn flag(self) -> &'static str {
-        match self.parameter {
-            Parameter::Beta if self.si => "frequency-hz",
-            Parameter::Gap if self.si => "gap-m",
-            Parameter::SecondGap if self.si => "second-gap-m",
-            parameter => flag(parameter),
-        }
+        flag(self.parameter)
     }
 
-    const fn meaning(self) -> &'static str {
+    fn meaning(self) -> String {
         match self.parameter {
-            Parameter::Beta if self.si => "Frequency of the force in Hz, of a system in physical units",
-            Parameter::Gap if self.si => "Distance of the stop in m",
-            Parameter::SecondGap if self.si => "Distance of the second stop in m",
-            parameter => meaning(parameter),
+            Parameter::Machine(parameter) => {
+                let unit = parameter.unit();
+                let name = parameter.description();
+                if unit.is_empty() {
+                    format!("of a machine: {name}")
+                } else {
+                    format!("of a machine: {name} in {unit}")
+                }
+            }
+            parameter => meaning(parameter).to_owned(),
         }
     }
 }
@@ -58,6 +67,29 @@ pub(crate) const fn flag(parameter: Parameter) -> &'static str {
         Parameter::Damping => "damping",
         Parameter::SecondGap => "second-gap",
         Parameter::SecondRestitution => "second-restitution",
+        Parameter::Machine(parameter) => machine_flag(parameter),
+    }
+}
+
+const fn machine_flag(parameter: MachineParameter) -> &'static str {
+    match parameter {
+        MachineParameter::Mass => "mass-kg",
+        MachineParameter::Stiffness => "stiffness-n-per-m",
+        MachineParameter::DampingCoefficient => "damping-ns-per-m",
+        MachineParameter::DampingRatio => "damping-ratio",
+        MachineParameter::Force => "force-n",
+        MachineParameter::Frequency => "frequency-hz",
+        MachineParameter::Gap => "gap-m",
+        MachineParameter::SecondGap => "second-gap-m",
+        MachineParameter::Gaps => "gaps-m",
+        MachineParameter::Restitutions => "restitutions",
+        MachineParameter::BaseDisplacement => "base-displacement-m",
+        MachineParameter::BaseVelocity => "base-velocity-m-per-s",
+        MachineParameter::BaseAcceleration => "base-acceleration-m-per-s2",
+        MachineParameter::StopDisplacement => "stop-displacement-m",
+        MachineParameter::Unbalance => "unbalance-kg-m",
+        MachineParameter::ConstantForce => "constant-force-n",
+        other => other.name(),
     }
 }
 
@@ -70,5 +102,18 @@ const fn meaning(parameter: Parameter) -> &'static str {
         Parameter::Damping => "Damping ratio zeta",
         Parameter::SecondGap => "Distance of the second stop",
         Parameter::SecondRestitution => "Restitution of the second stop",
+        Parameter::Machine(parameter) => parameter.description(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flags_of_a_machine_are_its_names_with_hyphens() {
+        for parameter in MachineParameter::ALL {
+            assert_eq!(machine_flag(parameter), parameter.name().replace('_', "-"));
+        }
     }
 }

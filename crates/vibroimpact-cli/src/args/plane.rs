@@ -104,11 +104,11 @@ mod tests {
         assert_eq!("-1:5".parse(), Ok(Interval(-1.0, 5.0)));
         assert_eq!("0.5".parse(), Ok(Place::At(0.5)));
         assert_eq!("0.4:2".parse(), Ok(Place::Over(Interval(0.4, 2.0))));
-        let plain = |parameter| ParameterFlag { parameter, si: false };
+        let plain = |parameter| ParameterFlag { parameter };
         assert_eq!("second-gap=1:2".parse(), Ok(Named(plain(Parameter::SecondGap), Interval(1.0, 2.0))));
         assert_eq!("gap=2:1".parse(), Ok(Named(plain(Parameter::Gap), Ends(2.0, 1.0))));
         assert_eq!("gap= -0.5".parse(), Ok(Named(plain(Parameter::Gap), -0.5)));
-        let hertz = ParameterFlag { parameter: Parameter::Beta, si: true };
+        let hertz = ParameterFlag::of_machine(vibroimpact::MachineParameter::Frequency);
         assert_eq!("frequency-hz=15:25".parse(), Ok(Named(hertz, Interval(15.0, 25.0))));
         for bad in ["gap=1:2:3", "gap=1", "gap=1:nan", "1:2"] {
             assert!(bad.parse::<Named<Ends>>().is_err(), "{bad}");

@@ -1,31 +1,74 @@
-//! A value, or the values of an axis: `0.5`, `A:B:N`, `A:B:N:log`, or a list `0.2,0.5,0.8`.
+//! A value, or several: `0.5`, the ends of a range `A:B`, the values of an axis `A:B:N` or `A:B:N:log`, or a list
+//! `0.2,0.5,0.8`. The numbers of a machine may have units.
 
+use super::unit_text::UnitKind;
+use clap::builder::TypedValueParser;
 use core::str::FromStr;
-use vibroimpact_study::{Axis, Parameter, Values};
+use vibroimpact_study::{Axis, Parameter, Span, Values};
 
-/// One value, or the values of an axis.
+/// One value, the ends of a range, or the values of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Ranged {
     At(f64),
+    Ends(f64, f64),
     Over(Values),
 }
 
 impl Ranged {
-    /// The value, or the first value of the axis.
+    /// The value, or the first value.
     pub(crate) fn first(&self) -> f64 {
         match self {
-            Self::At(value) => *value,
+            Self::At(value) | Self::Ends(value, _) => *value,
             Self::Over(values) => values.at(0),
         }
+    }
+
+    /// Whether it has one value.
+    pub(crate) const fn is_one(&self) -> bool {
+        matches!(self, Self::At(_))
     }
 
     /// The axis, if it is one.
     pub(crate) fn axis(&self, parameter: Parameter) -> Option<Axis> {
         match self {
-            Self::At(_) => None,
+            Self::At(_) | Self::Ends(..) => None,
             Self::Over(values) => Some(Axis::parameter(parameter, values.clone())),
         }
     }
+
+    /// The ends of a range without a number of values.
+    pub(crate) const fn ends(&self) -> Option<(f64, f64)> {
+        if let Self::Ends(from, to) = self { Some((*from, *to)) } else { None }
+    }
+
+    /// Reads a text whose numbers are read by `number`.
+    pub(super) fn read(text: &str, number: impl Fn(&str) -> Result<f64, String>) -> Result<Self, String> {
+        let finite = |part: &str| {
+            let value = number(part)?;
+            if value.is_finite() { Ok(value) } else { Err(format!("`{}` is not finite", part.trim())) }
+        };
+        let parts: Vec<&str> = text.split(':').collect();
+        match parts.as_slice() {
+            [one] if one.contains(',') => {
+                let values: Result<Vec<f64>, String> = one.split(',').map(finite).collect();
+                values.map(|values| Self::Over(Values::Listed(values)))
+            }
+            [one] => number(one).map(Self::At),
+            [from, to] => Ok(Self::Ends(finite(from)?, finite(to)?)),
+            [from, to, count, rest @ ..] => {
+                // a range in which the numbers have no units any more
+                let mut plain = format!("{:?}:{:?}:{}", finite(from)?, finite(to)?, count.trim());
+                rest.iter().for_each(|part| plain.push_str(&format!(":{}", part.trim())));
+                plain.parse::<Span>().map(|span| Self::Over(Values::Span(span))).map_err(|why| why.to_string())
+            }
+            [] => Err("no value is given".to_owned()),
+        }
+    }
+}
+
+/// Reads numbers with units of one kind.
+pub(crate) fn with_unit(kind: UnitKind) -> impl TypedValueParser<Value = Ranged> {
+    move |text: &str| Ranged::read(text, |part| kind.parse(part))
 }
 
 impl FromStr for Ranged {
@@ -33,22 +76,18 @@ impl FromStr for Ranged {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let given = || text.chars().take(60).collect::<String>();
-        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-        if text.contains(':') {
-            return text
-                .parse()
-                .map(|span| Self::Over(Values::Span(span)))
-                .map_err(|e: vibroimpact_study::PlanError| e.to_string());
+        let number = |part: &str| {
+            part.trim()
+                .parse::<f64>()
+                .map_err(|_| format!("`{}` is neither a number, nor a range A:B:N, nor a list of numbers", given()))
+        };
+        match Self::read(text, number)? {
+            Self::Ends(..) => Err(text.parse::<Span>().map_or_else(|why| why.to_string(), |_| String::new())),
+            Self::At(value) if !value.is_finite() => {
+                Err(format!("`{}` is neither a number, nor a range A:B:N, nor a list of numbers", given()))
+            }
+            read => Ok(read),
         }
-        if text.contains(',') {
-            let values: Option<Vec<f64>> = text.split(',').map(number).collect();
-            return values
-                .map(|values| Self::Over(Values::Listed(values)))
-                .ok_or_else(|| format!("`{}` is no list of numbers", given()));
-        }
-        number(text)
-            .map(Self::At)
-            .ok_or_else(|| format!("`{}` is neither a number, nor a range A:B:N, nor a list of numbers", given()))
     }
 }
 
@@ -64,5 +103,18 @@ mod tests {
         for bad in ["", "a", "1:2", "0.1,", "nan", "1,inf"] {
             assert!(bad.parse::<Ranged>().is_err(), "{bad}");
         }
+    }
+
+    #[test]
+    fn ranges_with_units() {
+        let read = |text: &str| Ranged::read(text, |part| UnitKind::Frequency.parse(part));
+        let over = |text: &str| Ok(Ranged::Over(Values::Span(text.parse().unwrap())));
+        assert_eq!(read("15Hz:25Hz:201"), over("15:25:201"));
+        assert_eq!(read("900 rpm : 1500 rpm : 3"), over("15:25:3"));
+        assert_eq!(read("1kHz:2kHz:5:log"), over("1000:2000:5:log"));
+        assert_eq!(read("15Hz,0.02kHz"), Ok(Ranged::Over(Values::Listed(vec![15.0, 20.0]))));
+        assert_eq!(read("15Hz:25"), Ok(Ranged::Ends(15.0, 25.0)));
+        assert!(read("15mm:25Hz:3").is_err_and(|why| why.contains("rpm")));
+        assert!(read("15:25:x").is_err());
     }
 }

@@ -1,17 +1,20 @@
 //! SYSTEM with ranges: each parameter is one value or the values of an axis.
 
-use super::parameter_flag::ParameterFlag;
-use super::{AxesArgs, MachineRangesArgs, Ranged};
+use super::machine::MachineArgs;
+use super::parameter_flag::{ParameterFlag, flag};
+use super::system::{MaybeLength, maybe_lengths};
+use super::{AxesArgs, Ranged};
 use crate::failure::Failure;
 use clap::Args;
+use vibroimpact::MachineParameter;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::{Axis, Parameter, SecondStop, SystemPlan};
 
 /// The parameters of a system, values or ranges.
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "System")]
-#[command(group = clap::ArgGroup::new("frequency").required(true).args(["beta", "inverse_beta", "frequency_hz"]))]
-#[command(group = clap::ArgGroup::new("distance").required(true).args(["gap", "gap_m"]))]
+#[command(group = clap::ArgGroup::new("frequency").required(true).args(["beta", "inverse_beta", "frequency_hz", "omega_rad_per_s"]))]
+#[command(group = clap::ArgGroup::new("distance").required(true).args(["gap", "gap_m", "gaps_m"]))]
 pub(crate) struct RangedSystemArgs {
     /// Frequency ratio omega/omega_n, positive
     #[arg(long, value_name = "VALUES", allow_hyphen_values = true, conflicts_with = "inverse_beta")]
@@ -21,9 +24,9 @@ pub(crate) struct RangedSystemArgs {
     #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
     inverse_beta: Option<Ranged>,
 
-    /// Gap, in units of F/k
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
-    gap: Option<Ranged>,
+    /// Gap, in units of F/k; with a unit, such as 1.5mm, it is --gap-m
+    #[arg(long, value_parser = maybe_lengths(), value_name = "VALUES", allow_hyphen_values = true)]
+    gap: Option<MaybeLength>,
 
     /// Restitution: rebound speed over arrival speed, 0 to 1
     #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
@@ -34,8 +37,8 @@ pub(crate) struct RangedSystemArgs {
     damping: Option<Ranged>,
 
     /// A second stop on the other side, at x = -D2
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
-    second_gap: Option<Ranged>,
+    #[arg(long, value_parser = maybe_lengths(), value_name = "VALUES", allow_hyphen_values = true)]
+    second_gap: Option<MaybeLength>,
 
     /// Restitution of the second stop [default: that of the first, if that is one value]
     #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
@@ -45,7 +48,7 @@ pub(crate) struct RangedSystemArgs {
     axes: AxesArgs,
 
     #[command(flatten)]
-    machine: MachineRangesArgs,
+    machine: MachineArgs,
 }
 
 impl RangedSystemArgs {
@@ -54,10 +57,10 @@ impl RangedSystemArgs {
         let all = [
             (Parameter::Beta, self.beta.as_ref()),
             (Parameter::InverseBeta, self.inverse_beta.as_ref()),
-            (Parameter::Gap, self.gap.as_ref()),
+            (Parameter::Gap, self.gap.as_ref().and_then(MaybeLength::plain)),
             (Parameter::Restitution, Some(&self.restitution)),
             (Parameter::Damping, self.damping.as_ref()),
-            (Parameter::SecondGap, self.second_gap.as_ref()),
+            (Parameter::SecondGap, self.second_gap.as_ref().and_then(MaybeLength::plain)),
             (Parameter::SecondRestitution, self.second_restitution.as_ref()),
         ];
         all.into_iter().filter_map(|(parameter, given)| Some((parameter, given?)))
@@ -66,7 +69,9 @@ impl RangedSystemArgs {
     /// The system with the first value of each range, and the units of the results.
     pub(crate) fn asked(&self) -> Result<Asked, Failure> {
         let first = |given: &Option<Ranged>| given.as_ref().map(Ranged::first);
-        let second = self.second_gap.is_some() || self.machine.has_second_stop();
+        let plain = |given: &Option<MaybeLength>| given.as_ref().and_then(MaybeLength::plain).map(Ranged::first);
+        let machine = self.machine();
+        let second = self.second_gap.is_some() || machine.has_second_stop();
         if !second && self.second_restitution.is_some() {
             return Err(Failure::bad("the second stop has a restitution but no gap\nhint: --second-gap D2"));
         }
@@ -79,32 +84,48 @@ impl RangedSystemArgs {
             (None, one) => one.first(),
             (Some(own), _) => own.first(),
         };
-        if self.machine.given() {
-            let twins = MachineRangesArgs::nondimensional_twins();
-            let twice = |named: &&ParameterFlag| self.given().any(|(parameter, _)| parameter == named.parameter);
-            if let Some(named) = twins.iter().find(twice) {
+        if machine.any() {
+            let nondimensional =
+                |parameter: Parameter| !matches!(parameter, Parameter::Restitution | Parameter::SecondRestitution);
+            if let Some((parameter, _)) = self.given().find(|(parameter, _)| nondimensional(*parameter)) {
                 return Err(Failure::bad(format!(
                     "--{} cannot go together with a system in physical units",
-                    named.flag()
+                    flag(parameter)
                 )));
             }
-            return self.machine.first((self.restitution.first(), second.then_some(second_restitution)));
+            let restitutions = (Some(self.restitution.first()), Some(second_restitution));
+            return super::machine::asked(&machine.plan(restitutions, &[])?, true);
         }
         let system = SystemPlan {
             beta: first(&self.beta),
             inverse_beta: first(&self.inverse_beta),
-            gap: first(&self.gap).unwrap_or(0.0),
+            gap: plain(&self.gap).unwrap_or(0.0),
             restitution: self.restitution.first(),
             damping: first(&self.damping).unwrap_or(0.0),
-            second_stop: first(&self.second_gap).map(|gap| SecondStop { gap, restitution: second_restitution }),
+            second_stop: plain(&self.second_gap).map(|gap| SecondStop { gap, restitution: second_restitution }),
+            machine: None,
         };
         Ok(Asked { system, units: Units::default() })
     }
 
-    /// The parameters that vary, in the order of the axes, in nondimensional values.
-    pub(crate) fn axes(&self, units: &Units) -> Result<Vec<Axis>, Failure> {
-        let mut varied = self.machine.axes(units)?;
-        varied.extend(self.given().filter_map(|(parameter, given)| Some((parameter, given.axis(parameter)?))));
-        Ok(self.axes.order(varied, |(parameter, _)| *parameter)?.into_iter().map(|(_, axis)| axis).collect())
+    /// The numbers of the machine, with gaps that were written with a unit.
+    fn machine(&self) -> MachineArgs {
+        let mut machine = self.machine.clone();
+        for (parameter, given) in [(MachineParameter::Gap, &self.gap), (MachineParameter::SecondGap, &self.second_gap)]
+        {
+            if let Some(metres) = given.as_ref().and_then(MaybeLength::metres) {
+                machine.put(parameter, metres.clone());
+            }
+        }
+        machine
+    }
+
+    /// The parameters that vary, in the order of the axes.
+    pub(crate) fn axes(&self) -> Result<Vec<Axis>, Failure> {
+        let mut varied = self.machine().axes()?;
+        varied.extend(
+            self.given().filter_map(|(parameter, given)| Some((ParameterFlag { parameter }, given.axis(parameter)?))),
+        );
+        Ok(self.axes.order(varied, |(named, _)| named.parameter)?.into_iter().map(|(_, axis)| axis).collect())
     }
 }

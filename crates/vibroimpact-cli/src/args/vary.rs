@@ -1,40 +1,45 @@
-//! VARY: a parameter that varies over a range, and the system without it.
+//! VARY: parameters that vary over ranges, and the system without them.
 
 use super::SystemArgs;
+use super::machine::alone;
 use super::parameter_flag::{ParameterFlag, flag};
 use crate::failure::Failure;
-use vibroimpact_report::Asked;
-use vibroimpact_study::{Parameter, SystemPlan};
+use vibroimpact::MachineParameter;
+use vibroimpact_report::{Asked, Units};
+use vibroimpact_study::Parameter;
 
 impl SystemArgs {
-    /// The system with results in SI units if one of these parameters is in SI units.
-    pub(crate) fn over(&self, varied: &[ParameterFlag]) -> Result<Asked, Failure> {
-        varied.iter().try_for_each(|parameter| self.excitation.allows(*parameter))?;
-        let mut asked = self.asked()?;
-        let Some(si) = varied.iter().find(|named| named.si) else { return Ok(asked) };
-        if asked.units.scales.is_none() {
+    /// The system with results in SI units if one of these parameters is a number of a machine, whose first values are
+    /// given for those that are not given otherwise.
+    fn with_first(&self, varied: &[ParameterFlag], set: &[(MachineParameter, f64)]) -> Result<Asked, Failure> {
+        let Some(si) = varied.iter().find(|named| named.machine().is_some()) else { return self.asked() };
+        if !self.is_machine() {
+            let twin = match si.parameter {
+                Parameter::Machine(MachineParameter::Frequency) => "; beta is nondimensional",
+                Parameter::Machine(MachineParameter::Gap) => "; gap is nondimensional",
+                Parameter::Machine(MachineParameter::SecondGap) => "; second-gap is nondimensional",
+                _ => "",
+            };
             return Err(Failure::bad(format!(
-                "{} needs the system in physical units\nhint: --mass-kg, --stiffness-n-per-m, --force-n ...; {} is nondimensional",
-                si.flag(),
-                flag(si.parameter)
+                "{} needs the system in physical units\nhint: --mass-kg, --stiffness-n-per-m, --force-n ...{twin}",
+                si.flag()
             )));
         }
-        asked.units.si = true;
-        asked.units.hertz = varied.iter().any(|named| named.si && named.parameter == Parameter::Beta);
-        Ok(asked)
+        self.in_si().asked_with(set)
     }
 
-    /// The system in which the parameters that vary have their first values. They may not have other values. For each
-    /// parameter the flags are given that make it vary and set its range. A system in physical units must be given
-    /// completely, because its units depend on all quantities; its values are then replaced.
+    /// The system in which these parameters vary from their values in it.
+    pub(crate) fn over(&self, varied: &[ParameterFlag]) -> Result<Asked, Failure> {
+        self.with_first(varied, &[])
+    }
+
+    /// The system in which the parameters that vary have their first values. Parameters of an oscillator may not have other
+    /// values. For each parameter the flags are given that make it vary and set its range.
     pub(crate) fn varied(&self, varied: &[(ParameterFlag, f64, [&str; 2])]) -> Result<Asked, Failure> {
-        let mut args = *self;
-        for (named, first, _) in varied.iter().filter(|(named, ..)| named.si) {
-            args.machine.complete_with(*named, *first);
-        }
-        for (ParameterFlag { parameter, .. }, _, [varies, over]) in varied {
-            let same = |other: &Parameter| other == parameter || other.is_frequency() && parameter.is_frequency();
-            if let Some(given) = Parameter::ALL.into_iter().filter(same).find(|p| args.slot(*p).is_some()) {
+        let mut args = self.clone();
+        for (ParameterFlag { parameter }, _, [varies, over]) in varied {
+            let given = Parameter::ALL.into_iter().filter(|other| other.same_number(*parameter));
+            if let Some(given) = given.into_iter().find(|parameter| args.has(*parameter)) {
                 return Err(Failure::bad(format!(
                     "--{} cannot go together with --{varies} {}\nhint: leave it out, --{over} has its values",
                     flag(given),
@@ -47,19 +52,40 @@ impl SystemArgs {
                 ));
             }
         }
-        // in a system in physical units, the values are replaced in its units
         let machine = args.is_machine();
-        let replaced = |parameter: Parameter| {
-            machine && ![Parameter::Restitution, Parameter::SecondRestitution].contains(&parameter)
-        };
-        for (named, first, _) in varied.iter().filter(|(named, ..)| !replaced(named.parameter)) {
-            *args.slot(named.parameter) = Some(*first);
+        let restitution = |p: Parameter| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
+        for (ParameterFlag { parameter }, first, _) in varied {
+            if !machine || restitution(*parameter) {
+                args.set(*parameter, Some(*first));
+            }
         }
-        let asked = args.over(&varied.iter().map(|(named, ..)| *named).collect::<Vec<_>>())?;
-        let set = |system: SystemPlan, (named, first, _): &(ParameterFlag, f64, _)| {
-            system.with(named.parameter, first / asked.units.of(named.parameter))
-        };
-        let mut own = varied.iter().filter(|(named, ..)| replaced(named.parameter));
-        Ok(Asked { system: own.try_fold(asked.system, set)?, ..asked })
+        let set: Vec<(MachineParameter, f64)> =
+            varied.iter().filter_map(|(named, first, _)| Some((named.machine()?, *first))).collect();
+        let mut asked = args.with_first(&varied.iter().map(|(named, ..)| *named).collect::<Vec<_>>(), &set)?;
+        for (ParameterFlag { parameter }, first, _) in varied {
+            if machine && !restitution(*parameter) {
+                asked.system = asked.system.with(*parameter, first / asked.units.of(*parameter))?;
+            }
+        }
+        Ok(asked.refreshed())
     }
+}
+
+/// The parameters of a curve or a region, which are parameters of the oscillator, and their units.
+pub(crate) fn of_oscillator(asked: &mut Asked, varied: &[ParameterFlag]) -> Result<Vec<Parameter>, Failure> {
+    let Units { machine, .. } = asked.units;
+    let parameter = |named: &ParameterFlag| {
+        match (named.parameter, machine) {
+        (Parameter::Machine(parameter), Some(machine)) => alone(parameter, &machine).ok_or_else(|| {
+            Failure::bad(format!(
+                "{} changes several parameters of the oscillator, and a plane has two\nhint: `vibro map`, `vibro branch` and `vibro response` take it",
+                named.flag()
+            ))
+        }),
+        (parameter, _) => Ok(parameter),
+    }
+    };
+    let parameters = varied.iter().map(parameter).collect::<Result<Vec<_>, Failure>>()?;
+    asked.units.hertz = varied.iter().any(|named| named.machine() == Some(MachineParameter::Frequency));
+    Ok(parameters)
 }

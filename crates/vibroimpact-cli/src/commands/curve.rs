@@ -1,6 +1,6 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
-use crate::args::{Named, Over, ParameterFlag, SystemArgs, whole};
+use crate::args::{Named, Over, SystemArgs, of_oscillator, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -8,7 +8,7 @@ use crate::session::Session;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact_report::{Shown, Units};
-use vibroimpact_study::{CurvePlan, FollowedEvent, Plan, Stretch, Task};
+use vibroimpact_study::{CurvePlan, FollowedEvent, Parameter, Plan, Stretch, Task};
 
 /// The curve of an event of an orbit over two parameters: fold, flip or grazing
 ///
@@ -79,10 +79,10 @@ enum Kind {
 }
 
 impl Curve {
-    fn plan(&self, units: &Units) -> CurvePlan {
-        let stretch = |Named(ParameterFlag { parameter, .. }, range): &Over| {
-            let unit = units.of(*parameter);
-            Stretch { parameter: *parameter, from: range.0 / unit, to: range.1 / unit }
+    fn plan(&self, units: &Units, parameters: &[Parameter]) -> CurvePlan {
+        let stretch = |k: usize, Named(_, range): &Over| {
+            let (parameter, unit) = (parameters[k], units.of(parameters[k]));
+            Stretch { parameter, from: range.0 / unit, to: range.1 / unit }
         };
         CurvePlan {
             label: self.label.clone(),
@@ -91,8 +91,8 @@ impl Curve {
                 Kind::Flip => FollowedEvent::Flip,
                 Kind::Grazing => FollowedEvent::Grazing,
             },
-            vary: stretch(&self.vary),
-            and: stretch(&self.and),
+            vary: stretch(0, &self.vary),
+            and: stretch(1, &self.and),
             orbit: self.orbit,
             event: self.event,
         }
@@ -100,8 +100,10 @@ impl Curve {
 }
 
 pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
-    let asked = args.system.over(&[args.vary.0, args.and.0])?;
-    let plan = Plan::new(asked.system, Task::Curve(args.plan(&asked.units)));
+    let varied = [args.vary.0, args.and.0];
+    let mut asked = args.system.over(&varied)?;
+    let parameters = of_oscillator(&mut asked, &varied)?;
+    let plan = Plan::new(asked.system, Task::Curve(args.plan(&asked.units, &parameters)));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)

@@ -66,7 +66,7 @@ pub(crate) struct Map {
 
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     let Asked { system, units } = args.plane.asked()?;
-    let axes = args.plane.axes(&units)?;
+    let axes = args.plane.axes()?;
     if axes.is_empty() {
         return Err(Failure::bad(
             "nothing varies\nhint: give one of the parameters a range, --gap 0:5:41; `vibro attractors` answers for one point",

@@ -1,13 +1,13 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
-use crate::args::{AxesArgs, Convention, MachineArgs, Place, SystemArgs, whole};
+use crate::args::{AxesArgs, Convention, MachineArgs, ParameterFlag, Place, SystemArgs, of_oscillator, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
-use vibroimpact_report::{Asked, Shown, Units};
+use vibroimpact_report::{Asked, Shown};
 use vibroimpact_study::{DEFAULT_GRID, Parameter, Plan, RegionPlan, Stretch, Task};
 
 /// Where a motion exists and where it is stable, over two parameters: closed polygons
@@ -99,41 +99,43 @@ impl Region {
         ]
     }
 
-    /// The system, with the smallest values of the parameters that vary. A system in physical units must be given
-    /// completely, because its units depend on all quantities; ranges replace its values.
-    fn asked(&self) -> Result<Asked, Failure> {
+    /// The system, with the smallest values of the parameters that vary, and these parameters. A system in physical units
+    /// must be given completely, because its units depend on all quantities; ranges replace its values.
+    fn asked(&self) -> Result<(Asked, Vec<Stretch>), Failure> {
+        let machine = self.machine.any();
         let restitution = |p: Parameter| matches!(p, Parameter::Restitution | Parameter::SecondRestitution);
-        let machine = SystemArgs::of(&[], self.machine, self.units).is_machine();
         let own = |(parameter, place): (Parameter, Option<Place>)| {
             let replaces =
                 machine && !restitution(parameter) && place.is_some_and(|place| place.over(parameter).is_some());
             (parameter, place.filter(|_| !replaces).map(Place::first))
         };
-        let mut asked = SystemArgs::of(&self.places().map(own), self.machine, self.units).first()?;
-        let Asked { system, units } = &mut asked;
-        let physical = self.machine.ranges().into_iter().filter_map(|(named, place)| place?.over(named.parameter));
-        for stretch in physical {
-            units.si = true;
-            units.hertz |= stretch.parameter == Parameter::Beta;
-        }
-        for stretch in self.over(units).iter().filter(|_| machine) {
-            *system = system.with(stretch.parameter, stretch.from)?;
-        }
-        Ok(asked)
-    }
-
-    /// The parameters that are given as ranges.
-    fn over(&self, units: &Units) -> Vec<Stretch> {
-        let over = |(parameter, place): (Parameter, Option<Place>)| {
-            let (stretch, unit) = (place?.over(parameter)?, units.of(parameter));
-            Some(Stretch { from: stretch.from / unit, to: stretch.to / unit, ..stretch })
+        let physical: Vec<(ParameterFlag, (f64, f64))> = self.machine.ends()?;
+        let units = if physical.is_empty() { self.units } else { Convention::Si };
+        let mut asked = SystemArgs::of(&self.places().map(own), self.machine.clone(), units).first(&[])?;
+        let flags: Vec<ParameterFlag> = physical.iter().map(|(named, _)| *named).collect();
+        let parameters = of_oscillator(&mut asked, &flags)?;
+        let ranges = parameters.into_iter().zip(physical).map(|(parameter, (_, ends))| (parameter, ends));
+        let plain = self.places().into_iter().filter_map(|(parameter, place)| {
+            let Stretch { from, to, .. } = place?.over(parameter)?;
+            Some((parameter, (from, to)))
+        });
+        let stretch = |(parameter, (from, to))| {
+            let unit = asked.units.of(parameter);
+            Stretch { parameter, from: from / unit, to: to / unit }
         };
-        let physical = self.machine.ranges().map(|(named, place)| (named.parameter, place));
-        self.places().into_iter().chain(physical).filter_map(over).collect()
+        let over: Vec<Stretch> = plain.chain(ranges).map(stretch).collect();
+        if machine {
+            // the plane has parameters of the oscillator, in the units of the machine
+            asked.system.machine = None;
+            for stretch in &over {
+                asked.system = asked.system.with(stretch.parameter, stretch.from)?;
+            }
+        }
+        Ok((asked, over))
     }
 
     /// The two parameters with ranges, the abscissa first.
-    fn plane(&self, asked: &Asked) -> Result<(Stretch, Stretch), Failure> {
+    fn plane(&self, asked: &Asked, over: Vec<Stretch>) -> Result<(Stretch, Stretch), Failure> {
         if asked.system.second_stop.is_some()
             && self.second_restitution.is_none()
             && self.restitution.over(Parameter::Gap).is_some()
@@ -142,7 +144,7 @@ impl Region {
                 "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
             ));
         }
-        let over = self.axes.order(self.over(&asked.units), |stretch| stretch.parameter)?;
+        let over = self.axes.order(over, |stretch| stretch.parameter)?;
         match over.as_slice() {
             [across, up] => Ok((*across, *up)),
             _ => Err(Failure::bad(format!(
@@ -154,8 +156,8 @@ impl Region {
 }
 
 pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
-    let asked = args.asked()?;
-    let (across, up) = args.plane(&asked)?;
+    let (asked, over) = args.asked()?;
+    let (across, up) = args.plane(&asked, over)?;
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
     let plan = Plan::new(asked.system, Task::Region(task));
     plan.check()?;

@@ -48,7 +48,7 @@ pub(crate) struct Response {
 
 pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
     let Asked { system, units } = args.system.asked()?;
-    let axes = args.system.axes(&units)?;
+    let axes = args.system.axes()?;
     let [axis] = axes.as_slice() else {
         return Err(Failure::bad(format!(
             "a response is over one parameter, and ranges are given for {}\nhint: --beta 0.5:1.5:201; `vibro map` takes several",

@@ -51,19 +51,111 @@ fn a_weight_moves_the_equilibrium() {
     assert!(text.unwrap().contains("frame   positions relative to the motion of the stop, from 0.001 m"));
 }
 
-/// The equivalent force is computed once, so a sweep over what it depends on would be wrong.
+/// A number of a machine may change several parameters of the oscillator, and then it is no side of a plane.
 #[test]
-fn sweeps_that_would_be_wrong_are_refused() {
+fn planes_of_an_equivalent_force_are_refused() {
+    let base = format!("{MACHINE} --base-displacement-m 0.002");
     for line in [
-        format!("diagram {MACHINE} --base-displacement-m 0.002 --vary frequency-hz --over 4:6:3"),
-        format!("diagram {MACHINE} --base-displacement-m 0.002 --stop-in-space --vary damping --over 0:0.1:3"),
-        format!("branch {MACHINE} --force-n 3 --constant-force-n 1 --label 1/1 --vary gap-m --to 0.005"),
+        format!("curve {base} --label 1/1 --kind flip --vary frequency-hz=4:6 --and gap-m=0.003:0.005"),
+        format!("curve {base} --label 1/1 --kind flip --vary force-n=4:6 --and gap-m=0.003:0.005"),
     ] {
         let refused = vibro(&line).output().unwrap();
         let complaint = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert!(refused.status.code() == Some(2) && complaint.contains("cannot vary here yet"), "{line}: {complaint}");
+        assert!(
+            refused.status.code() == Some(2) && complaint.contains("changes several parameters"),
+            "{line}: {complaint}"
+        );
     }
-    let fine =
-        vibro(&format!("diagram {MACHINE} --base-displacement-m 0.002 --vary gap-m --over 0.003:0.005:3")).output();
-    assert!(fine.unwrap().status.success());
+    assert!(vibro(&format!("diagram {base} --vary gap-m --over 0.003:0.005:3")).output().unwrap().status.success());
+}
+
+/// Each value of a sweep is the machine with that value: map, response and diagram against `settle` and `attractors` at
+/// single values, over numbers that change the units and the equivalent force.
+#[test]
+fn each_value_of_a_sweep_is_a_machine() {
+    let system = "--mass-kg 0.7 --stiffness-n-per-m 900 --damping-ns-per-m 2.1 --restitution 0.7";
+    for (flag, values, rest) in [
+        ("force-n", [2.0, 3.5, 5.0], "--gap-m 0.004 --frequency-hz 4.5"),
+        ("mass-kg", [0.5, 0.75, 1.0], "--gap-m 0.004 --frequency-hz 4.5 --force-n 3"),
+        ("stiffness-n-per-m", [600.0, 900.0, 1200.0], "--gap-m 0.004 --frequency-hz 4.5 --force-n 3"),
+        ("damping-ns-per-m", [1.0, 2.5, 4.0], "--gap-m 0.004 --frequency-hz 4.5 --force-n 3"),
+        ("frequency-hz", [4.0, 5.0, 6.0], "--gap-m 0.004 --unbalance-kg-m 0.004"),
+        ("frequency-hz", [4.0, 5.0, 6.0], "--gap-m 0.004 --base-displacement-m 0.002 --stop-in-space"),
+        ("base-acceleration-m-per-s2", [1.0, 2.0, 3.0], "--gap-m 0.004 --frequency-hz 4.5"),
+        ("gap-m", [0.002, 0.004, 0.006], "--force-n 3 --constant-force-n -0.9 --frequency-hz 4.5"),
+        ("constant-force-n", [-1.0, 0.5, 2.0], "--force-n 3 --gap-m 0.004 --frequency-hz 4.5"),
+        ("gaps-m", [0.002, 0.004, 0.006], "--force-n 3 --frequency-hz 4.5"),
+    ] {
+        let system = [
+            ("mass-kg", "--mass-kg 0.7"),
+            ("stiffness-n-per-m", "--stiffness-n-per-m 900"),
+            ("damping-ns-per-m", "--damping-ns-per-m 2.1"),
+        ]
+        .iter()
+        .filter(|(name, _)| *name == flag)
+        .fold(system.to_owned(), |system, (_, own)| system.replace(own, ""));
+        let range = format!("{}:{}:3", values[0], values[2]);
+        let text = |line: &str| {
+            let output = vibro(line).output().unwrap();
+            assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+            String::from_utf8(output.stdout).unwrap()
+        };
+        let table = text(&format!(
+            "map {system} {rest} --{flag} {range} --starts 1 --fields impact-speed-max,displacement-max,work-per-period,impulse-max --csv -"
+        ));
+        let mapped: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+        assert_eq!(mapped[0][0], flag.replace('-', "_"));
+        let swept = json(&format!("response {system} {rest} --{flag} {range} --quantity impact-speed-max"));
+        for value in values {
+            let alone = json(&format!("settle {system} {rest} --{flag} {value} --units si"));
+            let of = |name: &str| alone["motion"]["quantities"][name].as_f64();
+            let row = mapped.iter().find(|row| row[0].parse() == Ok(value)).unwrap();
+            assert_eq!(row[1], alone["motion"]["label"].as_str().unwrap(), "{flag} {value}");
+            for (cell, name) in
+                row[3..].iter().zip(["impact_speed_max", "displacement_max", "work_per_period", "impulse_max"])
+            {
+                assert_eq!(cell.parse::<f64>().ok(), of(name), "{flag} {value} {name}");
+            }
+            // a motion of a sweep is the one from rest, or another one at the same value
+            let points = swept["sweeps"][0]["points"].as_array().unwrap();
+            let point = points.iter().find(|point| point["parameter"].as_f64() == Some(value)).unwrap();
+            if point["label"] == alone["motion"]["label"] {
+                let (a, b) = (point["value"].as_f64(), of("impact_speed_max"));
+                let near = a.zip(b).is_none_or(|(a, b)| (a - b).abs() <= 1e-9 * b);
+                assert!(near || row[1] == "chaos", "{flag} {value}: {a:?} {b:?}");
+            }
+        }
+    }
+}
+
+/// A branch over a number of a machine meets the events of the branch over the parameters that it changes.
+#[test]
+fn a_branch_over_the_force_is_one_over_the_gap() {
+    let machine = "--mass-kg 0.8 --stiffness-n-per-m 12000 --damping-ratio 0.02 --gap-m 0.0015 --restitution 0.65 --frequency-hz 20";
+    let by_force = json(&format!("branch {machine} --force-n 30 --label 1/1 --vary force-n --to 3"));
+    let beta = 20.0 * std::f64::consts::TAU * (0.8_f64 / 12_000.0).sqrt();
+    let gap = 0.0015 * 12_000.0 / 30.0;
+    let by_gap = json(&format!(
+        "branch --beta {beta:?} --damping 0.02 --restitution 0.65 --gap {gap:?} --label 1/1 --vary gap --to {:?}",
+        10.0 * gap
+    ));
+    let events = |of: &serde_json::Value| -> Vec<(String, f64)> {
+        let events = of["events"].as_array().unwrap();
+        let event = |e: &serde_json::Value| (e["kind"].as_str().unwrap().to_owned(), e["parameter"].as_f64().unwrap());
+        events.iter().map(event).filter(|(kind, _)| kind != "range").collect()
+    };
+    let (forces, gaps) = (events(&by_force), events(&by_gap));
+    assert!(!forces.is_empty() && forces.len() == gaps.len(), "{forces:?} {gaps:?}");
+    for ((kind, force), (other, gap)) in forces.iter().zip(&gaps) {
+        let expected = 0.0015 * 12_000.0 / gap;
+        assert!(kind == other && (force / expected - 1.0).abs() < 1e-9, "{kind} {force}, {other} {expected}");
+    }
+    // the speeds are those of the machine at each force
+    let point = &by_force["points"][3];
+    let force = point["parameter"].as_f64().unwrap();
+    let alone = json(&format!("orbit {machine} --force-n {force:?} --label 1/1 --units si"));
+    let speeds = |of: &serde_json::Value| of["cycle"][0]["velocity_before"].as_f64().unwrap();
+    let found =
+        alone["orbits"].as_array().unwrap().iter().any(|orbit| (speeds(orbit) / speeds(point) - 1.0).abs() < 1e-9);
+    assert!(found, "{alone}");
 }

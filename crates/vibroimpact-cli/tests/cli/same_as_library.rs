@@ -17,7 +17,8 @@ fn units(object: &Value) -> Units {
     let scales =
         || Some(Scales { length_m: number("length_m")?, time_s: number("time_s")?, mass_kg: number("mass_kg")? });
     let hertz = object["plan"]["units"]["hertz"] == true;
-    Units { scales: scales(), si: object["units"] == "si", hertz, frame: None }
+    // a plan in SI units has its machine; the units of other plans have none
+    Units { scales: scales(), si: object["units"] == "si", hertz, ..Units::default() }
 }
 
 /// Runs a command with all its outputs, and compares them with the answer of the library to the printed plan.

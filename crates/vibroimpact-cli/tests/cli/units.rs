@@ -7,69 +7,167 @@ use std::collections::BTreeSet;
 use vibroimpact::QuantityKind;
 use vibroimpact::quantities::Quantity;
 
-/// A system in physical units: omega_n = 8 rad/s, F/k = 0.5 m. Its units are powers of two, so that conversion is
-/// exact.
-const MACHINE: &str =
-    "--mass-kg 1 --stiffness-n-per-m 64 --force-n 32 --omega-rad-per-s 7.2 --gap-m 0.75 --restitution 0.5";
-const LENGTH: f64 = 0.5;
-const TIME: f64 = 0.125;
-const VELOCITY: f64 = 4.0;
-
-/// Every command with units: its ranges and starts in F/k and in metres, and whether it has a store and a table.
-const COMMANDS: [(&str, &str, &str, bool, bool); 10] = [
-    ("simulate", "--x -1 --v 0.5 --impacts 5", "--x -0.5 --v 2 --impacts 5", false, true),
-    ("settle", "--x -1 --v 0.5", "--x -0.5 --v 2", false, true),
-    ("attractors", "--starts 20", "--starts 20", true, true),
-    ("orbit", "--label 1/1", "--label 1/1", false, false),
-    ("basin", "--x -2:1.5:6 --v -1:1:5", "--x -1:0.75:6 --v -4:4:5", true, true),
-    ("diagram", "--vary gap --over 0.5:1.5:5 --keep 8", "--vary gap --over 0.25:0.75:5 --keep 8", true, true),
-    ("branch", "--label 1/1 --vary gap --to 2.25", "--label 1/1 --vary gap --to 1.125", false, true),
-    (
-        "curve",
-        "--label 1/1 --kind flip --vary gap=1:2.5 --and restitution=0.45:0.55",
-        "--label 1/1 --kind flip --vary gap=0.5:1.25 --and restitution=0.45:0.55",
-        false,
-        true,
-    ),
-    (
-        "region",
-        "--label 1/1 --beta 0.85:0.95 --gap 1:2.5 --grid 3",
-        "--label 1/1 --beta 0.85:0.95 --gap 0.5:1.25 --grid 3",
-        false,
-        true,
-    ),
-    ("lyapunov", "--impacts 1000 --x -1", "--impacts 1000 --x -0.5", false, true),
-];
-
-/// The command line.
-fn line(name: &str, rest: &str, si: bool) -> String {
-    format!("{name} {MACHINE} {rest}{}", if si { " --units si" } else { "" })
+/// A machine, and its conversion to nondimensional numbers by hand.
+#[derive(Clone, Copy, Debug)]
+struct Machine {
+    mass: f64,
+    stiffness: f64,
+    force: f64,
+    omega: f64,
+    damping_ratio: f64,
+    gap: f64,
+    second_gap: Option<f64>,
+    restitution: f64,
 }
 
+/// omega_n = 8 rad/s, F/k = 0.5 m: its units are powers of two, so that conversion is exact.
+const MACHINE: Machine = Machine {
+    mass: 1.0,
+    stiffness: 64.0,
+    force: 32.0,
+    omega: 7.2,
+    damping_ratio: 0.0,
+    gap: 0.75,
+    second_gap: None,
+    restitution: 0.5,
+};
+
+impl Machine {
+    /// Random machines; those with a second stop have damping too.
+    fn random() -> impl Iterator<Item = Self> {
+        let mut state = 20_261_123_u64;
+        let mut part = move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(u32::MAX >> 1)
+        };
+        (0..12).map(move |k| {
+            let (mass, stiffness, force) = (0.1 + 5.0 * part(), 200.0 + 2e4 * part(), 1.0 + 40.0 * part());
+            let (length, natural) = (force / stiffness, (stiffness / mass).sqrt());
+            Self {
+                mass,
+                stiffness,
+                force,
+                omega: natural * (0.6 + part()),
+                damping_ratio: if k % 3 == 0 { 0.0 } else { 0.08 * part() },
+                gap: length * (0.2 + part()),
+                second_gap: (k % 3 == 2).then(|| length * (0.8 + part())),
+                restitution: 0.4 + 0.5 * part(),
+            }
+        })
+    }
+
+    fn length(&self) -> f64 {
+        self.force / self.stiffness
+    }
+
+    fn time(&self) -> f64 {
+        1.0 / (self.stiffness / self.mass).sqrt()
+    }
+
+    fn velocity(&self) -> f64 {
+        self.length() / self.time()
+    }
+
+    fn in_si(&self) -> String {
+        let Self { mass, stiffness, force, omega, damping_ratio, gap, restitution, .. } = self;
+        let second = self.second_gap.map_or_else(String::new, |gap| format!(" --second-gap-m {gap:?}"));
+        format!(
+            "--mass-kg {mass:?} --stiffness-n-per-m {stiffness:?} --force-n {force:?} --omega-rad-per-s {omega:?} \
+             --damping-ratio {damping_ratio:?} --gap-m {gap:?}{second} --restitution {restitution:?} --units si"
+        )
+    }
+
+    fn by_hand(&self, without: &[&str]) -> String {
+        let beta = self.omega / (self.stiffness / self.mass).sqrt();
+        let all = [
+            ("--beta", Some(beta)),
+            ("--damping", Some(self.damping_ratio)),
+            ("--gap", Some(self.gap / self.length())),
+            ("--second-gap", self.second_gap.map(|gap| gap / self.length())),
+            ("--restitution", Some(self.restitution)),
+        ];
+        let given = all.into_iter().filter(|(flag, _)| !without.contains(flag));
+        given.filter_map(|(flag, value)| Some(format!("{flag} {:?}", value?))).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The command line in SI units, and by hand.
+    fn lines(&self, name: &str, rest: &str, without: &[&str]) -> (String, String) {
+        let numbers = |si: bool| {
+            let part = |part: &str| {
+                let found = [("L=", self.length()), ("V=", self.velocity())];
+                let found = found.into_iter().find_map(|(sign, unit)| Some((part.find(sign)?, unit)));
+                let Some((at, unit)) = found else { return part.to_owned() };
+                let given = part[at + 2..].parse::<f64>().unwrap() * unit;
+                format!("{}{:?}", &part[..at], if si { given } else { given / unit })
+            };
+            let word = |word: &str| word.split(':').map(part).collect::<Vec<_>>().join(":");
+            rest.split(' ').map(word).collect::<Vec<_>>().join(" ")
+        };
+        (
+            format!("{name} {} {}", self.in_si(), numbers(true)),
+            format!("{name} {} {}", self.by_hand(without), numbers(false)),
+        )
+    }
+}
+
+/// A command with units.
+struct Command {
+    name: &'static str,
+    /// Its flags, in which `L=` stands before a length and `V=` before a velocity.
+    flags: &'static str,
+    /// Flags of the nondimensional system that it does not take, because they vary.
+    without: &'static [&'static str],
+    store: bool,
+    table: bool,
+}
+
+const fn command(name: &'static str, flags: &'static str, (store, table): (bool, bool)) -> Command {
+    Command { name, flags, without: &[], store, table }
+}
+
+const COMMANDS: [Command; 10] = [
+    command("simulate", "--x L=-0.3 --v V=0.5 --impacts 5", (false, true)),
+    command("settle", "--x L=-0.3 --v V=0.5", (false, true)),
+    command("attractors", "--starts 20", (true, true)),
+    command("orbit", "--label 1/1", (false, false)),
+    command("basin", "--x L=-0.5:L=0.1:6 --v V=-1:V=1:5", (true, true)),
+    Command { without: &["--gap"], ..command("diagram", "--vary gap --over L=0.5:L=1.5:5 --keep 8", (true, true)) },
+    command("branch", "--label 1/1 --vary gap --to L=2.25", (false, true)),
+    command("curve", "--label 1/1 --kind flip --vary gap=L=1:L=2.5 --and restitution=0.45:0.55", (false, true)),
+    Command {
+        without: &["--beta", "--gap"],
+        ..command("region", "--label 1/1 --beta 0.85:0.95 --gap L=1:L=2.5 --grid 3", (false, true))
+    },
+    command("lyapunov", "--impacts 1000 --x L=-0.3", (false, true)),
+];
+
 /// The unit of the numbers under a key, if the key determines it.
-fn unit(key: &str) -> Option<f64> {
+fn unit(machine: &Machine, key: &str) -> Option<f64> {
+    let (length, time, velocity) = (machine.length(), machine.time(), machine.velocity());
     match key {
-        "x" | "gap" => Some(LENGTH),
-        "v" | "velocity" | "velocity_before" | "velocity_after" => Some(VELOCITY),
-        "t" | "time" | "interval" => Some(TIME),
+        "x" | "gap" => Some(length),
+        "v" | "velocity" | "velocity_before" | "velocity_after" => Some(velocity),
+        "t" | "time" | "interval" => Some(time),
         // the columns of quantities end in their units
         _ => Quantity::ALL.into_iter().find(|quantity| key == quantity.name()).map(|quantity| {
-            let mass = 1.0;
+            let mass = machine.mass;
             match quantity.kind() {
                 QuantityKind::Number => 1.0,
-                QuantityKind::Length => LENGTH,
-                QuantityKind::Velocity => VELOCITY,
-                QuantityKind::Acceleration => VELOCITY / TIME,
-                QuantityKind::Impulse => mass * VELOCITY,
-                QuantityKind::Energy => mass * VELOCITY * VELOCITY,
-                QuantityKind::Power => mass * VELOCITY * VELOCITY / TIME,
-                QuantityKind::Rate => 1.0 / TIME,
+                QuantityKind::Length => length,
+                QuantityKind::Velocity => velocity,
+                QuantityKind::Acceleration => velocity / time,
+                QuantityKind::Impulse => mass * velocity,
+                QuantityKind::Energy => mass * velocity * velocity,
+                QuantityKind::Power => mass * velocity * velocity / time,
+                QuantityKind::Rate => 1.0 / time,
             }
         }),
     }
 }
 
-const UNITS: [f64; 5] = [1.0, LENGTH, TIME, VELOCITY, 1.0 / TIME];
+fn units(machine: &Machine) -> Vec<f64> {
+    vec![1.0, machine.length(), machine.time(), machine.velocity(), 1.0 / machine.time()]
+}
 
 /// The name of a column without its unit.
 fn bare(head: &str) -> String {
@@ -77,17 +175,18 @@ fn bare(head: &str) -> String {
     suffixes.filter_map(|end| head.strip_suffix(end)).min_by_key(|bare| bare.len()).unwrap_or(head).to_owned()
 }
 
+/// Equal but for the last digit, which the order of the multiplications determines.
 fn near(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-9 * a.abs().max(b.abs()) + 1e-14
+    (a - b).abs() <= 4.0 * f64::EPSILON * a.abs().max(b.abs())
 }
 
 /// Compares two results, and collects the factors by which numbers differ.
-fn compare(path: &str, key: &str, plain: &Value, si: &Value, factors: &mut BTreeSet<String>) {
+fn compare(machine: &Machine, path: &str, key: &str, plain: &Value, si: &Value, factors: &mut BTreeSet<String>) {
     match (plain, si) {
         (Value::Object(a), Value::Object(b)) => {
             assert!(a.keys().eq(b.keys()), "{path}: {a:?} {b:?}");
             for (name, value) in a {
-                compare(&format!("{path}.{name}"), name, value, &b[name], factors);
+                compare(machine, &format!("{path}.{name}"), name, value, &b[name], factors);
             }
         }
         // names of columns end in their units
@@ -98,106 +197,141 @@ fn compare(path: &str, key: &str, plain: &Value, si: &Value, factors: &mut BTree
         (Value::Array(a), Value::Array(b)) => {
             assert_eq!(a.len(), b.len(), "{path}");
             for (k, (a, b)) in a.iter().zip(b).enumerate() {
-                compare(&format!("{path}[{k}]"), key, a, b, factors);
+                compare(machine, &format!("{path}[{k}]"), key, a, b, factors);
             }
         }
         (Value::Number(a), Value::Number(b)) => {
             let (a, b) = (a.as_f64().unwrap(), b.as_f64().unwrap());
-            number(path, key, a, b, factors);
+            number(machine, path, key, (a, b), factors);
         }
         (a, b) => assert_eq!(a, b, "{path}"),
     }
 }
 
-fn number(path: &str, key: &str, a: f64, b: f64, factors: &mut BTreeSet<String>) {
-    let units = unit(key).map_or_else(|| UNITS.to_vec(), |unit| vec![unit]);
+fn number(machine: &Machine, path: &str, key: &str, (a, b): (f64, f64), factors: &mut BTreeSet<String>) {
+    let units = unit(machine, key).map_or_else(|| units(machine), |unit| vec![unit]);
     let Some(unit) = units.iter().find(|unit| near(a * **unit, b)) else { panic!("{path}: {a} and {b}") };
     factors.insert(unit.to_string());
 }
 
+/// Compares the object of a command with that by hand; false if neither has one, because there is no such orbit.
+fn same_json(machine: &Machine, Command { name, flags, without, .. }: &Command) -> bool {
+    let (si, plain) = machine.lines(name, flags, without);
+    let run = |line: &str| vibro(&format!("{line} --json")).output().unwrap();
+    let (a, b) = (run(&plain), run(&si));
+    assert_eq!(a.status.code(), b.status.code(), "{si}\n{plain}\n{}", String::from_utf8_lossy(&b.stderr));
+    if !a.status.success() {
+        return false;
+    }
+    let read = |output: &[u8]| serde_json::from_slice::<Value>(output).unwrap();
+    let (a, b) = (read(&a.stdout), read(&b.stdout));
+    assert_eq!((a["units"].as_str(), b["units"].as_str()), (Some("nondimensional"), Some("si")), "{name}");
+    let mut factors = BTreeSet::new();
+    for (key, value) in a.as_object().unwrap() {
+        // the plan is nondimensional in both results, and the system is reported as it was given
+        if !["units", "plan", "system"].contains(&key.as_str()) {
+            compare(machine, &format!("{si}\n{plain}\n{key}"), key, value, &b[key], &mut factors);
+        }
+    }
+    assert!(factors.len() > 1 || *name == "attractors", "{name}: nothing is converted");
+    true
+}
+
 #[test]
 fn f08_every_command_converts_its_json() {
-    for (name, plain, si, ..) in COMMANDS {
-        let (a, b) = (json(&line(name, plain, false)), json(&line(name, si, true)));
-        assert_eq!((a["units"].as_str(), b["units"].as_str()), (Some("nondimensional"), Some("si")), "{name}");
-        let mut factors = BTreeSet::new();
-        for (key, value) in a.as_object().unwrap() {
-            // the plan is nondimensional in both results, and the system is reported as it was given
-            if !["units", "plan", "system"].contains(&key.as_str()) {
-                compare(key, key, value, &b[key], &mut factors);
-            }
-        }
-        assert!(factors.len() > 1 || name == "attractors", "{name}: nothing is converted");
+    for command in &COMMANDS {
+        assert!(same_json(&MACHINE, command), "{}", command.name);
         // the plans differ in their units alone
+        let (si, plain) = MACHINE.lines(command.name, command.flags, command.without);
+        let (a, b) = (json(&plain), json(&si));
         let mut plan = b["plan"].clone();
         let units = plan.as_object_mut().unwrap().remove("units").unwrap();
-        assert_eq!((&a["plan"], units["length_m"].as_f64()), (&plan, Some(LENGTH)), "{name}");
+        let machine = plan["system"].as_object_mut().unwrap().remove("machine");
+        assert!(machine.is_some() || command.name == "region", "{}", command.name);
+        assert_eq!((&a["plan"], units["length_m"].as_f64()), (&plan, Some(MACHINE.length())), "{}", command.name);
     }
+}
+
+/// Random machines, all commands: the numbers are those by hand times the unit, to the last digit.
+#[test]
+fn random_machines_convert_their_json() {
+    let mut compared = 0;
+    for machine in Machine::random() {
+        compared += COMMANDS.iter().filter(|command| same_json(&machine, command)).count();
+    }
+    assert!(compared > 70, "{compared} of 120");
+}
+
+fn rows(line: &str) -> Vec<Vec<String>> {
+    let output = vibro(line).output().unwrap();
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect()
+}
+
+/// Compares two tables: names of columns without their units, and the numbers.
+fn same_table(machine: &Machine, name: &str, a: &[Vec<String>], b: &[Vec<String>]) {
+    assert!(a.len() == b.len() && a.len() > 1, "{name}");
+    assert_eq!(a[0], b[0].iter().map(|head| bare(head)).collect::<Vec<_>>(), "{name}");
+    let mut factors = BTreeSet::new();
+    for (left, right) in a.iter().zip(b).skip(1) {
+        for ((head, left), right) in a[0].iter().zip(left).zip(right) {
+            for (left, right) in left.split(' ').zip(right.split(' ')) {
+                match (left.parse::<f64>(), right.parse::<f64>()) {
+                    (Ok(left), Ok(right)) => {
+                        number(machine, &format!("{name} {head}"), head, (left, right), &mut factors);
+                    }
+                    _ => assert_eq!(left, right, "{name} {head}"),
+                }
+            }
+        }
+    }
+    assert!(factors.len() > 1 || name == "attractors", "{name}: nothing is converted");
 }
 
 #[test]
 fn f08_every_command_converts_its_table() {
-    let rows = |line: &str| {
-        let output = vibro(line).output().unwrap();
-        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-        let text = String::from_utf8(output.stdout).unwrap();
-        text.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect::<Vec<Vec<_>>>()
-    };
-    for (name, plain, si, _, table) in COMMANDS {
-        if !table {
-            continue;
-        }
-        let flag = if name == "lyapunov" { " --points 20 --section -" } else { " --csv -" };
-        let (a, b) = (rows(&(line(name, plain, false) + flag)), rows(&(line(name, si, true) + flag)));
-        assert!(a.len() == b.len() && a.len() > 1, "{name}");
-        assert_eq!(a[0], b[0].iter().map(|head| bare(head)).collect::<Vec<_>>(), "{name}");
-        let mut factors = BTreeSet::new();
-        for (left, right) in a.iter().zip(&b).skip(1) {
-            for ((head, left), right) in a[0].iter().zip(left).zip(right) {
-                for (left, right) in left.split(' ').zip(right.split(' ')) {
-                    match (left.parse::<f64>(), right.parse::<f64>()) {
-                        (Ok(left), Ok(right)) => number(&format!("{name} {head}"), head, left, right, &mut factors),
-                        _ => assert_eq!(left, right, "{name} {head}"),
-                    }
-                }
-            }
-        }
-        assert!(factors.len() > 1 || name == "attractors", "{name}: nothing is converted");
+    for Command { name, flags, without, .. } in COMMANDS.iter().filter(|command| command.table) {
+        let (si, plain) = MACHINE.lines(name, flags, without);
+        let flag = if *name == "lyapunov" { " --points 20 --section -" } else { " --csv -" };
+        same_table(&MACHINE, name, &rows(&(plain + flag)), &rows(&(si + flag)));
     }
 }
 
 /// A store keeps its units: the table exported from it is that of the command without a store.
 #[test]
 fn stores_keep_their_units() {
-    let mut stores = 0;
-    for (name, plain, si, store, _) in COMMANDS {
-        if !store {
-            continue;
-        }
-        stores += 1;
-        for (place, rest, flag) in [("plain.zarr", plain, false), ("si.zarr", si, true)] {
+    let machines: Vec<Machine> = core::iter::once(MACHINE).chain(Machine::random().take(3)).collect();
+    let stored: Vec<&Command> = COMMANDS.iter().filter(|command| command.store).collect();
+    assert_eq!(stored.len(), 3, "attractors, basin and diagram");
+    for (Command { name, flags, without, .. }, machine) in
+        stored.iter().flat_map(|c| machines.iter().map(move |m| (c, m)))
+    {
+        let (si, plain) = machine.lines(name, flags, without);
+        let tables = [("plain.zarr", plain), ("si.zarr", si)].map(|(place, line)| {
             let folder = tempfile::tempdir().unwrap();
-            let line = line(name, rest, flag);
             let filled = vibro(&format!("{line} --store {place} --quiet")).current_dir(&folder).output().unwrap();
             assert!(filled.status.success(), "{name}: {}", String::from_utf8_lossy(&filled.stderr));
-            if name == "attractors" {
-                continue;
-            }
             let again = vibro(&format!("{line} --store {place} --quiet --csv -")).current_dir(&folder).output();
-            let exported = again.unwrap().stdout;
-            let printed = vibro(&format!("{line} --csv -")).output().unwrap().stdout;
-            assert_eq!(String::from_utf8(exported).unwrap(), String::from_utf8(printed).unwrap(), "{name}");
-            // the figure of the store is that of the command
-            let draw = |line: &str, file: &str| {
-                let drawn = vibro(line).current_dir(&folder).output().unwrap();
-                assert!(drawn.status.success(), "{line}: {}", String::from_utf8_lossy(&drawn.stderr));
-                std::fs::read_to_string(folder.path().join(file)).unwrap()
-            };
-            let stored = draw(&format!("plot {place} stored.svg"), "stored.svg");
-            assert_eq!(stored, draw(&format!("{line} --plot own.svg"), "own.svg"), "{name}");
+            let exported = String::from_utf8(again.unwrap().stdout).unwrap();
+            if *name != "attractors" {
+                let printed = vibro(&format!("{line} --csv -")).output().unwrap().stdout;
+                assert_eq!(exported, String::from_utf8(printed).unwrap(), "{name}");
+                // the figure of the store is that of the command
+                let draw = |line: &str, file: &str| {
+                    let drawn = vibro(line).current_dir(&folder).output().unwrap();
+                    assert!(drawn.status.success(), "{line}: {}", String::from_utf8_lossy(&drawn.stderr));
+                    std::fs::read_to_string(folder.path().join(file)).unwrap()
+                };
+                let stored = draw(&format!("plot {place} stored.svg"), "stored.svg");
+                assert_eq!(stored, draw(&format!("{line} --plot own.svg"), "own.svg"), "{name}");
+            }
+            exported.lines().map(|row| row.split(',').map(str::to_owned).collect::<Vec<_>>()).collect::<Vec<_>>()
+        });
+        if *name != "attractors" {
+            same_table(machine, name, &tables[0], &tables[1]);
         }
     }
-    assert_eq!(stores, 3, "attractors, basin and diagram");
 }
 
 /// A map in physical units, in memory and in a store: each number is the nondimensional one times its unit.
@@ -222,11 +356,12 @@ fn a_map_in_hertz() {
     assert_eq!(found[0].join(","), head);
     assert_eq!(found[1][0], "0.8");
     assert_eq!(plain.len(), found.len());
-    let factors = [hertz, LENGTH, 1.0, 1.0, VELOCITY, VELOCITY * VELOCITY / TIME, LENGTH, VELOCITY];
+    let (length, time, velocity) = (MACHINE.length(), MACHINE.time(), MACHINE.velocity());
+    let factors = [hertz, length, 1.0, 1.0, velocity, velocity * velocity / time, length, velocity];
     for (a, b) in plain.iter().zip(&found).skip(1) {
         for ((a, b), factor) in a.iter().zip(b).zip(factors) {
             match (a.parse::<f64>(), b.parse::<f64>()) {
-                (Ok(a), Ok(b)) => assert!(near(a * factor, b), "{a} {b} {factor}"),
+                (Ok(a), Ok(b)) => assert!((a * factor / b - 1.0).abs() < 1e-12, "{a} {b} {factor}"),
                 _ => assert_eq!(a, b),
             }
         }

@@ -41,9 +41,14 @@ pub fn figure(
 ) -> Result<Figure, ReportError> {
     let show = behind.map_or(Show::Velocity, |diagram| diagram.plan.show);
     let oscillator = |value: f64| cut.oscillator(&asked.system, value).ok();
-    let (what, size) = match show {
-        Show::Velocity => (What::Velocity, asked.units.velocity()),
-        Show::Strobe => (What::Position(&oscillator), asked.units.length()),
+    let what = match show {
+        Show::Velocity => What::Velocity,
+        Show::Strobe => What::Position(&oscillator),
+    };
+    // the unit of the ordinate where the parameter has this value
+    let size = |value: f64| {
+        let units = asked.units.at(cut.vary, value);
+        if show == Show::Velocity { units.velocity() } else { units.length() }
     };
     let unit = asked.units.of(cut.vary);
     let (from, to) = cut.ends;
@@ -70,8 +75,8 @@ pub fn figure(
             looks.push(look);
         }
         let colour = colours.iter().find(|(name, _)| *name == label).map_or(Colour::BLACK, |(_, colour)| *colour);
+        let ys: Vec<f64> = ys.into_iter().zip(&xs).map(|(y, x)| y * size(*x)).collect();
         let xs: Vec<f64> = xs.into_iter().map(|x| x * unit).collect();
-        let ys: Vec<f64> = ys.into_iter().map(|y| y * size).collect();
         let (width, dash) = pen(look);
         panel.add(Line::new(xs, ys, colour).width(width).dash(dash));
     }
@@ -91,7 +96,7 @@ pub fn figure(
         let (width, dash) = pen(look);
         legend = legend.line(Stroke::new(Colour::BLACK).width(width).dash(dash), name);
     }
-    for (kind, points) in marks(followed, show_virtual, what, (unit, size)) {
+    for (kind, points) in marks(followed, show_virtual, what, (unit, &size)) {
         legend = legend.points(&points, kind);
         panel.add(points);
     }
@@ -133,7 +138,7 @@ fn marks(
     followed: &[Followed],
     show_virtual: bool,
     what: What<'_>,
-    (unit, size): (f64, f64),
+    (unit, size): (f64, &dyn Fn(f64) -> f64),
 ) -> BTreeMap<&'static str, Points> {
     let mut places: BTreeMap<&'static str, (Shape, Vec<f64>, Vec<f64>)> = BTreeMap::new();
     for point in followed.iter().flat_map(|branch| &branch.points) {
@@ -144,7 +149,7 @@ fn marks(
         let kind = point.event.map_or("", |event| event.name());
         let (_, xs, ys) = places.entry(kind).or_insert((shape, Vec::new(), Vec::new()));
         xs.extend(ordinates.iter().map(|_| point.value * unit));
-        ys.extend(ordinates.iter().map(|ordinate| ordinate * size));
+        ys.extend(ordinates.iter().map(|ordinate| ordinate * size(point.value)));
     }
     let count: usize = places.values().map(|(_, xs, _)| xs.len()).sum();
     let wide = if count > MANY { SMALL_MARK } else { MARK };

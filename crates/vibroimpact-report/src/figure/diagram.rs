@@ -6,7 +6,7 @@
 
 use crate::figure::{along, plane::PlaneAxis, symbol, title_without};
 use crate::units::shown_span;
-use crate::{Asked, ReportError};
+use crate::{Asked, ReportError, Units};
 use std::collections::HashSet;
 use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Points, Raster, Rects, SERIES};
 use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, Show, Sweep, SweepDirection};
@@ -58,8 +58,12 @@ pub(super) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colo
     let range = spread(clouds(found, asked).iter().flat_map(|cloud| cloud.large.iter().chain(&cloud.small)));
     [(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
         let steps = found.steps.iter().filter(|step| repeats(found, step) == repeating);
-        let mut dots: Vec<(u32, f64)> =
-            steps.flat_map(|step| step.points.iter().map(|point| (step.index, ordinate_of(point, asked)))).collect();
+        let mut dots: Vec<(u32, f64)> = steps
+            .flat_map(|step| {
+                let units = units_of(found, step, asked);
+                step.points.iter().map(move |point| (step.index, ordinate_of(point, &units)))
+            })
+            .collect();
         thin(&mut dots, range);
         let (xs, ys): (Vec<f64>, Vec<f64>) = dots.into_iter().map(|(k, y)| (over.at(k), y)).unzip();
         Points::new(xs, ys, colour).size(size)
@@ -70,12 +74,17 @@ pub(super) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colo
 const WIDE: f64 = 7.0;
 const NARROW: f64 = 2.6;
 
-fn ordinate_of(point: &DiagramPoint, asked: &Asked) -> f64 {
+fn ordinate_of(point: &DiagramPoint, units: &Units) -> f64 {
     match point {
-        DiagramPoint::Impact { velocity, .. } => velocity * asked.units.velocity(),
+        DiagramPoint::Impact { velocity, .. } => velocity * units.velocity(),
         DiagramPoint::Chatter { .. } => 0.0,
-        DiagramPoint::State { x, .. } => x * asked.units.length(),
+        DiagramPoint::State { x, .. } => x * units.length(),
     }
+}
+
+/// The units at a step of a diagram.
+fn units_of(found: &Diagram, step: &DiagramStep, asked: &Asked) -> Units {
+    asked.units.at(found.plan.vary, found.plan.over.at(step.index))
 }
 
 /// The ordinate axis of a diagram.
@@ -104,7 +113,8 @@ fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
         let above = usize::from(both && step.sweep == Sweep::Down);
         let cloud = &mut clouds[above];
         let list = if both && above == 0 && repeats(found, step) { &mut cloud.large } else { &mut cloud.small };
-        list.extend(step.points.iter().map(|point| (step.index, ordinate_of(point, asked))));
+        let units = units_of(found, step, asked);
+        list.extend(step.points.iter().map(|point| (step.index, ordinate_of(point, &units))));
     }
     clouds
 }

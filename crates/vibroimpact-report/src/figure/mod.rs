@@ -17,6 +17,7 @@ pub mod waveform;
 
 use crate::number::short;
 use crate::{Asked, Units};
+use vibroimpact::MachineParameter;
 use vibroimpact_plot::{Colour, plain};
 use vibroimpact_study::{Cut, Parameter};
 
@@ -44,9 +45,7 @@ pub fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> S
             given.push((Parameter::SecondRestitution, stop.restitution));
         }
     }
-    let is_frequency = |parameter: &Parameter| matches!(parameter, Parameter::Beta | Parameter::InverseBeta);
-    let tuned = varied.iter().any(is_frequency);
-    given.retain(|(parameter, _)| !(varied.contains(parameter) || tuned && is_frequency(parameter)));
+    given.retain(|(parameter, _)| !varied.iter().any(|other| same_in_title(*other, *parameter)));
     let part = |(parameter, value): &(Parameter, f64)| {
         let (unit, number) = (units.unit_of(*parameter), short(value * units.of(*parameter)));
         match unit {
@@ -58,6 +57,24 @@ pub fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> S
     };
     let parts: Vec<String> = given.iter().map(part).collect();
     parts.join(", ").replace('-', "−")
+}
+
+/// Whether a parameter that varies determines a number of the title.
+fn same_in_title(varied: Parameter, number: Parameter) -> bool {
+    let Parameter::Machine(varied) = varied else { return varied.same_number(number) };
+    match varied {
+        MachineParameter::Frequency => number.is_frequency(),
+        MachineParameter::Gap => number == Parameter::Gap,
+        MachineParameter::SecondGap => number == Parameter::SecondGap,
+        MachineParameter::Gaps => matches!(number, Parameter::Gap | Parameter::SecondGap),
+        MachineParameter::Restitutions => matches!(number, Parameter::Restitution | Parameter::SecondRestitution),
+        // the damping ratio of a given coefficient changes with the mass and the stiffness
+        MachineParameter::Mass
+        | MachineParameter::Stiffness
+        | MachineParameter::DampingRatio
+        | MachineParameter::DampingCoefficient => number == Parameter::Damping,
+        _ => false,
+    }
 }
 
 /// The name of an axis along a line: the first parameter, and the range of the second one.
@@ -83,6 +100,7 @@ pub const fn symbol(parameter: Parameter) -> &'static str {
         Parameter::Damping => "*ζ*",
         Parameter::SecondGap => "*δ*_2",
         Parameter::SecondRestitution => "*ε*_2",
+        Parameter::Machine(parameter) => parameter.description(),
     }
 }
 
@@ -91,6 +109,7 @@ pub const fn symbol(parameter: Parameter) -> &'static str {
 pub fn named(parameter: Parameter, units: &Units) -> String {
     match units.unit_of(parameter) {
         "" => symbol(parameter).into(),
+        unit if matches!(parameter, Parameter::Machine(_)) => format!("{} ({unit})", symbol(parameter)),
         "Hz" => "frequency (Hz)".into(),
         unit if parameter == Parameter::SecondGap => format!("second gap ({unit})"),
         unit => format!("gap ({unit})"),

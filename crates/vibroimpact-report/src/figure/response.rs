@@ -36,7 +36,10 @@ pub fn figure(found: &ResponseCurves, asked: &Asked) -> Result<Figure, ReportErr
     let sweeps: [(&str, &[SweptMotion], f64, Colour); 2] =
         [("sweep up", &found.up, LARGE, LIGHT), ("sweep down", &found.down, SMALL, DARK)];
     for (_, motions, size, colour) in sweeps {
-        let places = motions.iter().map(|motion| (motion.value * unit, value(motion.quantities, quantity, units)));
+        let places = motions.iter().map(|motion| {
+            let units = units.at(plan.vary, motion.value);
+            (motion.value * unit, value(motion.quantities, quantity, &units))
+        });
         let (xs, ys): (Vec<f64>, Vec<f64>) = places.filter(|(_, y)| y.is_finite()).unzip();
         let points = Points::new(xs, ys, colour).size(size);
         panel.add(points);
@@ -50,7 +53,10 @@ pub fn figure(found: &ResponseCurves, asked: &Asked) -> Result<Figure, ReportErr
             if !one.solution.physical {
                 continue;
             }
-            let place = |point: &ResponsePoint| (point.solution.value * unit, value(point.quantities, quantity, units));
+            let place = |point: &ResponsePoint| {
+                let at = point.solution.value;
+                (at * unit, value(point.quantities, quantity, &units.at(plan.vary, at)))
+            };
             let key = (one.solution.cycle.label.to_string(), one.solution.stable());
             let at = lines.iter().position(|(other, ..)| *other == key).unwrap_or_else(|| {
                 lines.push((key, Vec::new(), Vec::new()));

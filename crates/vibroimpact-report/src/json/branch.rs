@@ -151,7 +151,7 @@ impl PointObject {
             parameter: point.value * units.of(cut.vary),
             values: both(point, cut, units),
             label: point.cycle.label.to_string(),
-            cycle: impacts(&point.cycle, units),
+            cycle: impacts(&point.cycle, &units.at(cut.vary, point.value)),
             rests: rests(&point.cycle),
             multipliers: pairs(point.cycle.multipliers),
             stable: point.stable(),

@@ -75,7 +75,12 @@ fn objects(
             Parameter::SecondGap | Parameter::SecondRestitution => None,
             _ => system.value(parameter).ok(),
         };
-        if let Some(value) = given.filter(|_| !axes.iter().any(|axis| axis.vary == Coordinate::Parameter(parameter))) {
+        let varies = |axis: &Axis| match axis.vary {
+            // a number of a machine may determine several of these; the machine of the plan has all others
+            Coordinate::Parameter(Parameter::Machine(_)) => true,
+            vary => vary == Coordinate::Parameter(parameter),
+        };
+        if let Some(value) = given.filter(|_| !axes.iter().any(varies)) {
             fixed.insert(parameter.name().to_owned(), value.into());
         }
     }

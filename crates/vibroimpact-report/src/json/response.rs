@@ -76,7 +76,7 @@ fn swept(motion: &SweptMotion, task: &ResponsePlan, units: &Units) -> SweptObjec
     SweptObject {
         parameter: motion.value * units.of(task.vary),
         label: motion.label.clone(),
-        value: value(motion.quantities, task.quantity, units),
+        value: value(motion.quantities, task.quantity, &units.at(task.vary, motion.value)),
     }
 }
 
@@ -84,7 +84,7 @@ fn object(branch: &ResponseBranch, task: &ResponsePlan, units: &Units) -> Branch
     let point = |point: &vibroimpact_study::ResponsePoint| PointObject {
         parameter: point.solution.value * units.of(task.vary),
         label: point.solution.cycle.label.to_string(),
-        value: value(point.quantities, task.quantity, units),
+        value: value(point.quantities, task.quantity, &units.at(task.vary, point.solution.value)),
         stable: point.solution.stable(),
         physical: point.solution.physical,
         event: point.solution.event.map(|event| event.name()),

@@ -33,7 +33,7 @@ fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<It
                 point.cycle.label,
                 point.physical,
                 point.stable(),
-                cells(&point.cycle, units)
+                cells(&point.cycle, &units.at(cut.vary, point.value))
             )
         })
     })

@@ -43,6 +43,7 @@ fn rows(found: &Diagram, over: Span, units: Units) -> impl Iterator<Item = Strin
         let also = also.map_or_else(String::new, |(p, value)| format!(",{}", Number(value * units.of(p))));
         let head = format!("{}{also},{}", Number(over.at(step.index)), sweep(step.sweep));
         let alone = step.points.is_empty().then(|| format!("{head},{},{none}", kind(step.kind)));
+        let units = units.at(found.plan.vary, over.at(step.index));
         let points = step.points.iter().map(move |point| format!("{head},{}", row(step, point, units)));
         alone.into_iter().chain(points)
     })

@@ -23,6 +23,7 @@ pub fn table(found: &RegionMap, units: Units) -> Result<Table<'_>, PlanError> {
             place.push_str(&format!("{},", Number(values[rest % values.len()])));
             rest /= values.len();
         }
+        let units = units.over(axes, |axis| point.at[axis]);
         point.motions.iter().map(move |motion| {
             let own = cells(&found.plan.fields, motion.quantities, &units);
             format!("{place}{},{}{own}", motion.verdict.label(), Number(motion.share))

@@ -10,8 +10,15 @@ use vibroimpact_store::{Folder, Part, Store};
 use vibroimpact_study::{BasinPlan, Control, MapPlan, Plan, SystemPlan, Task};
 
 /// The system of the plans.
-pub const S: SystemPlan =
-    SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, damping: 0.0, second_stop: None };
+pub const S: SystemPlan = SystemPlan {
+    beta: None,
+    inverse_beta: Some(1.3),
+    gap: 0.75,
+    restitution: 0.5,
+    damping: 0.0,
+    second_stop: None,
+    machine: None,
+};
 
 /// A basin of 20 tiles.
 pub fn basin() -> Plan {

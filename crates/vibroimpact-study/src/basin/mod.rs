@@ -6,7 +6,7 @@ mod plan;
 pub use measures::{BasinMeasures, UncertaintyExponent, measures, missed_share, share_interval};
 pub use plan::BasinPlan;
 
-use crate::axis;
+use crate::{SystemPlan, axis};
 use vibroimpact::verdict::CountedMotion;
 use vibroimpact::{Oscillator, Start};
 
@@ -53,12 +53,19 @@ pub fn start(osc: &Oscillator, plan: &BasinPlan, k: u64) -> Start {
         *place = usize::try_from(rest % count).unwrap_or(0);
         rest /= count;
     }
-    start_at(osc, plan, |k| place[k])
+    let same = SystemPlan::default();
+    start_at(osc, (&same, &same), plan, |k| place[k])
 }
 
-/// The start at a point of the axes, given the oscillator at that point.
-pub(crate) fn start_at(osc: &Oscillator, plan: &BasinPlan, place: impl Fn(usize) -> usize) -> Start {
-    let given = axis::start_at(&plan.start, &plan.axes, place);
+/// The start at a point of the axes, given the oscillator at that point. `systems` are that of the plan and that at the
+/// point.
+pub(crate) fn start_at(
+    osc: &Oscillator,
+    systems: (&SystemPlan, &SystemPlan),
+    plan: &BasinPlan,
+    place: impl Fn(usize) -> usize,
+) -> Start {
+    let given = axis::start_at(systems, &plan.start, &plan.axes, place);
     let (lowest, highest) = Start::room(osc);
     Start {
         // the ends of an axis lie within the stops; the clamp keeps rounded values between them within the stops too

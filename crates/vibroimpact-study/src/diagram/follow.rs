@@ -1,7 +1,8 @@
 //! The result of following one motion: its kind, the points to show and its last state.
 
+use crate::{PlanError, SystemPlan};
 use vibroimpact::verdict::SettleOptions;
-use vibroimpact::{Oscillator, Side, Start};
+use vibroimpact::{Side, Start};
 
 /// The kind of the motion at one value after the transient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,35 +67,46 @@ pub(super) fn budget(transient: u64, keep: u64) -> u64 {
     SettleOptions::default().max_steps + 1000 * (transient + keep)
 }
 
-/// The state `from` of the oscillator `before` as a start of `osc`. A mass on a stop stays on it. If a moved stop has
-/// passed the mass, the mass is placed on that stop.
-pub(crate) fn carried_state(from: Start, before: &Oscillator, osc: &Oscillator) -> Start {
-    let (was_lowest, was_highest) = Start::room(before);
-    let (lowest, highest) = Start::room(osc);
+/// The state `from` of the system `before` as a start of the system `there`. A mass on a stop stays on it. If a moved
+/// stop has passed the mass, the mass is placed on that stop. A machine keeps its position and velocity in SI units.
+///
+/// # Errors
+/// [`PlanError`] if one of them is no valid system.
+pub(crate) fn carried_state(from: Start, before: &SystemPlan, there: &SystemPlan) -> Result<Start, PlanError> {
+    let (was_lowest, was_highest) = Start::room(&before.oscillator()?);
+    let (lowest, highest) = Start::room(&there.oscillator()?);
+    let (x, v) = before.state_in(there, (from.x, from.v));
     let x = if from.x >= was_highest {
         highest
     } else if from.x <= was_lowest {
         lowest
     } else {
-        from.x.clamp(lowest, highest)
+        x.clamp(lowest, highest)
     };
-    Start { x, ..from }
+    Ok(Start { x, v, ..from })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SecondStop;
 
     #[test]
     fn a_carried_state_is_within_the_stops() {
-        let osc = |gap, second| Oscillator::new(0.9, gap, 0.5).unwrap().with_second_stop(second, 0.5).unwrap();
+        let system = |gap, second| SystemPlan {
+            beta: Some(0.9),
+            gap,
+            restitution: 0.5,
+            second_stop: Some(SecondStop { gap: second, restitution: 0.5 }),
+            ..SystemPlan::default()
+        };
         let at = |x| Start { x, v: 1.0, phase: 2.0 };
-        let (wide, narrow) = (osc(2.0, 2.0), osc(1.0, 0.5));
+        let (wide, narrow) = (system(2.0, 2.0), system(1.0, 0.5));
         for (x, expected) in [(2.0, 1.0), (1.5, 1.0), (0.25, 0.25), (-1.0, -0.5), (-2.0, -0.5)] {
-            assert_eq!(carried_state(at(x), &wide, &narrow), at(expected));
+            assert_eq!(carried_state(at(x), &wide, &narrow), Ok(at(expected)));
         }
         for (x, expected) in [(1.0, 2.0), (0.25, 0.25), (-0.5, -2.0)] {
-            assert_eq!(carried_state(at(x), &narrow, &wide), at(expected));
+            assert_eq!(carried_state(at(x), &narrow, &wide), Ok(at(expected)));
         }
     }
 }

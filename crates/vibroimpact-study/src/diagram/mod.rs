@@ -17,8 +17,8 @@ pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirectio
 
 use crate::{PlanError, SystemPlan};
 use follow::AfterTransient;
+use vibroimpact::Start;
 use vibroimpact::verdict::{StartBox, scattered_starts};
-use vibroimpact::{Oscillator, Start};
 
 /// Identifies a motion among those at one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -71,19 +71,20 @@ pub(crate) fn step(
     system: &SystemPlan,
     plan: &DiagramPlan,
     (index, sweep): (u32, Sweep),
-    before: Option<(Oscillator, Start)>,
-) -> Result<(DiagramStep, (Oscillator, Start)), PlanError> {
-    let osc = plan.oscillator(system, index)?;
+    before: Option<(SystemPlan, Start)>,
+) -> Result<(DiagramStep, (SystemPlan, Start)), PlanError> {
+    let there = plan.system(system, index)?;
+    let osc = there.oscillator()?;
     let start = match (plan.direction, sweep, before) {
         (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
             scattered_starts(&osc, StartBox::natural(&osc), seed, k)
         }
-        (_, _, Some((old, left))) => carried_state(left, &old, &osc),
+        (_, _, Some((old, left))) => carried_state(left, &old, &there)?,
         (_, _, None) => Start::at_rest(&osc),
     };
     let AfterTransient { kind, points, last } = match plan.show {
         Show::Velocity => impacts::after_transients(&osc, start, plan.transient, plan.keep),
         Show::Strobe => strobes::after_transients(&osc, start, plan.transient, plan.keep),
     };
-    Ok((DiagramStep { index, sweep, kind, points }, (osc, last)))
+    Ok((DiagramStep { index, sweep, kind, points }, (there, last)))
 }

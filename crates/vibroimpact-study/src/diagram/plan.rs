@@ -131,7 +131,15 @@ impl DiagramPlan {
     /// # Errors
     /// [`PlanError`] for a value that gives no valid system.
     pub fn oscillator(&self, system: &SystemPlan, k: u32) -> Result<Oscillator, PlanError> {
-        self.values(k).try_fold(*system, |system, (parameter, value)| system.with(parameter, value))?.oscillator()
+        self.system(system, k)?.oscillator()
+    }
+
+    /// The system at value number `k`.
+    ///
+    /// # Errors
+    /// As [`Self::oscillator`].
+    pub fn system(&self, system: &SystemPlan, k: u32) -> Result<SystemPlan, PlanError> {
+        self.values(k).try_fold(*system, |system, (parameter, value)| system.with(parameter, value))
     }
 
     /// Number of motions followed at each value.

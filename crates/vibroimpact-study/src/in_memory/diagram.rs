@@ -29,8 +29,15 @@ mod tests {
     use crate::diagram::{DiagramPoint, MotionKind, Show, Sweep};
     use crate::{Parameter, Stretch};
 
-    const S: SystemPlan =
-        SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.0, restitution: 0.5, damping: 0.0, second_stop: None };
+    const S: SystemPlan = SystemPlan {
+        beta: None,
+        inverse_beta: Some(1.3),
+        gap: 0.0,
+        restitution: 0.5,
+        damping: 0.0,
+        second_stop: None,
+        machine: None,
+    };
 
     fn plan(over: &str) -> DiagramPlan {
         DiagramPlan {

@@ -39,7 +39,7 @@ pub(super) fn branches<'a>(
     control: &Control<'_>,
 ) -> Result<Vec<ResponseBranch>, RunError> {
     let cut = plan.cut();
-    let ground = Ground { system, cut, vary: cut.varying()?, range: cut.ends.0..=cut.ends.1, control };
+    let ground = Ground { system, cut, range: cut.ends.0..=cut.ends.1, control };
     let mut found: Vec<Vec<SolutionPoint>> = Vec::new();
     for motion in motions {
         if control.stopping() || found.len() >= MOST_BRANCHES {
@@ -51,7 +51,7 @@ pub(super) fn branches<'a>(
         if found.iter().any(|points| ground.passes(points, &osc, &cycle, motion.value)) {
             continue;
         }
-        found.push(ground.both_ways(&osc, &cycle));
+        found.push(ground.both_ways(&osc, &cycle, cut.varying(system, motion.value)?));
     }
     let quantities = |solution: SolutionPoint| {
         if control.stopping() {
@@ -70,7 +70,6 @@ pub(super) fn branches<'a>(
 struct Ground<'a, 'c> {
     system: &'a SystemPlan,
     cut: Cut,
-    vary: ParameterPath,
     range: RangeInclusive<f64>,
     control: &'a Control<'c>,
 }
@@ -80,11 +79,12 @@ impl Ground<'_, '_> {
         self.cut.oscillator(self.system, value)
     }
 
-    /// The points of the branch through a cycle, from the end of the branch downwards to the end upwards.
-    fn both_ways(&self, osc: &Oscillator, cycle: &Cycle) -> Vec<SolutionPoint> {
+    /// The points of the branch through a cycle along a line that begins there, from the end of the branch downwards to
+    /// the end upwards.
+    fn both_ways(&self, osc: &Oscillator, cycle: &Cycle, vary: ParameterPath) -> Vec<SolutionPoint> {
         let options = BranchOptions { points: MOST_POINTS, ..BranchOptions::default() };
         let way = |direction| -> Vec<SolutionPoint> {
-            let branch = Branch::new(osc, cycle, self.vary, self.range.clone(), direction, options);
+            let branch = Branch::new(osc, cycle, vary, self.range.clone(), direction, options);
             // a cycle that cannot be followed, such as one at the end of the range, is no branch
             branch.map_or_else(|_| Vec::new(), |branch| branch.take_while(|_| !self.control.stopping()).collect())
         };

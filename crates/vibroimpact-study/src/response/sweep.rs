@@ -37,13 +37,17 @@ pub(super) fn sweep(
         values.reverse();
     }
     let mut motions = Vec::with_capacity(values.len());
-    let mut last: Option<(Oscillator, Start)> = None;
+    let mut last: Option<(SystemPlan, Start)> = None;
     for value in values {
-        let osc = cut.oscillator(system, value)?;
-        let start = last.map_or_else(|| Start::at_rest(&osc), |(before, state)| carried_state(state, &before, &osc));
+        let there = cut.system(system, value)?;
+        let osc = there.oscillator()?;
+        let start = match last {
+            Some((before, state)) => carried_state(state, &before, &there)?,
+            None => Start::at_rest(&osc),
+        };
         let options = SettleOptions::default();
         let Some(settled) = settle_while(&osc, start, &options, || !control.stopping()) else { break };
-        last = Some((osc, state_on(&osc, &settled.verdict, start)));
+        last = Some((there, state_on(&osc, &settled.verdict, start)));
         motions.push(SweptMotion {
             value,
             label: settled.verdict.label().into_owned(),

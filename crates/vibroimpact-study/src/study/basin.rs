@@ -116,7 +116,7 @@ impl BasinFill {
 
     /// The start at point number `k` of the grid.
     fn nth(&self, osc: &Oscillator, k: u64) -> Start {
-        self.start(osc, &self.grid.whole().index(usize::try_from(k).unwrap_or(0)))
+        self.start(osc, &self.system, &self.grid.whole().index(usize::try_from(k).unwrap_or(0)))
     }
 
     /// The cycles of the survey. Every tile computes the same ones.
@@ -141,17 +141,18 @@ impl BasinFill {
     }
 
     /// The start at a point of the grid.
-    fn start(&self, osc: &Oscillator, index: &[usize]) -> Start {
+    fn start(&self, osc: &Oscillator, there: &SystemPlan, index: &[usize]) -> Start {
         match &self.starts {
             Starts::Scattered { area, seed } => scattered_starts(osc, *area, *seed, index[0] as u64),
-            Starts::Grid(plan) => start_at(osc, plan, |k| on_axis(index, k)),
+            Starts::Grid(plan) => start_at(osc, (&self.system, there), plan, |k| on_axis(index, k)),
         }
     }
 
-    /// The oscillator at a point of the grid. The corners have been checked, so this fails only between valid corners.
-    fn oscillator(&self, index: &[usize]) -> Option<Oscillator> {
+    /// The system at a point of the grid. The corners have been checked, so this fails only between valid corners.
+    fn there(&self, index: &[usize]) -> Option<(SystemPlan, Oscillator)> {
         let Starts::Grid(plan) = &self.starts else { return None };
-        axis::system_at(&self.system, &plan.axes, |k| on_axis(index, k)).ok()?.oscillator().ok()
+        let there = axis::system_at(&self.system, &plan.axes, |k| on_axis(index, k)).ok()?;
+        Some((there, there.oscillator().ok()?))
     }
 
     /// Settles the given points of a tile. Returns for each point the index of its motion or code in the tile.
@@ -168,8 +169,9 @@ impl BasinFill {
             let alone = |k: &usize| {
                 let index = block.index(*k);
                 // the corners are valid; a point between them that is not is undecided
-                let found = self.oscillator(&index).map_or((super::UNDECIDED, None), |osc| {
-                    let verdict = vibroimpact::verdict::settle(&osc, self.start(&osc, &index), &options).verdict;
+                let found = self.there(&index).map_or((super::UNDECIDED, None), |(there, osc)| {
+                    let start = self.start(&osc, &there, &index);
+                    let verdict = vibroimpact::verdict::settle(&osc, start, &options).verdict;
                     let quantities =
                         if self.asked().is_empty() { None } else { of_verdict_only(&osc, &verdict, self.asked()) };
                     (code(&verdict), quantities)
@@ -185,7 +187,7 @@ impl BasinFill {
         };
         let start = |k: u64| {
             let number = usize::try_from(k).ok().and_then(|k| wanted.get(k)).copied().unwrap_or(0);
-            self.start(&one.osc, &block.index(number))
+            self.start(&one.osc, &self.system, &block.index(number))
         };
         let range = 0..wanted.len() as u64;
         let settlement = settle_many(&one.osc, range, start, &one.survey, &options, Width::best(), &|| tick());
@@ -348,7 +350,8 @@ impl Fill for BasinFill {
         }
         columns.extend(self.quantities(&tile));
         if let (Starts::Scattered { .. }, Some(one)) = (&self.starts, &self.one) {
-            let starts: Vec<Start> = (0..block.points()).map(|k| self.start(&one.osc, &block.index(k))).collect();
+            let starts: Vec<Start> =
+                (0..block.points()).map(|k| self.start(&one.osc, &self.system, &block.index(k))).collect();
             for coordinate in [|s: &Start| s.x, |s: &Start| s.v, |s: &Start| s.phase] {
                 columns.push(Column::F64(starts.iter().map(coordinate).collect()));
             }

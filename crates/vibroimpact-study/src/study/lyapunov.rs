@@ -4,8 +4,7 @@ use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::map::side;
 use crate::axis;
 use crate::field::{Column, Extra, Field, NumberType};
-use crate::{Block, Grid, LyapunovPlan, PlanError, SystemPlan};
-use vibroimpact::Oscillator;
+use crate::{Block, Grid, LyapunovPlan, SystemPlan};
 use vibroimpact::chaos::{Grounds, Measured, exponents};
 
 /// Default number of points of a tile along each of two axes; a tile takes some seconds.
@@ -92,9 +91,10 @@ impl Fill for LyapunovFill {
             let index = block.index(k);
             let (place, axes) = (|axis: usize| on_axis(&index, axis), &self.plan.axes);
             // the corners are valid; a point between them that is not has no result
-            let osc = axis::system_at(&self.system, axes, place).and_then(|system| system.oscillator());
-            let start = |osc: Oscillator| Ok((osc, axis::start_at(&self.plan.start, axes, place).start(&osc)?));
-            let question: Result<_, PlanError> = osc.and_then(start);
+            let question = axis::system_at(&self.system, axes, place).and_then(|there| {
+                let osc = there.oscillator()?;
+                Ok((osc, axis::start_at((&self.system, &there), &self.plan.start, axes, place).start(&osc)?))
+            });
             if let Ok((osc, start)) = question {
                 let found = exponents(&osc, start, &self.plan.options());
                 let mut put = |array: usize, at: usize, value: f64| numbers[array][at] = value;

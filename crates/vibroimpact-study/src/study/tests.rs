@@ -6,8 +6,15 @@ use crate::axis::{Coordinate, Values};
 use crate::{BasinPlan, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Span, StartPlan, Stretch, SystemPlan};
 use vibroimpact::verdict::SettleOptions;
 
-const S: SystemPlan =
-    SystemPlan { beta: None, inverse_beta: Some(1.3), gap: 0.75, restitution: 0.5, damping: 0.0, second_stop: None };
+const S: SystemPlan = SystemPlan {
+    beta: None,
+    inverse_beta: Some(1.3),
+    gap: 0.75,
+    restitution: 0.5,
+    damping: 0.0,
+    second_stop: None,
+    machine: None,
+};
 
 fn span(text: &str) -> Span {
     text.parse().unwrap()

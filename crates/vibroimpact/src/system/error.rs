@@ -53,6 +53,9 @@ pub enum SystemError {
     /// A parameter of the second stop, but there is only one stop.
     #[error("{0} is a parameter of the second stop, and there is only one stop\nhint: give the second stop first")]
     NoSecondStop(&'static str),
+    /// A number of a machine, but the system is an oscillator without units.
+    #[error("{0} is a number of a machine in SI units, and the system is nondimensional")]
+    NoMachine(&'static str),
     /// Two parameters on one line that are the same.
     #[error("{0} and {1} cannot vary together: a line goes through two different parameters")]
     Together(&'static str, &'static str),

@@ -14,14 +14,53 @@
 //!
 //! The conversion is exact. A stop on the base has $`r = y`$, and then $`\hat F = m\omega^2 Y e^{i\varphi_y}`$.
 
-use super::{Machine, SystemError};
+use super::{Machine, MachineStop, SystemError};
 use crate::math::{atan2, hypot, sin_cos};
+
+/// The amplitude of a harmonic motion in one of three forms, not negative. The form that is given is held when the
+/// frequency changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Amplitude {
+    /// Of the displacement, in m.
+    DisplacementM(f64),
+    /// Of the velocity, in m/s.
+    VelocityMPerS(f64),
+    /// Of the acceleration, in m/s^2.
+    AccelerationMPerS2(f64),
+}
+
+impl Default for Amplitude {
+    fn default() -> Self {
+        Self::DisplacementM(0.0)
+    }
+}
+
+impl Amplitude {
+    /// The amplitude of the displacement in m at the angular frequency `omega` in rad/s.
+    #[must_use]
+    pub fn displacement_m(self, omega: f64) -> f64 {
+        match self {
+            Self::DisplacementM(y) => y,
+            Self::VelocityMPerS(v) => v / omega,
+            Self::AccelerationMPerS2(a) => a / (omega * omega),
+        }
+    }
+
+    /// The value in its own form, and the unit of that form.
+    pub(super) const fn value(self) -> (f64, &'static str) {
+        match self {
+            Self::DisplacementM(y) => (y, "m"),
+            Self::VelocityMPerS(v) => (v, "m/s"),
+            Self::AccelerationMPerS2(a) => (a, "m/s^2"),
+        }
+    }
+}
 
 /// The motion of a base or a stop, $`A\sin(\omega t + \varphi)`$.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shaking {
-    /// Amplitude of the displacement in m, not negative.
-    pub displacement_m: f64,
+    /// The amplitude.
+    pub amplitude: Amplitude,
     /// Phase relative to the force, in radians.
     pub phase: f64,
 }
@@ -56,13 +95,13 @@ impl Excitation {
     /// $`F\sin\omega t`$, and may be 0.
     ///
     /// ```
-    /// use vibroimpact::{Excitation, Frequency, Machine, Shaking};
+    /// use vibroimpact::{Amplitude, Damping, Excitation, Frequency, Machine, Shaking};
     /// // a base that moves by 1 mm at 20 rad/s, with the stop on it
     /// let machine = Machine {
-    ///     mass_kg: 2.0, damping_ns_per_m: 3.0, stiffness_n_per_m: 800.0, force_n: 0.0,
-    ///     frequency: Frequency::RadPerS(20.0), gap_m: 0.002, restitution: 0.6,
+    ///     mass_kg: 2.0, damping: Damping::NsPerM(3.0), stiffness_n_per_m: 800.0, force_n: 0.0,
+    ///     frequency: Frequency::RadPerS(20.0), gap_m: 0.002, restitution: 0.6, second_stop: None,
     /// };
-    /// let shaking = Shaking { displacement_m: 0.001, phase: 0.0 };
+    /// let shaking = Shaking { amplitude: Amplitude::DisplacementM(0.001), phase: 0.0 };
     /// let same = Excitation { base: shaking, stop: shaking, ..Excitation::default() }.equivalent(&machine)?;
     /// assert!((same.machine.force_n - 2.0 * 20.0 * 20.0 * 0.001).abs() < 1e-12 && same.phase.abs() < 1e-12);
     /// # Ok::<(), vibroimpact::SystemError>(())
@@ -72,9 +111,10 @@ impl Excitation {
     /// [`SystemError`] for an amplitude or unbalance that is negative or not finite, a constant force or phase that is
     /// not finite, or if the sum of all excitations is 0.
     pub fn equivalent(&self, machine: &Machine) -> Result<EquivalentMachine, SystemError> {
+        let (base, stop) = (self.base.amplitude.value(), self.stop.amplitude.value());
         for (name, value, unit) in [
-            ("displacement of the base", self.base.displacement_m, "m"),
-            ("displacement of the stop", self.stop.displacement_m, "m"),
+            ("amplitude of the base", base.0, base.1),
+            ("amplitude of the stop", stop.0, stop.1),
             ("unbalance", self.unbalance_kg_m, "kg m"),
             ("force F", machine.force_n, "N"),
         ] {
@@ -92,13 +132,15 @@ impl Excitation {
                 return Err(SystemError::Quantity { name, value, unit, range: "finite", hint: "it is a plain number" });
             }
         }
-        let (m, c, k) = (machine.mass_kg, machine.damping_ns_per_m, machine.stiffness_n_per_m);
+        let (m, k) = (machine.mass_kg, machine.stiffness_n_per_m);
+        let c = machine.damping.ns_per_m(m, k);
         let omega = machine.frequency.rad_per_s();
         let (mut re, mut im) = (machine.force_n + self.unbalance_kg_m * omega * omega, 0.0);
         let mut add = |(a, b): (f64, f64), shaking: &Shaking| {
             let (sin, cos) = sin_cos(shaking.phase);
-            re += shaking.displacement_m * (a * cos - b * sin);
-            im += shaking.displacement_m * (a * sin + b * cos);
+            let displacement_m = shaking.amplitude.displacement_m(omega);
+            re += displacement_m * (a * cos - b * sin);
+            im += displacement_m * (a * sin + b * cos);
         };
         if self.base == self.stop {
             // the terms of the spring and the damper cancel exactly
@@ -108,7 +150,9 @@ impl Excitation {
             add((m * omega * omega - k, -omega * c), &self.stop);
         }
         let offset_m = self.constant_force_n / k;
-        let machine = Machine { force_n: hypot(re, im), gap_m: machine.gap_m - offset_m, ..*machine };
+        // the equilibrium moves towards the first stop and away from the second
+        let second_stop = machine.second_stop.map(|stop| MachineStop { gap_m: stop.gap_m + offset_m, ..stop });
+        let machine = Machine { force_n: hypot(re, im), gap_m: machine.gap_m - offset_m, second_stop, ..*machine };
         if machine.force_n == 0.0 {
             return Err(SystemError::Quantity {
                 name: "sum of all excitations",
@@ -126,23 +170,24 @@ impl Excitation {
 mod tests {
     use super::*;
     use crate::motion::{EventKind, Motion};
-    use crate::system::{Frequency, Start};
+    use crate::system::{Damping, Frequency, Start};
 
     const MACHINE: Machine = Machine {
         mass_kg: 0.7,
-        damping_ns_per_m: 2.1,
+        damping: Damping::NsPerM(2.1),
         stiffness_n_per_m: 900.0,
         force_n: 3.0,
         frequency: Frequency::RadPerS(31.0),
         gap_m: 0.004,
         restitution: 0.7,
+        second_stop: None,
     };
 
     /// The physical equations by Runge-Kutta steps of fourth order, with bisection for the impacts: independent of the
     /// conversion and of the closed form. The times and speeds of the first impacts agree.
     #[test]
     fn the_same_impacts_as_the_physical_equations() {
-        let shake = |displacement_m, phase| Shaking { displacement_m, phase };
+        let shake = |displacement_m, phase| Shaking { amplitude: Amplitude::DisplacementM(displacement_m), phase };
         let none = Excitation::default();
         for (name, force, excitation) in [
             ("force", 3.0, none),
@@ -183,11 +228,13 @@ mod tests {
 
     /// Times and speeds, relative to the stop, of the first impacts, from the position `z` relative to it, at rest there.
     fn physical(machine: &Machine, excitation: &Excitation, z: f64, count: usize) -> Vec<(f64, f64)> {
-        let (m, c, k) = (machine.mass_kg, machine.damping_ns_per_m, machine.stiffness_n_per_m);
+        let (m, k) = (machine.mass_kg, machine.stiffness_n_per_m);
+        let c = machine.damping.ns_per_m(m, k);
         let w = machine.frequency.rad_per_s();
         let wave = |s: &Shaking, t: f64| {
             let (sin, cos) = (w * t + s.phase).sin_cos();
-            (s.displacement_m * sin, s.displacement_m * w * cos)
+            let y = s.amplitude.displacement_m(w);
+            (y * sin, y * w * cos)
         };
         let rate = |t: f64, (x, v): (f64, f64)| {
             let (y, dy) = wave(&excitation.base, t);

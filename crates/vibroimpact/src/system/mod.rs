@@ -9,6 +9,7 @@
 //! | a line through two parameters | [`ParameterPath`] |
 //! | a start within the stops | [`Start`] |
 //! | conversion from physical units to nondimensional numbers and back | [`Machine`] |
+//! | a machine with all that drives it, and its numbers by name | [`DrivenMachine`], [`MachineParameter`] |
 //! | a moving base, an unbalance, a moving stop, a constant force: the equivalent machine | [`Excitation`] |
 //! | the kind of a quantity, and its unit | [`QuantityKind`] |
 //! | the phase of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
@@ -17,6 +18,7 @@ mod commensurable;
 mod error;
 mod excitation;
 mod free;
+mod machine;
 mod oscillator;
 mod parameter;
 mod parameter_path;
@@ -27,11 +29,12 @@ mod start;
 mod units;
 
 pub use error::SystemError;
-pub use excitation::{EquivalentMachine, Excitation, Shaking};
+pub use excitation::{Amplitude, EquivalentMachine, Excitation, Shaking};
+pub use machine::{DrivenMachine, MachineParameter, Reduced};
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;
 pub use quantity_kind::QuantityKind;
 pub use response::{Propagator, Response};
 pub use start::Start;
-pub use units::{Frequency, Machine, Scales};
+pub use units::{Damping, Frequency, Machine, MachineStop, Scales};

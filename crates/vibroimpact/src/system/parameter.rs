@@ -1,6 +1,6 @@
 //! The parameters of an oscillator by name.
 
-use super::{Oscillator, Side, SystemError};
+use super::{MachineParameter, Oscillator, Side, SystemError};
 
 /// A parameter of an [`Oscillator`].
 ///
@@ -28,10 +28,13 @@ pub enum Parameter {
     SecondGap,
     /// Restitution $`\varepsilon_2`$ of the second stop, in [0, 1].
     SecondRestitution,
+    /// A number of the machine in SI units. An oscillator alone does not have it: it varies through
+    /// [`ParameterPath::of_machine`](super::ParameterPath::of_machine).
+    Machine(MachineParameter),
 }
 
 impl Parameter {
-    /// All parameters.
+    /// All parameters of an oscillator.
     pub const ALL: [Self; 7] = [
         Self::Beta,
         Self::InverseBeta,
@@ -53,16 +56,35 @@ impl Parameter {
             Self::Damping => "damping",
             Self::SecondGap => "second_gap",
             Self::SecondRestitution => "second_restitution",
+            Self::Machine(parameter) => parameter.name(),
         }
     }
 
-    /// Whether it is a frequency ratio.
+    /// The parameter of an oscillator or a machine with this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        let own = Self::ALL.into_iter().find(|parameter| parameter.name() == name);
+        own.or_else(|| MachineParameter::from_name(name).map(Self::Machine))
+    }
+
+    /// Whether two parameters determine the same number, so that only one of them can vary.
+    #[must_use]
+    pub fn same_number(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Machine(a), Self::Machine(b)) => a.same_number(b),
+            (Self::Machine(MachineParameter::Restitutions), Self::Restitution | Self::SecondRestitution)
+            | (Self::Restitution | Self::SecondRestitution, Self::Machine(MachineParameter::Restitutions)) => true,
+            (a, b) => a == b || a.is_frequency() && b.is_frequency(),
+        }
+    }
+
+    /// Whether it is a frequency ratio of an oscillator.
     #[must_use]
     pub const fn is_frequency(self) -> bool {
         matches!(self, Self::Beta | Self::InverseBeta)
     }
 
-    /// Its value; `None` for a parameter of a second stop if there is only one stop.
+    /// Its value; `None` for a parameter of a second stop if there is only one stop, and for a number of a machine.
     #[must_use]
     pub fn get(self, osc: &Oscillator) -> Option<f64> {
         let second = osc.stop(Side::Lower);
@@ -74,6 +96,7 @@ impl Parameter {
             Self::Damping => Some(osc.damping()),
             Self::SecondGap => second.map(|stop| stop.gap),
             Self::SecondRestitution => second.map(|stop| stop.restitution),
+            Self::Machine(_) => None,
         }
     }
 
@@ -81,7 +104,7 @@ impl Parameter {
     ///
     /// # Errors
     /// [`SystemError`] for a value outside the range of the parameter, [`SystemError::NoSecondStop`] for a parameter of
-    /// a second stop if there is only one stop.
+    /// a second stop if there is only one stop, [`SystemError::NoMachine`] for a number of a machine.
     pub fn set(self, osc: &Oscillator, value: f64) -> Result<Oscillator, SystemError> {
         let (mut beta, mut gap, mut restitution, mut damping) =
             (osc.beta(), osc.gap(), osc.restitution(), osc.damping());
@@ -95,6 +118,7 @@ impl Parameter {
             (Self::SecondGap, Some(stop)) => stop.gap = value,
             (Self::SecondRestitution, Some(stop)) => stop.restitution = value,
             (Self::SecondGap | Self::SecondRestitution, None) => return Err(SystemError::NoSecondStop(self.name())),
+            (Self::Machine(parameter), _) => return Err(SystemError::NoMachine(parameter.name())),
         }
         let changed = Oscillator::new(beta, gap, restitution)?.with_damping(damping)?;
         match second {

@@ -1,11 +1,12 @@
-//! A straight line through one or two parameters.
+//! A straight line through one or two parameters of an oscillator or of a machine.
 
-use super::{Oscillator, Parameter, SystemError};
+use super::{DrivenMachine, MachineParameter, Oscillator, Parameter, SystemError};
 
 /// A parameter that varies, and optionally another one that varies in proportion to it: a straight line through the
 /// parameters. The value of the first parameter gives the place on the line.
 ///
-/// It is a direction: for each oscillator, the line is the one that passes through it.
+/// For parameters of an oscillator it is a direction: for each oscillator, the line is the one that passes through it.
+/// For numbers of a machine it belongs to that machine.
 ///
 /// ```
 /// use vibroimpact::{Oscillator, Parameter, ParameterPath};
@@ -23,11 +24,13 @@ pub struct ParameterPath {
     parameter: Parameter,
     /// The other parameter, and its change for a change of the first by 1.
     also: Option<(Parameter, f64)>,
+    /// The machine whose numbers vary.
+    machine: Option<DrivenMachine>,
 }
 
 impl From<Parameter> for ParameterPath {
     fn from(parameter: Parameter) -> Self {
-        Self { parameter, also: None }
+        Self { parameter, also: None, machine: None }
     }
 }
 
@@ -36,15 +39,28 @@ impl ParameterPath {
     /// before.
     ///
     /// # Errors
-    /// [`SystemError::Together`] if `other` varies already, [`SystemError::Rate`] if the rate is not finite.
+    /// [`SystemError::Together`] if `other` varies already, [`SystemError::Rate`] if the rate is not finite,
+    /// [`SystemError::NoMachine`] for a number of a machine, which varies alone.
     pub fn with(self, other: Parameter, rate: f64) -> Result<Self, SystemError> {
-        if self.parameter == other || (self.parameter.is_frequency() && other.is_frequency()) {
+        if self.parameter.same_number(other) {
             return Err(SystemError::Together(self.parameter.name(), other.name()));
+        }
+        for parameter in [self.parameter, other] {
+            if let Parameter::Machine(parameter) = parameter {
+                return Err(SystemError::NoMachine(parameter.name()));
+            }
         }
         if !rate.is_finite() {
             return Err(SystemError::Rate { name: other.name(), rate });
         }
         Ok(Self { also: Some((other, rate)), ..self })
+    }
+
+    /// The line along which a number of a machine varies, and all its other numbers do not. The numbers of the oscillator
+    /// change together: with the mass, the frequency ratio and, for a given damping coefficient, the damping ratio.
+    #[must_use]
+    pub const fn of_machine(machine: DrivenMachine, parameter: MachineParameter) -> Self {
+        Self { parameter: Parameter::Machine(parameter), also: None, machine: Some(machine) }
     }
 
     /// The parameter whose value gives the place on the line.
@@ -53,16 +69,31 @@ impl ParameterPath {
         self.parameter
     }
 
-    /// The parameters that vary, with their change when the first changes by 1.
-    pub fn rates(self) -> impl Iterator<Item = (Parameter, f64)> {
-        core::iter::once((self.parameter, 1.0)).chain(self.also)
+    /// The parameters of the oscillator that vary, with their change when the first parameter of the line changes by 1,
+    /// where that has the value `value`. They depend on this value for numbers of a machine only.
+    ///
+    /// # Errors
+    /// [`SystemError`] for a value of a number of a machine that gives no valid system.
+    pub fn rates(self, value: f64) -> Result<impl Iterator<Item = (Parameter, f64)>, SystemError> {
+        let (line, machine) = match (self.parameter, self.machine) {
+            (Parameter::Machine(parameter), Some(machine)) => {
+                let rates = parameter.rates(&machine, value)?;
+                (None, NUMBERS.into_iter().zip(rates).filter(|(_, rate)| *rate != 0.0).collect())
+            }
+            _ => (Some((self.parameter, 1.0)), Vec::new()),
+        };
+        Ok(line.into_iter().chain(self.also).chain(machine))
     }
 
-    /// The place of an oscillator on its line: the value of the first parameter.
+    /// The place of an oscillator on its line: the value of the first parameter. For a number of a machine it is that of
+    /// the machine to which the line belongs, whose oscillator `osc` must be.
     ///
     /// # Errors
     /// [`SystemError::NoSecondStop`] for a parameter of a second stop if there is only one stop.
     pub fn get(self, osc: &Oscillator) -> Result<f64, SystemError> {
+        if let (Parameter::Machine(parameter), Some(machine)) = (self.parameter, &self.machine) {
+            return parameter.get(machine).ok_or(SystemError::NoSecondStop(parameter.name()));
+        }
         let value = |parameter: Parameter| parameter.get(osc).ok_or(SystemError::NoSecondStop(parameter.name()));
         self.also.map_or(Ok(0.0), |(other, _)| value(other))?;
         value(self.parameter)
@@ -73,6 +104,9 @@ impl ParameterPath {
     /// # Errors
     /// As [`Parameter::set`], for either parameter.
     pub fn set(self, osc: &Oscillator, value: f64) -> Result<Oscillator, SystemError> {
+        if let (Parameter::Machine(parameter), Some(machine)) = (self.parameter, &self.machine) {
+            return parameter.set(machine, value)?.reduced().map(|reduced| reduced.oscillator);
+        }
         let Some((other, rate)) = self.also else { return self.parameter.set(osc, value) };
         let from = self.get(osc)?;
         let second = other.get(osc).ok_or(SystemError::NoSecondStop(other.name()))? + rate * (value - from);
@@ -84,6 +118,16 @@ impl ParameterPath {
     }
 }
 
+/// The parameters of an oscillator in the order of [`MachineParameter::rates`].
+const NUMBERS: [Parameter; 6] = [
+    Parameter::Beta,
+    Parameter::Gap,
+    Parameter::Restitution,
+    Parameter::Damping,
+    Parameter::SecondGap,
+    Parameter::SecondRestitution,
+];
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,7 +138,10 @@ mod tests {
         let line = ParameterPath::from(Parameter::Gap).with(Parameter::Restitution, -0.25).unwrap();
         let there = line.set(&osc, 1.5).unwrap();
         assert_eq!((there.gap(), there.restitution(), there.beta()), (1.5, 0.35, 0.9));
-        assert_eq!(line.rates().collect::<Vec<_>>(), [(Parameter::Gap, 1.0), (Parameter::Restitution, -0.25)]);
+        assert_eq!(
+            line.rates(1.5).unwrap().collect::<Vec<_>>(),
+            [(Parameter::Gap, 1.0), (Parameter::Restitution, -0.25)]
+        );
         assert_eq!(line.get(&there), Ok(1.5));
         assert!(matches!(line.set(&osc, 4.0), Err(SystemError::Restitution(_))));
         // both stops move in the same direction, so that one of them passes the former position of the other

@@ -6,7 +6,8 @@
 //! Every length is measured in static deflections $`x_{st}`$. So a force $`F = 0`$ is an error, because there would be
 //! no unit of length.
 
-use super::{Oscillator, SystemError};
+use super::{Oscillator, Side, SystemError};
+use crate::math::hypot;
 use core::f64::consts::TAU;
 
 /// A forcing frequency in one of two units.
@@ -29,13 +30,64 @@ impl Frequency {
     }
 }
 
+/// A viscous damper in one of three forms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Damping {
+    /// The coefficient $`c`$ in N s/m.
+    NsPerM(f64),
+    /// The damping ratio $`\zeta = c/(2\sqrt{km})`$.
+    Ratio(f64),
+    /// The logarithmic decrement of free vibrations, $`\Lambda = 2\pi\zeta/\sqrt{1-\zeta^2}`$: two successive maxima
+    /// have the ratio $`e^\Lambda`$. Only dampers below the critical one have it.
+    LogDecrement(f64),
+}
+
+impl Damping {
+    /// The damping ratio of a machine with this mass and stiffness.
+    #[must_use]
+    pub fn ratio(self, mass_kg: f64, stiffness_n_per_m: f64) -> f64 {
+        match self {
+            Self::NsPerM(c) => c / (2.0 * (stiffness_n_per_m.sqrt() * mass_kg.sqrt())),
+            Self::Ratio(zeta) => zeta,
+            Self::LogDecrement(decrement) => decrement / hypot(TAU, decrement),
+        }
+    }
+
+    /// The coefficient $`c`$ in N s/m of a machine with this mass and stiffness.
+    #[must_use]
+    pub fn ns_per_m(self, mass_kg: f64, stiffness_n_per_m: f64) -> f64 {
+        match self {
+            Self::NsPerM(c) => c,
+            _ => 2.0 * self.ratio(mass_kg, stiffness_n_per_m) * (stiffness_n_per_m.sqrt() * mass_kg.sqrt()),
+        }
+    }
+
+    /// The value in its own form, with the name and unit of that form.
+    const fn named(self) -> (&'static str, f64, &'static str) {
+        match self {
+            Self::NsPerM(c) => ("damping c", c, "N s/m"),
+            Self::Ratio(zeta) => ("damping ratio", zeta, ""),
+            Self::LogDecrement(decrement) => ("logarithmic decrement", decrement, ""),
+        }
+    }
+}
+
+/// A second stop of a machine, on the side opposite to the first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MachineStop {
+    /// Its distance from the rest position in m, negative for preload.
+    pub gap_m: f64,
+    /// Its restitution in [0, 1].
+    pub restitution: f64,
+}
+
 /// A machine in physical units: a mass on a spring near a stop, driven by a harmonic force.
 ///
 /// ```
-/// use vibroimpact::{Frequency, Machine};
+/// use vibroimpact::{Damping, Frequency, Machine};
 /// let machine = Machine {
-///     mass_kg: 2.0, damping_ns_per_m: 0.0, stiffness_n_per_m: 800.0, force_n: 4.0,
-///     frequency: Frequency::RadPerS(25.0), gap_m: 0.010, restitution: 0.5,
+///     mass_kg: 2.0, damping: Damping::NsPerM(0.0), stiffness_n_per_m: 800.0, force_n: 4.0,
+///     frequency: Frequency::RadPerS(25.0), gap_m: 0.010, restitution: 0.5, second_stop: None,
 /// };
 /// let (osc, scales) = machine.nondimensional()?;
 /// assert_eq!(osc.beta(), 1.25);                       // 25 rad/s over sqrt(800/2) = 20 rad/s
@@ -47,8 +99,8 @@ impl Frequency {
 pub struct Machine {
     /// Mass $`m`$ in kg, positive.
     pub mass_kg: f64,
-    /// Viscous damping $`c`$ in N s/m, not negative.
-    pub damping_ns_per_m: f64,
+    /// The damper.
+    pub damping: Damping,
     /// Stiffness $`k`$ in N/m, positive.
     pub stiffness_n_per_m: f64,
     /// Force amplitude $`F`$ in N, positive.
@@ -59,6 +111,8 @@ pub struct Machine {
     pub gap_m: f64,
     /// Restitution in [0, 1].
     pub restitution: f64,
+    /// A second stop on the other side.
+    pub second_stop: Option<MachineStop>,
 }
 
 /// The nondimensional units in physical units.
@@ -97,14 +151,10 @@ impl Machine {
             "lengths are measured in F/k; a force of 0 leaves no scale, and a sign belongs in the phase",
         )?;
         positive("frequency omega", omega, "rad/s", "give omega in rad/s or the frequency in Hz")?;
-        if !(self.damping_ns_per_m >= 0.0 && self.damping_ns_per_m.is_finite()) {
-            return Err(SystemError::Quantity {
-                name: "damping c",
-                value: self.damping_ns_per_m,
-                unit: "N s/m",
-                range: "0 <= c < infinity",
-                hint: "negative damping would feed energy in",
-            });
+        let (name, value, unit) = self.damping.named();
+        if !(value >= 0.0 && value.is_finite()) {
+            let (range, hint) = ("0 <= value < infinity", "negative damping would feed energy in");
+            return Err(SystemError::Quantity { name, value, unit, range, hint });
         }
         let natural = (self.stiffness_n_per_m / self.mass_kg).sqrt();
         let scales =
@@ -114,9 +164,13 @@ impl Machine {
                 return Err(SystemError::Scaling { name, value });
             }
         }
-        let zeta = self.damping_ns_per_m / (2.0 * (self.stiffness_n_per_m.sqrt() * self.mass_kg.sqrt()));
+        let zeta = self.damping.ratio(self.mass_kg, self.stiffness_n_per_m);
         let osc =
             Oscillator::new(omega / natural, self.gap_m / scales.length_m, self.restitution)?.with_damping(zeta)?;
+        let osc = match self.second_stop {
+            Some(stop) => osc.with_second_stop(stop.gap_m / scales.length_m, stop.restitution)?,
+            None => osc,
+        };
         Ok((osc, scales))
     }
 
@@ -133,12 +187,15 @@ impl Machine {
         let stiffness_n_per_m = mass_kg * natural * natural;
         Ok(Self {
             mass_kg,
-            damping_ns_per_m: 2.0 * osc.damping() * mass_kg * natural,
+            damping: Damping::NsPerM(2.0 * osc.damping() * mass_kg * natural),
             stiffness_n_per_m,
             force_n: stiffness_n_per_m * scales.length_m,
             frequency: Frequency::RadPerS(osc.beta() * natural),
             gap_m: osc.gap() * scales.length_m,
             restitution: osc.restitution(),
+            second_stop: osc
+                .stop(Side::Lower)
+                .map(|stop| MachineStop { gap_m: stop.gap * scales.length_m, restitution: stop.restitution }),
         })
     }
 }
@@ -157,12 +214,13 @@ mod tests {
 
     const MACHINE: Machine = Machine {
         mass_kg: 0.35,
-        damping_ns_per_m: 1.2,
+        damping: Damping::NsPerM(1.2),
         stiffness_n_per_m: 5600.0,
         force_n: 17.0,
         frequency: Frequency::Hz(21.0),
         gap_m: 0.0042,
         restitution: 0.6,
+        second_stop: Some(MachineStop { gap_m: 0.003, restitution: 0.5 }),
     };
 
     #[test]
@@ -171,7 +229,8 @@ mod tests {
         let back = Machine::from_nondimensional(&osc, scales).unwrap();
         for (a, b) in [
             (back.stiffness_n_per_m, MACHINE.stiffness_n_per_m),
-            (back.damping_ns_per_m, MACHINE.damping_ns_per_m),
+            (back.damping.ns_per_m(1.0, 1.0), 1.2),
+            (back.second_stop.unwrap().gap_m, 0.003),
             (back.force_n, MACHINE.force_n),
             (back.frequency.rad_per_s(), MACHINE.frequency.rad_per_s()),
             (back.gap_m, MACHINE.gap_m),
@@ -188,7 +247,7 @@ mod tests {
             Machine { mass_kg: 0.0, ..MACHINE },
             Machine { stiffness_n_per_m: -1.0, ..MACHINE },
             Machine { frequency: Frequency::Hz(f64::NAN), ..MACHINE },
-            Machine { damping_ns_per_m: -0.1, ..MACHINE },
+            Machine { damping: Damping::NsPerM(-0.1), ..MACHINE },
             Machine { force_n: 1e-300, stiffness_n_per_m: 1e300, ..MACHINE },
             Machine { gap_m: f64::INFINITY, ..MACHINE },
         ] {

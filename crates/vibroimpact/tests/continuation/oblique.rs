@@ -44,7 +44,7 @@ fn met_again(osc: &Oscillator, line: ParameterPath, points: &[SolutionPoint]) ->
         let on_the_way = |point: &&SolutionPoint| (point.value - event.value).abs() > ASIDE;
         let Some(beside) = points[..k].iter().rev().find(on_the_way) else { continue };
         let there = line.set(osc, event.value).unwrap();
-        for (parameter, _) in line.rates() {
+        for (parameter, _) in line.rates(0.0).unwrap() {
             // that point's cycle, where only this parameter differs from the event: by as much, on the side where it is
             let at = parameter.get(&there).unwrap();
             let aside = parameter.get(&line.set(osc, beside.value).unwrap()).unwrap() - at;

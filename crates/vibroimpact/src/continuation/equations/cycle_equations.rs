@@ -87,21 +87,26 @@ impl Equations for CycleEquations {
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
-        let rows = slopes(&osc, &ring, &flights, &[self.varying])?;
+        let rows = slopes(&osc, &ring, &flights, &[(self.varying, *w.last()?)])?;
         Some((flights.iter().flat_map(|b| b.miss).collect(), rows))
     }
 }
 
 /// The derivatives of the residuals of the flights, as a square matrix by rows: with respect to the phases and speeds
-/// of the impacts, then along the given lines through the parameters. As many rows as there are lines are left zero at
-/// the end, for further equations.
-pub(crate) fn slopes(osc: &Oscillator, ring: &Ring, flights: &[Block], lines: &[ParameterPath]) -> Option<Vec<f64>> {
+/// of the impacts, then along the given lines through the parameters, each at its value. As many rows as there are lines
+/// are left zero at the end, for further equations.
+pub(crate) fn slopes(
+    osc: &Oscillator,
+    ring: &Ring,
+    flights: &[Block],
+    lines: &[(ParameterPath, f64)],
+) -> Option<Vec<f64>> {
     let impacts = 2 * ring.len();
     let width = impacts + lines.len();
     let mut rows = vec![0.0; width * width];
     fill(&mut rows, width, flights);
-    for (k, line) in lines.iter().enumerate() {
-        for (parameter, rate) in line.rates() {
+    for (k, (line, value)) in lines.iter().enumerate() {
+        for (parameter, rate) in line.rates(*value).ok()? {
             for (row, slope) in by_parameter(osc, ring, parameter)?.into_iter().enumerate() {
                 rows[row * width + impacts + k] += rate * slope;
             }

@@ -204,7 +204,9 @@ impl Equations for Plane {
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (osc, ring, flights) = self.flights(w)?;
         let width = w.len();
-        let mut rows = slopes(&osc, &ring, &flights, &[self.parameters.0.into(), self.parameters.1.into()])?;
+        let (p, q) = Self::values(w);
+        let lines = [(self.parameters.0.into(), p), (self.parameters.1.into(), q)];
+        let mut rows = slopes(&osc, &ring, &flights, &lines)?;
         let mut miss: Vec<f64> = flights.iter().flat_map(|b| b.miss).collect();
         let last = (width - 2) * width;
         rows[last..last + width].copy_from_slice(&self.gradient(self.condition, w)?);

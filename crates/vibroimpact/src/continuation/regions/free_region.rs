@@ -111,7 +111,8 @@ impl Limit {
                     let amplitude = Parameter::Damping.set(&self.osc, zeta).map(|osc| osc.free_amplitude());
                     breaks.extend(amplitude.ok().into_iter().chain(levels.iter().copied()));
                 }
-                Parameter::Restitution | Parameter::SecondRestitution => {}
+                // a region is asked over parameters of the oscillator only
+                Parameter::Restitution | Parameter::SecondRestitution | Parameter::Machine(_) => {}
             }
         }
         breaks.retain(|x| *x > self.x.low && *x < self.x.high);

@@ -1,0 +1,406 @@
+//! A machine with everything that drives it, and its numbers by name.
+
+use super::{
+    Amplitude, Damping, Excitation, Frequency, Machine, MachineStop, Oscillator, Scales, Shaking, Side, SystemError,
+};
+use core::f64::consts::TAU;
+
+/// A machine with all that drives it: its force, and a moving base or stop, an unbalance, a constant force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrivenMachine {
+    /// The machine.
+    pub machine: Machine,
+    /// What drives it besides the force.
+    pub excitation: Excitation,
+}
+
+/// The oscillator with the motions of a machine, and how its numbers are converted to those of the machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reduced {
+    /// The oscillator.
+    pub oscillator: Oscillator,
+    /// Its units.
+    pub scales: Scales,
+    /// Phase of its force relative to $`\sin\omega t`$, in radians: the phase of an event is $`\omega t`$ plus this.
+    pub phase: f64,
+    /// The position of the equilibrium under the constant force in m, to be added to positions.
+    pub offset_m: f64,
+}
+
+/// A number of a machine, by name and in SI units.
+///
+/// ```
+/// use vibroimpact::{Damping, DrivenMachine, Excitation, Frequency, Machine, MachineParameter};
+/// let machine = Machine {
+///     mass_kg: 2.0, damping: Damping::Ratio(0.02), stiffness_n_per_m: 800.0, force_n: 4.0,
+///     frequency: Frequency::RadPerS(25.0), gap_m: 0.010, restitution: 0.5, second_stop: None,
+/// };
+/// let driven = DrivenMachine { machine, excitation: Excitation::default() };
+/// // twice the force halves the gap in units of F/k, and leaves all else
+/// let harder = MachineParameter::Force.set(&driven, 8.0)?.reduced()?.oscillator;
+/// assert_eq!((harder.gap(), harder.beta(), harder.damping()), (1.0, 1.25, 0.02));
+/// # Ok::<(), vibroimpact::SystemError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum MachineParameter {
+    /// Mass in kg.
+    Mass,
+    /// Stiffness in N/m.
+    Stiffness,
+    /// Damping coefficient in N s/m.
+    DampingCoefficient,
+    /// Damping ratio.
+    DampingRatio,
+    /// Amplitude of the force in N.
+    Force,
+    /// Frequency of the force in Hz.
+    Frequency,
+    /// Distance of the (first) stop in m.
+    Gap,
+    /// Distance of the second stop in m.
+    SecondGap,
+    /// Distance of both stops in m: the stops are symmetric.
+    Gaps,
+    /// Restitution of both stops.
+    Restitutions,
+    /// Amplitude of the displacement of the base in m.
+    BaseDisplacement,
+    /// Amplitude of the velocity of the base in m/s.
+    BaseVelocity,
+    /// Amplitude of the acceleration of the base in m/s^2.
+    BaseAcceleration,
+    /// Amplitude of the displacement of the stop in m.
+    StopDisplacement,
+    /// Rotating unbalance in kg m.
+    Unbalance,
+    /// Constant force in N.
+    ConstantForce,
+}
+
+impl DrivenMachine {
+    /// The oscillator with the same motions, and its units.
+    ///
+    /// # Errors
+    /// [`SystemError`] for an invalid number of the machine, or if nothing drives it.
+    pub fn reduced(&self) -> Result<Reduced, SystemError> {
+        if self.excitation == Excitation::default() {
+            let (oscillator, scales) = self.machine.nondimensional()?;
+            return Ok(Reduced { oscillator, scales, phase: 0.0, offset_m: 0.0 });
+        }
+        let same = self.excitation.equivalent(&self.machine)?;
+        let (oscillator, scales) = same.machine.nondimensional()?;
+        Ok(Reduced { oscillator, scales, phase: same.phase, offset_m: same.offset_m })
+    }
+
+    /// Whether the stop moves otherwise than the base. Then the loss in the damper and the work of the equivalent force
+    /// are not those of the machine.
+    #[must_use]
+    pub fn stop_apart(&self) -> bool {
+        self.excitation.base != self.excitation.stop
+    }
+
+    /// The same with another motion of the base; a stop that is on the base moves with it.
+    fn with_base(mut self, amplitude: Amplitude) -> Self {
+        let base = Shaking { amplitude, ..self.excitation.base };
+        if self.excitation.stop == self.excitation.base {
+            self.excitation.stop = base;
+        }
+        self.excitation.base = base;
+        self
+    }
+}
+
+impl MachineParameter {
+    /// All of them.
+    pub const ALL: [Self; 16] = [
+        Self::Mass,
+        Self::Stiffness,
+        Self::DampingCoefficient,
+        Self::DampingRatio,
+        Self::Force,
+        Self::Frequency,
+        Self::Gap,
+        Self::SecondGap,
+        Self::Gaps,
+        Self::Restitutions,
+        Self::BaseDisplacement,
+        Self::BaseVelocity,
+        Self::BaseAcceleration,
+        Self::StopDisplacement,
+        Self::Unbalance,
+        Self::ConstantForce,
+    ];
+
+    /// Its name in plans and tables, which ends in its unit.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Mass => "mass_kg",
+            Self::Stiffness => "stiffness_n_per_m",
+            Self::DampingCoefficient => "damping_ns_per_m",
+            Self::DampingRatio => "damping_ratio",
+            Self::Force => "force_n",
+            Self::Frequency => "frequency_hz",
+            Self::Gap => "gap_m",
+            Self::SecondGap => "second_gap_m",
+            Self::Gaps => "gaps_m",
+            Self::Restitutions => "restitutions",
+            Self::BaseDisplacement => "base_displacement_m",
+            Self::BaseVelocity => "base_velocity_m_per_s",
+            Self::BaseAcceleration => "base_acceleration_m_per_s2",
+            Self::StopDisplacement => "stop_displacement_m",
+            Self::Unbalance => "unbalance_kg_m",
+            Self::ConstantForce => "constant_force_n",
+        }
+    }
+
+    /// The parameter with this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|parameter| parameter.name() == name)
+    }
+
+    /// What it is, in words.
+    #[must_use]
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::Mass => "mass",
+            Self::Stiffness => "stiffness",
+            Self::DampingCoefficient => "damping coefficient",
+            Self::DampingRatio => "damping ratio",
+            Self::Force => "amplitude of the force",
+            Self::Frequency => "frequency of the force",
+            Self::Gap => "gap of the stop",
+            Self::SecondGap => "gap of the second stop",
+            Self::Gaps => "gap of both stops",
+            Self::Restitutions => "restitution of both stops",
+            Self::BaseDisplacement => "displacement amplitude of the base",
+            Self::BaseVelocity => "velocity amplitude of the base",
+            Self::BaseAcceleration => "acceleration amplitude of the base",
+            Self::StopDisplacement => "displacement amplitude of the stop",
+            Self::Unbalance => "rotating unbalance",
+            Self::ConstantForce => "constant force",
+        }
+    }
+
+    /// Its unit; empty for a pure number.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Mass => "kg",
+            Self::Stiffness => "N/m",
+            Self::DampingCoefficient => "N s/m",
+            Self::Force | Self::ConstantForce => "N",
+            Self::Frequency => "Hz",
+            Self::Gap | Self::SecondGap | Self::Gaps | Self::BaseDisplacement | Self::StopDisplacement => "m",
+            Self::BaseVelocity => "m/s",
+            Self::BaseAcceleration => "m/s²",
+            Self::Unbalance => "kg m",
+            Self::DampingRatio | Self::Restitutions => "",
+        }
+    }
+
+    /// Whether two parameters determine the same number, so that only one of them can vary.
+    #[must_use]
+    pub fn same_number(self, other: Self) -> bool {
+        let group = |parameter| match parameter {
+            Self::DampingCoefficient | Self::DampingRatio => Self::DampingRatio,
+            Self::BaseDisplacement | Self::BaseVelocity | Self::BaseAcceleration => Self::BaseDisplacement,
+            other => other,
+        };
+        let both = |a, b| a == Self::Gaps && matches!(b, Self::Gap | Self::SecondGap);
+        group(self) == group(other) || both(self, other) || both(other, self)
+    }
+
+    /// Its value; `None` for a second stop, or for symmetric stops, that the machine does not have.
+    #[must_use]
+    pub fn get(self, driven: &DrivenMachine) -> Option<f64> {
+        let DrivenMachine { machine, excitation } = driven;
+        let (m, k, omega) = (machine.mass_kg, machine.stiffness_n_per_m, machine.frequency.rad_per_s());
+        let base = excitation.base.amplitude;
+        Some(match self {
+            Self::Mass => m,
+            Self::Stiffness => k,
+            Self::DampingCoefficient => machine.damping.ns_per_m(m, k),
+            Self::DampingRatio => machine.damping.ratio(m, k),
+            Self::Force => machine.force_n,
+            Self::Frequency => match machine.frequency {
+                Frequency::Hz(hertz) => hertz,
+                Frequency::RadPerS(omega) => omega / TAU,
+            },
+            Self::Gap => machine.gap_m,
+            Self::SecondGap => machine.second_stop?.gap_m,
+            Self::Gaps => Some(machine.gap_m).filter(|gap| machine.second_stop.is_some_and(|s| s.gap_m == *gap))?,
+            Self::Restitutions => {
+                Some(machine.restitution).filter(|e| machine.second_stop.is_none_or(|s| s.restitution == *e))?
+            }
+            Self::BaseDisplacement => base.displacement_m(omega),
+            Self::BaseVelocity => match base {
+                Amplitude::VelocityMPerS(v) => v,
+                other => other.displacement_m(omega) * omega,
+            },
+            Self::BaseAcceleration => match base {
+                Amplitude::AccelerationMPerS2(a) => a,
+                other => other.displacement_m(omega) * omega * omega,
+            },
+            Self::StopDisplacement => excitation.stop.amplitude.displacement_m(omega),
+            Self::Unbalance => excitation.unbalance_kg_m,
+            Self::ConstantForce => excitation.constant_force_n,
+        })
+    }
+
+    /// The machine with another value of this parameter, and all others as they were given. Ranges are checked by
+    /// [`DrivenMachine::reduced`].
+    ///
+    /// # Errors
+    /// [`SystemError::NoSecondStop`] for a parameter of a second stop if there is only one stop.
+    pub fn set(self, driven: &DrivenMachine, value: f64) -> Result<DrivenMachine, SystemError> {
+        let mut changed = *driven;
+        let machine = &mut changed.machine;
+        let second = |stop: Option<MachineStop>| stop.ok_or(SystemError::NoSecondStop(self.name()));
+        match self {
+            Self::Mass => machine.mass_kg = value,
+            Self::Stiffness => machine.stiffness_n_per_m = value,
+            Self::DampingCoefficient => machine.damping = Damping::NsPerM(value),
+            Self::DampingRatio => machine.damping = Damping::Ratio(value),
+            Self::Force => machine.force_n = value,
+            Self::Frequency => machine.frequency = Frequency::Hz(value),
+            Self::Gap => machine.gap_m = value,
+            Self::SecondGap => {
+                machine.second_stop = Some(MachineStop { gap_m: value, ..second(machine.second_stop)? });
+            }
+            Self::Gaps => {
+                machine.second_stop = Some(MachineStop { gap_m: value, ..second(machine.second_stop)? });
+                machine.gap_m = value;
+            }
+            Self::Restitutions => {
+                machine.second_stop = machine.second_stop.map(|stop| MachineStop { restitution: value, ..stop });
+                machine.restitution = value;
+            }
+            Self::BaseDisplacement => return Ok(changed.with_base(Amplitude::DisplacementM(value))),
+            Self::BaseVelocity => return Ok(changed.with_base(Amplitude::VelocityMPerS(value))),
+            Self::BaseAcceleration => return Ok(changed.with_base(Amplitude::AccelerationMPerS2(value))),
+            Self::StopDisplacement => changed.excitation.stop.amplitude = Amplitude::DisplacementM(value),
+            Self::Unbalance => changed.excitation.unbalance_kg_m = value,
+            Self::ConstantForce => changed.excitation.constant_force_n = value,
+        }
+        Ok(changed)
+    }
+
+    /// The derivatives of [`numbers`] of the oscillator with respect to this parameter, where it has the value `value`.
+    /// They are differences with a relative error of about $`10^{-10}`$; at the edge of the allowed range the difference
+    /// is one-sided. Branches use them for their direction only, so that this error moves no solution.
+    ///
+    /// # Errors
+    /// As [`DrivenMachine::reduced`].
+    pub(super) fn rates(self, driven: &DrivenMachine, value: f64) -> Result<[f64; 6], SystemError> {
+        let at = |value: f64| self.set(driven, value)?.reduced().map(|reduced| numbers(&reduced.oscillator));
+        let step = STEP * value.abs().max(self.get(driven).map_or(0.0, f64::abs)).max(f64::MIN_POSITIVE);
+        let (low, high) = (value - step, value + step);
+        let ((a, from), (b, to)) = match (at(low), at(high)) {
+            (Ok(a), Ok(b)) => ((a, low), (b, high)),
+            (Err(_), Ok(b)) => ((at(value)?, value), (b, high)),
+            (Ok(a), Err(_)) => ((a, low), (at(value)?, value)),
+            (Err(error), Err(_)) => return Err(error),
+        };
+        Ok(core::array::from_fn(|k| (b[k] - a[k]) / (to - from)))
+    }
+}
+
+/// The step of a difference, relative to the value: about the cube root of the rounding unit.
+const STEP: f64 = 6e-6;
+
+/// The numbers of an oscillator in the order of frequency ratio, gap, restitution, damping ratio, second gap and second
+/// restitution; 0 for those of a second stop that it does not have.
+fn numbers(osc: &Oscillator) -> [f64; 6] {
+    let second = osc.stop(Side::Lower);
+    let (gap, restitution) = second.map_or((0.0, 0.0), |stop| (stop.gap, stop.restitution));
+    [osc.beta(), osc.gap(), osc.restitution(), osc.damping(), gap, restitution]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DRIVEN: DrivenMachine = DrivenMachine {
+        machine: Machine {
+            mass_kg: 0.7,
+            damping: Damping::NsPerM(2.1),
+            stiffness_n_per_m: 900.0,
+            force_n: 3.0,
+            frequency: Frequency::Hz(5.0),
+            gap_m: 0.004,
+            restitution: 0.7,
+            second_stop: Some(MachineStop { gap_m: 0.006, restitution: 0.6 }),
+        },
+        excitation: Excitation {
+            base: Shaking { amplitude: Amplitude::AccelerationMPerS2(1.5), phase: 0.3 },
+            stop: Shaking { amplitude: Amplitude::DisplacementM(0.0), phase: 0.0 },
+            unbalance_kg_m: 0.002,
+            constant_force_n: 0.5,
+        },
+    };
+
+    #[test]
+    fn each_is_set_and_read() {
+        for parameter in MachineParameter::ALL {
+            let changed = parameter.set(&DRIVEN, 0.5).unwrap();
+            assert_eq!(parameter.get(&changed), Some(0.5), "{}", parameter.name());
+            assert_eq!(MachineParameter::from_name(parameter.name()), Some(parameter));
+            let alone = DrivenMachine { machine: Machine { second_stop: None, ..DRIVEN.machine }, ..DRIVEN };
+            let second = matches!(parameter, MachineParameter::SecondGap | MachineParameter::Gaps);
+            assert_eq!(parameter.set(&alone, 0.5).is_err(), second, "{}", parameter.name());
+        }
+        assert!(MachineParameter::Gaps.get(&DRIVEN).is_none() && MachineParameter::Restitutions.get(&DRIVEN).is_none());
+    }
+
+    /// The powers with which the numbers of the oscillator change, by hand.
+    #[test]
+    fn what_each_changes() {
+        let plain = DrivenMachine { excitation: Excitation::default(), ..DRIVEN };
+        let of = |driven: &DrivenMachine| numbers(&driven.reduced().unwrap().oscillator);
+        let before = of(&plain);
+        for (parameter, powers) in [
+            (MachineParameter::Mass, [0.5, 0.0, 0.0, -0.5, 0.0, 0.0]),
+            (MachineParameter::Stiffness, [-0.5, 1.0, 0.0, -0.5, 1.0, 0.0]),
+            (MachineParameter::Force, [0.0, -1.0, 0.0, 0.0, -1.0, 0.0]),
+            (MachineParameter::Frequency, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+            (MachineParameter::DampingCoefficient, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
+        ] {
+            let value = parameter.get(&plain).unwrap();
+            let after = of(&parameter.set(&plain, 1.7 * value).unwrap());
+            let rates = parameter.rates(&plain, value).unwrap();
+            for k in 0..6 {
+                let expected = before[k] * 1.7_f64.powf(powers[k]);
+                assert!((after[k] - expected).abs() < 1e-14 * expected.abs(), "{} {k}", parameter.name());
+                let slope = powers[k] * before[k] / value;
+                assert!(
+                    (rates[k] - slope).abs() <= 1e-9 * slope.abs(),
+                    "{} {k}: {} {slope}",
+                    parameter.name(),
+                    rates[k]
+                );
+            }
+        }
+        // a force of an unbalance grows as the square of the frequency, that of a base with given acceleration does not
+        let only = |excitation| DrivenMachine { machine: Machine { force_n: 0.0, ..DRIVEN.machine }, excitation };
+        let unbalance = only(Excitation { unbalance_kg_m: 0.002, ..Excitation::default() });
+        let on_base =
+            only(Excitation { base: DRIVEN.excitation.base, stop: DRIVEN.excitation.base, ..Excitation::default() });
+        for (driven, power) in [(unbalance, -2.0), (on_base, 0.0)] {
+            let gap = |driven: &DrivenMachine| driven.reduced().unwrap().oscillator.gap();
+            let faster = MachineParameter::Frequency.set(&driven, 10.0).unwrap();
+            assert!((gap(&faster) / gap(&driven) - 2.0_f64.powf(power)).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn decrement_and_ratio_are_the_same_damper() {
+        let zeta = 0.02_f64;
+        let decrement = TAU * zeta / (1.0 - zeta * zeta).sqrt();
+        assert!((Damping::LogDecrement(decrement).ratio(1.0, 1.0) - zeta).abs() < 1e-17);
+        let c = Damping::Ratio(zeta).ns_per_m(0.8, 12_000.0);
+        assert!((c - 2.0 * zeta * (0.8_f64 * 12_000.0).sqrt()).abs() < 1e-14);
+    }
+}
