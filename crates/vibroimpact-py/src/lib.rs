@@ -43,7 +43,7 @@ mod _core {
     #[pymodule_export]
     use crate::oscillator::{Oscillator, Units};
     #[pymodule_export]
-    use crate::plan::{checked_plan, fixed_coordinates, system_fields};
+    use crate::plan::{checked_plan, fixed_coordinates, machine_parameters, scales_over, system_fields};
     #[pymodule_export]
     use crate::region::{contains, region};
     #[pymodule_export]

@@ -3,6 +3,8 @@
 use crate::error::Trouble;
 use crate::oscillator::Oscillator;
 use pyo3::prelude::*;
+use std::collections::HashMap;
+use vibroimpact::MachineParameter;
 use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, Task};
 
 /// The plan of a text.
@@ -39,6 +41,46 @@ pub(crate) fn checked_plan(text: &str) -> Result<(String, String, String, u64), 
 #[pyfunction]
 pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
     serde_json::to_string(&osc.plan).map_err(|_| Trouble::Defect("writing the system"))
+}
+
+/// The units of length, time and mass of a machine at each combination of values of some of its parameters, in the order
+/// of the parameters, the last one fastest. Combinations that are no machine have not-a-number.
+#[pyfunction]
+pub(crate) fn scales_over(text: &str, names: Vec<String>, values: Vec<Vec<f64>>) -> Result<[Vec<f64>; 3], Trouble> {
+    let plan = read(text)?;
+    let parameters = names.iter().map(|name| crate::axis::parameter(name)).collect::<Result<Vec<_>, _>>()?;
+    let count = values.iter().map(Vec::len).product();
+    let mut found = [(); 3].map(|()| Vec::with_capacity(count));
+    for k in 0..count {
+        let mut rest = k;
+        let place: Vec<f64> = values
+            .iter()
+            .rev()
+            .map(|values| {
+                let value = values[rest % values.len()];
+                rest /= values.len();
+                value
+            })
+            .collect();
+        let system = parameters
+            .iter()
+            .zip(place.iter().rev())
+            .try_fold(plan.system, |system, (parameter, value)| system.with(*parameter, *value));
+        let scales = system.ok().and_then(|system| system.scales());
+        let of = scales.map_or([f64::NAN; 3], |scales| [scales.length_m, scales.time_s, scales.mass_kg]);
+        found.iter_mut().zip(of).for_each(|(column, value)| column.push(value));
+    }
+    Ok(found)
+}
+
+/// The parameters that are numbers of a machine, by name: their descriptions with units, for the axes of figures.
+#[pyfunction]
+pub(crate) fn machine_parameters() -> HashMap<&'static str, String> {
+    let text = |parameter: MachineParameter| match parameter.unit() {
+        "" => parameter.description().to_owned(),
+        unit => format!("{} ({unit})", parameter.description()),
+    };
+    MachineParameter::ALL.into_iter().map(|parameter| (parameter.name(), text(parameter))).collect()
 }
 
 /// Name, value, long name and unit of a coordinate.

@@ -8,8 +8,9 @@ use crate::oscillator::Oscillator;
 use crate::simulate::text;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
+use vibroimpact::Scales;
 use vibroimpact_study::{
-    Plan, Quantities, Quantity, ResponseBranch, ResponsePlan, Results, SweptMotion, Task, unknown_quantity,
+    Parameter, Plan, Quantities, Quantity, ResponseBranch, ResponsePlan, Results, SweptMotion, Task, unknown_quantity,
 };
 
 /// The fields of a `ResponseCurve`.
@@ -33,30 +34,40 @@ pub(crate) struct Found<'py> {
     plan: String,
 }
 
-fn row(of: Option<Quantities>) -> Vec<f64> {
-    Quantity::ALL.into_iter().map(|quantity| of.map_or(f64::NAN, |of| of.get(quantity))).collect()
+/// The quantities of a motion, in SI units where there are scales.
+fn row(of: Option<Quantities>, scales: Option<Scales>) -> Vec<f64> {
+    let unit = |quantity: Quantity| scales.map_or(1.0, |scales| quantity.kind().in_si(&scales));
+    Quantity::ALL.into_iter().map(|quantity| of.map_or(f64::NAN, |of| of.get(quantity) * unit(quantity))).collect()
 }
 
 impl<'py> Fields<'py> {
     /// A sweep; each of its motions is stable and admissible.
-    fn swept(py: Python<'py>, motions: &[SweptMotion]) -> PyResult<Self> {
+    fn swept(py: Python<'py>, motions: &[SweptMotion], scales: impl Fn(f64) -> Option<Scales>) -> PyResult<Self> {
         Ok(Self {
             parameter: column(py, motions.iter().map(|motion| motion.value)),
             label: motions.iter().map(|motion| motion.label.clone()).collect(),
             stable: column(py, motions.iter().map(|_| true)),
             physical: column(py, motions.iter().map(|_| true)),
-            values: grid(py, motions.iter().map(|motion| row(motion.quantities)), Quantity::ALL.len())?,
+            values: grid(
+                py,
+                motions.iter().map(|motion| row(motion.quantities, scales(motion.value))),
+                Quantity::ALL.len(),
+            )?,
         })
     }
 
-    fn branch(py: Python<'py>, branch: &ResponseBranch) -> PyResult<Self> {
+    fn branch(py: Python<'py>, branch: &ResponseBranch, scales: impl Fn(f64) -> Option<Scales>) -> PyResult<Self> {
         let points = || branch.points.iter();
         Ok(Self {
             parameter: column(py, points().map(|point| point.solution.value)),
             label: points().map(|point| point.solution.cycle.label.to_string()).collect(),
             stable: column(py, points().map(|point| point.solution.stable())),
             physical: column(py, points().map(|point| point.solution.physical)),
-            values: grid(py, points().map(|point| row(point.quantities)), Quantity::ALL.len())?,
+            values: grid(
+                py,
+                points().map(|point| row(point.quantities, scales(point.solution.value))),
+                Quantity::ALL.len(),
+            )?,
         })
     }
 }
@@ -76,11 +87,17 @@ pub(crate) fn response<'py>(
     let watch = Watch::alone("computing a response");
     let found =
         door::result(py, watch, &plan, |of| if let Results::Response(found) = of { Some(found) } else { None })?;
+    // over a number of a machine the nondimensional units may change from value to value
+    let vary = found.plan.vary;
+    let scales = |value: f64| match vary {
+        Parameter::Machine(_) => osc.plan.with(vary, value).ok().and_then(|system| system.scales()),
+        _ => None,
+    };
     Ok(Found {
         names: Quantity::ALL.map(Quantity::name).to_vec(),
-        up: Fields::swept(py, &found.up)?,
-        down: Fields::swept(py, &found.down)?,
-        branches: found.branches.iter().map(|branch| Fields::branch(py, branch)).collect::<PyResult<_>>()?,
+        up: Fields::swept(py, &found.up, scales)?,
+        down: Fields::swept(py, &found.down, scales)?,
+        branches: found.branches.iter().map(|branch| Fields::branch(py, branch, scales)).collect::<PyResult<_>>()?,
         plan: text(&plan)?,
     })
 }

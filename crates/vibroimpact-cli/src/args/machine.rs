@@ -36,7 +36,7 @@ pub(crate) struct MachineArgs {
     log_decrement: Option<Ranged>,
 
     /// Amplitude of the force in N, positive
-    #[arg(long, visible_alias = "force", value_parser = with_unit(UnitKind::Force), value_name = "F", allow_hyphen_values = true)]
+    #[arg(long, value_parser = with_unit(UnitKind::Force), value_name = "F", allow_hyphen_values = true)]
     force_n: Option<Ranged>,
 
     /// Frequency of the force in Hz, positive

@@ -23,6 +23,8 @@ __all__ = [
     "span_values",
     "checked_plan",
     "fixed_coordinates",
+    "machine_parameters",
+    "scales_over",
     "system_fields",
     "Store",
     "StoreError",
@@ -80,6 +82,7 @@ class Oscillator:
         second_gap: float | None = None,
         second_restitution: float | None = None,
         units: Units | None = None,
+        machine: str | None = None,
     ) -> Self: ...
     @classmethod
     def from_units(
@@ -87,14 +90,25 @@ class Oscillator:
         *,
         mass: float,
         stiffness: float,
-        force: float,
         gap: float,
         restitution: float,
+        force: float = 0.0,
         frequency: float | None = None,
         omega: float | None = None,
-        damping: float = 0.0,
+        damping: float | None = None,
+        damping_ratio: float | None = None,
+        log_decrement: float | None = None,
         second_gap: float | None = None,
         second_restitution: float | None = None,
+        base_displacement: float | None = None,
+        base_velocity: float | None = None,
+        base_acceleration: float | None = None,
+        base_phase: float = 0.0,
+        stop_in_space: bool = False,
+        stop_displacement: float | None = None,
+        stop_phase: float = 0.0,
+        unbalance: float | None = None,
+        constant_force: float | None = None,
     ) -> Oscillator: ...
     def replace(self, **changes: float | Units | None) -> Oscillator: ...
     @property
@@ -146,6 +160,8 @@ def contains(polygons: list[tuple[_Array, bool]], p: _Array, q: _Array) -> NDArr
 def lyapunov(osc: Oscillator, start: _Start, impacts: int, transient: int, points: int | None) -> _Fields: ...
 def checked_plan(text: str) -> tuple[str, str, str, int]: ...
 def fixed_coordinates(text: str) -> list[tuple[str, float, str, str]]: ...
+def machine_parameters() -> dict[str, str]: ...
+def scales_over(text: str, names: list[str], values: list[list[float]]) -> list[list[float]]: ...
 def system_fields(osc: Oscillator) -> str: ...
 def fill(plan: str, threads: int, progress: _Progress) -> tuple[list[_Fields], list[_Fields]]: ...
 def labels_of(codes: list[int]) -> list[str]: ...

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact import _core
 from vibroimpact._core import Oscillator, QuestionError
 from vibroimpact._palette import CLASSES, SERIES, legend_group
 
@@ -50,6 +51,9 @@ class Scale:
 
     def axis(self, parameter: str) -> str:
         """The symbol of a parameter with its unit."""
+        of_machine = _core.machine_parameters()
+        if parameter in of_machine:
+            return of_machine[parameter]
         name = f"${SYMBOLS[parameter]}$"
         return self.named(name, "m") if parameter in ("gap", "second_gap") else name
 
@@ -108,7 +112,10 @@ def title(osc: Oscillator, without: tuple[str, ...] = ()) -> str:
         if osc.second_restitution != osc.restitution or "restitution" in without:
             values["second_restitution"] = osc.second_restitution
     if {"beta", "inverse_beta"} & set(without):
-        del values[given]
+        without = (*without, "beta", "inverse_beta")
+    if any(name in _core.machine_parameters() for name in without):
+        # a number of the machine may change each of these
+        without = (*without, "beta", "inverse_beta", "gap", "damping", "second_gap")
     shown = (equal(f"${SYMBOLS[name]}$", value) for name, value in values.items() if name not in without)
     return ", ".join(shown)
 

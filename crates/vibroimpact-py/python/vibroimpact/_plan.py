@@ -218,4 +218,7 @@ def oscillator(plan: dict[str, Any]) -> Oscillator:
     """The oscillator from the fields of a plan."""
     system = dict(plan["system"])
     second = system.pop("second_stop", None) or {}
+    machine = system.pop("machine", None)
+    if machine is not None:
+        system["machine"] = json.dumps(machine)
     return Oscillator(**system, **{f"second_{name}": value for name, value in second.items()})

@@ -163,7 +163,9 @@ def response(osc: Oscillator, vary: str, over: Axis, *, quantity: str = "displac
     osc : Oscillator
         The system; its value of the parameter that varies is ignored.
     vary : str
-        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution".
+        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for an oscillator
+        from `Oscillator.from_units` also a number of the machine, such as "frequency_hz", "force_n", "mass_kg" or "gap_m".
+        Over a number of the machine the quantities are in SI units.
     over : str or array
         Its values: a range ("0.5:1.5:201" has 201 values) or an evenly spaced array.
     quantity : str
@@ -177,7 +179,7 @@ def response(osc: Oscillator, vary: str, over: Axis, *, quantity: str = "displac
     >>> found.up.label.tolist()[-1], found.down.label.tolist()[-1], len(found.branches)
     ('1/1', '2/1', 1)
     """
-    found = _core.response(osc.replace(units=None), vary, span(over), quantity.replace("-", "_"))
+    found = _core.response(osc, vary, span(over), quantity.replace("-", "_"))
 
     def curve(fields: dict[str, Any]) -> ResponseCurve:
         values = fields["values"]

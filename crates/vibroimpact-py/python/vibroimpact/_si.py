@@ -1,7 +1,10 @@
 """Conversion of Datasets to metres and seconds."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
+import numpy as np
+
+from vibroimpact import _core
 from vibroimpact._core import QuestionError, Units
 
 if TYPE_CHECKING:
@@ -10,6 +13,9 @@ if TYPE_CHECKING:
 #: The attributes of a Dataset that contain its physical units.
 _LENGTH, _TIME, _MASS = _KEYS = ("unit_length_m", "unit_time_s", "unit_mass_kg")
 
+#: The factor for each nondimensional unit, and the SI unit.
+_Factors: TypeAlias = dict[str, tuple[Any, str]]
+
 
 def attributes(units: Units | None) -> dict[str, float]:
     """The physical units as attributes of a Dataset; empty without units."""
@@ -17,7 +23,11 @@ def attributes(units: Units | None) -> dict[str, float]:
 
 
 def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
-    """The Dataset in metres and seconds, converted with the given units or those in its attributes."""
+    """The Dataset in metres and seconds, converted with the given units or those in its attributes.
+
+    Coordinates of starts are in the units of the machine of the plan. Results over a number of the machine, such as the
+    force, are in the units of the machine at each point.
+    """
     if ds.attrs.get("units") == "si":
         raise QuestionError("this Dataset is in metres and seconds already")
     if units is None:
@@ -27,31 +37,55 @@ def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
             )
         length, time, mass = (float(ds.attrs[key]) for key in _KEYS)
         units = Units(length_m=length, time_s=time, mass_kg=mass)
-    speed, mass = units.velocity_m_per_s, units.mass_kg
-    one = {
-        "1": (1.0, "1"),
-        "radian": (1.0, "radian"),
-        "F/k": (units.length_m, "m"),
-        "omega_n F/k": (speed, "m/s"),
-        "1/omega_n": (units.time_s, "s"),
-        "omega_n": (1 / units.time_s, "1/s"),
-        "omega_n^2 F/k": (speed / units.time_s, "m/s2"),
-        "m omega_n F/k": (mass * speed, "N s"),
-        "F^2/k": (mass * speed * speed, "J"),
-        "omega_n F^2/k": (mass * speed * speed / units.time_s, "W"),
-    }
+    fixed = _factors(units.length_m, units.time_s, units.mass_kg)
+    here = _factors(*_scales(ds, units))
     changed: dict[str, xr.DataArray] = {}
     for name, of in ds.variables.items():
         unit = of.attrs.get("units") or "1"
-        if unit not in one:
+        if name in _core.machine_parameters():
+            continue
+        if unit not in fixed:
             raise QuestionError(f"`{name}` is in units of `{unit}`, which are none of vibroimpact")
-        factor, named = one[unit]
+        factor, named = (fixed if name in ds.coords else here)[unit]
         if named != unit:
             array = ds[name]
-            changed[str(name)] = (array * factor).assign_attrs({**array.attrs, "units": named})
+            scaled = (array * factor).transpose(*array.dims, ...)
+            changed[str(name)] = scaled.assign_attrs({**array.attrs, "units": named})
     coordinates = {name: changed.pop(name) for name in list(changed) if name in ds.coords}
     moved = ds.assign_coords({name: (of.dims, of.values, of.attrs) for name, of in coordinates.items()})
     told = {name: value for name, value in ds.attrs.items() if name not in _KEYS}
     whole: xr.Dataset = moved.assign({name: (of.dims, of.data, of.attrs) for name, of in changed.items()})
     whole.attrs = {**told, **attributes(units), "units": "si"}
     return whole
+
+
+def _factors(length: Any, time: Any, mass: Any) -> _Factors:
+    speed = length / time
+    return {
+        "1": (1.0, "1"),
+        "radian": (1.0, "radian"),
+        "F/k": (length, "m"),
+        "omega_n F/k": (speed, "m/s"),
+        "1/omega_n": (time, "s"),
+        "omega_n": (1 / time, "1/s"),
+        "omega_n^2 F/k": (speed / time, "m/s2"),
+        "m omega_n F/k": (mass * speed, "N s"),
+        "F^2/k": (mass * speed * speed, "J"),
+        "omega_n F^2/k": (mass * speed * speed / time, "W"),
+    }
+
+
+def _scales(ds: "xr.Dataset", units: Units) -> tuple[Any, Any, Any]:
+    """The units of length, time and mass; over numbers of the machine, arrays with these dimensions."""
+    import xarray as xr
+
+    names = [str(name) for name in ds.coords if name in _core.machine_parameters()]
+    if not names or "plan" not in ds.attrs:
+        return units.length_m, units.time_s, units.mass_kg
+    values = [np.atleast_1d(np.asarray(ds[name].values, dtype=np.float64)) for name in names]
+    shape = [len(of) for of in values]
+    arrays = _core.scales_over(ds.attrs["plan"], names, [of.tolist() for of in values])
+    # a number that is one value, as after a selection, is no dimension
+    dropped = [name for name in names if ds[name].ndim == 0]
+    of = [xr.DataArray(np.reshape(array, shape), dims=names).squeeze(dropped) for array in arrays]
+    return of[0], of[1], of[2]
