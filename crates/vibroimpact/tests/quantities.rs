@@ -1,12 +1,16 @@
 //! Quantities of random attractors: the energy balance, and every quantity against a fine waveform.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may stop at what it did not expect")]
 
-use vibroimpact::chaos::{ExponentOptions, exponents};
+use vibroimpact::chaos::{ExponentOptions, Spectrum, exponents};
+use vibroimpact::lanes::Width;
 use vibroimpact::motion::{EventKind, Motion};
 use vibroimpact::quantities::{
-    Quantities, Quantity, cycle_segments, harmonics, of_cycle, of_transient, of_verdict, of_verdict_only,
+    MEASURED_IMPACTS, Quantities, Quantity, cycle_segments, harmonics, of_cycle, of_transient, of_verdict,
+    of_verdict_only,
 };
-use vibroimpact::verdict::{SettleOptions, Verdict, settle};
+use vibroimpact::verdict::{
+    Chaos, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle, settle_many,
+};
 use vibroimpact::{Oscillator, Start};
 
 /// Numbers in [0, 1), the same in every run.
@@ -143,16 +147,68 @@ fn quantities_agree_with_a_fine_waveform() {
     }
 }
 
-/// Chaos that ends after the verdict in ever gentler impacts and grazing contacts has no quantities, and the search for
-/// them ends.
+/// Chaos that ends after the verdict in ever gentler impacts and grazing contacts has the quantities of the impacts before
+/// the verdict.
 #[test]
 fn chaos_that_ends_in_grazing_contacts() {
     let osc = Oscillator::new(0.5, 0.998_319_288_924_331_5, 0.920_639_422_999_646_9).unwrap();
     let start = Start::new(&osc, 0.0, 0.0, 2.979_927_068_960_900_5).unwrap();
     let options = ExponentOptions { impacts: 1000, transient: 100, ..ExponentOptions::default() };
     let measured = exponents(&osc, start, &options);
-    assert!(matches!(measured.motion, Verdict::Chaotic(_)), "{measured:?}");
-    assert!(of_verdict(&osc, &measured.motion).is_none());
+    let Verdict::Chaotic(chaos) = &measured.motion else { panic!("{measured:?}") };
+    assert_eq!(chaos.spectrum.tail.impacts, 1000);
+    let found = of_verdict(&osc, &measured.motion).unwrap();
+    let rate = measured.impacts_per_period.value;
+    assert!((found.get(Quantity::ImpactsPerPeriod) - rate).abs() < 1e-9 * rate);
+}
+
+/// The tail of a chaotic motion ends with the last impact that was measured, bit for bit, however the motion was followed.
+#[test]
+fn the_tail_of_chaos_ends_with_its_last_impact() {
+    let mut count = 0;
+    for (inverse, gap, restitution, damping) in [(1.11, 3.0, 0.5, 0.0), (1.8, 1.3, 0.5, 0.02), (1.87, 1.43, 0.5, 0.02)]
+    {
+        let osc = Oscillator::from_inverse_beta(inverse, gap, restitution).unwrap().with_damping(damping).unwrap();
+        let options = SettleOptions::default();
+        let start = |k: u64| scattered_starts(&osc, StartBox::natural(&osc), 1, k);
+        let many = settle_many(&osc, 0..40, start, &KnownAttractors::default(), &options, Width::best(), &|| false);
+        let single = settle(&osc, Start::at_rest(&osc), &options).verdict;
+        let long = [300, 3000].map(|n| exponents(&osc, Start::at_rest(&osc), &ExponentOptions::new(n, 500)).motion);
+        let verdicts = many.motions.into_iter().map(|found| found.verdict).chain([single]).chain(long);
+        for verdict in verdicts {
+            let Verdict::Chaotic(Chaos { spectrum: Spectrum { last, tail, .. }, .. }) = verdict else { continue };
+            let mut motion = Motion::after(&osc, &tail.from, Default::default());
+            let impacts = motion.by_ref().filter_map(|event| match event.kind {
+                EventKind::Impact { velocity_before, .. } => Some((event.phase, velocity_before)),
+                _ => None,
+            });
+            let reached = impacts.take(usize::try_from(tail.impacts).unwrap()).last();
+            assert_eq!(reached, Some((last.phase, last.velocity)), "{osc:?}");
+            assert!(tail.impacts == MEASURED_IMPACTS || tail.impacts == 300);
+            count += 1;
+        }
+    }
+    assert!(count >= 6, "{count}");
+}
+
+/// A quantity that is computed alone has the value that it has among all.
+#[test]
+fn each_quantity_alone() {
+    let mut numbers = Numbers(11);
+    let (mut chaotic, mut count) = (0, 0);
+    while count < 60 || chaotic < 5 {
+        let osc = random(&mut numbers);
+        let verdict = settle(&osc, Start::at_rest(&osc), &SettleOptions::default()).verdict;
+        let Some(all) = of_verdict(&osc, &verdict) else { continue };
+        count += 1;
+        chaotic += u32::from(matches!(verdict, Verdict::Chaotic(_)));
+        for (quantity, value) in all.iter() {
+            let alone = of_verdict_only(&osc, &verdict, &[quantity]).unwrap().get(quantity);
+            // the order of the search for several extremes changes their rounding errors
+            let near = (alone - value).abs() <= 1e-14 * (1.0 + value.abs());
+            assert!(near || alone.to_bits() == value.to_bits(), "{osc:?} {quantity:?}: {alone} {value}");
+        }
+    }
 }
 
 /// Sums over impacts alone are the same numbers as among all quantities.

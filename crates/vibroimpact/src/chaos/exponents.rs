@@ -18,7 +18,7 @@ use super::dimension;
 use super::run::Run;
 use crate::flight::SearchLimits;
 use crate::lyapunov::blocks::{Block, MEASURE, quotient};
-use crate::lyapunov::{Measured, Spectrum};
+use crate::lyapunov::{Measured, Spectrum, Tail};
 use crate::motion::{EventKind, ImpactState, Motion};
 use crate::system::{Oscillator, Side, Start};
 use crate::verdict::{Chaos, Follow, NoImpact, Releases, SettleOptions, Undecided, Verdict, ended};
@@ -164,7 +164,8 @@ impl Exponents {
             blocks: u32::try_from(blocks.len()).unwrap_or(u32::MAX),
         };
         let impacts_per_period = Measured { value: impacts.value * osc.period(), error: impacts.error * osc.period() };
-        let spectrum = Spectrum { exponents, impacts_per_period, time: total.time, last };
+        let tail = run.tail.map_or(Tail::new(last), Tail::so_far);
+        let spectrum = Spectrum { exponents, impacts_per_period, time: total.time, last, tail };
         let motion = settled.unwrap_or(if spectrum.chaotic() {
             Verdict::Chaotic(Chaos { spectrum, impacts: run.seen })
         } else {

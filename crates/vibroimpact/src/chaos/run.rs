@@ -1,5 +1,6 @@
 //! A measurement in progress; events are added one by one.
 
+use crate::lyapunov::Tail;
 use crate::lyapunov::blocks::{BLOCKS, Block};
 use crate::lyapunov::tangent::Frame;
 use crate::motion::ImpactState;
@@ -22,6 +23,8 @@ pub(super) struct Run {
     chatters: u64,
     block: Block,
     pub(super) blocks: Vec<Block>,
+    /// The last impacts of the measurement; `None` before it begins.
+    pub(super) tail: Option<Tail>,
     /// When the mass last stuck on each stop, with the numbers of impacts and chatters until then.
     stuck: [Option<(f64, u64, u64)>; 2],
 }
@@ -38,6 +41,7 @@ impl Run {
             chatters: 0,
             block: Block::default(),
             blocks: Vec::new(),
+            tail: None,
             stuck: [None; 2],
         }
     }
@@ -51,7 +55,11 @@ impl Run {
         if measured == 0 {
             // the transient has ended; the stretches so far are discarded
             self.frame.take();
+            self.tail = Some(Tail::new(state));
             return;
+        }
+        if let Some(tail) = &mut self.tail {
+            tail.impact(state, self.impacts.saturating_sub(measured));
         }
         self.block = self.block.plus(&Block { stretch: [0.0; 2], area, time: interval, impacts: 1.0 });
         // blocks of equal length, to within one impact, that fill the run

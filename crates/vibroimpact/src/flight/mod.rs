@@ -24,7 +24,7 @@ mod search;
 pub use crate::system::{Propagator, Response};
 pub use arc::{Flight, FlightPoint};
 pub use contact::Contact;
-pub use extremes::Extremes;
+pub use extremes::{Extreme, Extremes};
 pub(crate) use first_contact::counted;
 pub use first_contact::first_contact;
 pub use horizon::{Horizon, SearchLimits};

@@ -5,6 +5,7 @@
 //! mean of 25 blocks. For numbers to publish use [`exponents`](crate::chaos::exponents()). The bits computed here must
 //! not change, because verdicts depend on them.
 
+use super::Tail;
 use crate::flight::SearchLimits;
 use crate::math::{Sum, ln};
 use crate::motion::{ImpactState, Mapped, derivative, impact_map};
@@ -30,6 +31,8 @@ pub struct Spectrum {
     pub time: f64,
     /// The last impact of the run.
     pub last: ImpactState,
+    /// The last impacts of the run, over which other quantities are measured.
+    pub tail: Tail,
 }
 
 /// The logarithm of the largest stretch during a transient: from a distance of one rounding error, $`2^{-53}`$ (a
@@ -89,6 +92,7 @@ pub fn lyapunov(osc: &Oscillator, from: ImpactState, impacts: u32) -> Option<Spe
 pub(crate) struct Measure {
     /// The last impact.
     pub(crate) state: ImpactState,
+    tail: Tail,
     u: [f64; 2],
     w: [f64; 2],
     per_block: u32,
@@ -106,6 +110,7 @@ impl Measure {
     pub(crate) fn new(from: ImpactState, impacts: u32) -> Self {
         Self {
             state: from,
+            tail: Tail::new(from),
             u: [1.0, 0.0],
             w: [0.0, 1.0],
             per_block: (impacts / BLOCKS).max(1),
@@ -142,6 +147,7 @@ impl Measure {
         self.time.add(interval);
         self.state = next;
         self.count += 1;
+        self.tail.impact(next, u64::from(self.left()));
         if self.count == self.per_block {
             let t = self.time.value();
             let means = [self.one.value() / t, self.two.value() / t, f64::from(self.per_block) / t];
@@ -169,7 +175,8 @@ impl Measure {
         let exponents = [of(0, 1.0), of(1, 1.0)];
         let impacts_per_period = of(2, osc.period());
         let time = self.blocks.iter().map(|(_, t)| t).sum();
-        exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, time, last: self.state })
+        let (last, tail) = (self.state, self.tail.so_far());
+        exponents[0].value.is_finite().then_some(Spectrum { exponents, impacts_per_period, time, last, tail })
     }
 }
 

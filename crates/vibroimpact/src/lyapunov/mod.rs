@@ -5,10 +5,13 @@
 //! | how neighbouring motions separate: flight and saltation | [`tangent`] |
 //! | error bars of a correlated run | `blocks` |
 //! | exponents along impacts, as measured for verdicts | [`lyapunov`] |
+//! | the last impacts of a run, from which the quantities of chaos are measured | [`Tail`] |
 
 pub(crate) mod blocks;
 mod measure;
+mod tail;
 pub mod tangent;
 
 pub(crate) use measure::Measure;
 pub use measure::{Measured, Spectrum, lyapunov};
+pub use tail::{MEASURED_IMPACTS, Tail};

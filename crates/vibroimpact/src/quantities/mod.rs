@@ -20,9 +20,10 @@ mod segment;
 mod tally;
 mod verdict;
 
+pub use crate::lyapunov::MEASURED_IMPACTS;
 pub use cycle::{cycle_segments, of_cycle};
 pub use harmonic::{Harmonic, harmonics};
 pub use quantity::Quantity;
 pub use segment::Segment;
 pub use tally::{Quantities, Tally};
-pub use verdict::{MEASURED_IMPACTS, of_transient, of_verdict, of_verdict_only};
+pub use verdict::{of_transient, of_verdict, of_verdict_only};

@@ -1,5 +1,6 @@
 //! The quantities by name.
 
+use crate::flight::Extreme;
 use crate::system::QuantityKind;
 
 /// A quantity of a motion. For a periodic motion it refers to its smallest period, for chaos to the impacts that were
@@ -155,6 +156,23 @@ impl Quantity {
                 | Self::ImpactPower
                 | Self::StickingFraction
         )
+    }
+
+    /// The extremes of the flights from which it is computed.
+    pub(super) const fn extremes(self) -> &'static [Extreme] {
+        match self {
+            Self::DisplacementMin => &[Extreme::Lowest],
+            Self::DisplacementMax => &[Extreme::Highest],
+            Self::DisplacementAmplitude => &[Extreme::Lowest, Extreme::Highest],
+            Self::VelocityMax => &[Extreme::Speed],
+            Self::AccelerationMax => &[Extreme::Acceleration],
+            _ => &[],
+        }
+    }
+
+    /// Whether it is computed from integrals over the flights.
+    pub(super) const fn of_integrals(self) -> bool {
+        !self.of_impacts() && self.extremes().is_empty()
     }
 
     /// Its kind, which determines its unit.

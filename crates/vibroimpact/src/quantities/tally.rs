@@ -2,9 +2,9 @@
 
 use super::{Quantity, Segment};
 use crate::contact::mirrored;
-use crate::flight::{Extremes, FlightIntegrals};
+use crate::flight::{Extreme, Extremes, FlightIntegrals};
 use crate::math::sin_cos;
-use crate::system::{Oscillator, Side};
+use crate::system::{Oscillator, Side, Start};
 use core::f64::consts::TAU;
 
 /// The quantities of a motion, nondimensional. A quantity that is not defined is NaN.
@@ -40,10 +40,13 @@ const EACH_IMPACT: f64 = 100.0;
 #[derive(Clone, Copy, Debug)]
 pub struct Tally<'a> {
     osc: &'a Oscillator,
+    /// Whether each quantity is computed; sums over impacts always are.
+    asked: [bool; Quantity::ALL.len()],
     flown: f64,
     /// Whether a flight was left out of the integrals and extremes.
     skipped: bool,
-    integrals: FlightIntegrals,
+    /// `None` if no quantity needs them.
+    integrals: Option<FlightIntegrals>,
     extremes: Extremes,
     time: f64,
     sticking: f64,
@@ -59,12 +62,22 @@ impl<'a> Tally<'a> {
     /// Empty sums.
     #[must_use]
     pub fn new(osc: &'a Oscillator) -> Self {
+        Self::of_only(osc, &Quantity::ALL)
+    }
+
+    /// Empty sums for the quantities that are asked for; only the integrals and extremes that these need are computed.
+    /// All other quantities but sums over impacts are NaN.
+    #[must_use]
+    pub fn of_only(osc: &'a Oscillator, asked: &[Quantity]) -> Self {
+        let extremes: Vec<Extreme> = asked.iter().flat_map(|quantity| quantity.extremes()).copied().collect();
+        let integrals = asked.iter().any(|quantity| quantity.of_integrals());
         Self {
             osc,
+            asked: Quantity::ALL.map(|quantity| quantity.of_impacts() || asked.contains(&quantity)),
             flown: 0.0,
             skipped: false,
-            integrals: FlightIntegrals::default(),
-            extremes: Extremes::default(),
+            integrals: integrals.then(FlightIntegrals::default),
+            extremes: Extremes::only(&extremes),
             time: 0.0,
             sticking: 0.0,
             impacts: 0.0,
@@ -76,11 +89,11 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Empty sums over impacts alone, if all quantities that are asked for are such sums; they need far less time.
-    /// All other quantities are then NaN.
+    /// The same for a motion that does not pass through a stop, so that no position beyond is searched for.
     #[must_use]
-    pub fn of_only(osc: &'a Oscillator, asked: &[Quantity]) -> Self {
-        Self { skipped: asked.iter().all(|quantity| quantity.of_impacts()), ..Self::new(osc) }
+    pub fn between_stops(self) -> Self {
+        let (lowest, highest) = Start::room(self.osc);
+        Self { extremes: self.extremes.within(lowest, highest), ..self }
     }
 
     /// Adds a part of the motion.
@@ -91,7 +104,9 @@ impl<'a> Tally<'a> {
                 self.flown += duration * self.osc.beta().max(1.0 + 2.0 * self.osc.damping());
                 self.skipped |= self.flown > LONGEST + EACH_IMPACT * self.impacts;
                 if !self.skipped {
-                    self.integrals.add(&flight, duration);
+                    if let Some(integrals) = &mut self.integrals {
+                        integrals.add(&flight, duration);
+                    }
                     self.extremes.add(&flight, duration);
                 }
             }
@@ -128,8 +143,10 @@ impl<'a> Tally<'a> {
         let cubes = rebound * k / (1.0 - eps * eps * eps);
         let v_squared = 2.0 / 3.0 * rebound * cubes;
         let work = 2.0 / 3.0 * beta * cos * k * cubes;
-        self.integrals.v_squared += v_squared;
-        self.integrals.work += work;
+        if let Some(integrals) = &mut self.integrals {
+            integrals.v_squared += v_squared;
+            integrals.work += work;
+        }
         // the mass is at rest at the end, so all its energy is lost
         self.lost += 0.5 * rebound * rebound + work - 2.0 * zeta * v_squared;
         // The impulses balance the force over this time, and the speed at its beginning. With h = beta t / 2, the
@@ -148,8 +165,10 @@ impl<'a> Tally<'a> {
     /// The mass is at the stop for this time.
     fn hold(&mut self, side: Side, duration: f64) {
         let x = side.sign() * self.osc.stop(side).map_or(0.0, |stop| stop.gap);
-        self.integrals.x += x * duration;
-        self.integrals.x_squared += x * x * duration;
+        if let Some(integrals) = &mut self.integrals {
+            integrals.x += x * duration;
+            integrals.x_squared += x * x * duration;
+        }
         self.extremes.rest(x);
     }
 
@@ -163,7 +182,8 @@ impl<'a> Tally<'a> {
     #[must_use]
     pub fn over(&self, periods: f64) -> Quantities {
         let time = periods * TAU / self.osc.beta();
-        let damped = 2.0 * self.osc.damping() * self.integrals.v_squared;
+        let integrals = self.integrals.unwrap_or_default();
+        let damped = 2.0 * self.osc.damping() * integrals.v_squared;
         let mean_speed =
             if self.impacts > 0.0 && self.impacts.is_finite() { self.speeds / self.impacts } else { f64::NAN };
         let rms = |squares: f64| (squares.max(0.0) / time).sqrt();
@@ -178,19 +198,20 @@ impl<'a> Tally<'a> {
             Quantity::ImpactPower => self.lost / time,
             Quantity::DampingLossPerPeriod => damped / periods,
             Quantity::DampingPower => damped / time,
-            Quantity::WorkPerPeriod => self.integrals.work / periods,
-            Quantity::Power => self.integrals.work / time,
+            Quantity::WorkPerPeriod => integrals.work / periods,
+            Quantity::Power => integrals.work / time,
             Quantity::DisplacementMin => self.extremes.lowest,
             Quantity::DisplacementMax => self.extremes.highest,
             Quantity::DisplacementAmplitude => 0.5 * (self.extremes.highest - self.extremes.lowest),
-            Quantity::DisplacementMean => self.integrals.x / time,
-            Quantity::DisplacementRms => rms(self.integrals.x_squared),
+            Quantity::DisplacementMean => integrals.x / time,
+            Quantity::DisplacementRms => rms(integrals.x_squared),
             Quantity::VelocityMax => self.extremes.speed.max(self.fastest),
-            Quantity::VelocityRms => rms(self.integrals.v_squared),
+            Quantity::VelocityRms => rms(integrals.v_squared),
             Quantity::AccelerationMax => self.extremes.acceleration,
             Quantity::StickingFraction => self.sticking / time,
         };
-        Quantities::from_fn(|quantity| if !self.skipped || quantity.of_impacts() { value(quantity) } else { f64::NAN })
+        let known = |quantity: Quantity| self.asked[quantity as usize] && (!self.skipped || quantity.of_impacts());
+        Quantities::from_fn(|quantity| if known(quantity) { value(quantity) } else { f64::NAN })
     }
 
     /// The same over the time of all parts.

@@ -4,13 +4,12 @@ use super::cycle::{add_cycle, after_release};
 use super::segment::follow;
 use super::{Quantities, Quantity, Segment, Tally};
 use crate::flight::SearchLimits;
-use crate::motion::{EventKind, ImpactState, Motion, Path};
+use crate::lyapunov::Tail;
+use crate::motion::{EventKind, Motion, Path};
 use crate::orbit;
 use crate::system::{Oscillator, Side, Start};
 use crate::verdict::{NoImpact, Verdict};
 
-/// The number of impacts over which the quantities of a chaotic motion are measured.
-pub const MEASURED_IMPACTS: u64 = 4000;
 /// Events for each impact, at most: impacts, grazing contacts, beginnings and ends of sticking. And impacts that are
 /// always granted.
 const EVENTS: u64 = 4;
@@ -18,17 +17,17 @@ const LEAST: u64 = 100;
 /// The number of forcing periods of a last flight without end that count as part of the way.
 const LAST_PERIODS: f64 = 100.0;
 
-/// The quantities of the motion with this verdict. A chaotic motion is followed further, from the last impact of the
-/// verdict, and measured over [`MEASURED_IMPACTS`] impacts.
+/// The quantities of the motion with this verdict. Those of a chaotic motion are means and extremes over its
+/// [tail](crate::chaos::Tail): the last [`MEASURED_IMPACTS`](super::MEASURED_IMPACTS) impacts before the verdict.
 ///
-/// `None` for an undecided motion, and for chaos that ends before it was measured. Without damping, motions without
-/// impacts depend on the start: their positions and velocities are NaN.
+/// `None` for an undecided motion. Without damping, motions without impacts depend on the start: their positions and
+/// velocities are NaN.
 #[must_use]
 pub fn of_verdict(osc: &Oscillator, verdict: &Verdict) -> Option<Quantities> {
     of_verdict_only(osc, verdict, &Quantity::ALL)
 }
 
-/// The same for the quantities that are asked for; others may be NaN. Sums over impacts alone need far less time than
+/// The same for the quantities that are asked for; others may be NaN. Sums over impacts alone need less time than
 /// integrals and extremes ([`Quantity::of_impacts`]).
 #[must_use]
 pub fn of_verdict_only(osc: &Oscillator, verdict: &Verdict, asked: &[Quantity]) -> Option<Quantities> {
@@ -45,7 +44,7 @@ pub fn of_verdict_only(osc: &Oscillator, verdict: &Verdict, asked: &[Quantity]) 
             None => Some(Quantities::from_fn(quiet)),
         },
         Verdict::Stuck(side) => Some(stuck(osc, *side)),
-        Verdict::Chaotic(chaos) => measured(tally, osc, &chaos.spectrum.last),
+        Verdict::Chaotic(chaos) => measured(tally, osc, &chaos.spectrum.tail),
         Verdict::Undecided(_) => None,
     }
 }
@@ -72,11 +71,13 @@ fn stuck(osc: &Oscillator, side: Side) -> Quantities {
     tally.over(1.0)
 }
 
-/// The quantities of a motion over the impacts that follow one of them; `None` if the motion ends before.
-fn measured(mut tally: Tally<'_>, osc: &Oscillator, last: &ImpactState) -> Option<Quantities> {
-    let mut motion = Motion::after(osc, last, SearchLimits::default());
-    let count = add_impacts(&mut tally, &mut motion, MEASURED_IMPACTS, EVENTS * MEASURED_IMPACTS);
-    (count == MEASURED_IMPACTS).then(|| tally.over_all())
+/// The quantities of a motion over its tail. `None` for a tail without impacts, and if a flight of it is longer than the
+/// default limits allow.
+fn measured(tally: Tally<'_>, osc: &Oscillator, tail: &Tail) -> Option<Quantities> {
+    let mut tally = tally.between_stops();
+    let mut motion = Motion::after(osc, &tail.from, SearchLimits::default());
+    let count = add_impacts(&mut tally, &mut motion, tail.impacts, EVENTS.saturating_mul(tail.impacts));
+    (count == tail.impacts && count > 0).then(|| tally.over_all())
 }
 
 /// Adds a motion up to its impact number `impacts`, or its end; returns the number of impacts. At most `most` events are
