@@ -23,6 +23,7 @@
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
 //! | the regions where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
 //! | a quantity of all motions over one parameter | [`ResponsePlan`], [`ResponseCurves`] |
+//! | the distances of a motion from its nearest events | [`MarginsPlan`], [`MotionMargins`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | the physical units of a plan | [`UnitsPlan`] |
@@ -44,6 +45,7 @@ mod in_memory;
 mod limits;
 mod lyapunov;
 mod map;
+mod margins;
 mod parameter;
 mod plan;
 mod plan_text;
@@ -74,6 +76,10 @@ pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
+pub use margins::{
+    BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
+    ScaledParameter, Scope,
+};
 pub use parameter::{Parameter, is_length};
 pub use plan::{Plan, Task};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
