@@ -17,6 +17,7 @@
 //! | the motion to which each start of a plane leads | [`BasinPlan`], [`Basin`] |
 //! | the motions at each point of a parameter plane | [`MapPlan`], [`RegionMap`] |
 //! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
+//! | the impacts of a motion on each of two stops | [`ImpactsByStop`] |
 //! | the plan for Lyapunov exponents of a motion | [`LyapunovPlan`] |
 //! | a branch of periodic orbits in one parameter, and the branches that begin on it | [`BranchPlan`], [`Branches`] |
 //! | the orbit at which a branch begins; the data of an event on a branch | [`Chosen`], [`EventRecord`] |
@@ -32,6 +33,7 @@
 pub mod axis;
 pub mod basin;
 mod branch;
+mod by_stop;
 mod chosen;
 mod control;
 mod curve;
@@ -64,6 +66,7 @@ mod words;
 pub use axis::{Axis, Coordinate, Values};
 pub use basin::{Basin, BasinPlan};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
+pub use by_stop::ImpactsByStop;
 pub use chosen::Chosen;
 pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};

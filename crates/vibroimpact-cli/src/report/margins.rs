@@ -1,7 +1,7 @@
 //! The nearest events of a motion as text, and the box of parameters in which it was found.
 
 use crate::report::branch::{named, remark};
-use crate::report::words::{meaning, table};
+use crate::report::words::{by_stop, meaning, table};
 use std::fmt::Write;
 use vibroimpact::Oscillator;
 use vibroimpact::continuation::{BranchEvent, SolutionPoint};
@@ -18,7 +18,7 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
         None => "",
     };
     let label = found.motion.label();
-    let mut text = format!("{label}: {}{stable}\n", meaning(&found.motion));
+    let mut text = format!("{label}{}: {}{stable}\n", by_stop(&found.motion, osc), meaning(&found.motion));
     if found.parameters.is_empty() {
         text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
         return text;
@@ -29,10 +29,11 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
         let way = if end.distance(&margin.scope) < 0.0 { "down" } else { "up" };
         let _ = writeln!(
             text,
-            "  nearest: {event} at {} {}, {way} by {} of its scale",
+            "  nearest: {event} at {} {}, {way} by {} of {}",
             named(margin.scope.parameter, units),
             precise(end.value * units.of(margin.scope.parameter)),
-            percent(end.distance(&margin.scope).abs() / margin.scope.scale)
+            percent(end.distance(&margin.scope).abs() / margin.scope.scale),
+            whole(core::slice::from_ref(margin))
         );
     }
     match &found.motion_box {
@@ -40,6 +41,12 @@ pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> St
         None => text.push_str("\nno box: the motion is unstable\n"),
     }
     text
+}
+
+/// What a box is measured in: the values of the parameters, or other scales.
+fn whole(parameters: &[ParameterMargin]) -> &'static str {
+    let usual = parameters.iter().all(|margin| margin.scope.scale == margin.scope.value.abs());
+    if usual { "its value" } else { "its scale" }
 }
 
 /// One row for each parameter and direction.
@@ -84,8 +91,9 @@ fn told(point: &SolutionPoint, event: &BranchEvent) -> String {
 /// The box, and where the motion was lost next to it.
 fn of_box(found: &MotionBox, parameters: &[ParameterMargin], label: &str, units: &Units) -> String {
     let mut text = format!(
-        "\nbox: each parameter within {} of its scale; {label} was found by trying {} on {}, not proved\n",
+        "\nbox: each parameter within {} of {}; {label} was found by trying {} on {}, not proved\n",
         percent(found.size),
+        whole(parameters),
         counted(found.points, "point"),
         counted(found.lines, "line")
     );

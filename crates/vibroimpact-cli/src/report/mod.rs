@@ -33,8 +33,8 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
             words::system(asked, osc) + &attractors::text(found, *starts, osc, units)
         }
         (Task::Orbit { label }, Results::Orbit(found)) => system() + &orbit::text(found, label, osc, units),
-        (_, Results::Basin(found)) => system() + &basin::text(found),
-        (_, Results::Map(found)) => map::text(found),
+        (_, Results::Basin(found)) => system() + &basin::text(found, osc),
+        (_, Results::Map(found)) => map::text(found, plan.system.second_stop.is_some()),
         (_, Results::Diagram(found)) => diagram::text(found, units),
         (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, units),
         (Task::Branch(task), Results::Branch(found)) => {
