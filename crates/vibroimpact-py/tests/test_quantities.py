@@ -77,7 +77,7 @@ def test_three_basins_are_compared_by_merging() -> None:
     assert found == {"motions": 3, "radius": 20, "limit": 1, "common": 0.0, "wada": False}
     turns = (np.add.outer(np.arange(60), np.arange(60)) % 3).reshape(-1)
     found = vi._core.basin_measures(turns.astype(np.int64), 60)["merging"]
-    assert found["wada"] and found["radius"] == 0
+    assert found["wada"] and found["radius"] == 1
 
 
 def test_a_response() -> None:

@@ -46,7 +46,7 @@ fn the_distance_is_that_of_the_branch() {
 #[test]
 fn text_and_table() {
     let text = said(ONE);
-    for words in ["1/1: one impact every forcing period, stable", "flip", "none up to 3", "by trying", "not proved"] {
+    for words in ["1/1: one impact every forcing period, stable", "flip", "none up to 0.1", "by trying", "not proved"] {
         assert!(text.contains(words), "{words}: {text}");
     }
     let table = said(&format!("{ONE} --csv -"));
