@@ -1,6 +1,6 @@
 //! The plan for the margins of a motion.
 
-use super::scope::Scope;
+use super::scope::{ScaledParameter, Scope};
 use crate::{Parameter, PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
@@ -37,19 +37,6 @@ pub struct MarginsPlan {
     #[serde(default = "lines")]
     #[schemars(range(max = 100_000))]
     pub lines: u32,
-}
-
-/// A parameter that varies, and its scale in the box.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ScaledParameter {
-    /// The parameter.
-    #[serde(with = "crate::parameter")]
-    #[schemars(with = "crate::parameter::Name")]
-    pub parameter: Parameter,
-    /// The change of the parameter that counts as 1; its absolute value when absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scale: Option<f64>,
 }
 
 const fn within() -> f64 {

@@ -1,7 +1,20 @@
 //! The range of a parameter in which events are looked for, and its scale in the box.
 
-use super::plan::ScaledParameter;
 use crate::{Parameter, PlanError, SystemPlan};
+use serde::{Deserialize, Serialize};
+
+/// A parameter that varies, and its scale in the box.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ScaledParameter {
+    /// The parameter.
+    #[serde(with = "crate::parameter")]
+    #[schemars(with = "crate::parameter::Name")]
+    pub parameter: Parameter,
+    /// The change of the parameter that counts as 1; its absolute value when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f64>,
+}
 
 /// A parameter that varies: its value, its range and its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
