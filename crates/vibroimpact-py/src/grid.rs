@@ -121,6 +121,17 @@ pub(crate) struct MeasureFields {
     boundary_entropy: Option<f64>,
     /// Value and standard error.
     uncertainty_exponent: Option<(f64, f64)>,
+    merging: Option<MergingFields>,
+}
+
+/// The comparison of the boundaries of at least three basins.
+#[derive(IntoPyObject)]
+pub(crate) struct MergingFields {
+    motions: usize,
+    radius: usize,
+    limit: usize,
+    common: f64,
+    wada: bool,
 }
 
 /// The measures of a plane of numbers of motions, with `width` of them in each row.
@@ -133,6 +144,13 @@ pub(crate) fn basin_measures(cells: PyReadonlyArray1<'_, i64>, width: usize) -> 
         entropy: found.entropy,
         boundary_entropy: found.boundary_entropy,
         uncertainty_exponent: found.uncertainty.map(|of| (of.value, of.error)),
+        merging: found.merging.map(|of| MergingFields {
+            motions: of.motions,
+            radius: of.radius,
+            limit: of.limit,
+            common: of.common,
+            wada: of.wada(),
+        }),
     }
 }
 

@@ -13,6 +13,7 @@ mod door;
 mod error;
 mod grid;
 mod lyapunov;
+mod margins;
 mod motion;
 mod orbits;
 mod oscillator;
@@ -38,6 +39,8 @@ mod _core {
     use crate::grid::{basin_measures, fill, labels_of, span_values};
     #[pymodule_export]
     use crate::lyapunov::lyapunov;
+    #[pymodule_export]
+    use crate::margins::{margins, varied_parameters};
     #[pymodule_export]
     use crate::orbits::orbits;
     #[pymodule_export]

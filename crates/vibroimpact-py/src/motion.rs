@@ -9,6 +9,7 @@ use vibroimpact::flight::Horizon;
 use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::of_verdict;
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
+use vibroimpact_study::ImpactsByStop;
 
 /// The fields of a motion.
 #[derive(IntoPyObject)]
@@ -16,6 +17,10 @@ pub(crate) struct Fields<'py> {
     kind: &'static str,
     label: String,
     impacts: Option<u32>,
+    /// Whether the numbers of impacts on each stop are known.
+    by_stop: bool,
+    impacts_upper: Option<u32>,
+    impacts_lower: Option<u32>,
     periods: Option<u32>,
     sticks: Option<usize>,
     stable: Option<bool>,
@@ -90,10 +95,14 @@ const fn pair(of: Measured) -> (f64, f64) {
 
 impl<'py> Fields<'py> {
     pub(crate) fn new(py: Python<'py>, verdict: &Verdict, osc: &Oscillator) -> Self {
+        let by_stop = ImpactsByStop::of(osc, verdict);
         let bare = Self {
             kind: "undecided",
             label: verdict.label().into_owned(),
             impacts: None,
+            by_stop: by_stop.is_some(),
+            impacts_upper: by_stop.and_then(|by| by.upper),
+            impacts_lower: by_stop.and_then(|by| by.lower),
             periods: None,
             sticks: None,
             stable: verdict.stable(osc),

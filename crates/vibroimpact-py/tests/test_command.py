@@ -93,6 +93,13 @@ def test_region(ask: Callable[..., Any]) -> None:
     assert found == {name: told[name] for name in found}
 
 
+def test_margins(ask: Callable[..., Any]) -> None:
+    for gap, damping in ((1.5, 0.01), (3.0, 0.0), (-0.5, 0.0)):
+        told = ask("margins", "--inverse-beta", 1.11, "--gap", gap, "--restitution", 0.5, "--damping", damping, "--lines", 20)
+        found = vi.margins(vi.Oscillator(inverse_beta=1.11, gap=gap, restitution=0.5, damping=damping), lines=20)
+        assert found.to_dict() == {name: told[name] for name in found.to_dict()} and json.loads(found.plan) == told["plan"]
+
+
 @pytest.mark.parametrize(("osc", "flags"), SYSTEMS[:5], ids=lambda of: repr(of) if isinstance(of, vi.Oscillator) else "")
 def test_lyapunov(ask: Callable[..., Any], osc: vi.Oscillator, flags: tuple[object, ...]) -> None:
     told = ask("lyapunov", *flags, "--impacts", 5000)

@@ -66,8 +66,18 @@ def test_measures_of_a_basin() -> None:
     assert of["boundary_entropy"] == pytest.approx(entropies[[len(p) > 1 for p in shares]].mean(), rel=1e-12)
     value, error = of["uncertainty_exponent"]
     assert 0.5 < value < 1.1 and 0 < error < 0.2
+    assert of["merging"] is None
     with pytest.raises(vi.QuestionError, match="a basin over two axes"):
         ds.isel(v=0).vibro.measures()
+
+
+def test_three_basins_are_compared_by_merging() -> None:
+    stripes = np.arange(60 * 60) % 60 // 20
+    found = vi._core.basin_measures(stripes.astype(np.int64), 60)["merging"]
+    assert found == {"motions": 3, "radius": 20, "limit": 1, "common": 0.0, "wada": False}
+    turns = (np.add.outer(np.arange(60), np.arange(60)) % 3).reshape(-1)
+    found = vi._core.basin_measures(turns.astype(np.int64), 60)["merging"]
+    assert found["wada"] and found["radius"] == 1
 
 
 def test_a_response() -> None:

@@ -128,6 +128,7 @@ impl Serialize for Answer {
             (Task::Response(task), Results::Response(found)) => {
                 json::response::document(asked, plan, osc, (task, found)).serialize(to)
             }
+            (_, Results::Margins(found)) => json::margins::document(asked, plan, osc, found).serialize(to),
             // `answer` combines each plan with its own results, so this does not occur
             _ => Err(S::Error::custom("the results belong to another task than the plan's")),
         }
@@ -214,6 +215,7 @@ impl Answer {
             (Task::Curve(task), Results::Curve(found)) => table::curve::table(found, task, units),
             (Task::Region(task), Results::Region(found)) => table::region::table(found, task, units),
             (_, Results::Response(found)) => table::response::table(found, units),
+            (_, Results::Margins(found)) => table::margins::table(found, *units),
             _ => return Ok(None),
         }))
     }

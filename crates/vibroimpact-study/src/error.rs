@@ -271,6 +271,40 @@ pub enum PlanError {
         /// The largest allowed value.
         most: u32,
     },
+    /// The ratio of the ends of the ranges of margins is outside its allowed range.
+    #[error(
+        "within = {given} lies outside 1 < within <= {most}\nhint: 2 is from half of each value to twice the value"
+    )]
+    Within {
+        /// The given value.
+        given: f64,
+        /// The largest allowed value.
+        most: f64,
+    },
+    /// The number of lines of a box is outside its allowed range.
+    #[error("lines = {given} lies outside 0 <= lines <= {most}")]
+    Lines {
+        /// The given value.
+        given: u32,
+        /// The largest allowed value.
+        most: u32,
+    },
+    /// The scale of a parameter is not positive and finite.
+    #[error(
+        "the scale of {name} is {given}: a positive finite number is needed\nhint: it is the change of {name} that counts as 1 in the box"
+    )]
+    Scale {
+        /// The name of the parameter.
+        name: &'static str,
+        /// The given value.
+        given: f64,
+    },
+    /// Two parameters that are to vary are the same one.
+    #[error("{0} and {1} are both to vary: each parameter varies once, and the frequency in one form")]
+    VariedTwice(&'static str, &'static str),
+    /// A motion is given both by its label and by a start.
+    #[error("the motion is given twice, by its label and by a start\nhint: a label alone, or a start alone")]
+    LabelAndStart,
     /// The ends of a range of a parameter are not finite or not in rising order.
     #[error("{name} from {from} to {to} is no range: two finite numbers in rising order are needed")]
     Stretch {

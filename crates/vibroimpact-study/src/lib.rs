@@ -17,12 +17,14 @@
 //! | the motion to which each start of a plane leads | [`BasinPlan`], [`Basin`] |
 //! | the motions at each point of a parameter plane | [`MapPlan`], [`RegionMap`] |
 //! | the motion after its transient at each value of a parameter | [`DiagramPlan`], [`Diagram`], [`diagram`] |
+//! | the impacts of a motion on each of two stops | [`ImpactsByStop`] |
 //! | the plan for Lyapunov exponents of a motion | [`LyapunovPlan`] |
 //! | a branch of periodic orbits in one parameter, and the branches that begin on it | [`BranchPlan`], [`Branches`] |
 //! | the orbit at which a branch begins; the data of an event on a branch | [`Chosen`], [`EventRecord`] |
 //! | a curve of folds, flips or grazing impacts in two parameters | [`CurvePlan`], [`EventCurve`] |
 //! | the regions where a motion exists and where it is stable | [`RegionPlan`], [`Regions`], [`stability_regions`] |
 //! | a quantity of all motions over one parameter | [`ResponsePlan`], [`ResponseCurves`] |
+//! | the distances of a motion from its nearest events | [`MarginsPlan`], [`MotionMargins`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | a machine in SI units; the units of a plan | [`MachinePlan`], [`UnitsPlan`] |
@@ -31,6 +33,7 @@
 pub mod axis;
 pub mod basin;
 mod branch;
+mod by_stop;
 mod chosen;
 mod control;
 mod curve;
@@ -45,6 +48,7 @@ mod limits;
 mod lyapunov;
 mod machine;
 mod map;
+mod margins;
 mod parameter;
 mod plan;
 mod plan_text;
@@ -63,6 +67,7 @@ mod words;
 pub use axis::{Axis, Coordinate, Values};
 pub use basin::{Basin, BasinPlan};
 pub use branch::{BranchPlan, Branches, DEFAULT_BRANCH_POINTS, Followed, Origin};
+pub use by_stop::ImpactsByStop;
 pub use chosen::Chosen;
 pub use control::{Control, Meter, Stopped, TileMeter, tiles};
 pub use curve::{CurvePlan, EventCurve, FollowedEvent};
@@ -76,6 +81,10 @@ pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine::MachinePlan;
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
+pub use margins::{
+    BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
+    ScaledParameter, Scope,
+};
 pub use parameter::{Parameter, is_length};
 pub use plan::{Plan, Task};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};

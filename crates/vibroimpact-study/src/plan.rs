@@ -6,8 +6,8 @@
 use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
 use crate::simulate::most_impacts;
 use crate::{
-    BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, Parameter, PlanError, RegionPlan,
-    ResponsePlan, StartPlan, SystemPlan, UnitsPlan,
+    BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, MarginsPlan, Parameter, PlanError,
+    RegionPlan, ResponsePlan, StartPlan, SystemPlan, UnitsPlan,
 };
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
@@ -136,6 +136,7 @@ impl Plan {
             Task::Curve(curve) => curve.check(&self.system),
             Task::Region(region) => region.check(&self.system),
             Task::Response(response) => response.check(&self.system),
+            Task::Margins(margins) => margins.check(&self.system),
         }
     }
 }
@@ -186,6 +187,8 @@ pub enum Task {
     Region(RegionPlan),
     /// A quantity of all motions over one parameter.
     Response(ResponsePlan),
+    /// The distances of a motion from its nearest events.
+    Margins(MarginsPlan),
 }
 
 #[cfg(test)]

@@ -3,12 +3,13 @@
 use crate::branch::branches;
 use crate::curve::curve;
 use crate::in_memory::{attractors, basin, diagram, map};
+use crate::margins::margins;
 use crate::region::regions;
 use crate::response::response;
 use crate::simulate::simulate;
 use crate::{
-    Basin, Branches, Control, Diagram, EventCurve, Plan, PlanError, RegionMap, Regions, ResponseCurves, RunError,
-    Simulated, Stopped, Task,
+    Basin, Branches, Control, Diagram, EventCurve, MotionMargins, Plan, PlanError, RegionMap, Regions, ResponseCurves,
+    RunError, Simulated, Stopped, Task,
 };
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
 use vibroimpact::orbit::{FindOptions, Orbit, find_while};
@@ -43,6 +44,8 @@ pub enum Results {
     Region(Regions),
     /// The motions of two sweeps, and their branches.
     Response(ResponseCurves),
+    /// The distances of a motion from its nearest events.
+    Margins(MotionMargins),
 }
 
 /// Computes the result of a plan: every point of a grid, without refinement.
@@ -104,5 +107,6 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
         Task::Curve(task) => Results::Curve(curve(system, task, control)?),
         Task::Region(task) => Results::Region(regions(system, task, control)?),
         Task::Response(task) => Results::Response(response(system, task, control)?),
+        Task::Margins(task) => Results::Margins(margins(system, task, control)?),
     })
 }

@@ -12,7 +12,9 @@ use vibroimpact_study::{BasinPlan, Plan, Span, Task};
 
 /// Which motion each start of a plane of positions and velocities leads to
 ///
-/// A:B:N is N values from A to B, both included. Without --csv, --plot or --json the command prints the shares.
+/// A:B:N is N values from A to B, both included. Without --csv, --plot or --json the command prints the shares, and
+/// measures of the boundary between the basins: entropies, the uncertainty exponent, and with at least three motions the
+/// merging method, which tells whether all basins have one boundary (Wada) at the resolution of the grid.
 #[derive(Clone, Debug, Args)]
 #[command(
     override_usage = "vibro basin --beta B --gap D --restitution E --x A:B:N --v A:B:N [OPTIONS]",

@@ -12,6 +12,7 @@ mod export;
 mod lyapunov;
 mod man;
 mod map;
+mod margins;
 mod orbit;
 mod outputs;
 mod plot;
@@ -69,6 +70,7 @@ enum Command {
     Curve(curve::Curve),
     Region(region::Region),
     Response(response::Response),
+    Margins(margins::Margins),
     Basin(basin::Basin),
     Map(map::Map),
     Diagram(diagram::Diagram),
@@ -99,6 +101,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Curve(args) => curve::run(args, session),
         Command::Region(args) => region::run(args, session),
         Command::Response(args) => response::run(args, session),
+        Command::Margins(args) => margins::run(args, session),
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),
         Command::Diagram(args) => diagram::run(args, session),

@@ -1,6 +1,6 @@
 //! The attractors of many starts as text.
 
-use crate::report::words::{meaning, multipliers, table};
+use crate::report::words::{by_stop, meaning, multipliers, table};
 use vibroimpact::Oscillator;
 use vibroimpact::quantities::{Quantity, of_verdict};
 use vibroimpact::verdict::{Census, StartBox};
@@ -24,7 +24,7 @@ pub(crate) fn text(census: &Census, starts: u64, osc: &Oscillator, units: &Units
                 found.verdict.multipliers(osc).map_or_else(|| "-".into(), multipliers),
                 of(Quantity::ImpactSpeedMax),
                 of(Quantity::Power),
-                meaning(&found.verdict),
+                meaning(&found.verdict) + &by_stop(&found.verdict, osc),
             ]
         })
         .collect();

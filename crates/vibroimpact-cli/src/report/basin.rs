@@ -1,18 +1,20 @@
 //! The motions of a basin as text.
 
-use crate::report::words::{meaning, table};
+use crate::report::words::{by_stop, meaning, table};
+use vibroimpact::Oscillator;
 use vibroimpact_report::json::basin::by_count;
 use vibroimpact_report::number::{percent, short};
-use vibroimpact_study::Basin;
 use vibroimpact_study::basin::BasinMeasures;
+use vibroimpact_study::{Basin, counted};
 
 /// One row for each motion.
-pub(crate) fn text(found: &Basin) -> String {
+pub(crate) fn text(found: &Basin, osc: &Oscillator) -> String {
     let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
     let row = |m: usize| {
         let motion = &found.motions[m];
         let label = motion.verdict.label().into_owned();
-        vec![percent(found.share(m)), motion.count.to_string(), label, meaning(&motion.verdict)]
+        let meaning = meaning(&motion.verdict) + &by_stop(&motion.verdict, osc);
+        vec![percent(found.share(m)), motion.count.to_string(), label, meaning]
     };
     let text = table(&heads, &by_count(found).into_iter().map(row).collect::<Vec<_>>());
     text + &found.measures().map_or_else(String::new, |measures| sentences(&measures))
@@ -36,6 +38,16 @@ fn sentences(of: &BasinMeasures) -> String {
             "  uncertainty exponent {} +- {} (1 for a smooth boundary)\n",
             short(exponent.value),
             short(exponent.error)
+        ));
+    }
+    if let Some(of) = &of.merging {
+        let said = if of.wada() { "all basins have one boundary (Wada)" } else { "the basins have several boundaries" };
+        text.push_str(&format!(
+            "  merging method, {} motions: boundaries differ by up to {}, {} of their starts lie within {} of all: {said} at this resolution\n",
+            of.motions,
+            counted(of.radius as u64, "start"),
+            percent(of.common),
+            of.limit
         ));
     }
     text

@@ -154,7 +154,8 @@ fn touch(cycle: &Cycle, change: Change, touch: &Touch) -> String {
     }
 }
 
-fn remark(point: &SolutionPoint, event: &BranchEvent) -> String {
+/// What an event means, without its name.
+pub(crate) fn remark(point: &SolutionPoint, event: &BranchEvent) -> String {
     match event {
         BranchEvent::Grazing { change, impact, side, phase, turns, also, .. } => {
             let way = match (point.cycle.rests.is_empty(), turns) {

@@ -7,6 +7,7 @@ mod curve;
 mod diagram;
 mod lyapunov;
 mod map;
+mod margins;
 mod orbit;
 mod region;
 mod response;
@@ -32,8 +33,8 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
             words::system(asked, osc) + &attractors::text(found, *starts, osc, units)
         }
         (Task::Orbit { label }, Results::Orbit(found)) => system() + &orbit::text(found, label, osc, units),
-        (_, Results::Basin(found)) => system() + &basin::text(found),
-        (_, Results::Map(found)) => map::text(found),
+        (_, Results::Basin(found)) => system() + &basin::text(found, osc),
+        (_, Results::Map(found)) => map::text(found, plan.system.second_stop.is_some()),
         (_, Results::Diagram(found)) => diagram::text(found, units),
         (_, Results::Lyapunov(start, found, _)) => from(start) + "\n" + &lyapunov::text(found, units),
         (Task::Branch(task), Results::Branch(found)) => {
@@ -42,6 +43,10 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
         (Task::Curve(task), Results::Curve(found)) => system() + &curve::text(found, task, units),
         (Task::Region(task), Results::Region(found)) => region::text(found, task, asked),
         (_, Results::Response(found)) => response::text(found, units),
+        (_, Results::Margins(found)) => match &found.start {
+            Some(start) => from(start) + "\n" + &margins::text(found, osc, units),
+            None => system() + &margins::text(found, osc, units),
+        },
         _ => return Err(Failure::Failed("the results belong to another task than the plan's".into())),
     })
 }

@@ -1,6 +1,6 @@
 //! The orbits with a label as text: admissible ones and inadmissible solutions of the equations.
 
-use crate::report::words::{impacts, motion, multipliers, stop_name};
+use crate::report::words::{by_stop, impacts, motion, multipliers, stop_name};
 use vibroimpact::orbit::Orbit;
 use vibroimpact::verdict::Verdict;
 use vibroimpact::{Label, Oscillator};
@@ -37,7 +37,8 @@ fn one(orbit: &Orbit, osc: &Oscillator, units: &Units) -> String {
         return motion(&Verdict::Periodic(orbit.cycle.clone()), osc, units);
     }
     let cycle = &orbit.cycle;
-    let mut text = format!("{}: inadmissible, it passes through a stop on its way\n", cycle.label);
+    let by_stop = by_stop(&Verdict::Periodic(cycle.clone()), osc);
+    let mut text = format!("{}{by_stop}: inadmissible, it passes through a stop on its way\n", cycle.label);
     text.push_str(&impacts(cycle, osc, units));
     text.push_str(&format!("  multipliers {}\n", multipliers(cycle.multipliers)));
     if let Some(contact) = &orbit.earlier {

@@ -11,6 +11,7 @@ use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_report::json::motion::side;
 use vibroimpact_report::number::short;
 use vibroimpact_report::{Asked, Units};
+use vibroimpact_study::ImpactsByStop;
 
 /// The system on one line.
 pub(crate) fn system(asked: &Asked, osc: &Oscillator) -> String {
@@ -135,6 +136,13 @@ pub(crate) fn meaning(verdict: &Verdict) -> String {
     }
 }
 
+/// The impacts of a motion on each of two stops: ` (2 upper, 1 lower)`. Empty with one stop or without impacts.
+pub(crate) fn by_stop(verdict: &Verdict, osc: &Oscillator) -> String {
+    let counts = ImpactsByStop::of(osc, verdict);
+    let struck = counts.filter(|by| (by.upper, by.lower) != (Some(0), Some(0)));
+    struck.map_or_else(String::new, |by| format!(" ({by})"))
+}
+
 pub(crate) const fn stop_name(side: Side) -> &'static str {
     match side {
         Side::Upper => "stop",
@@ -222,7 +230,7 @@ pub(crate) fn multipliers([a, b]: [Multiplier; 2]) -> String {
 
 /// The complete text of one motion.
 pub(crate) fn motion(verdict: &Verdict, osc: &Oscillator, units: &Units) -> String {
-    let mut text = format!("{}: {}\n", verdict.label(), meaning(verdict));
+    let mut text = format!("{}{}: {}\n", verdict.label(), by_stop(verdict, osc), meaning(verdict));
     if let Verdict::Periodic(cycle) = verdict {
         text.push_str(&impacts(cycle, osc, units));
     }

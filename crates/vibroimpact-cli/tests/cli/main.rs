@@ -8,6 +8,7 @@ mod edges;
 mod excitation;
 mod files;
 mod lyapunov;
+mod margins;
 mod planes;
 mod questions;
 mod refusals;

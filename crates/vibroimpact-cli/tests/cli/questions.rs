@@ -45,6 +45,7 @@ fn of_every_task() {
         json!({ "diagram": { "vary": "inverse_beta", "over": "1:1.2:3", "also": over("damping", 0.1, -0.0), "keep": 3 } }),
         json!({ "lyapunov": { "start": { "phase": 3.0 }, "impacts": 1000, "transient": 5 } }),
         json!({ "lyapunov": { "impacts": 1000, "points": 20 } }),
+        json!({ "margins": { "start": { "v": -1.0 }, "lines": 3 } }),
     ] {
         for system in [&one, &two] {
             let plan = plan(system, &task);
@@ -63,6 +64,11 @@ fn of_every_task() {
             &one,
             json!({ "branch": { "label": "1/1", "vary": "gap", "to": 1.6, "points": 60,
                                 "also": { "parameter": "inverse_beta", "to": 1.1 } } }),
+        ),
+        (
+            &one,
+            json!({ "margins": { "label": "1/1", "within": 1.5, "lines": 0,
+                                 "vary": [{ "parameter": "gap", "scale": 0.25 }, { "parameter": "damping" }] } }),
         ),
         (
             &one,

@@ -31,7 +31,7 @@ fn same(line: &str) {
     if task != "orbit" {
         command.arg("--csv").arg(&csv);
     }
-    if !["attractors", "orbit"].contains(&task) {
+    if !["attractors", "orbit", "margins"].contains(&task) {
         command.arg("--plot").arg(&svg);
     }
     let output = command.output().expect("vibro runs");
@@ -94,4 +94,6 @@ fn of_orbits() {
         "curve --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --kind flip --vary gap=1:2 --and inverse-beta=1.1:1.12",
     );
     same("region --label 1/1 --inverse-beta 1.05:1.2 --gap 1:2.5 --restitution 0.5 --grid 4");
+    same(&format!("margins {S} --lines 20"));
+    same(&format!("margins {MACHINE} --lines 20"));
 }

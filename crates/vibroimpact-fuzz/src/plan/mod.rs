@@ -149,6 +149,8 @@ fn budget(plan: &Plan) -> u64 {
         Task::Branch(branch) => {
             u64::from(branch.points).saturating_mul(u64::from(branch.follow) + 1).saturating_mul(100)
         }
+        // two branches for each parameter, and steps along each line
+        Task::Margins(margins) => 12 * 20_000 + u64::from(margins.lines).saturating_mul(1_000),
     }
 }
 

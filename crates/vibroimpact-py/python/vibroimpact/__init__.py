@@ -25,6 +25,7 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 | a curve of folds, flips or grazing impacts in two parameters | `curve` |
 | the regions where a motion exists and where it is stable | `region` |
 | a quantity of all motions over one parameter: branches, and sweeps up and down | `response` |
+| how far a motion is from the events that end or change it | `margins` |
 | Lyapunov exponents and the dimension of the attractor | `lyapunov` |
 | the motion after its transient at each value of a parameter | `orbit_diagram` |
 | the motion to which each start leads; the motions at each point of a parameter plane | `basin`, `region_map` |
@@ -41,6 +42,7 @@ from vibroimpact._curve import Curve, CurveEvent, curve
 from vibroimpact._cycle import Cycle
 from vibroimpact._grid import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import Lyapunov, Measured, lyapunov
+from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin, margins
 from vibroimpact._motion import Motion
 from vibroimpact._orbits import EarlierContact, Orbit, orbits
 from vibroimpact._plan import Plan
@@ -60,11 +62,16 @@ __all__ = [
     "Cycle",
     "EarlierContact",
     "Lyapunov",
+    "MarginEnd",
+    "Margins",
     "Measured",
     "Motion",
+    "MotionBox",
+    "Nearest",
     "Orbit",
     "Origin",
     "Oscillator",
+    "ParameterMargin",
     "Part",
     "Plan",
     "Polygon",
@@ -87,6 +94,7 @@ __all__ = [
     "curve",
     "dask",
     "lyapunov",
+    "margins",
     "open",
     "orbit_diagram",
     "orbits",

@@ -64,7 +64,10 @@ class VibroAccessor:
         dict
             "entropy" and "boundary_entropy" (Daza et al. 2016, https://doi.org/10.1038/srep31416; None without a boundary),
             the side "box_side" of their boxes, and "uncertainty_exponent" as value and standard error: 1 for a smooth
-            boundary, less for a fractal one; None for planes that are too small.
+            boundary, less for a fractal one; None for planes that are too small. "merging" compares the boundaries of at
+            least three basins (Daza et al. 2018, https://doi.org/10.1038/s41598-018-28119-0), else it is None: they differ
+            by up to "radius" starts, "common" is the share of their starts within "limit" of all, and "wada" is whether
+            the radius is at most the limit, so that all basins have one boundary at this resolution.
 
         Examples
         --------

@@ -32,6 +32,10 @@ class Motion:
         m/n for m impacts in n forcing periods, such as "4/1", or "inf/1" with a complete chatter; or "0", "chaotic", "stuck", "undecided".
     impacts, periods : int or None
         m and n.
+    by_stop : bool
+        Whether there are two stops and the numbers of impacts on each are known.
+    impacts_upper, impacts_lower : int or None
+        With two stops, the numbers of impacts on each; None for infinitely many, and with one stop.
     sticks : int or None
         Number of phases of sticking in each period of the motion.
     stable : bool or None
@@ -75,6 +79,9 @@ class Motion:
     kind: str
     label: str
     impacts: int | None
+    by_stop: bool
+    impacts_upper: int | None
+    impacts_lower: int | None
     periods: int | None
     sticks: int | None
     stable: bool | None
@@ -111,6 +118,7 @@ class Motion:
             "kind": self.kind,
             "label": self.label,
             "impacts": self.impacts,
+            **({"impacts_upper": self.impacts_upper, "impacts_lower": self.impacts_lower} if self.by_stop else {}),
             "periods": self.periods,
             "sticks": self.sticks,
             "stable": self.stable,

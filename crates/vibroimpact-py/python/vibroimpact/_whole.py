@@ -38,6 +38,8 @@ GRID = Range(2, 400)
 NUMBER = Range(1)
 #: Number of tiles to compute again, and number of retries.
 COUNT = Range(0, _UNSIGNED)
+#: Lines to scattered points of the surface of a box.
+LINES = Range(0, 100_000)
 
 #: The largest number of 32 bits, the size of most counts in a plan.
 _SMALL = 2**32 - 1

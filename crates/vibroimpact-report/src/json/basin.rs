@@ -28,6 +28,9 @@ struct MeasureFields {
     entropy: f64,
     boundary_entropy: Option<f64>,
     uncertainty_exponent: Option<ExponentFields>,
+    /// The comparison of the boundaries of at least three basins.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    merging: Option<MergingFields>,
     /// Shares of the motions, in their order, at a confidence of 95 %.
     share_intervals: Vec<(f64, f64)>,
     /// Largest share of a motion that no start leads to, at a confidence of 95 %.
@@ -40,6 +43,16 @@ struct ExponentFields {
     error: f64,
 }
 
+/// How far the boundaries of the basins are from each other, in starts, and whether they count as one.
+#[derive(Serialize)]
+struct MergingFields {
+    motions: usize,
+    radius: usize,
+    limit: usize,
+    common: f64,
+    wada: bool,
+}
+
 impl MeasureFields {
     fn of(found: &Basin) -> Option<Self> {
         let measures = found.measures()?;
@@ -49,6 +62,13 @@ impl MeasureFields {
             entropy: measures.entropy,
             boundary_entropy: measures.boundary_entropy,
             uncertainty_exponent: measures.uncertainty.map(|of| ExponentFields { value: of.value, error: of.error }),
+            merging: measures.merging.map(|of| MergingFields {
+                motions: of.motions,
+                radius: of.radius,
+                limit: of.limit,
+                common: of.common,
+                wada: of.wada(),
+            }),
             share_intervals: by_count(found)
                 .into_iter()
                 .map(|m| share_interval(found.motions[m].count, total))

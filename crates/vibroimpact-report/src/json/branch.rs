@@ -53,6 +53,13 @@ struct EventObject {
     values: Option<[f64; 2]>,
     /// Index among the points.
     point: usize,
+    #[serde(flatten)]
+    fields: EventFields,
+}
+
+/// The fields of an event that do not depend on the branch.
+#[derive(Serialize)]
+pub(super) struct EventFields {
     ends: bool,
     label_before: String,
     label_after: Option<String>,
@@ -173,13 +180,22 @@ fn events(branch: &Followed, cut: &Cut, units: &Units) -> Vec<EventObject> {
 
 impl EventObject {
     fn new(place: usize, point: &SolutionPoint, event: &BranchEvent, (cut, units): (&Cut, &Units)) -> Self {
-        let EventRecord { kind, ends, label_before, label_after, change, impact, side: at, phase, turns, also } =
-            EventRecord::of(point, event);
+        let record = EventRecord::of(point, event);
         Self {
-            kind,
+            kind: record.kind,
             parameter: point.value * units.of(cut.vary),
             values: both(point, cut, units),
             point: place,
+            fields: EventFields::new(record),
+        }
+    }
+}
+
+impl EventFields {
+    pub(super) fn new(record: EventRecord) -> Self {
+        let EventRecord { kind: _, ends, label_before, label_after, change, impact, side: at, phase, turns, also } =
+            record;
+        Self {
             ends,
             label_after,
             label_before,

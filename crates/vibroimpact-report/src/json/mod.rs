@@ -9,6 +9,7 @@ pub mod curve;
 pub mod diagram;
 pub mod lyapunov;
 pub mod map;
+pub mod margins;
 pub mod motion;
 pub mod orbit;
 mod quantities;

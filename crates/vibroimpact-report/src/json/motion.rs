@@ -10,6 +10,7 @@ use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::of_verdict;
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side};
+use vibroimpact_study::ImpactsByStop;
 
 /// The name of a stop.
 #[must_use]
@@ -26,6 +27,11 @@ pub struct MotionFields {
     kind: &'static str,
     label: String,
     impacts: Option<u32>,
+    /// Impacts on each stop, if there are two; the inner number is none for infinitely many.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impacts_upper: Option<Option<u32>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impacts_lower: Option<Option<u32>>,
     periods: Option<u32>,
     sticks: Option<usize>,
     stable: Option<bool>,
@@ -140,10 +146,13 @@ impl MotionFields {
     /// The object of a verdict, in these units.
     #[must_use]
     pub fn new(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Self {
+        let by_stop = ImpactsByStop::of(osc, verdict);
         let bare = Self {
             kind: "undecided",
             label: verdict.label().into_owned(),
             impacts: None,
+            impacts_upper: by_stop.map(|by| by.upper),
+            impacts_lower: by_stop.map(|by| by.lower),
             periods: None,
             sticks: None,
             stable: verdict.stable(osc),

@@ -4,7 +4,7 @@ use super::number;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
     Axis, BasinPlan, BranchPlan, Coordinate, CurvePlan, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan,
-    MapPlan, Parameter, Plan, Quantity, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
+    MapPlan, MarginsPlan, Parameter, Plan, Quantity, RegionPlan, StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
 /// The words of the `vibro` command for a plan, beginning with `vibro`. Its flags give exactly this plan, in
@@ -39,6 +39,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
             let line = Line::new("response").system(system, &[(task.vary, Some(task.over.to_string()))]);
             line.unless_amplitude(task.quantity)
         }
+        Task::Margins(task) => margins(system, task),
     };
     let (refine, name) = match &plan.task {
         Task::Map(task) => (task.refine, "map.zarr"),
@@ -194,6 +195,17 @@ fn lyapunov(system: &SystemPlan, task: &LyapunovPlan) -> Option<Line> {
         Some(points) => line.flag("points", points).flag("plot", "attractor.svg"),
         None => line,
     })
+}
+
+fn margins(system: &SystemPlan, task: &MarginsPlan) -> Line {
+    let usual = MarginsPlan::default();
+    let line = Line::new("margins").system(system, &[]).given("label", task.label.as_ref()).start(&task.start);
+    let names: Vec<String> = task.vary.iter().map(|one| flag(one.parameter)).collect();
+    let line = line.given("vary", (!names.is_empty()).then(|| names.join(",")));
+    let scales = task.vary.iter().filter_map(|one| Some((one.parameter, one.scale?)));
+    let line = scales.fold(line, |line, (of, scale)| line.flag("scale", format!("{}={}", flag(of), number(scale))));
+    let line = if task.within == usual.within { line } else { line.flag("within", number(task.within)) };
+    line.unless("lines", task.lines, usual.lines)
 }
 
 fn branch(system: &SystemPlan, task: &BranchPlan) -> Line {

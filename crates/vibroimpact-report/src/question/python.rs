@@ -4,8 +4,8 @@ use super::number;
 use crate::scene::{SECTION_POINTS, View};
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
 use vibroimpact_study::{
-    Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, Plan, Quantity,
-    StartPlan, Stretch, SystemPlan, Target, Task, Values,
+    Axis, BasinPlan, Coordinate, DEFAULT_BRANCH_POINTS, DEFAULT_GRID, DiagramPlan, LyapunovPlan, MarginsPlan, Plan,
+    Quantity, StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
 /// A few lines of Python for a plan, in nondimensional units; `None` for an invalid plan.
@@ -54,6 +54,7 @@ pub fn python(plan: &Plan) -> Option<String> {
             let usual = task.quantity == Quantity::DisplacementAmplitude;
             ("found", call.given("quantity", (!usual).then(|| text(task.quantity.name()))))
         }
+        Task::Margins(task) => ("margins", margins(task)),
     };
     let told = match &plan.task {
         Task::Lyapunov(task) if !task.axes.is_empty() => {
@@ -216,6 +217,17 @@ fn diagram(task: &DiagramPlan) -> Call {
     call.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP)
 }
 
+fn margins(task: &MarginsPlan) -> Call {
+    let usual = MarginsPlan::default();
+    let call = Call::new("margins").start(&task.start).given("label", task.label.as_deref().map(text));
+    let names: Vec<String> = task.vary.iter().map(|one| text(one.parameter.name())).collect();
+    let call = call.given("vary", (!names.is_empty()).then(|| format!("[{}]", names.join(", "))));
+    let scales: Vec<_> = task.vary.iter().filter_map(|one| Some((one.parameter.name(), number(one.scale?)))).collect();
+    let call = call.given("scale", (!scales.is_empty()).then(|| mapping(scales.into_iter())));
+    let call = if task.within == usual.within { call } else { call.named("within", number(task.within)) };
+    call.unless("lines", task.lines, usual.lines)
+}
+
 fn lyapunov(task: &LyapunovPlan) -> Call {
     let usual = LyapunovPlan::default();
     let call = if task.axes.is_empty() {
@@ -275,6 +287,11 @@ mod tests {
                 r#"{"curve":{"label":"1/1","kind":"flip","vary":{"parameter":"gap","from":0,"to":3},"and":{"parameter":"damping","from":0,"to":0.1}}}"#,
                 "curve = vi.curve(osc, \"1/1\", \"flip\", {\"gap\": (0, 3), \"damping\": (0, 0.1)})\n",
             ),
+            (
+                r#"{"margins":{"label":"1/1","vary":[{"parameter":"gap","scale":0.1},{"parameter":"damping"}],"within":1.5,"lines":7}}"#,
+                "margins = vi.margins(osc, label=\"1/1\", vary=[\"gap\", \"damping\"], scale={\"gap\": 0.1}, within=1.5, lines=7)\n",
+            ),
+            (r#"{"margins":{"start":{"v":1}}}"#, "margins = vi.margins(osc, v=1)\n"),
         ] {
             assert_eq!(lines(task), said);
         }

@@ -7,6 +7,7 @@ pub mod branch;
 pub mod curve;
 pub mod diagram;
 pub mod map;
+pub mod margins;
 mod quantities;
 pub mod region;
 pub mod response;

@@ -1,5 +1,5 @@
 //! Measures of the basins in a plane of starts: shares with their errors, basin entropy, boundary entropy, uncertainty
-//! exponent.
+//! exponent, and the merging method for at least three basins.
 //!
 //! The plane is divided into boxes of $`b \times b`$ cells. With $`p_{ij}`$ the share of motion $`j`$ in box $`i`$, the
 //! entropy of the box is $`S_i = -\sum_j p_{ij}\ln p_{ij}`$. The basin entropy is the mean of $`S_i`$ over all boxes,
@@ -12,6 +12,8 @@
 //! a smooth boundary in the plane, less for a fractal one. (With $`b`$ in place of $`b-1`$, the exponent of a straight line
 //! would come out as 1.18 from boxes of 2 to 64 starts.)
 
+use super::merging::{Merging, merging};
+
 /// Measures of the basins in a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BasinMeasures {
@@ -23,6 +25,8 @@ pub struct BasinMeasures {
     pub boundary_entropy: Option<f64>,
     /// The uncertainty exponent; `None` with fewer than three sizes of boxes of which some have more than one motion.
     pub uncertainty: Option<UncertaintyExponent>,
+    /// Whether all basins have one boundary; `None` with fewer than three basins.
+    pub merging: Option<Merging>,
 }
 
 /// The slope of the logarithm of the share of uncertain boxes over that of their width, by least squares.
@@ -68,6 +72,7 @@ pub fn measures<T: Copy + PartialEq>(cells: &[T], width: usize) -> BasinMeasures
         entropy: sum / f64::max(boxes, 1.0),
         boundary_entropy: (mixed > 0.0).then(|| sum / mixed),
         uncertainty: exponent(cells, width),
+        merging: merging(cells, width),
     }
 }
 

@@ -1,9 +1,11 @@
 //! The motion to which each start of a plane leads.
 
 mod measures;
+mod merging;
 mod plan;
 
 pub use measures::{BasinMeasures, UncertaintyExponent, measures, missed_share, share_interval};
+pub use merging::Merging;
 pub use plan::BasinPlan;
 
 use crate::{SystemPlan, axis};

@@ -56,6 +56,7 @@ impl Study {
             Task::Curve(_) => return Err(PlanError::NoStudy("follow a curve")),
             Task::Region(_) => return Err(PlanError::NoStudy("find a region")),
             Task::Response(_) => return Err(PlanError::NoStudy("find a response")),
+            Task::Margins(_) => return Err(PlanError::NoStudy("find margins")),
         };
         Ok(Self { fill })
     }

@@ -1,0 +1,132 @@
+//! `vibro margins`: how far a periodic motion is from the events that end or change it.
+
+use crate::args::{Named, ParameterFlag, StartArgs, SystemArgs, number, parameter, whole};
+use crate::commands::outputs::Outputs;
+use crate::commands::respond;
+use crate::failure::Failure;
+use crate::session::Session;
+use clap::Args;
+use std::path::PathBuf;
+use vibroimpact_report::{Asked, Shown};
+use vibroimpact_study::{
+    DEFAULT_LINES, DEFAULT_WITHIN, MarginsPlan, Parameter, Plan, ScaledParameter, StartPlan, Task,
+};
+
+/// How far a motion is from the events that end or change it
+///
+/// The periodic motion from a start, or with a label, is followed in each parameter alone, up and down, to the nearest
+/// event: a fold, a flip, a grazing impact, the end of sticking. The distance is given in the units of the parameter and
+/// relative to its value. Events are looked for up to an end of the range of --within.
+///
+/// Then the largest box of all parameters together is looked for in which the motion with its label is stable: each
+/// parameter lies within one multiple of its scale from its value. It is found by trying: the motion is carried along
+/// lines from the centre to the surface of the box, so events between the lines may be missed.
+///
+/// A system in physical units has its results in SI units.
+#[derive(Clone, Debug, Args)]
+#[command(
+    override_usage = "vibro margins --beta B --gap D --restitution E [--x X --v V --phase P | --label m/n] [OPTIONS]",
+    after_help = "Examples:\n  \
+        vibro margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5\n  \
+        vibro margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap,restitution \\\n    \
+        --scale gap=0.05 --csv margins.csv\n  \
+        vibro margins --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 \\\n    \
+        --gap-m 0.0015 --restitution 0.65 --frequency-hz 20"
+)]
+pub(crate) struct Margins {
+    #[command(flatten)]
+    system: SystemArgs,
+    #[command(flatten)]
+    start: StartArgs,
+
+    /// m/n of the motion instead of a start: the stable orbit, else the fastest one
+    #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Margins")]
+    label: Option<String>,
+
+    /// The parameters that vary, separated by commas [default: all of the system]
+    #[arg(long, value_delimiter = ',', value_parser = parameter(), value_name = "PARAMETERS", help_heading = "Margins")]
+    vary: Vec<ParameterFlag>,
+
+    /// The change of a parameter that counts as 1 in the box [default: its value]; may be repeated
+    #[arg(long, value_name = "PARAMETER=VALUE", allow_hyphen_values = true, help_heading = "Margins")]
+    scale: Vec<Named<f64>>,
+
+    /// Events are looked for from each value divided by this number to the value times this number, above 1 and up to
+    /// 100; a restitution from 0 to 1
+    #[arg(long, value_parser = number, value_name = "FACTOR", default_value_t = DEFAULT_WITHIN, allow_hyphen_values = true, help_heading = "Margins")]
+    within: f64,
+
+    /// Lines from the centre of the box to scattered points of its surface, 0 to 100000, besides those to the centres of
+    /// its faces and to its corners
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = DEFAULT_LINES, allow_hyphen_values = true, help_heading = "Margins")]
+    lines: u32,
+
+    /// Write one row for each parameter and direction to this file; - for stdout. Columns: parameter, value, direction,
+    /// limit, at, distance, relative, event, label_after; without an event the last five are empty
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Print one JSON object instead of text
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+}
+
+pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
+    let (asked, vary) = args.varied(session)?;
+    let start = args.start.plan(&asked.units);
+    if args.label.is_some() && start != StartPlan::default() {
+        return Err(Failure::bad("--label cannot go together with a start\nhint: --label, or --x, --v and --phase"));
+    }
+    let task = MarginsPlan { start, label: args.label.clone(), vary, within: args.within, lines: args.lines };
+    let plan = Plan::new(asked.system, Task::Margins(task));
+    plan.check()?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), None, args.json, session)?;
+    respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
+}
+
+impl Margins {
+    /// The system with its units, and the parameters that vary; none stands for all.
+    fn varied(&self, session: &Session) -> Result<(Asked, Vec<ScaledParameter>), Failure> {
+        let system = self.system.asked()?.system;
+        let machine = self.system.is_machine();
+        let has_unit = |parameter| matches!(parameter, Parameter::Beta | Parameter::Gap | Parameter::SecondGap);
+        let flag_of = |parameter| ParameterFlag { parameter, si: machine && has_unit(parameter) };
+        let named = self.vary.iter().chain(self.scale.iter().map(|Named(named, _)| named));
+        if let Some(wrong) = named.clone().find(|named| machine && **named != flag_of(named.parameter)) {
+            let twin = ParameterFlag { parameter: wrong.parameter, si: true };
+            return Err(Failure::bad(format!(
+                "{} is nondimensional, and margins of a system in physical units are in SI units\nhint: {}",
+                wrong.flag(),
+                if has_unit(wrong.parameter) { twin.flag() } else { "frequency-hz" }
+            )));
+        }
+        let mut flags = self.vary.clone();
+        if flags.is_empty() {
+            let all: Vec<ParameterFlag> = MarginsPlan::parameters(&system).into_iter().map(flag_of).collect();
+            // of a machine with an excitation other than a force, some parameters cannot vary
+            flags = all.iter().copied().filter(|one| self.system.over(&[*one]).is_ok()).collect();
+            let left: Vec<&str> = all.iter().filter(|one| !flags.contains(one)).map(|one| one.flag()).collect();
+            if !left.is_empty() {
+                let names = left.join(", ");
+                session.note(&format!("left out: {names}, which cannot vary with this excitation yet"));
+            }
+        }
+        let mut asked = self.system.over(&flags)?;
+        (asked.units.si, asked.units.hertz) = (machine, machine);
+        let scale = |parameter| {
+            let of = |Named(named, value): &Named<f64>| (named.parameter == parameter).then_some(*value);
+            self.scale.iter().rev().find_map(of).map(|value| value / asked.units.of(parameter))
+        };
+        let unknown = |Named(named, _): &&Named<f64>| !flags.iter().any(|flag| flag.parameter == named.parameter);
+        if let Some(Named(named, _)) = self.scale.iter().find(unknown) {
+            return Err(Failure::bad(format!(
+                "--scale {0} has no effect: {0} does not vary\nhint: --vary",
+                named.flag()
+            )));
+        }
+        let scaled = |flag: &ParameterFlag| ScaledParameter { parameter: flag.parameter, scale: scale(flag.parameter) };
+        let every = flags.len() == MarginsPlan::parameters(&system).len() && self.vary.is_empty();
+        let all = every && self.scale.is_empty();
+        Ok((asked, if all { Vec::new() } else { flags.iter().map(scaled).collect() }))
+    }
+}

@@ -1,0 +1,136 @@
+//! The nearest events of a motion as text, and the box of parameters in which it was found.
+
+use crate::report::branch::{named, remark};
+use crate::report::words::{by_stop, meaning, table};
+use std::fmt::Write;
+use vibroimpact::Oscillator;
+use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact_report::Units;
+use vibroimpact_report::number::{percent, precise, short};
+use vibroimpact_study::{EventRecord, Loss, MarginEnd, MotionBox, MotionMargins, ParameterMargin, counted};
+
+/// The motion, its nearest events in each parameter, and its box.
+pub(crate) fn text(found: &MotionMargins, osc: &Oscillator, units: &Units) -> String {
+    let stable = found.motion.stable(osc);
+    let stable = match stable {
+        Some(true) => ", stable",
+        Some(false) => ", unstable",
+        None => "",
+    };
+    let label = found.motion.label();
+    let mut text = format!("{label}{}: {}{stable}\n", by_stop(&found.motion, osc), meaning(&found.motion));
+    if found.parameters.is_empty() {
+        text.push_str("  it is no single periodic motion, so it has no branch to follow and no margins\n");
+        return text;
+    }
+    text.push_str(&events(&found.parameters, units));
+    if let Some((margin, end)) = found.nearest() {
+        let event = end.event().map_or("", |event| event.name());
+        let way = if end.distance(&margin.scope) < 0.0 { "down" } else { "up" };
+        let _ = writeln!(
+            text,
+            "  nearest: {event} at {} {}, {way} by {} of {}",
+            named(margin.scope.parameter, units),
+            precise(end.value * units.of(margin.scope.parameter)),
+            percent(end.distance(&margin.scope).abs() / margin.scope.scale),
+            whole(core::slice::from_ref(margin))
+        );
+    }
+    match &found.motion_box {
+        Some(found_box) => text.push_str(&of_box(found_box, &found.parameters, &label, units)),
+        None => text.push_str("\nno box: the motion is unstable\n"),
+    }
+    text
+}
+
+/// What a box is measured in: the values of the parameters, or other scales.
+fn whole(parameters: &[ParameterMargin]) -> &'static str {
+    let usual = parameters.iter().all(|margin| margin.scope.scale == margin.scope.value.abs());
+    if usual { "its value" } else { "its scale" }
+}
+
+/// One row for each parameter and direction.
+fn events(parameters: &[ParameterMargin], units: &Units) -> String {
+    let heads = ["<parameter", "value", "<way", "event at", "distance", "relative", "<event"].map(str::to_owned);
+    let rows: Vec<Vec<String>> = parameters
+        .iter()
+        .flat_map(|margin| {
+            let scope = &margin.scope;
+            let [down, up] = [("down", &margin.down, scope.low), ("up", &margin.up, scope.high)];
+            [row(margin, down, units), row(margin, up, units)]
+        })
+        .collect();
+    table(&heads, &rows)
+}
+
+fn row(margin: &ParameterMargin, (way, end, limit): (&str, &MarginEnd, f64), units: &Units) -> Vec<String> {
+    let (scope, unit) = (&margin.scope, units.of(margin.scope.parameter));
+    let begin = [named(scope.parameter, units), short(scope.value * unit), way.to_owned()];
+    let (at, distance, relative, event) = match (&end.point, end.event()) {
+        (Some(point), Some(event)) => {
+            let relative = end.relative(scope).map_or_else(String::new, |share| format!("{:+.2} %", 100.0 * share));
+            (precise(end.value * unit), short(end.distance(scope) * unit), relative, told(point, &event))
+        }
+        _ => (String::new(), String::new(), String::new(), format!("none up to {}", short(limit * unit))),
+    };
+    begin.into_iter().chain([at, distance, relative, event]).collect()
+}
+
+/// The name of an event, the motion beyond, and its meaning.
+fn told(point: &SolutionPoint, event: &BranchEvent) -> String {
+    let record = EventRecord::of(point, event);
+    let beyond = match record.label_after {
+        Some(after) if after != record.label_before => format!(" to {after}"),
+        _ => String::new(),
+    };
+    let why = remark(point, event);
+    let why = if why.is_empty() { why } else { format!(": {why}") };
+    format!("{}{beyond}{why}", event.name())
+}
+
+/// The box, and where the motion was lost next to it.
+fn of_box(found: &MotionBox, parameters: &[ParameterMargin], label: &str, units: &Units) -> String {
+    let mut text = format!(
+        "\nbox: each parameter within {} of {}; {label} was found by trying {} on {}, not proved\n",
+        percent(found.size),
+        whole(parameters),
+        counted(found.points, "point"),
+        counted(found.lines, "line")
+    );
+    let heads = ["<parameter", "from", "to", "scale"].map(str::to_owned);
+    let rows: Vec<Vec<String>> = parameters
+        .iter()
+        .map(|margin| {
+            let (scope, unit) = (&margin.scope, units.of(margin.scope.parameter));
+            let ends = [scope.at(-found.size), scope.at(found.size), scope.scale].map(|value| short(value * unit));
+            core::iter::once(named(scope.parameter, units)).chain(ends).collect()
+        })
+        .collect();
+    text.push_str(&table(&heads, &rows));
+    let Some(edge) = &found.edge else {
+        text.push_str("  it ends at the end of a range\n");
+        return text;
+    };
+    let values: Vec<String> = parameters
+        .iter()
+        .zip(&edge.values)
+        .map(|(margin, value)| {
+            let parameter = margin.scope.parameter;
+            format!("{} {}", named(parameter, units), short(value * units.of(parameter)))
+        })
+        .collect();
+    let _ = writeln!(text, "  next to it, at {}: {}", values.join(", "), lost(edge.loss, label));
+    text
+}
+
+/// Why a motion was not found.
+fn lost(loss: Loss, label: &str) -> String {
+    match loss {
+        Loss::NoSystem => "the two stops leave no room".to_owned(),
+        Loss::NoSolution => format!("no {label} was found close by"),
+        Loss::Inadmissible => format!("{label} passes through a stop, or loses an impact"),
+        Loss::Unstable => format!("{label} is unstable"),
+        Loss::Shorter => format!("{label} becomes a motion of a shorter period"),
+        Loss::OtherMotion => "another motion follows the release".to_owned(),
+    }
+}

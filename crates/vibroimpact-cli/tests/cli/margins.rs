@@ -1,0 +1,129 @@
+//! Tests of `vibro margins`: distances, boxes, units and refusals.
+
+use crate::{json, vibro};
+use serde_json::Value;
+
+/// Below the flip of 1/1 at the gap 1.829.
+const ONE: &str = "margins --inverse-beta 1.11 --gap 1.5 --restitution 0.5";
+const MACHINE: &str = "--mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --restitution 0.65 \
+                       --frequency-hz 20 --gap-m 0.0015";
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+fn said(line: &str) -> String {
+    let output = vibro(line).output().expect("vibro runs");
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The object of a parameter.
+fn of<'a>(answer: &'a Value, name: &str) -> &'a Value {
+    let all = answer["parameters"].as_array().expect("a list");
+    all.iter().find(|one| one["parameter"] == name).expect("it varies")
+}
+
+#[test]
+fn the_distance_is_that_of_the_branch() {
+    let answer = json(&format!("{ONE} --label 1/1"));
+    let up = &of(&answer, "gap")["up"];
+    assert_eq!((&up["event"]["kind"], &up["event"]["ends"]), (&"flip".into(), &false.into()));
+    assert!((number(&up["at"]) - 1.829_006_189_683_6).abs() < 1e-11);
+    assert!((number(&up["relative"]) - number(&up["distance"]) / 1.5).abs() < 1e-15);
+    let down = &of(&answer, "damping")["down"];
+    assert_eq!((&down["event"], &down["limit"], &down["at"]), (&Value::Null, &0.0.into(), &Value::Null));
+    let names: Vec<&Value> = answer["parameters"].as_array().unwrap().iter().map(|one| &one["parameter"]).collect();
+    assert_eq!(names, ["inverse_beta", "gap", "restitution", "damping"]);
+    let found = &answer["box"];
+    assert!(number(&found["size"]) > 0.0 && number(&found["size"]) <= number(&found["largest"]), "{found}");
+    assert_eq!((&found["proved"], &answer["nearest"]["parameter"]), (&false.into(), &answer["nearest"]["parameter"]));
+    assert_eq!(answer["plan"]["task"]["margins"]["label"], "1/1");
+    // the same question gives the same answer
+    assert_eq!(json(&format!("{ONE} --label 1/1")), answer);
+}
+
+#[test]
+fn text_and_table() {
+    let text = said(ONE);
+    for words in ["1/1: one impact every forcing period, stable", "flip", "none up to 0.1", "by trying", "not proved"] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let table = said(&format!("{ONE} --csv -"));
+    let rows: Vec<&str> = table.lines().collect();
+    assert_eq!(rows[0], "parameter,value,direction,limit,at,distance,relative,event,label_after");
+    assert_eq!(rows.len(), 9);
+    assert!(rows.iter().all(|row| row.split(',').count() == 9), "{table}");
+    assert!(rows.iter().any(|row| row.starts_with("gap,1.5,up,3,1.829006189683")), "{table}");
+    let chaos = said("margins --inverse-beta 1.11 --gap 3 --restitution 0.5");
+    assert!(chaos.contains("chaotic") && chaos.contains("no margins"), "{chaos}");
+    let unstable = said("margins --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1");
+    assert!(unstable.contains("no box: the motion is unstable"), "{unstable}");
+}
+
+/// A machine has its margins in Hz and m; they agree with its branch.
+#[test]
+fn a_machine_in_si_units() {
+    let answer = json(&format!("margins {MACHINE}"));
+    let branch = json(&format!("branch {MACHINE} --label 1/1 --vary frequency-hz --to 10"));
+    let (down, event) = (&of(&answer, "frequency_hz")["down"], &branch["events"][0]);
+    assert_eq!((&answer["units"], &down["event"]["kind"]), (&"si".into(), &event["kind"]));
+    assert!((number(&down["at"]) - number(&event["parameter"])).abs() < 1e-9);
+    assert!((number(&of(&answer, "gap")["value"]) - 0.0015).abs() < 1e-15);
+    // a scale in its units
+    let scaled = json(&format!("margins {MACHINE} --vary gap-m,damping --scale gap-m=0.0003"));
+    assert!((number(&of(&scaled, "gap")["scale"]) - 0.0003).abs() < 1e-15);
+    assert_eq!(scaled["parameters"].as_array().unwrap().len(), 2);
+    // parameters on which the force of a moving base depends are left out
+    let base = MACHINE.replace("--force-n 30", "--base-acceleration-m-per-s2 30");
+    let moved = json(&format!("margins {base}"));
+    let names: Vec<&Value> = moved["parameters"].as_array().unwrap().iter().map(|one| &one["parameter"]).collect();
+    assert!(!names.contains(&&"frequency_hz".into()) && names.contains(&&"gap".into()), "{names:?}");
+}
+
+#[test]
+fn what_is_refused() {
+    for (more, sentence) in [
+        ("--label 1/1 --v 1", "--label cannot go together with a start"),
+        ("--label 5/7", "no admissible orbit 5/7"),
+        ("--within 1", "within = 1 lies outside 1 < within <= 100"),
+        ("--scale gap=0", "the scale of gap is 0"),
+        ("--vary damping --scale gap=1", "--scale gap has no effect"),
+        ("--vary second-gap", "second_gap is to vary"),
+        ("--vary beta,inverse-beta", "beta and inverse_beta are both to vary"),
+        ("--lines 100001", "lines = 100001 lies outside"),
+    ] {
+        let output = vibro(&format!("{ONE} {more}")).output().expect("vibro runs");
+        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && complaint.contains(sentence), "{more}: {complaint}");
+    }
+    let output = vibro(&format!("margins {MACHINE} --vary gap")).output().expect("vibro runs");
+    let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(complaint.contains("gap is nondimensional") && complaint.contains("gap-m"), "{complaint}");
+}
+
+/// With two stops a motion is described by its impacts on each of them.
+#[test]
+fn impacts_on_each_of_two_stops() {
+    let both = "--beta 0.8 --gap 0.5 --restitution 0.6 --damping 0.02 --second-gap 1.5";
+    let settled = json(&format!("settle {both}"));
+    let motion = &settled["motion"];
+    let sides: Vec<&Value> = motion["cycle"].as_array().expect("a list").iter().map(|one| &one["side"]).collect();
+    let on = |side: &str| sides.iter().filter(|of| ***of == side).count();
+    assert!(!sides.is_empty(), "{motion}");
+    let counts = (&motion["impacts_upper"], &motion["impacts_lower"]);
+    assert_eq!(counts, (&on("upper").into(), &on("lower").into()));
+    let told = format!("({} upper, {} lower)", on("upper"), on("lower"));
+    let label = motion["label"].as_str().expect("a label");
+    assert!(said(&format!("settle {both}")).contains(&format!("{label} {told}: ")));
+    assert!(said(&format!("orbit {both} --label {label}")).contains(&format!("{label} {told}: ")));
+    for command in ["attractors --starts 20", "basin --x 0:0.4:4 --v 0:1:4"] {
+        let text = said(&format!("{command} {both}"));
+        assert!(text.contains(" upper, ") && text.contains(" lower)"), "{text}");
+    }
+    let map = both.replace("--gap 0.5", "--gap 0.5:0.6:2");
+    assert!(said(&format!("map {map} --starts 2")).contains(" lower)"));
+    // with one stop nothing is added
+    let one = json("settle --beta 0.8 --gap 0.5 --restitution 0.6 --damping 0.02");
+    assert!(one["motion"].get("impacts_upper").is_none());
+}

@@ -1,0 +1,218 @@
+"""How far a periodic motion is from the events that end or change it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from vibroimpact import _core
+from vibroimpact._core import Oscillator
+from vibroimpact._motion import Motion, fields_of
+from vibroimpact._whole import LINES, whole
+
+
+@dataclass(frozen=True, slots=True)
+class MarginEnd:
+    """The nearest event of a motion in one direction of a parameter. Without an event all fields but `limit` are None."""
+
+    #: The end of the range in which events are looked for.
+    limit: float
+    #: The value of the parameter at the event, its distance from the value of the system, and that relative to this value.
+    at: float | None
+    distance: float | None
+    relative: float | None
+    #: The event with the fields of the JSON of the command: "kind", "label_before", "label_after" and others.
+    event: dict[str, Any] | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of the JSON of the command."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterMargin:
+    """The nearest events of a motion in one parameter."""
+
+    parameter: str
+    value: float
+    #: The change of the parameter that counts as 1 in the box.
+    scale: float
+    down: MarginEnd
+    up: MarginEnd
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of the JSON of the command."""
+        ends = {"down": self.down.to_dict(), "up": self.up.to_dict()}
+        return {"parameter": self.parameter, "value": self.value, "scale": self.scale, **ends}
+
+
+class Nearest(NamedTuple):
+    """The event with the smallest change in units of the scale of its parameter."""
+
+    parameter: str
+    #: "down" or "up".
+    direction: str
+    #: The change in units of the scale.
+    scaled: float
+
+
+@dataclass(frozen=True, slots=True)
+class MotionBox:
+    """A box of parameters in which a motion was found by trying points. It is not proved that the motion exists between them."""
+
+    #: Each parameter lies within this multiple of its scale from its value.
+    size: float
+    #: The largest size that was allowed: at the end of a range, or at an event in one parameter.
+    largest: float
+    #: The range of each parameter.
+    ranges: dict[str, tuple[float, float]]
+    #: Number of points in the box at which the motion was found, and of lines that were tried.
+    points: int
+    lines: int
+    #: Why the motion was not found next to the box, and the values of the parameters there; None if the box ends at the end of a range.
+    edge: tuple[str, dict[str, float]] | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of the JSON of the command."""
+        edge = None
+        if self.edge is not None:
+            loss, values = self.edge
+            edge = {"loss": loss, "parameters": [{"parameter": name, "value": of} for name, of in values.items()]}
+        return {
+            "size": self.size,
+            "largest": self.largest,
+            "parameters": [{"parameter": name, "from": a, "to": b} for name, (a, b) in self.ranges.items()],
+            "points": self.points,
+            "lines": self.lines,
+            "proved": False,
+            "edge": edge,
+        }
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class Margins:
+    """The distances of a motion from the events that end or change it, and a box of parameters in which it was found.
+
+    Attributes
+    ----------
+    osc : Oscillator
+        The system.
+    motion : Motion
+        The motion.
+    parameters : dict of ParameterMargin
+        The nearest events in each parameter, by the name of the parameter; empty for a motion that is not periodic.
+    nearest : Nearest or None
+        The event with the smallest change in units of the scale of its parameter; None if there is none in the ranges.
+    box : MotionBox or None
+        The largest box in which the motion was found; None for a motion that is not periodic, or not stable.
+    plan : str
+        The plan as JSON.
+    """
+
+    osc: Oscillator
+    motion: Motion
+    parameters: dict[str, ParameterMargin]
+    nearest: Nearest | None
+    box: MotionBox | None
+    plan: str
+
+    def __repr__(self) -> str:
+        if self.nearest is None:
+            return f"<Margins of {self.motion.label}, no event>"
+        name, direction, _ = self.nearest
+        end = getattr(self.parameters[name], direction)
+        return f"<Margins of {self.motion.label}, nearest {end.event['kind']} at {name} {end.at:.6g}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields of the JSON of the command; numbers that are not finite are None."""
+        return {
+            "motion": self.motion.to_dict(),
+            "parameters": [margin.to_dict() for margin in self.parameters.values()],
+            "nearest": None if self.nearest is None else self.nearest._asdict(),
+            "box": None if self.box is None else self.box.to_dict(),
+        }
+
+
+def margins(
+    osc: Oscillator,
+    *,
+    x: float | None = None,
+    v: float = 0.0,
+    phase: float = 0.0,
+    label: str | None = None,
+    vary: Sequence[str] | None = None,
+    scale: Mapping[str, float] | None = None,
+    within: float = 2.0,
+    lines: int = 200,
+) -> Margins:
+    """Find how far a periodic motion is from the events that end or change it.
+
+    The motion is followed in each parameter alone, up and down, to the nearest event: a fold, a flip, a grazing impact, the
+    end of sticking. Then the largest box of all parameters together is looked for in which the motion is stable. It is found
+    by trying points along lines from its centre, so events between the lines may be missed.
+
+    Parameters
+    ----------
+    osc : Oscillator
+        The system.
+    x, v, phase : float
+        Start: position in units of F/k (default: at rest, or on the stop), velocity, phase of the force in radians.
+    label : str
+        "m/n" of the motion instead of a start: the stable orbit, or else the fastest one.
+    vary : sequence of str
+        The parameters that vary; by default all of the system. The frequency is "beta" or "inverse_beta".
+    scale : dict
+        The change of a parameter that counts as 1 in the box; by default its value.
+    within : float
+        Events are looked for from each value divided by this number to the value times this number, above 1 and up to 100;
+        a restitution from 0 to 1.
+    lines : int
+        Number of lines to scattered points of the surface of the box, besides those to the centres of its faces and to its corners.
+
+    Examples
+    --------
+    >>> from vibroimpact import Oscillator, margins
+    >>> found = margins(Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5), vary=["gap"])
+    >>> found
+    <Margins of 1/1, nearest flip at gap 1.82901>
+    >>> found.parameters["gap"].up.distance
+    0.32900618968...
+    """
+    if isinstance(vary, str):
+        raise TypeError(f'vary = {vary!r} is not a list of parameters, such as ["gap"]')
+    scales = dict(scale or {})
+    names = list(vary) if vary is not None else _core.varied_parameters(osc) if scales else []
+    unknown = [name for name in scales if name not in names]
+    if unknown:
+        raise _core.QuestionError(f"the scale of {unknown[0]} has no effect: it does not vary\nhint: vary has its name")
+    varied = [(name, scales.get(name)) for name in names]
+    found = _core.margins(osc, (x, v, phase), label, varied, within, whole("lines", lines, LINES))
+    return Margins(
+        osc=osc,
+        motion=Motion(**fields_of(osc, found["motion"])),
+        parameters={of["parameter"]: _parameter(of) for of in found["parameters"]},
+        nearest=None if found["nearest"] is None else Nearest(*found["nearest"]),
+        box=None if found["found"] is None else _box(found["found"]),
+        plan=found["plan"],
+    )
+
+
+def _parameter(of: dict[str, Any]) -> ParameterMargin:
+    ends = {way: MarginEnd(**{**of[way], "event": _event(of[way]["event"])}) for way in ("down", "up")}
+    return ParameterMargin(**{**of, **ends})
+
+
+def _event(of: dict[str, Any] | None) -> dict[str, Any] | None:
+    """The fields of an event; those that do not apply to its kind are left out."""
+    if of is None:
+        return None
+    fields = {name: value for name, value in of.items() if name in ("label_after",) or value is not None}
+    if "also" in fields:
+        also = dict(zip(("impact", "side", "phase"), fields["also"]))
+        fields["also"] = {name: value for name, value in also.items() if value is not None}
+    return fields
+
+
+def _box(of: dict[str, Any]) -> MotionBox:
+    ranges = {name: (a, b) for name, a, b in of["ranges"]}
+    edge = None if of["edge"] is None else (of["edge"][0], dict(of["edge"][1]))
+    return MotionBox(**{**of, "ranges": ranges, "edge": edge})

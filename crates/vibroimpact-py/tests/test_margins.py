@@ -1,0 +1,50 @@
+"""Margins: distances are compared with closed forms and with branches."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+
+def test_the_distance_is_that_of_the_branch() -> None:
+    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5)
+    found = vi.margins(osc, label="1/1")
+    assert list(found.parameters) == ["inverse_beta", "gap", "restitution", "damping"]
+    branch = vi.branch(osc, "1/1", "gap", 3.0)
+    up = found.parameters["gap"].up
+    assert up.event is not None and up.event["kind"] == branch.events[0].kind == "flip"
+    assert up.at is not None and abs(up.at - branch.events[0].parameter) < 1e-11
+    assert up.distance == up.at - 1.5 and up.relative == up.distance / 1.5
+    assert found.parameters["damping"].down.event is None and found.parameters["damping"].down.limit == 0
+    assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
+
+
+def test_the_motion_is_found_at_random_points_of_the_box() -> None:
+    osc = vi.Oscillator(inverse_beta=1.11, gap=1.5, restitution=0.5, damping=0.01)
+    found = vi.margins(osc, label="1/1")
+    assert found.box is not None and 0 < found.box.size <= found.box.largest and found.box.edge is not None
+    random = np.random.default_rng(1)
+    for _ in range(100):
+        values = {name: random.uniform(a, b) for name, (a, b) in found.box.ranges.items()}
+        orbits = vi.orbits(osc.replace(**values), "1/1")
+        assert any(orbit.physical and orbit.stable for orbit in orbits), values
+    loss, values = found.box.edge
+    beside = vi.orbits(osc.replace(**values), "1/1")
+    assert loss == "unstable" and not any(orbit.physical and orbit.stable for orbit in beside)
+
+
+def test_scales_and_refusals() -> None:
+    osc = vi.Oscillator(beta=0.9, gap=1.5, restitution=0.5)
+    found = vi.margins(osc, scale={"gap": 0.1})
+    assert found.parameters["gap"].scale == 0.1 and found.parameters["beta"].scale == 0.9
+    assert vi.margins(osc.replace(gap=3.0, inverse_beta=1.11)).box is None
+    with pytest.raises(vi.QuestionError, match="the scale of damping has no effect"):
+        vi.margins(osc, vary=["gap"], scale={"damping": 1.0})
+    with pytest.raises(vi.QuestionError, match="`mass` is no parameter"):
+        vi.margins(osc, vary=["mass"])
+    with pytest.raises(vi.QuestionError, match="within = 1 lies outside"):
+        vi.margins(osc, within=1)
+    with pytest.raises(TypeError, match="is not a list of parameters"):
+        vi.margins(osc, vary="gap")

@@ -1,0 +1,178 @@
+//! The nearest events of a motion in each parameter, and the box of parameters in which the motion was found.
+
+use super::Document;
+use super::branch::EventFields;
+use super::motion::MotionFields;
+use crate::{Asked, Units};
+use serde::Serialize;
+use vibroimpact::Oscillator;
+use vibroimpact_study::{EventRecord, MarginEnd, MotionBox, MotionMargins, ParameterMargin, Plan};
+
+/// The fields of `vibro margins`.
+#[derive(Serialize)]
+struct MarginFields {
+    motion: MotionFields,
+    parameters: Vec<ParameterObject>,
+    nearest: Option<NearestObject>,
+    #[serde(rename = "box")]
+    motion_box: Option<BoxObject>,
+}
+
+#[derive(Serialize)]
+struct ParameterObject {
+    parameter: &'static str,
+    value: f64,
+    scale: f64,
+    down: EndObject,
+    up: EndObject,
+}
+
+/// The nearest event in one direction. Without one, the last four are `null`.
+#[derive(Serialize)]
+struct EndObject {
+    /// The end of the range in which events are looked for.
+    limit: f64,
+    at: Option<f64>,
+    distance: Option<f64>,
+    relative: Option<f64>,
+    event: Option<MarginEvent>,
+}
+
+#[derive(Serialize)]
+struct MarginEvent {
+    kind: &'static str,
+    #[serde(flatten)]
+    fields: EventFields,
+}
+
+impl MarginEvent {
+    fn new(record: EventRecord) -> Self {
+        Self { kind: record.kind, fields: EventFields::new(record) }
+    }
+}
+
+/// The event with the smallest change in units of the scale of its parameter.
+#[derive(Serialize)]
+struct NearestObject {
+    parameter: &'static str,
+    direction: &'static str,
+    /// The change in units of the scale.
+    scaled: f64,
+}
+
+#[derive(Serialize)]
+struct BoxObject {
+    /// Each parameter lies within this multiple of its scale from its value.
+    size: f64,
+    /// The largest size that was allowed.
+    largest: f64,
+    parameters: Vec<RangeObject>,
+    /// Number of points in the box at which the motion was found, and of the lines on which they lie.
+    points: u64,
+    lines: u64,
+    /// Whether it is proved that the motion exists in the whole box.
+    proved: bool,
+    edge: Option<EdgeObject>,
+}
+
+#[derive(Serialize)]
+struct RangeObject {
+    parameter: &'static str,
+    from: f64,
+    to: f64,
+}
+
+/// A point next to the box at which the motion was not found.
+#[derive(Serialize)]
+struct EdgeObject {
+    loss: &'static str,
+    parameters: Vec<ValueObject>,
+}
+
+#[derive(Serialize)]
+struct ValueObject {
+    parameter: &'static str,
+    value: f64,
+}
+
+/// The object of `vibro margins`.
+#[must_use]
+pub fn document<'a>(
+    asked: &Asked,
+    plan: &'a Plan,
+    osc: &Oscillator,
+    found: &MotionMargins,
+) -> impl Serialize + use<'a> {
+    let units = &asked.units;
+    let fields = MarginFields {
+        motion: MotionFields::new(&found.motion, osc, units),
+        parameters: found.parameters.iter().map(|margin| ParameterObject::new(margin, units)).collect(),
+        nearest: found.nearest().map(|(margin, end)| {
+            let distance = end.distance(&margin.scope);
+            NearestObject {
+                parameter: units.name_of(margin.scope.parameter),
+                direction: if distance < 0.0 { "down" } else { "up" },
+                scaled: distance.abs() / margin.scope.scale,
+            }
+        }),
+        motion_box: found.motion_box.as_ref().map(|found_box| BoxObject::new(found_box, &found.parameters, units)),
+    };
+    let document = Document::new(asked, osc, plan, fields);
+    match &found.start {
+        Some(start) => document.start(start, units),
+        None => document,
+    }
+}
+
+impl ParameterObject {
+    fn new(margin: &ParameterMargin, units: &Units) -> Self {
+        let scope = &margin.scope;
+        let unit = units.of(scope.parameter);
+        let end = |end: &MarginEnd, limit: f64| {
+            let at = end.point.as_ref().and_then(|point| Some((point, point.event?)));
+            EndObject {
+                limit: limit * unit,
+                at: at.map(|_| end.value * unit),
+                distance: at.map(|_| end.distance(scope) * unit),
+                relative: at.and_then(|_| end.relative(scope)),
+                event: at.map(|(point, event)| MarginEvent::new(EventRecord::of(point, &event))),
+            }
+        };
+        Self {
+            parameter: units.name_of(scope.parameter),
+            value: scope.value * unit,
+            scale: scope.scale * unit,
+            down: end(&margin.down, scope.low),
+            up: end(&margin.up, scope.high),
+        }
+    }
+}
+
+impl BoxObject {
+    fn new(found: &MotionBox, parameters: &[ParameterMargin], units: &Units) -> Self {
+        let names = || parameters.iter().map(|margin| (margin, units.of(margin.scope.parameter)));
+        let range = |(margin, unit): (&ParameterMargin, f64)| RangeObject {
+            parameter: units.name_of(margin.scope.parameter),
+            from: margin.scope.at(-found.size) * unit,
+            to: margin.scope.at(found.size) * unit,
+        };
+        Self {
+            size: found.size,
+            largest: found.largest,
+            parameters: names().map(range).collect(),
+            points: found.points,
+            lines: found.lines,
+            proved: false,
+            edge: found.edge.as_ref().map(|edge| EdgeObject {
+                loss: edge.loss.name(),
+                parameters: names()
+                    .zip(&edge.values)
+                    .map(|((margin, unit), value)| ValueObject {
+                        parameter: units.name_of(margin.scope.parameter),
+                        value: value * unit,
+                    })
+                    .collect(),
+            }),
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! The nearest event of a motion in each parameter, up and down.
+
+use super::plan::MarginsPlan;
+use super::scope::Scope;
+use super::tried_box::{MotionBox, tried_box};
+
+use crate::chosen::choose;
+use crate::{Control, PlanError, RunError, Stopped, SystemPlan};
+use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
+use vibroimpact::orbit::{Cycle, without_impacts};
+use vibroimpact::verdict::{NoImpact, SettleOptions, Verdict, settle_while};
+use vibroimpact::{Label, Oscillator, Start};
+
+/// The distances of a motion from its nearest events.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionMargins {
+    /// The start that leads to the motion; `None` if the motion is given by its label.
+    pub start: Option<Start>,
+    /// The motion.
+    pub motion: Verdict,
+    /// The nearest events in each parameter; empty for a motion that is not periodic.
+    pub parameters: Vec<ParameterMargin>,
+    /// The box in which the motion was found; `None` for a motion that is not periodic, or not stable.
+    pub motion_box: Option<MotionBox>,
+}
+
+/// The nearest events in one parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ParameterMargin {
+    /// The parameter, its range and its scale.
+    pub scope: Scope,
+    /// The nearest event at a smaller value.
+    pub down: MarginEnd,
+    /// The nearest event at a larger value.
+    pub up: MarginEnd,
+}
+
+/// The nearest event in one direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MarginEnd {
+    /// The value of the parameter at the event; without an event the end of the range.
+    pub value: f64,
+    /// The point of the branch with its event; `None` if there is no event up to the end of the range.
+    pub point: Option<SolutionPoint>,
+}
+
+impl MarginEnd {
+    /// The event; `None` if there is none up to the end of the range.
+    #[must_use]
+    pub fn event(&self) -> Option<BranchEvent> {
+        self.point.as_ref().and_then(|point| point.event)
+    }
+
+    /// The change of the parameter to this end.
+    #[must_use]
+    pub fn distance(&self, scope: &Scope) -> f64 {
+        self.value - scope.value
+    }
+
+    /// The change relative to the size of the value; `None` for a value 0.
+    #[must_use]
+    pub fn relative(&self, scope: &Scope) -> Option<f64> {
+        (scope.value != 0.0).then(|| self.distance(scope) / scope.value.abs())
+    }
+}
+
+impl ParameterMargin {
+    /// Both ends, the lower one first.
+    #[must_use]
+    pub const fn ends(&self) -> [&MarginEnd; 2] {
+        [&self.down, &self.up]
+    }
+}
+
+impl MotionMargins {
+    /// The parameter and the end of the event with the smallest change in units of the scale of its parameter; `None`
+    /// if there is no event in the ranges.
+    #[must_use]
+    pub fn nearest(&self) -> Option<(&ParameterMargin, &MarginEnd)> {
+        let ends = self.parameters.iter().flat_map(|one| one.ends().map(|end| (one, end)));
+        let size = |(one, end): &(&ParameterMargin, &MarginEnd)| end.distance(&one.scope).abs() / one.scope.scale;
+        ends.filter(|(_, end)| end.point.is_some()).min_by(|a, b| size(a).total_cmp(&size(b)))
+    }
+}
+
+/// The motion of a plan, its nearest events, and the box in which it was found.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, for a label that no orbit has, for an orbit that cannot be followed, or when
+/// stopped. The stop flag is read at every seed of the search, at every impact, at every point of a branch and at every
+/// line of the box.
+pub(crate) fn margins(
+    system: &SystemPlan,
+    plan: &MarginsPlan,
+    control: &Control<'_>,
+) -> Result<MotionMargins, RunError> {
+    plan.check(system)?;
+    let (osc, go_on) = (system.oscillator()?, || !control.stopping());
+    let stopped = Stopped { done: 0, total: 1 };
+    let (start, motion) = match &plan.label {
+        Some(label) => {
+            let label: Label = label.parse().map_err(PlanError::from)?;
+            let chosen = choose(&osc, label, None, go_on)?.ok_or(stopped)?;
+            (None, Verdict::Periodic(chosen.orbit.cycle))
+        }
+        None => {
+            let start = plan.start.start(&osc)?;
+            let settled = settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(stopped)?;
+            (Some(start), settled.verdict)
+        }
+    };
+    let mut all = MotionMargins { start, motion, parameters: Vec::new(), motion_box: None };
+    let Some(cycle) = cycle_of(&all.motion, &osc) else { return Ok(all) };
+    let scopes = plan.scopes(system)?;
+    for scope in &scopes {
+        let end = |direction| nearest(&osc, &cycle, scope, direction, control);
+        let (down, up) = (end(Direction::Down)?, end(Direction::Up)?);
+        all.parameters.push(ParameterMargin { scope: *scope, down, up });
+    }
+    if control.stopping() {
+        return Err(stopped.into());
+    }
+    if cycle.stable() {
+        let largest = largest(&all.parameters);
+        all.motion_box = Some(tried_box(system, &cycle, (&scopes, largest), plan.lines, control)?);
+    }
+    Ok(all)
+}
+
+/// The cycle of a motion that can be followed; the motion without impacts is one if it is damped.
+fn cycle_of(motion: &Verdict, osc: &Oscillator) -> Option<Cycle> {
+    match motion {
+        Verdict::Periodic(cycle) => Some(cycle.clone()),
+        Verdict::NoImpact(NoImpact::Landing { .. }) => None,
+        Verdict::NoImpact(_) => {
+            without_impacts(osc).filter(|cycle| vibroimpact::orbit::earlier_contact(osc, cycle).is_none())
+        }
+        _ => None,
+    }
+}
+
+/// The first event of the branch of a cycle in one direction.
+fn nearest(
+    osc: &Oscillator,
+    cycle: &Cycle,
+    scope: &Scope,
+    direction: Direction,
+    control: &Control<'_>,
+) -> Result<MarginEnd, PlanError> {
+    let limit = if direction == Direction::Up { scope.high } else { scope.low };
+    let none = MarginEnd { value: limit, point: None };
+    if limit == scope.value {
+        return Ok(none);
+    }
+    let range = scope.low..=scope.high;
+    let branch = Branch::new(osc, cycle, scope.parameter, range, direction, BranchOptions::default())?;
+    let mut points = branch.take_while(|_| !control.stopping());
+    let first = points.find(|point| point.event.is_some());
+    Ok(match first.filter(|point| point.event != Some(BranchEvent::EndOfRange)) {
+        Some(point) => MarginEnd { value: point.value, point: Some(point) },
+        None => none,
+    })
+}
+
+/// The largest size of a box that stays in all ranges and contains no event in one parameter alone.
+fn largest(parameters: &[ParameterMargin]) -> f64 {
+    let events = parameters.iter().flat_map(|one| {
+        let ends = one.ends().into_iter().filter(|end| end.point.is_some());
+        ends.map(|end| end.distance(&one.scope).abs() / one.scope.scale)
+    });
+    let ranges = parameters.iter().map(|one| one.scope.largest());
+    let size = events.chain(ranges).fold(f64::INFINITY, f64::min);
+    if size.is_finite() {
+        return size;
+    }
+    // all ends of the ranges are ends of the possible values
+    parameters.iter().map(|one| one.scope.farthest()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::margins::{Loss, ScaledParameter};
+    use crate::{BranchPlan, Parameter, Plan, SecondStop, StartPlan, Task};
+    use vibroimpact::orbit::one_impact;
+
+    /// The gaps of the fold and of the flip of 1/1 in closed form, from the amplitude equations.
+    fn fold_and_flip(beta: f64, eps: f64, zeta: f64) -> (f64, f64) {
+        let (wd, period) = ((1.0 - zeta * zeta).sqrt(), core::f64::consts::TAU / beta);
+        let (e, c, s) = ((-zeta * period).exp(), (wd * period).cos(), (wd * period).sin());
+        let (m11, m12, m22) = (e * (c + zeta * s / wd), e * s / wd, e * (c - zeta * s / wd));
+        let den = m11 + m22 - 1.0 - e * e;
+        let (a, b) = ((1.0 + eps) * m12 / den, 1.0 - (1.0 + eps) * (m22 - e * e) / den);
+        let f = 1.0 / ((1.0 - beta * beta).powi(2) + (2.0 * zeta * beta).powi(2)).sqrt();
+        let q = (-(1.0 + (eps * e).powi(2)) + 2.0 * eps * e * c) / ((1.0 + eps) * m12);
+        let rho = -(q + (1.0 - beta * beta) * a - 2.0 * zeta * b) / (beta * beta);
+        let velocity = f / ((rho - a).powi(2) + (b / beta).powi(2)).sqrt();
+        (f * (1.0 + (beta * a / b).powi(2)).sqrt() * a.signum(), rho * velocity)
+    }
+
+    fn found(system: &SystemPlan, plan: &MarginsPlan) -> MotionMargins {
+        margins(system, plan, &Control::default()).unwrap()
+    }
+
+    /// Whether 1/1 exists and is stable, from its closed form.
+    fn one_exists(osc: &Oscillator) -> bool {
+        one_impact(osc, 1).iter().any(|orbit| orbit.physical && orbit.cycle.stable())
+    }
+
+    fn one() -> MarginsPlan {
+        MarginsPlan { label: Some("1/1".into()), ..MarginsPlan::default() }
+    }
+
+    const SYSTEM: SystemPlan = SystemPlan {
+        beta: Some(1.0 / 1.11),
+        inverse_beta: None,
+        gap: 1.5,
+        restitution: 0.5,
+        damping: 0.0,
+        second_stop: None,
+    };
+
+    #[test]
+    fn the_distances_are_those_of_the_closed_form() {
+        let (_, flip) = fold_and_flip(1.0 / 1.11, 0.5, 0.0);
+        assert!((flip - 1.829_006_189_683_6).abs() < 1e-12);
+        let all = found(&SYSTEM, &one());
+        let names: Vec<_> = all.parameters.iter().map(|of| of.scope.parameter).collect();
+        assert_eq!(names, [Parameter::Beta, Parameter::Gap, Parameter::Restitution, Parameter::Damping]);
+        let gap = &all.parameters[1];
+        assert_eq!(gap.up.event(), Some(BranchEvent::Flip));
+        assert!((gap.up.distance(&gap.scope) - (flip - 1.5)).abs() < 1e-11);
+        assert!((gap.up.relative(&gap.scope).unwrap() - (flip - 1.5) / 1.5).abs() < 1e-11);
+        // the flip in the restitution: in closed form the gap of the flip is that of the system
+        let eps = &all.parameters[2];
+        let event = eps.ends().into_iter().find(|end| end.event() == Some(BranchEvent::Flip)).unwrap();
+        assert!((fold_and_flip(1.0 / 1.11, event.value, 0.0).1 - 1.5).abs() < 1e-9, "{event:?}");
+        // without damping it is the lower end of its range
+        let damping = &all.parameters[3];
+        assert_eq!((damping.down.value, damping.down.point.is_none()), (0.0, true));
+        // a fold: the larger gap at which the damped motion exists
+        let system = SystemPlan { beta: Some(1.4), restitution: 0.7, damping: 0.05, gap: 2.0, ..SYSTEM };
+        let (fold, _) = fold_and_flip(1.4, 0.7, 0.05);
+        let gap = &found(&system, &one()).parameters[1];
+        assert_eq!(gap.up.event(), Some(BranchEvent::Fold));
+        assert!((gap.up.value - fold).abs() < 1e-9, "{} {fold}", gap.up.value);
+    }
+
+    #[test]
+    fn the_events_are_those_of_the_branches() {
+        let system = SystemPlan { beta: Some(1.0259), gap: 0.6, restitution: 0.65, damping: 0.02, ..SYSTEM };
+        let all = found(&system, &MarginsPlan::default());
+        let mut events = 0;
+        for margin in &all.parameters {
+            for (end, limit) in margin.ends().into_iter().zip([margin.scope.low, margin.scope.high]) {
+                let task = BranchPlan {
+                    label: "1/1".into(),
+                    vary: margin.scope.parameter,
+                    to: limit,
+                    also: None,
+                    orbit: None,
+                    follow: 0,
+                    points: 20_000,
+                };
+                let branches = crate::branch::branches(&system, &task, &Control::default()).unwrap();
+                let points = &branches.followed[0].points;
+                let first = points.iter().find(|point| point.event.is_some()).unwrap();
+                assert!((first.value - end.value).abs() < 1e-9 * (1.0 + end.value.abs()), "{margin:?}");
+                assert_eq!(first.event.unwrap() == BranchEvent::EndOfRange, end.point.is_none());
+                events += usize::from(end.point.is_some());
+            }
+        }
+        assert!(events >= 3, "{events}");
+        let (margin, end) = all.nearest().unwrap();
+        let size = |margin: &ParameterMargin, end: &MarginEnd| end.relative(&margin.scope).unwrap().abs();
+        for other in &all.parameters {
+            for one in other.ends().into_iter().filter(|one| one.point.is_some()) {
+                assert!(size(margin, end) <= size(other, one));
+            }
+        }
+    }
+
+    /// The motion exists at other points of the box than those that were tried, and does not exist at its edge.
+    #[test]
+    fn the_box_contains_the_motion_and_ends_where_it_is_lost() {
+        let system = SystemPlan { damping: 0.01, ..SYSTEM };
+        let all = found(&system, &one());
+        let found = all.motion_box.as_ref().unwrap();
+        assert!(found.size > 0.01 && found.size <= found.largest, "{found:?}");
+        assert!(found.lines > 8 + 16 + 200 && found.points > 1000, "{found:?}");
+        let at = |values: &[f64]| {
+            let values = all.parameters.iter().zip(values);
+            values.fold(system, |of, (one, value)| of.with(one.scope.parameter, *value).unwrap()).oscillator().unwrap()
+        };
+        // a linear congruential generator
+        let mut state = 12_345_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from(u32::try_from(state >> 32).unwrap()) / f64::from(u32::MAX)
+        };
+        for _ in 0..2000 {
+            let size = found.size;
+            let values: Vec<f64> =
+                all.parameters.iter().map(|one| one.scope.at(size * (2.0 * random() - 1.0))).collect();
+            assert!(one_exists(&at(&values)), "{values:?} {found:?}");
+        }
+        let edge = found.edge.as_ref().unwrap();
+        assert!(edge.loss == Loss::Unstable && !one_exists(&at(&edge.values)), "{edge:?}");
+        // a box in one parameter ends at its nearest event
+        let vary = vec![ScaledParameter { parameter: Parameter::Gap, scale: Some(0.1) }];
+        let alone = margins(&system, &MarginsPlan { vary, ..one() }, &Control::default()).unwrap();
+        let (margin, end) = alone.nearest().unwrap();
+        let (size, to) = (alone.motion_box.as_ref().unwrap().size, end.distance(&margin.scope).abs() / 0.1);
+        assert!(size <= to && size > to * (1.0 - 1e-5), "{size} {to}");
+    }
+
+    #[test]
+    fn motions_without_margins_and_other_motions() {
+        // chaos
+        let chaos = found(&SystemPlan { gap: 3.0, ..SYSTEM }, &MarginsPlan::default());
+        assert!(
+            matches!(chaos.motion, Verdict::Chaotic(_)) && chaos.parameters.is_empty() && chaos.motion_box.is_none()
+        );
+        // without damping motions without impacts are many
+        let far = found(&SystemPlan { gap: 40.0, ..SYSTEM }, &MarginsPlan::default());
+        assert!(matches!(far.motion, Verdict::NoImpact(_)) && far.parameters.is_empty());
+        // with damping there is one; it reaches the stop where the amplitude is the gap
+        let system = SystemPlan { beta: Some(2.0), gap: 0.4, damping: 0.1, ..SYSTEM };
+        let free = found(&system, &MarginsPlan::default());
+        let gap = &free.parameters[1];
+        assert!(matches!(gap.down.event(), Some(BranchEvent::Grazing { .. })));
+        assert!((gap.down.value - system.oscillator().unwrap().free_amplitude()).abs() < 1e-12);
+        assert!(free.motion_box.unwrap().size > 0.0);
+        // an unstable orbit has distances, and no box
+        let slow = found(&SystemPlan { gap: 2.0, ..SYSTEM }, &one());
+        assert!(slow.motion_box.is_none() && slow.parameters.len() == 4);
+        // a motion that sticks
+        let rests = found(&SystemPlan { gap: -0.5, ..SYSTEM }, &MarginsPlan::default());
+        assert_eq!(rests.motion.label(), "inf/1");
+        assert!(rests.motion_box.unwrap().size > 0.0 && rests.parameters[1].up.point.is_some());
+        // two stops
+        let second_stop = Some(SecondStop { gap: 1.0, restitution: 0.6 });
+        let two = SystemPlan { beta: Some(0.8), gap: 1.0, restitution: 0.6, damping: 0.05, second_stop, ..SYSTEM };
+        let both = found(&two, &MarginsPlan::default());
+        assert!(
+            both.parameters.len() == 6 && both.motion_box.unwrap().lines > 12 + 64 + 200,
+            "{:?}",
+            both.motion.label()
+        );
+        // the start decides which motion it is
+        let other = StartPlan { v: 1.0, ..StartPlan::default() };
+        let plan = Plan::new(SYSTEM, Task::Margins(MarginsPlan { start: other, ..MarginsPlan::default() }));
+        assert!(matches!(crate::run(&plan, &Control::default()), Ok(crate::Results::Margins(_))));
+    }
+
+    #[test]
+    fn it_stops_when_told_to() {
+        let stop = core::sync::atomic::AtomicBool::new(true);
+        let stopped = margins(&SYSTEM, &one(), &Control { stop: &stop, ..Control::default() });
+        assert!(matches!(stopped, Err(RunError::Stopped(_))), "{stopped:?}");
+    }
+}

@@ -1,0 +1,171 @@
+//! The plan for the margins of a motion.
+
+use super::scope::{ScaledParameter, Scope};
+use crate::{Parameter, PlanError, StartPlan, SystemPlan};
+use serde::{Deserialize, Serialize};
+use vibroimpact::Label;
+
+/// Default ratio of the ends of the range of a parameter to its value.
+pub const DEFAULT_WITHIN: f64 = 2.0;
+/// Default number of lines from the centre of the box to scattered points of its surface.
+pub const DEFAULT_LINES: u32 = 200;
+/// Largest allowed ratio.
+const MOST_WITHIN: f64 = 100.0;
+/// Largest allowed number of scattered points.
+const MOST_LINES: u32 = 100_000;
+
+/// The distances of a motion from its nearest events, and a box of parameters in which it was found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MarginsPlan {
+    /// Where the motion starts. It is the motion into which this start settles.
+    #[serde(default)]
+    pub start: StartPlan,
+    /// m/n of the motion instead of a start: the stable orbit, else the fastest one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// The parameters that vary; all of the system when absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vary: Vec<ScaledParameter>,
+    /// The range of a parameter goes from its value divided by this number to its value times this number; a
+    /// restitution goes from 0 to 1.
+    #[serde(default = "within")]
+    #[schemars(range(min = 1, max = 100))]
+    pub within: f64,
+    /// Number of lines from the centre of the box to scattered points of its surface, besides those to the centres of
+    /// its faces and to its corners.
+    #[serde(default = "lines")]
+    #[schemars(range(max = 100_000))]
+    pub lines: u32,
+}
+
+const fn within() -> f64 {
+    DEFAULT_WITHIN
+}
+
+const fn lines() -> u32 {
+    DEFAULT_LINES
+}
+
+impl Default for MarginsPlan {
+    /// Of the motion from rest, in all parameters.
+    fn default() -> Self {
+        Self {
+            start: StartPlan::default(),
+            label: None,
+            vary: Vec::new(),
+            within: DEFAULT_WITHIN,
+            lines: DEFAULT_LINES,
+        }
+    }
+}
+
+impl MarginsPlan {
+    /// The parameters of a system, the frequency in the form in which it is given.
+    #[must_use]
+    pub fn parameters(system: &SystemPlan) -> Vec<Parameter> {
+        let other = if system.inverse_beta.is_some() { Parameter::Beta } else { Parameter::InverseBeta };
+        Parameter::ALL.into_iter().filter(|of| *of != other && system.value(*of).is_ok()).collect()
+    }
+
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
+        match &self.label {
+            Some(_) if self.start != StartPlan::default() => return Err(PlanError::LabelAndStart),
+            Some(label) => label.parse::<Label>().map(|_| ())?,
+            None => self.start.start(&system.oscillator()?).map(|_| ())?,
+        }
+        if !(self.within > 1.0 && self.within <= MOST_WITHIN) {
+            return Err(PlanError::Within { given: self.within, most: MOST_WITHIN });
+        }
+        if self.lines > MOST_LINES {
+            return Err(PlanError::Lines { given: self.lines, most: MOST_LINES });
+        }
+        for (k, one) in self.vary.iter().enumerate() {
+            let same = |other: &&ScaledParameter| {
+                other.parameter == one.parameter || other.parameter.is_frequency() && one.parameter.is_frequency()
+            };
+            if let Some(other) = self.vary[..k].iter().find(same) {
+                return Err(PlanError::VariedTwice(other.parameter.name(), one.parameter.name()));
+            }
+            if let Some(given) = one.scale.filter(|scale| !(*scale > 0.0 && scale.is_finite())) {
+                return Err(PlanError::Scale { name: one.parameter.name(), given });
+            }
+        }
+        self.scopes(system).map(|_| ())
+    }
+
+    /// The parameters that vary, with their ranges and scales.
+    ///
+    /// # Errors
+    /// [`PlanError`] for an invalid system, or for a parameter of a second stop if there is none.
+    pub(crate) fn scopes(&self, system: &SystemPlan) -> Result<Vec<Scope>, PlanError> {
+        let all = || Self::parameters(system).into_iter().map(|parameter| ScaledParameter { parameter, scale: None });
+        let varied = if self.vary.is_empty() { all().collect() } else { self.vary.clone() };
+        varied.into_iter().map(|one| Scope::new(system, one, self.within)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Plan, SecondStop, Task};
+
+    const SYSTEM: SystemPlan = SystemPlan {
+        beta: None,
+        inverse_beta: Some(1.11),
+        gap: 1.5,
+        restitution: 0.5,
+        damping: 0.0,
+        second_stop: None,
+    };
+
+    #[test]
+    fn a_plan_survives_json_and_short_ones_are_filled_in() {
+        let gap = ScaledParameter { parameter: Parameter::Gap, scale: Some(0.1) };
+        let task = MarginsPlan { label: Some("1/1".into()), vary: vec![gap], ..MarginsPlan::default() };
+        let plan = Plan::new(SYSTEM, Task::Margins(task));
+        assert_eq!(plan.check(), Ok(()));
+        let text = serde_json::to_string(&plan).unwrap();
+        assert_eq!(serde_json::from_str::<Plan>(&text).unwrap(), plan);
+        assert!(serde_json::from_str::<Plan>(&text.replace("\"scale\"", "\"skale\"")).is_err());
+        assert_eq!(serde_json::from_str::<MarginsPlan>("{}").unwrap(), MarginsPlan::default());
+    }
+
+    #[test]
+    fn the_parameters_are_those_of_the_system() {
+        use Parameter::{Beta, Damping, Gap, InverseBeta, Restitution, SecondGap, SecondRestitution};
+        assert_eq!(MarginsPlan::parameters(&SYSTEM), [InverseBeta, Gap, Restitution, Damping]);
+        let second_stop = Some(SecondStop { gap: 2.0, restitution: 0.4 });
+        let two = SystemPlan { beta: Some(0.9), inverse_beta: None, second_stop, ..SYSTEM };
+        let all = [Beta, Gap, Restitution, Damping, SecondGap, SecondRestitution];
+        assert_eq!(MarginsPlan::parameters(&two), all);
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let good = MarginsPlan::default();
+        let vary = |parameter, scale| vec![ScaledParameter { parameter, scale }];
+        let twice = [vary(Parameter::Beta, None), vary(Parameter::InverseBeta, None)].concat();
+        let moving = StartPlan { v: 1.0, ..StartPlan::default() };
+        for (plan, sentence) in [
+            (MarginsPlan { label: Some("1/0".into()), ..good.clone() }, "label `1/0` is not m/n"),
+            (
+                MarginsPlan { label: Some("1/1".into()), start: moving, ..good.clone() },
+                "the motion is given twice, by its label and by a start",
+            ),
+            (MarginsPlan { within: 1.0, ..good.clone() }, "within = 1 lies outside 1 < within <= 100"),
+            (MarginsPlan { within: f64::NAN, ..good.clone() }, "within = NaN lies outside"),
+            (MarginsPlan { lines: 100_001, ..good.clone() }, "lines = 100001 lies outside 0 <= lines <= 100000"),
+            (MarginsPlan { vary: twice, ..good.clone() }, "beta and inverse_beta are both to vary"),
+            (MarginsPlan { vary: vary(Parameter::Gap, Some(0.0)), ..good.clone() }, "the scale of gap is 0"),
+            (MarginsPlan { vary: vary(Parameter::SecondGap, None), ..good.clone() }, "second_gap is to vary, but"),
+        ] {
+            let message = plan.check(&SYSTEM).unwrap_err().to_string();
+            assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+}
