@@ -5,6 +5,7 @@ mod basin;
 mod branch;
 mod curve;
 mod diagram;
+mod leading;
 mod lyapunov;
 mod map;
 mod orbit;
@@ -13,6 +14,7 @@ mod response;
 mod settle;
 mod simulate;
 pub(crate) mod stored;
+pub(crate) mod tallies;
 mod undecided;
 mod words;
 
