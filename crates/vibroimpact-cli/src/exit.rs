@@ -2,6 +2,7 @@
 
 use crate::complain::complain;
 use crate::failure::Failure;
+use crate::units_typed;
 use std::process::ExitCode;
 
 /// Prints the error, if any, and returns the exit code.
@@ -24,8 +25,11 @@ pub(crate) fn code(end: Result<(), Failure>) -> ExitCode {
 
 /// The exit code when the arguments are not parsed: 0 for help and version, 2 for an invalid command line.
 pub(crate) fn parsed(refusal: &clap::Error) -> ExitCode {
-    // a failure to print cannot be reported anywhere
-    let _ = refusal.print();
+    match units_typed::refusal(refusal) {
+        Some(text) => complain(&text),
+        // a failure to print cannot be reported anywhere
+        None => drop(refusal.print()),
+    }
     ExitCode::from(if refusal.use_stderr() { 2 } else { 0 })
 }
 

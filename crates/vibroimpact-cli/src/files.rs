@@ -71,7 +71,10 @@ impl Target {
                     format!("`{name}` cannot be written: the directory `{}` takes no files", directory.display())
                 }
                 io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => {
-                    format!("`{name}` cannot be written: there is no directory `{}`", directory.display())
+                    format!(
+                        "`{name}` cannot be written: there is no directory `{0}`\nhint: `mkdir -p {0}` makes it",
+                        directory.display()
+                    )
                 }
                 _ => format!("`{name}` cannot be written in `{}`: {error}", directory.display()),
             })),

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use vibroimpact::SystemError;
 use vibroimpact_report::ReportError;
+use vibroimpact_report::number::short;
 use vibroimpact_store::StoreError;
 use vibroimpact_study::PlanError;
 
@@ -16,8 +17,14 @@ pub(crate) fn worded(error: &impl Display, hint: Option<String>) -> String {
 }
 
 pub(crate) fn system(error: &SystemError) -> Option<String> {
-    let inverse = "beta = omega / omega_n; its inverse is given by --inverse-beta";
-    matches!(error, SystemError::Beta(_)).then(|| inverse.to_owned())
+    Some(match error {
+        SystemError::Beta(_) => "beta = omega / omega_n; its inverse is given by --inverse-beta".to_owned(),
+        SystemError::Quantity { name: "frequency omega", value, .. } => format!(
+            "--frequency-hz takes a positive number of hertz; {} Hz was given",
+            short(value / core::f64::consts::TAU)
+        ),
+        _ => return None,
+    })
 }
 
 pub(crate) fn plan(error: &PlanError) -> Option<String> {

@@ -4,6 +4,7 @@
 //! results), report (results to stdout and files). Data go to stdout, everything else to stderr.
 
 mod args;
+mod command_line;
 mod commands;
 mod complain;
 mod exit;
@@ -16,6 +17,7 @@ mod progress;
 mod report;
 mod session;
 mod signal;
+mod units_typed;
 
 use clap::Parser;
 use std::process::ExitCode;
@@ -24,7 +26,10 @@ fn main() -> ExitCode {
     exit::no_backtraces();
     let line = match commands::CommandLine::try_parse() {
         Ok(line) => line,
-        Err(refusal) => return exit::parsed(&refusal),
+        Err(refusal) => {
+            let words: Vec<String> = std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect();
+            return exit::parsed(&command_line::explained(refusal, &words));
+        }
     };
     signal::listen();
     let session = session::Session::new(line.globals);

@@ -23,7 +23,13 @@ impl Picture {
             Some("svg") => false,
             Some("png") => true,
             _ => {
-                return Err(Failure::bad(format!("the figure `{}` ends in neither .svg nor .png", path.display())));
+                let (name, stem) = (path.display(), path.with_extension("svg"));
+                let hint = if path.file_stem().is_some_and(|stem| !stem.to_string_lossy().starts_with('.')) {
+                    format!("\nhint: --plot {}, or the same with .png", stem.display())
+                } else {
+                    String::new()
+                };
+                return Err(Failure::bad(format!("the figure `{name}` ends in neither .svg nor .png{hint}")));
             }
         };
         let target = Target::reserve(path, force)?;

@@ -65,7 +65,7 @@ impl Session {
 
     /// Runs tiled work with threads, stop flag and progress bar.
     pub(crate) fn tiled<T>(&self, total: u64, unit: &str, work: impl FnOnce(&Control<'_>, &Progress) -> T) -> T {
-        let progress = Progress::new(total, unit, self.quiet);
+        let progress = Progress::new(total, unit, (self.threads, self.quiet));
         let tell = |done| progress.at(done);
         let control = Control { stop: signal::flag(), progress: &tell, threads: self.threads };
         work(&control, &progress)

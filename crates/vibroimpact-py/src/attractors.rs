@@ -27,10 +27,11 @@ pub(crate) fn attractors(
     osc: Oscillator,
     starts: u64,
     seed: u64,
+    impacts: Option<u32>,
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<Found<'_>, Trouble> {
-    let plan = Plan::new(osc.plan, Task::Attractors { starts, seed });
+    let plan = Plan::new(osc.plan, Task::Attractors { starts, seed, impacts });
     let osc = osc.osc;
     let area = StartBox::natural(&osc);
     let watch = Watch { what: "looking for attractors", total: starts, progress, threads };

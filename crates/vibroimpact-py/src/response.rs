@@ -80,9 +80,10 @@ pub(crate) fn response<'py>(
     vary: &str,
     over: &str,
     quantity: &str,
+    impacts: Option<u32>,
 ) -> Result<Found<'py>, Trouble> {
     let quantity = Quantity::from_name(quantity).ok_or_else(|| Trouble::question(unknown_quantity(quantity)))?;
-    let task = ResponsePlan { quantity, ..ResponsePlan::new(parameter(vary)?, over.parse()?) };
+    let task = ResponsePlan { quantity, impacts, ..ResponsePlan::new(parameter(vary)?, over.parse()?) };
     let plan = Plan::new(osc.plan, Task::Response(task));
     let watch = Watch::alone("computing a response");
     let found =

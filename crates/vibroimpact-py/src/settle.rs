@@ -19,8 +19,9 @@ pub(crate) fn settle<'py>(
     py: Python<'py>,
     osc: Oscillator,
     start: StartArgument,
+    impacts: Option<u32>,
 ) -> Result<(Fields<'py>, String), Trouble> {
-    let plan = Plan::new(osc.plan, Task::Settle { start: start_plan(start) });
+    let plan = Plan::new(osc.plan, Task::Settle { start: start_plan(start), impacts });
     let watch = Watch::alone("settling a motion");
     let settled =
         door::result(py, watch, &plan, |of| if let Results::Settle(_, found) = of { Some(found) } else { None })?;

@@ -173,7 +173,7 @@ def test_the_script_runs_as_it_stands(slurm: Slurm, vibro: Callable[..., Any], s
     assert vi.status(place).complete and contents(place) == contents(tmp_path / "here.zarr")
     # each task has its own log; that of the task that concluded the store has its summary
     said = [file.read_text() for file in slurm.home.glob(f"vibro-{job}_*.log")]
-    assert len(said) == 3 and sum("99 points: 11 inverse_beta x 9 gap" in text for text in said) >= 1, said
+    assert len(said) == 3 and sum("99 points: 11 inverse_beta by 9 gap" in text for text in said) >= 1, said
 
 
 @pytest.mark.parametrize("how", [[], ["--signal=KILL", "--full"]], ids=["cancelled", "killed"])

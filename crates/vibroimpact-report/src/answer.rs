@@ -105,7 +105,7 @@ impl Serialize for Answer {
             (_, Results::Settle(start, found)) => {
                 json::settle::document(asked, plan, (osc, start), found, *paper_rule).serialize(to)
             }
-            (Task::Attractors { starts, seed }, Results::Attractors(found)) => {
+            (Task::Attractors { starts, seed, .. }, Results::Attractors(found)) => {
                 json::attractors::document(asked, plan, osc, (*starts, *seed), found).serialize(to)
             }
             (_, Results::Orbit(found)) => json::orbit::document(asked, plan, osc, found).serialize(to),
@@ -250,9 +250,11 @@ mod tests {
         let stop = AtomicBool::new(true);
         let control = Control { stop: &stop, ..Control::default() };
         let start = StartPlan::default();
-        for task in
-            [Task::Settle { start }, Task::Orbit { label: "1/1".into() }, Task::Attractors { starts: 9, seed: 1 }]
-        {
+        for task in [
+            Task::Settle { start, impacts: None },
+            Task::Orbit { label: "1/1".into() },
+            Task::Attractors { starts: 9, seed: 1, impacts: None },
+        ] {
             let end = answer(&Plan::new(S, task), Units::default(), &control);
             assert!(matches!(end, Err(AnswerError::Stopped(_))), "{end:?}");
         }

@@ -43,7 +43,7 @@ fn every_kind_of_study_is_stored() {
     let refined =
         MapPlan { refine: Some(4), ..MapPlan::plane("0.6:1.4:13".parse().unwrap(), "0:2:9".parse().unwrap(), 2, 1) };
     for (system, task, field) in [
-        (S, Task::Attractors { starts: 300, seed: 1 }, "cycle"),
+        (S, Task::Attractors { starts: 300, seed: 1, impacts: None }, "cycle"),
         (u, Task::Lyapunov(exponents), "exponent"),
         (S, Task::Diagram(diagram), "velocity"),
         (S, Task::Map(refined), "computed"),
@@ -326,7 +326,7 @@ fn refusals() {
     // a store of another plan
     assert!(refused(&basin(), folder.path()).contains("holds another plan"));
     // a plan without a grid
-    let settle = Plan::new(S, Task::Settle { start: StartPlan::default() });
+    let settle = Plan::new(S, Task::Settle { start: StartPlan::default(), impacts: None });
     assert!(refused(&settle, folder.path()).contains("fills no grid"));
     assert!(files(folder.path()) == want);
     // a folder with other files

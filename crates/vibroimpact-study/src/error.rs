@@ -42,7 +42,8 @@ pub enum PlanError {
     Text(String),
     /// A range that is not `A:B:N`.
     #[error(
-        "range `{given}` is not A:B:N with finite A and B and a whole N >= 1\nhint: 0.4:2:33 is 33 values from 0.4 to 2, both included"
+        "range `{given}` is not A:B:N with finite A and B and a whole N >= 1\nhint: {}",
+        crate::typed::range_hint(given)
     )]
     Range {
         /// The given text.

@@ -9,6 +9,7 @@
 //! |---|---|
 //! | a plan, and the one function that turns it into its result | [`Plan`], [`run`], [`Results`] |
 //! | the parts of a plan: system, start, task | [`SystemPlan`], [`StartPlan`], [`Task`] |
+//! | numbers as people type them | [`typed`] |
 //! | `A:B:N`, N values from A to B; a quantity and the values it takes | [`Span`], [`Axis`] |
 //! | a grid and its tiles, the arrays over it | [`Grid`], [`Field`] |
 //! | the arrays that a tile of a plan holds | [`Study`], [`study`] |
@@ -61,6 +62,7 @@ mod span;
 mod stretch;
 pub mod study;
 mod system;
+pub mod typed;
 mod units;
 mod words;
 

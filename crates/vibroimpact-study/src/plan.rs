@@ -4,6 +4,7 @@
 //! documented here. Unknown fields are errors, so a misspelt parameter is not ignored.
 
 use crate::limits::{MOST_STARTS, PLAN_VERSION, starts};
+use crate::map::check_impacts;
 use crate::simulate::most_impacts;
 use crate::{
     BasinPlan, BranchPlan, CurvePlan, DiagramPlan, LyapunovPlan, MapPlan, MarginsPlan, Parameter, PlanError,
@@ -125,8 +126,11 @@ impl Plan {
                 }
                 start.start(&osc).map(|_| ())
             }
-            Task::Settle { start } => start.start(&osc).map(|_| ()),
-            Task::Attractors { starts: n, .. } => starts(*n, MOST_STARTS),
+            Task::Settle { start, impacts } => {
+                check_impacts(*impacts)?;
+                start.start(&osc).map(|_| ())
+            }
+            Task::Attractors { starts: n, impacts, .. } => starts(*n, MOST_STARTS).and(check_impacts(*impacts)),
             Task::Orbit { label } => Ok(label.parse::<Label>().map(|_| ())?),
             Task::Basin(basin) => basin.check(&self.system),
             Task::Map(map) => map.check(&self.system),
@@ -158,6 +162,9 @@ pub enum Task {
     Settle {
         /// Where to start.
         start: StartPlan,
+        /// Impacts to follow it for, at most, as for a map; the default of `SettleOptions` when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        impacts: Option<u32>,
     },
     /// The motions that scattered starts settle into, and their shares.
     Attractors {
@@ -165,6 +172,9 @@ pub enum Task {
         starts: u64,
         /// Which sequence of them.
         seed: u64,
+        /// Impacts to follow each start for, at most, as for a map; the default of `SettleOptions` when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        impacts: Option<u32>,
     },
     /// The periodic orbits of a label.
     Orbit {
@@ -222,15 +232,32 @@ mod tests {
         let mut later = plan();
         later.version = 2;
         assert_eq!(later.check(), Err(PlanError::Version(2)));
-        let none = Plan { task: Task::Attractors { starts: 0, seed: 0 }, ..plan() };
+        let none = Plan { task: Task::Attractors { starts: 0, seed: 0, impacts: None }, ..plan() };
         assert_eq!(none.check(), Err(PlanError::Starts { given: 0, most: MOST_STARTS }));
         for (task, sentence) in [
             (Task::Orbit { label: "3/0".into() }, "label `3/0`"),
             (simulate(Some(0), None), "impacts = 0"),
+            (
+                Task::Settle { start: StartPlan::default(), impacts: Some(0) },
+                "impacts = 0 lies outside 1 <= impacts <= 1000000",
+            ),
+            (Task::Attractors { starts: 1, seed: 0, impacts: Some(1_000_001) }, "impacts = 1000001"),
             (simulate(None, Some(f64::NAN)), "periods = NaN"),
         ] {
             let message = Plan { task, ..plan() }.check().unwrap_err().to_string();
             assert!(message.starts_with(sentence), "{message}");
+        }
+    }
+
+    /// Plans without a budget keep their bytes, so stores of such plans are found again.
+    #[test]
+    fn a_budget_that_is_absent_is_not_written() {
+        for text in [r#"{"settle":{"start":{"v":1.0}}}"#, r#"{"attractors":{"starts":3,"seed":1}}"#] {
+            let task: Task = serde_json::from_str(text).unwrap();
+            assert!(!serde_json::to_string(&task).unwrap().contains("impacts"));
+            let given = format!(r#"{},"impacts":70}}}}"#, text.strip_suffix("}}").unwrap());
+            let task: Task = serde_json::from_str(&given).unwrap();
+            assert!(serde_json::to_string(&task).unwrap().contains(r#""impacts":70"#));
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::branch::branches;
 use crate::curve::curve;
 use crate::in_memory::{attractors, basin, diagram, map};
+use crate::map::options;
 use crate::margins::margins;
 use crate::region::regions;
 use crate::response::response;
@@ -13,7 +14,7 @@ use crate::{
 };
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
 use vibroimpact::orbit::{FindOptions, Orbit, find_while};
-use vibroimpact::verdict::{Census, SettleOptions, Settled, settle_while};
+use vibroimpact::verdict::{Census, Settled, settle_while};
 use vibroimpact::{Label, Start};
 
 /// The result of a [`Task`], one variant for each.
@@ -78,11 +79,13 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
             let start = start.start(&osc)?;
             Results::Simulate(start, simulate(&osc, start, (*impacts, *periods), control)?)
         }
-        Task::Settle { start } => {
+        Task::Settle { start, impacts } => {
             let start = start.start(&osc)?;
-            Results::Settle(start, settle_while(&osc, start, &SettleOptions::default(), go_on).ok_or(stopped)?)
+            Results::Settle(start, settle_while(&osc, start, &options(*impacts), go_on).ok_or(stopped)?)
         }
-        Task::Attractors { starts, seed } => Results::Attractors(attractors(system, (*starts, *seed), control)?),
+        Task::Attractors { starts, seed, impacts } => {
+            Results::Attractors(attractors(system, (*starts, *seed), &options(*impacts), control)?)
+        }
         Task::Orbit { label } => {
             let label: Label = label.parse().map_err(PlanError::from)?;
             Results::Orbit(find_while(&osc, label, FindOptions::default(), go_on).ok_or(stopped)?)

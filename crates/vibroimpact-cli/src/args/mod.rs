@@ -21,7 +21,7 @@ pub(crate) use machine::MachineArgs;
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;
 pub(crate) use parameter_flag::{ParameterFlag, parameter};
-pub(crate) use plane::{Ends, Named, Over, Place};
+pub(crate) use plane::{Ends, Named, Over, Place, Value};
 pub(crate) use ranged::Ranged;
 pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;

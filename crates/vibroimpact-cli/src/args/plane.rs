@@ -1,7 +1,9 @@
 //! PLANE: ranges of parameters, `A:B`, with or without the name of the parameter.
 
+use super::numbers::{self, shown};
 use super::parameter_flag::ParameterFlag;
 use core::str::FromStr;
+use vibroimpact_study::typed::{self, decimal, meant};
 use vibroimpact_study::{Parameter, Stretch};
 
 /// `A:B`.
@@ -12,9 +14,22 @@ impl FromStr for Interval {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let bad = |_| format!("`{}` is not A:B with finite A < B", text.chars().take(60).collect::<String>());
-        let Ends(a, b) = text.parse().map_err(bad)?;
-        if a < b { Ok(Self(a, b)) } else { Err(bad(String::new())) }
+        let bad = |hint: String| format!("`{}` is not A:B with finite A < B{hint}", shown(text));
+        let Ends(a, b) = text.parse().map_err(|_| bad(hint(text)))?;
+        match (a, b) {
+            (a, b) if a < b => Ok(Self(a, b)),
+            (a, b) if a > b => Err(bad(format!("\nhint: write {b}:{a}"))),
+            _ => Err(bad(String::new())),
+        }
+    }
+}
+
+/// The hint for a text that is not `A:B`, on a line of its own, if it is known what was meant.
+fn hint(text: &str) -> String {
+    match typed::numbers(text).as_deref() {
+        Some([a, b]) => format!("\nhint: write {}:{}", a.min(*b), a.max(*b)),
+        Some([a, b, _]) => format!("\nhint: only the two ends are given here: {}:{}", a.min(*b), a.max(*b)),
+        _ => String::new(),
     }
 }
 
@@ -49,10 +64,11 @@ impl FromStr for Place {
         if text.contains(':') {
             return text.parse().map(Self::Over);
         }
-        text.trim()
-            .parse()
-            .map(Self::At)
-            .map_err(|_| format!("`{}` is neither a number nor a range A:B", text.chars().take(60).collect::<String>()))
+        let hint = || Some(hint(text)).filter(|hint| !hint.is_empty()).unwrap_or_else(|| numbers::hint(text));
+        decimal(text).map(Self::At).ok_or_else(|| match meant(text) {
+            Some(number) => format!("`{}` is neither a number nor a range A:B\nhint: write {number}", shown(text)),
+            None => format!("`{}` is neither a number nor a range A:B{}", shown(text), hint()),
+        })
     }
 }
 
@@ -64,10 +80,22 @@ impl FromStr for Ends {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let bad = || format!("`{}` is not A:B with finite numbers", text.chars().take(60).collect::<String>());
-        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(bad);
+        let bad = || format!("`{}` is not A:B with finite numbers{}", shown(text), hint(text));
+        let number = |part: &str| decimal(part).filter(|x| x.is_finite()).ok_or_else(bad);
         let (a, b) = text.split_once(':').ok_or_else(bad)?;
         Ok(Self(number(a)?, number(b)?))
+    }
+}
+
+/// A number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Value(pub(crate) f64);
+
+impl FromStr for Value {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        numbers::number(text).map(Self)
     }
 }
 
@@ -82,15 +110,15 @@ impl<T: FromStr<Err: core::fmt::Display>> FromStr for Named<T> {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (name, range) = text.split_once('=').unwrap_or((text, ""));
+        let (name, range) = text.split_once('=').map_or((text, None), |(name, range)| (name, Some(range)));
         let named = ParameterFlag::all().find(|named| named.flag() == name.trim());
         let named = named.ok_or_else(|| {
             let known = ParameterFlag::all().map(ParameterFlag::flag).collect::<Vec<_>>().join(", ");
-            format!(
-                "`{}` does not begin with PARAMETER=; parameters: {known}",
-                text.chars().take(60).collect::<String>()
-            )
+            format!("`{}` does not begin with PARAMETER=; parameters: {known}", shown(text))
         })?;
+        let Some(range) = range else {
+            return Err(format!("`{0}` has no values\nhint: {0}= and its value or range behind it", shown(text)));
+        };
         Ok(Self(named, range.trim().parse().map_err(|error: T::Err| error.to_string())?))
     }
 }
@@ -107,7 +135,9 @@ mod tests {
         let plain = |parameter| ParameterFlag { parameter };
         assert_eq!("second-gap=1:2".parse(), Ok(Named(plain(Parameter::SecondGap), Interval(1.0, 2.0))));
         assert_eq!("gap=2:1".parse(), Ok(Named(plain(Parameter::Gap), Ends(2.0, 1.0))));
-        assert_eq!("gap= -0.5".parse(), Ok(Named(plain(Parameter::Gap), -0.5)));
+        assert_eq!("gap= -0.5".parse(), Ok(Named(plain(Parameter::Gap), Value(-0.5))));
+        assert!("gap=1,5".parse::<Named<Value>>().is_err_and(|why| why.ends_with("hint: write 1.5")));
+        assert!("gap".parse::<Named<Ends>>().is_err_and(|why| why.contains("hint: gap= and its value")));
         let hertz = ParameterFlag::of_machine(vibroimpact::MachineParameter::Frequency);
         assert_eq!("frequency-hz=15:25".parse(), Ok(Named(hertz, Interval(15.0, 25.0))));
         for bad in ["gap=1:2:3", "gap=1", "gap=1:nan", "1:2"] {
@@ -116,6 +146,17 @@ mod tests {
         for bad in ["", ":", "2:1", "1:1", "1:nan", "1:2:3", "a:b", "1:inf"] {
             assert!(bad.parse::<Interval>().is_err(), "{bad}");
         }
+        for (bad, hint) in [
+            ("2:1", "write 1:2"),
+            ("15:25:41", "only the two ends are given here: 15:25"),
+            ("[15,25]", "write 15:25"),
+            ("15-25", "write 15:25"),
+            ("0,5:1,5", "write 0.5:1.5"),
+        ] {
+            assert!(bad.parse::<Interval>().is_err_and(|why| why.ends_with(&format!("\nhint: {hint}"))), "{bad}");
+        }
+        assert!("1,5".parse::<Place>().is_err_and(|why| why.ends_with("\nhint: write 1.5")));
+        assert!("25:15".parse::<Place>().is_err_and(|why| why.ends_with("\nhint: write 15:25")));
         for bad in ["gap", "gap=", "mass=1:2", "=1:2", "gap=2:1", "gap:1=2"] {
             assert!(bad.parse::<Over>().is_err(), "{bad}");
         }

@@ -1,10 +1,12 @@
 //! A value, or several: `0.5`, the ends of a range `A:B`, the values of an axis `A:B:N` or `A:B:N:log`, or a list
 //! `0.2,0.5,0.8`. The numbers of a machine may have units.
 
+use super::numbers::shown;
 use super::unit_text::UnitKind;
 use clap::builder::TypedValueParser;
 use core::str::FromStr;
-use vibroimpact_study::{Axis, Parameter, Span, Values};
+use vibroimpact_study::typed::{decimal, meant};
+use vibroimpact_study::{Axis, Parameter, PlanError, Span, Values};
 
 /// One value, the ends of a range, or the values of an axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,20 +77,40 @@ impl FromStr for Ranged {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let given = || text.chars().take(60).collect::<String>();
-        let number = |part: &str| {
-            part.trim()
-                .parse::<f64>()
-                .map_err(|_| format!("`{}` is neither a number, nor a range A:B:N, nor a list of numbers", given()))
-        };
-        match Self::read(text, number)? {
-            Self::Ends(..) => Err(text.parse::<Span>().map_or_else(|why| why.to_string(), |_| String::new())),
-            Self::At(value) if !value.is_finite() => {
-                Err(format!("`{}` is neither a number, nor a range A:B:N, nor a list of numbers", given()))
-            }
-            read => Ok(read),
+        // the error of a range of plain numbers has a hint of its own
+        if text.contains(':') {
+            return text.parse().map(|span| Self::Over(Values::Span(span))).map_err(|why: PlanError| why.to_string());
         }
+        let list = text.contains(',');
+        let bad = || {
+            let what = if list { "no list of numbers" } else { "neither a number, nor a range A:B:N, nor a list of numbers" };
+            format!("`{}` is {what}{}", shown(text), hint(text))
+        };
+        Self::read(text, |part| decimal(part).filter(|x| x.is_finite()).ok_or_else(bad))
     }
+}
+
+/// The hint for a text of neither form, on a line of its own.
+fn hint(text: &str) -> String {
+    if let Some(number) = meant(text) {
+        return format!("\nhint: write {number}");
+    }
+    let bare = text.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    let list = bare.split([',', ';', ' ']).filter(|part| !part.is_empty()).map(meant_or_same);
+    match list.collect::<Option<Vec<String>>>() {
+        Some(values) if values.len() > 2 => format!("\nhint: the list is {}", values.join(",")),
+        // two numbers are a range as likely as a list
+        _ => match text.parse::<Span>() {
+            Err(PlanError::Range { .. }) if bare.is_empty() => String::new(),
+            Err(error) => error.to_string().split_once('\n').map_or_else(String::new, |(_, hint)| format!("\n{hint}")),
+            Ok(_) => String::new(),
+        },
+    }
+}
+
+/// The number of a part of a list as it has to be written.
+fn meant_or_same(part: &str) -> Option<String> {
+    decimal(part).filter(|x| x.is_finite()).map(|x| x.to_string()).or_else(|| meant(part))
 }
 
 #[cfg(test)]
@@ -102,6 +124,18 @@ mod tests {
         assert_eq!("0.2,0.5".parse(), Ok(Ranged::Over(Values::Listed(vec![0.2, 0.5]))));
         for bad in ["", "a", "1:2", "0.1,", "nan", "1,inf"] {
             assert!(bad.parse::<Ranged>().is_err(), "{bad}");
+        }
+        for (bad, hint) in [
+            ("50 %", "write 0.5"),
+            ("15:25", "15:25:41 is 41 values from 15 to 25"),
+            ("15:25:0.5", "15:25:21 has the distance 0.5"),
+            ("15-25", "15:25:41 is 41 values from 15 to 25"),
+            ("[15,25]", "15:25:41 is 41 values from 15 to 25"),
+            ("[0.2, 0.5, 0.8]", "the list is 0.2,0.5,0.8"),
+            ("0.2 0.5 80%", "the list is 0.2,0.5,0.8"),
+        ] {
+            let why = bad.parse::<Ranged>().unwrap_err();
+            assert!(why.split_once("\nhint: ").is_some_and(|(_, said)| said.contains(hint)), "{bad}: {why}");
         }
     }
 

@@ -31,6 +31,10 @@ pub(crate) struct Attractors {
     #[arg(long, value_parser = whole::<u64>, value_name = "S", default_value_t = 1, help_heading = "Starts")]
     seed: u64,
 
+    /// Budget of impacts for each start, 1 to 1000000; what is not settled by then is undecided [default: 20000]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
+    impacts: Option<u32>,
+
     #[command(flatten)]
     store: StoreArgs,
 
@@ -45,7 +49,7 @@ pub(crate) struct Attractors {
 
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
-    let task = Task::Attractors { starts: args.starts, seed: args.seed };
+    let task = Task::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts };
     let plan = args.store.tiled(Plan::new(asked.system, task))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), None, args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), Some(&args.store), session)

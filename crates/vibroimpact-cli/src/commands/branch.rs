@@ -1,6 +1,6 @@
 //! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
-use crate::args::{Named, ParameterFlag, SystemArgs, number, parameter, whole};
+use crate::args::{Named, ParameterFlag, SystemArgs, Value, number, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -53,7 +53,7 @@ pub(crate) struct Branch {
     /// A second parameter that varies with it in proportion, from its value in the system to this one when the first is at --to:
     /// the branch along any line through two parameters
     #[arg(long, value_name = "PARAMETER=VALUE", allow_hyphen_values = true, help_heading = "Branch")]
-    also: Option<Named<f64>>,
+    also: Option<Named<Value>>,
 
     /// Follow up to this number of the branches that begin at flips and branch points, 0 to 100
     #[arg(long, value_parser = whole::<u32>, value_name = "N", default_value_t = 0, allow_hyphen_values = true, help_heading = "Branch")]
@@ -97,9 +97,10 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
         label: args.label.clone(),
         vary,
         to: args.to / asked.units.of(vary),
-        also: args
-            .also
-            .map(|Named(ParameterFlag { parameter, .. }, to)| Target { parameter, to: to / asked.units.of(parameter) }),
+        also: args.also.map(|Named(ParameterFlag { parameter, .. }, Value(to))| Target {
+            parameter,
+            to: to / asked.units.of(parameter),
+        }),
         orbit: args.orbit,
         follow: args.follow,
         points: args.points,

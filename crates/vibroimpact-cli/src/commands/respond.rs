@@ -64,7 +64,7 @@ pub(super) fn tell(answer: &Answer, (outputs, shown): (Outputs, Shown), session:
         return Ok(());
     }
     session.print(&report::text(answer)?)?;
-    if let Some(hint) = report::hint(answer) {
+    for hint in report::hints(answer) {
         session.note(&format!("hint: {hint}"));
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! `vibro response`: a quantity of all motions over one parameter.
 
-use crate::args::{RangedSystemArgs, quantity};
+use crate::args::{RangedSystemArgs, quantity, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -32,6 +32,10 @@ pub(crate) struct Response {
     #[arg(long, value_name = "NAME", value_parser = quantity, help_heading = "Output")]
     quantity: Option<Quantity>,
 
+    /// Budget of impacts for the motion at each value, 1 to 1000000; what is not settled by then is undecided [default: 20000]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Sweep")]
+    impacts: Option<u32>,
+
     /// Write one row for each motion of a sweep and each point of a branch to this file; - for stdout. Columns: curve (up,
     /// down or the number of a branch), the parameter, label, physical, stable, all quantities
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -59,7 +63,7 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
         return Err(Failure::bad("a response is over a range A:B:N, and a list is given\nhint: --beta 0.5:1.5:201"));
     };
     let task = ResponsePlan::new(vary, *over);
-    let task = ResponsePlan { quantity: args.quantity.unwrap_or(task.quantity), ..task };
+    let task = ResponsePlan { quantity: args.quantity.unwrap_or(task.quantity), impacts: args.impacts, ..task };
     let plan = Plan::new(system, Task::Response(task));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;

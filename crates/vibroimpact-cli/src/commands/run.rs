@@ -50,7 +50,9 @@ pub(crate) struct Run {
 pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     let name = path.display();
     let text = std::fs::read_to_string(path)
-        .map_err(|error| Failure::bad(format!("the plan `{name}` cannot be read: {error}")))?;
+        .map_err(|error| Failure::bad(format!(
+                "the plan `{name}` cannot be read: {error}\nhint: a plan is a TOML or JSON file; `vibro schema` prints what may be in it"
+            )))?;
     Plan::from_text(&text)
         .map_err(|error| Failure::bad(format!("`{name}`: {}", hints::worded(&error, hints::plan(&error)))))
 }

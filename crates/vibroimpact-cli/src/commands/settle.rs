@@ -33,6 +33,10 @@ pub(crate) struct Settle {
     #[command(flatten)]
     start: StartArgs,
 
+    /// Budget of impacts for the motion, 1 to 1000000; what is not settled by then is undecided [default: 20000]
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Start")]
+    impacts: Option<u32>,
+
     /// By which rule
     #[arg(long, value_enum, value_name = "RULE", default_value_t = Rule::Confirmed, help_heading = "Rule")]
     rule: Rule,
@@ -97,7 +101,7 @@ enum Rule {
 pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let start = args.start.plan(&asked.units);
-    let plan = Plan::new(asked.system, Task::Settle { start });
+    let plan = Plan::new(asked.system, Task::Settle { start, impacts: args.impacts });
     plan.check()?;
     let rule = args.paper_rule()?;
     if args.show.is_some() && args.csv.is_none() && args.plot.is_none() {

@@ -2,6 +2,8 @@
 
 use super::stored;
 use crate::failure::Failure;
+use crate::report::stored::title;
+use crate::report::tallies::undecided;
 use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
@@ -27,6 +29,8 @@ struct StatusFields<'a> {
     tiles_done: u64,
     points: u64,
     points_done: u64,
+    /// Number of points with an undecided motion among those done; null for a store without labels or with very many points.
+    points_undecided: Option<u64>,
     complete: bool,
     /// Estimated seconds for the remaining tiles, at the rate of the last ones.
     seconds_left: Option<f64>,
@@ -53,6 +57,7 @@ pub(super) fn run(args: &Status, session: &Session) -> Result<(), Failure> {
             tiles_done: found.done,
             points: found.points,
             points_done: found.points_done,
+            points_undecided: undecided(&store).unwrap_or(None),
             complete: found.complete,
             seconds_left: found.left.map(|left| left.as_secs_f64()),
             seconds_since: since.map(|since| since.as_secs_f64()),
@@ -66,13 +71,14 @@ pub(super) fn run(args: &Status, session: &Session) -> Result<(), Failure> {
     }
     let mut text = format!(
         "{}\n{} of {}, {} of {}; {}\n",
-        store.plan().title(),
+        title(store.plan()),
         found.done,
         counted(found.tiles, "tile"),
         found.points_done,
         counted(found.points, "point"),
         size(found.bytes)
     );
+    text.push_str(&open(found.points - found.points_done, undecided(&store).unwrap_or(None)));
     if found.complete {
         text.push_str("complete\n");
     } else {
@@ -90,6 +96,15 @@ pub(super) fn run(args: &Status, session: &Session) -> Result<(), Failure> {
         store.plan().to_toml()
     ));
     session.print(&text)
+}
+
+/// The points that are not computed, and those with a motion that is undecided.
+fn open(missing: u64, undecided: Option<u64>) -> String {
+    let missing = (missing > 0).then(|| format!("{} not computed", counted(missing, "point")));
+    let undecided = undecided.filter(|count| *count > 0);
+    let undecided = undecided.map(|count| format!("{} with an undecided motion", counted(count, "point")));
+    let all: Vec<String> = missing.into_iter().chain(undecided).collect();
+    if all.is_empty() { String::new() } else { format!("{}\n", all.join(", ")) }
 }
 
 /// The text of the numbers of missing tiles, with consecutive numbers joined.
@@ -135,6 +150,9 @@ mod tests {
     fn numbers_for_people() {
         assert_eq!(missing(&[0, 1, 2, 7, 9, 10], 6), "missing tiles: 0 to 2, 7, 9 to 10\n");
         assert!(missing(&[], 0).contains("not concluded"));
+        assert_eq!(open(0, Some(0)), "");
+        assert_eq!(open(7, Some(1)), "7 points not computed, 1 point with an undecided motion\n");
+        assert_eq!(open(0, None), "");
         let odd: Vec<u64> = (0..40).map(|k| 2 * k).collect();
         assert!(missing(&odd, 40).ends_with("14 and 32 more\n"));
         assert_eq!(missing(&[0, 1, 2], 5000), "missing tiles: 0 to 2 and 4997 more\n");

@@ -1,7 +1,9 @@
 //! The motions of a basin as text.
 
+use crate::report::leading::leading;
 use crate::report::words::{by_stop, meaning, table};
 use vibroimpact::Oscillator;
+use vibroimpact::verdict::Verdict;
 use vibroimpact_report::json::basin::by_count;
 use vibroimpact_report::number::{percent, short};
 use vibroimpact_study::basin::BasinMeasures;
@@ -10,13 +12,15 @@ use vibroimpact_study::{Basin, counted};
 /// One row for each motion.
 pub(crate) fn text(found: &Basin, osc: &Oscillator) -> String {
     let heads = ["share", "starts", "<label", "<meaning"].map(str::to_owned);
-    let row = |m: usize| {
-        let motion = &found.motions[m];
+    let row = |m: &usize| {
+        let motion = &found.motions[*m];
         let label = motion.verdict.label().into_owned();
         let meaning = meaning(&motion.verdict) + &by_stop(&motion.verdict, osc);
-        vec![percent(found.share(m)), motion.count.to_string(), label, meaning]
+        vec![percent(found.share(*m)), motion.count.to_string(), label, meaning]
     };
-    let text = table(&heads, &by_count(found).into_iter().map(row).collect::<Vec<_>>());
+    let undecided = |m: &usize| matches!(found.motions[*m].verdict, Verdict::Undecided(_));
+    let motions = leading(by_count(found), |m| found.share(*m), undecided);
+    let text = table(&heads, &motions.rows(row, "motion", (2, 0, heads.len())));
     text + &found.measures().map_or_else(String::new, |measures| sentences(&measures))
 }
 

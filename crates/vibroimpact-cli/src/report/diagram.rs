@@ -5,6 +5,7 @@ use crate::report::words::table;
 use vibroimpact_report::Units;
 use vibroimpact_report::json::diagram::{Counts, counts};
 use vibroimpact_report::number::short;
+use vibroimpact_study::diagram::Show;
 use vibroimpact_study::{Diagram, Stretch, counted};
 
 /// The parameters that vary, and one row for each sweep.
@@ -23,10 +24,28 @@ pub(crate) fn text(found: &Diagram, units: &Units) -> String {
         format!(", {} from {} to {}", named(parameter, units), short(from * unit), short(to * unit))
     });
     format!(
-        "{} of {name} from {} to {}{also}\n\n{}",
+        "{} of {name} from {} to {}{also}\n\n{}{}",
         counted(u64::from(plan.over.count()), "value"),
         short(from * unit),
         short(to * unit),
-        table(&heads, &rows)
+        table(&heads, &rows),
+        unrepeated(found)
+    )
+}
+
+/// How many of the motions did not repeat within what is shown of them.
+fn unrepeated(found: &Diagram) -> String {
+    let plan = &found.plan;
+    let count = found.steps.iter().filter(|step| step.points.len() as u64 >= plan.keep).count() as u64;
+    // of a single point nothing can repeat
+    if plan.keep < 2 || count == 0 {
+        return String::new();
+    }
+    let noun = if plan.show == Show::Velocity { "impact" } else { "forcing period" };
+    format!(
+        "\n  {} did not repeat within the {} shown, after {}: chaotic, of a longer period, or not settled by then\n",
+        counted(count, "motion"),
+        counted(plan.keep, noun),
+        counted(plan.transient, noun)
     )
 }

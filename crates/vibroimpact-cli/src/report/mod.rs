@@ -5,6 +5,7 @@ mod basin;
 mod branch;
 mod curve;
 mod diagram;
+mod leading;
 mod lyapunov;
 mod map;
 mod margins;
@@ -14,6 +15,8 @@ mod response;
 mod settle;
 mod simulate;
 pub(crate) mod stored;
+pub(crate) mod tallies;
+mod undecided;
 mod words;
 
 use crate::failure::Failure;
@@ -51,9 +54,9 @@ pub(crate) fn text(answer: &Answer) -> Result<String, Failure> {
     })
 }
 
-/// A hint for the next command.
-pub(crate) const fn hint(answer: &Answer) -> Option<&'static str> {
-    match answer.results {
+/// Hints for the next command.
+pub(crate) fn hints(answer: &Answer) -> Vec<String> {
+    let next = match answer.results {
         Results::Settle(..) => Some("`vibro attractors` shows what other starts lead to"),
         Results::Attractors(_) => {
             Some("--json has the impacts of each motion; `vibro basin` shows where they start from")
@@ -64,5 +67,6 @@ pub(crate) const fn hint(answer: &Answer) -> Option<&'static str> {
             Some("--plot FILE.png draws the attractor; a longer --impacts narrows the error bars")
         }
         _ => None,
-    }
+    };
+    undecided::hint(answer).into_iter().chain(next.map(str::to_owned)).collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::report::words::{motion, seconds};
 use vibroimpact::Oscillator;
-use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
+use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact_report::Units;
 use vibroimpact_report::number::short;
 use vibroimpact_study::counted;
@@ -16,9 +16,10 @@ pub(crate) fn text(
 ) -> String {
     let mut text = motion(&settled.verdict, osc, units);
     text.push_str(&format!(
-        "  followed for {}, until time {}\n",
+        "  followed for {}, until time {}{}\n",
         counted(settled.impacts, "impact"),
-        seconds(settled.time, units)
+        seconds(settled.time, units),
+        if matches!(settled.verdict, Verdict::Undecided(_)) { "; not settled by then" } else { "" }
     ));
     if let Some(chaos) = settled.transient {
         text.push_str(&format!("  chaotic before: a transient that had ended at impact {}\n", chaos.impacts));

@@ -2,6 +2,8 @@
 
 use crate::failure::Failure;
 use crate::hints;
+use crate::report::leading::leading;
+use crate::report::tallies::computed;
 use crate::report::words::table as columns_of_text;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -12,7 +14,7 @@ use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
 use vibroimpact_store::{Store, StoreError};
-use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, diagram_of, label_of};
+use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, UNDECIDED, diagram_of, label_of};
 use vibroimpact_study::{Axis, Block, Column, Dimension, Field, Plan, PlanError, Quantity, Task};
 
 /// A JSON object about a store.
@@ -41,11 +43,13 @@ impl<'a, Filled: Serialize> StoredFields<'a, Filled> {
     }
 }
 
-/// The text of a table of labels.
+/// The text of a table of labels: the most frequent ones, and the others together.
 pub(crate) fn label_table(labels: &[LabelCount]) -> String {
     let heads = ["<label", "points", "share of starts"].map(str::to_owned);
-    let row = |count: &LabelCount| vec![count.label.clone(), count.points.to_string(), percent(count.share)];
-    columns_of_text(&heads, &labels.iter().map(row).collect::<Vec<_>>())
+    let row = |count: &&LabelCount| vec![count.label.clone(), count.points.to_string(), percent(count.share)];
+    let undecided = label_of(UNDECIDED).unwrap_or_default();
+    let labels = leading(labels.iter().collect(), |count| count.share, |count| count.label == undecided);
+    columns_of_text(&heads, &labels.rows(row, "label", (0, 2, heads.len())))
 }
 
 /// The labels of all complete tiles, the most frequent first.
@@ -84,14 +88,34 @@ fn labels(store: &Store) -> Result<Vec<LabelCount>, Failure> {
 /// The text of a summary.
 pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
     let grid = store.study().grid();
-    let sides: Vec<String> = grid.dimensions.iter().rev().map(|d| format!("{} {}", d.count, d.name)).collect();
-    let mut text = format!("{}\n{} points: {}\n", store.plan().title(), grid.points(), sides.join(" x "));
+    let name = |d: &Dimension| column_of(d, store.plan());
+    let sides: Vec<String> = grid.dimensions.iter().rev().map(|d| format!("{} {}", d.count, name(d))).collect();
+    let mut text = format!("{}\n{} points: {}\n", title(store.plan()), grid.points(), sides.join(" by "));
+    if let Some(own) = computed(store)? {
+        text.push_str(&format!("computed: {own} of them; the others have the labels of neighbours that agree\n"));
+    }
     let labels = labels(store)?;
     if !labels.is_empty() {
         text.push('\n');
         text.push_str(&label_table(&labels));
     }
     Ok(text)
+}
+
+/// The title of a plan, with the axes in the units of the results.
+pub(crate) fn title(plan: &Plan) -> String {
+    let (title, units) = (plan.title(), Units::of_plan(plan));
+    let names: Vec<&str> = plan_axes(plan).iter().map(|axis| units.column_of_coordinate(axis.vary)).collect();
+    match title.split_once(" over ") {
+        Some((what, _)) if !names.is_empty() => format!("{what} over {}", names.join(", ")),
+        _ => title,
+    }
+}
+
+/// The name of a dimension as in the header of the table.
+fn column_of(dimension: &Dimension, plan: &Plan) -> String {
+    let axis = plan_axes(plan).iter().find(|axis| axis.vary.name() == dimension.name);
+    axis.map_or_else(|| dimension.name.clone(), |axis| Units::of_plan(plan).column_of_coordinate(axis.vary).to_owned())
 }
 
 /// The fields of a short table, which are those of the command without a store.
@@ -123,10 +147,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let along = along.collect::<Result<Vec<Option<Vec<f64>>>, PlanError>>().map_err(io::Error::other)?;
     let kinds: Vec<QuantityKind> = all.iter().map(kind).collect();
     let extra = all.iter().find_map(|field| field.extra.first());
-    let name = |d: &Dimension| {
-        let axis = axes.iter().find(|axis| axis.vary.name() == d.name);
-        axis.map_or_else(|| d.name.clone(), |axis| units.column_of_coordinate(axis.vary).to_owned())
-    };
+    let name = |d: &Dimension| column_of(d, store.plan());
     let mut head: Vec<String> = study.grid().dimensions.iter().rev().map(name).collect();
     let numbered = extra.filter(|extra| extra.name == "direction");
     head.extend(numbered.map(|extra| extra.name.to_owned()));

@@ -216,3 +216,25 @@ fn f05_a_touch_is_listed_as_no_orbit() {
     assert_eq!(half.as_array().unwrap().len(), 1);
     assert!(half[0]["cycle"][0]["velocity_before"].as_f64().unwrap() > 0.5 && half[0]["physical"] == true);
 }
+
+/// A small budget leaves a chaotic motion undecided; the hint names a larger one, with which it is decided.
+#[test]
+fn an_undecided_motion_names_the_flag_that_decides_it() {
+    let chaotic = "--inverse-beta 1.11 --gap 3 --restitution 0.5";
+    for command in ["settle", "attractors --starts 4"] {
+        let line = format!("{command} {chaotic} --impacts 50");
+        let output = vibro(&line).output().unwrap();
+        let (text, remarks) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(text.contains("undecided"), "{text}");
+        assert!(remarks.contains("hint: --impacts 20000 follows"), "{line}: {remarks}");
+        let output = vibro(&line.replace("--impacts 50", "--impacts 20000")).output().unwrap();
+        let (text, remarks) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(
+            text.contains("chaotic") && !text.contains("undecided") && !remarks.contains("--impacts"),
+            "{text}{remarks}"
+        );
+    }
+    let decided = json(&format!("settle {chaotic} --impacts 30000"));
+    assert_eq!(decided["plan"]["task"]["settle"]["impacts"], 30_000);
+    assert!(json(&format!("settle {chaotic}"))["plan"]["task"]["settle"].get("impacts").is_none());
+}

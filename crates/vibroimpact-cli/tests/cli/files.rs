@@ -214,3 +214,40 @@ fn control_c_stops_cleanly() {
     assert!(complaint.contains("stopped"), "{complaint}");
     assert_eq!(folder.path().read_dir().unwrap().count(), 0);
 }
+
+/// With `--csv -` nothing but the table goes to stdout, in every command that has a table.
+#[test]
+fn a_table_on_stdout_is_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = r#"{"version":1,"system":{"inverse_beta":1.3,"gap":0.75,"restitution":0.5},"task":{"attractors":{"starts":3,"seed":1}}}"#;
+    fs::write(folder.path().join("plan.json"), plan).unwrap();
+    let grid = "--x -1:0.5:4 --v 0:1:3";
+    for line in [
+        format!("simulate {S} --impacts 3"),
+        format!("settle {S}"),
+        format!("attractors {S} --starts 5"),
+        format!("attractors {S} --starts 5 --store attractors.zarr"),
+        format!("basin {S} {grid}"),
+        format!("basin {S} {grid} --store basin.zarr"),
+        "map --inverse-beta 1:1.3:3 --gap 1 --restitution 0.5 --starts 3".into(),
+        "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:1:3".into(),
+        format!("lyapunov {S} --impacts 1000"),
+        format!("branch {S} --label 1/1 --vary gap --to 0.8"),
+        "curve --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --kind flip --vary gap=1:2.5 --and inverse-beta=1:1.2"
+            .into(),
+        "region --label 1/1 --inverse-beta 1:1.2 --gap 1:2 --restitution 0.5 --grid 4".into(),
+        "response --beta 0.7:0.8:3 --gap 0.75 --restitution 0.5".into(),
+        "run plan.json --store run.zarr".into(),
+        "export basin.zarr".into(),
+    ] {
+        let output = vibro(&line).args(["--csv", "-"]).current_dir(&folder).output().unwrap();
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        let text = String::from_utf8(output.stdout).unwrap();
+        let columns = |line: &str| line.split(',').count();
+        let width = columns(text.lines().next().unwrap());
+        assert!(width > 1 && text.lines().count() > 1, "{line}: {text}");
+        for row in text.lines() {
+            assert_eq!(columns(row), width, "{line}: {row}");
+        }
+    }
+}

@@ -14,6 +14,7 @@ mod questions;
 mod refusals;
 mod same_as_library;
 mod studies;
+mod summaries;
 mod units;
 
 use assert_cmd::Command;

@@ -32,6 +32,8 @@ fn of_every_task() {
         json!({ "simulate": { "start": { "x": -0.5, "v": 1e-7, "phase": 0.1 }, "impacts": 3, "periods": 2.5 } }),
         json!({ "settle": { "start": { "v": -1.0 } } }),
         json!({ "attractors": { "starts": 4, "seed": 0 } }),
+        json!({ "settle": { "start": {}, "impacts": 80 } }),
+        json!({ "attractors": { "starts": 3, "seed": 1, "impacts": 80 } }),
         json!({ "orbit": { "label": " 1/1" } }),
         json!({ "basin": { "axes": [{ "vary": "x", "over": "-1:0.5:3" }, { "vary": "v", "over": "0.1:1:2:log" }],
                            "start": { "phase": -1.5 }, "impacts": 50 } }),

@@ -117,7 +117,7 @@ fn bad_questions_are_named() {
         (format!("branch {S} --label 2/1 --vary gap --to 1 --no-diagram"), "--plot FILE"),
         (format!("branch {S} --label 2/1 --vary gap --to 1 --plot a.png --orbit 0"), "there is no orbit 2/1 number 0"),
         (format!("branch {S} --label 2/1 --vary gap --to 1 --csv - --json"), "both want stdout"),
-        (format!("curve {S} --label 1/1 --kind flip --vary gap --and beta=1:2"), "not A:B"),
+        (format!("curve {S} --label 1/1 --kind flip --vary gap --and beta=1:2"), "`gap` has no values"),
         (format!("curve {S} --label 1/1 --kind flip --vary mass=1:2 --and beta=1:2"), "parameters: beta, inverse-beta"),
         (format!("curve {S} --label 1/1 --kind flip --vary gap=2:1 --and beta=1:2"), "A < B"),
         (
@@ -154,6 +154,89 @@ fn bad_questions_are_named() {
         assert!(complaint.starts_with("error: ") && output.stdout.is_empty(), "{line}");
         assert_eq!(folder.path().read_dir().unwrap().count(), 0, "{line}");
     }
+}
+
+/// Everything that is missing is named in one message.
+#[test]
+fn all_that_is_missing_is_named_at_once() {
+    let system = "--beta <B>|--inverse-beta --gap --restitution";
+    for (line, named) in [
+        ("map", "--restitution --starts --beta --gap A:B:N"),
+        ("map --gap 0:1:3", "--restitution --starts --beta"),
+        ("response", "--restitution --beta --gap A:B:N"),
+        ("basin", &format!("--x --v {system}")),
+        ("basin --x 0:0.5:3 --gap 1", "--v --beta --restitution"),
+        ("attractors", &format!("--starts {system}")),
+        ("orbit", &format!("--label {system}")),
+        ("branch", &format!("--label --vary --to {system}")),
+        ("curve", &format!("--label --kind --vary --and {system}")),
+        ("region", "--label --restitution --beta --gap"),
+        ("diagram --vary gap", "--over --beta --restitution"),
+        ("attractors --mass-kg 1", "--starts --stiffness-n-per-m --force-n --frequency-hz --gap-m --restitution"),
+        ("map --mass-kg 1", "--starts --stiffness-n-per-m --force-n --frequency-hz --gap-m --restitution"),
+        ("settle", "--beta --gap --restitution"),
+        ("simulate", "--beta --gap --restitution"),
+        ("lyapunov", "--beta --gap --restitution"),
+        ("settle --mass-kg 1", "--stiffness-n-per-m --force-n --frequency-hz --gap-m --restitution"),
+    ] {
+        let output = vibro(line).output().unwrap();
+        let complaint = String::from_utf8(output.stderr).unwrap();
+        // the usage names flags that are not missing
+        let message = complaint.split("Usage:").next().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{line}");
+        for flag in named.split(' ') {
+            assert!(message.contains(flag), "{line}: {flag} in {complaint}");
+        }
+    }
+}
+
+/// What new users type instead of the right form, and the hint they get.
+#[test]
+fn typical_mistakes_get_a_hint() {
+    let rest = "--gap 1 --restitution 0.5";
+    let machine = "--mass-kg 1 --stiffness-n-per-m 1000 --force-n 1 --restitution 0.5";
+    for (line, hint) in [
+        (format!("settle --beta 1,5 {rest}"), "hint: write 1.5"),
+        ("settle --beta 1.5 --gap 1 --restitution 50%".into(), "hint: write 0.5"),
+        (format!("map --beta 1:2 {rest} --starts 3"), "1:2:41 is 41 values"),
+        (format!("map --beta 1-2 {rest} --starts 3"), "1:2:41 is 41 values"),
+        (format!("map --beta 1:2:0.25 {rest} --starts 3"), "1:2:5 has the distance 0.25"),
+        (format!("map --beta [1,2] {rest} --starts 3"), "1:2:41 is 41 values"),
+        (format!("basin --beta 1 {rest} --x -1..0.5 --v 0:1:3"), "-1:0.5:41 is 41 values"),
+        (format!("region --label 1/1 --beta 2:1 {rest}"), "hint: write 1:2"),
+        (format!("settle -beta 1 {rest}"), "'--beta'"),
+        (format!("settle beta=1 {rest}"), "'--beta=1'"),
+        (format!("settle --betta 1 {rest}"), "'--beta'"),
+        (format!("settle --beta 1 {rest} --units SI"), "similar value exists: 'si'"),
+        (
+            format!("settle {machine} --frequency-hz -5 --gap-m 0.001"),
+            "hint: --frequency-hz takes a positive number of hertz; -5 Hz",
+        ),
+        (format!("settle --beta 1 {rest} --csv no/such.csv"), "hint: `mkdir -p"),
+        (format!("settle --beta 1 {rest} --plot a.jpg"), "hint: --plot a.svg"),
+        ("run no.toml".into(), "hint: a plan is a TOML or JSON file"),
+        (format!("branch {S} --label 1/1 --vary gap --to 1 --also beta"), "hint: beta="),
+        (format!("branch {S} --label 1/1 --vary gap --to 1 --also beta=0,8"), "hint: write 0.8"),
+        (format!("attractors {S} --starts 1,000,000"), "hint: write 1000000"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let output = vibro(&line).current_dir(&folder).output().unwrap();
+        let complaint = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{line}: {complaint}");
+        assert!(complaint.contains(hint), "{line}: {complaint}");
+    }
+    // values with blanks
+    for (flag, value, hint) in [
+        ("--gap", "1.5 mm", "--gap takes a number without unit; --gap-m takes metres: 0.0015"),
+        ("--beta", "15 Hz", "--beta takes a number without unit; --frequency-hz takes hertz: 15"),
+        ("--restitution", "50 %", "write 0.5"),
+    ] {
+        let output = vibro("settle").args([flag, value]).output().unwrap();
+        let complaint = String::from_utf8(output.stderr).unwrap();
+        assert!(complaint.contains(&format!("\nhint: {hint}\n")), "{flag} {value}: {complaint}");
+    }
+    let minus = vibro("settle --beta 1 --restitution 0.5").args(["--gap", "\u{2212}0.5"]).output().unwrap();
+    assert!(minus.status.success());
 }
 
 #[test]

@@ -17,6 +17,7 @@ pub(super) fn lines() -> Words {
             flag("rule", 0.1, word(&["paper", "confirmed", "proved", "none"])),
             flag("percent", 0.05, number()),
             flag("limit", 0.05, count()),
+            flag("impacts", 0.1, few()),
             outputs("csv"),
         ]),
         3 => line("simulate", vec![
@@ -31,6 +32,7 @@ pub(super) fn lines() -> Words {
             system(),
             flag("starts", 0.97, few()),
             flag("seed", 0.2, word(&["0", "7", "18446744073709551615", "-1", "x"])),
+            flag("impacts", 0.2, few()),
             outputs("csv"),
         ]),
         2 => line("orbit", vec![system(), flag("label", 0.98, label()), switch("json", 0.6)]),

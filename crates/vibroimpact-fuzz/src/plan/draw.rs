@@ -47,12 +47,15 @@ fn one_start() -> Tasks {
         prop_oneof![4 => (0.0..20.0_f64).prop_map(|n| json!(n)), 1 => number().prop_map(|text| value(&text))],
     );
     let begin = || start().prop_map(|values| object(&values));
+    let budget = || prop::option::weighted(0.2, 1..400_u32);
     alone(
         prop_oneof![
-            3 => begin().prop_map(|start| json!({ "settle": { "start": start } })),
+            3 => (begin(), budget()).prop_map(|(start, impacts)| json!({ "settle": { "start": start, "impacts": impacts } })),
             3 => (begin(), few, periods)
                 .prop_map(|(start, impacts, periods)| json!({ "simulate": { "start": start, "impacts": impacts, "periods": periods } })),
-            2 => (1..20_u64, any::<u64>()).prop_map(|(starts, seed)| json!({ "attractors": { "starts": starts, "seed": seed } })),
+            2 => (1..20_u64, any::<u64>(), budget()).prop_map(
+                |(starts, seed, impacts)| json!({ "attractors": { "starts": starts, "seed": seed, "impacts": impacts } }),
+            ),
             2 => label().prop_map(|label| json!({ "orbit": { "label": label } })),
             1 => (begin(), prop::option::of(1..60_u64)).prop_map(|(start, points)| {
                 let mut task = json!({ "start": start, "impacts": 1000, "transient": 100 });

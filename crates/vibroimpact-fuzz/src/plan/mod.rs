@@ -134,7 +134,7 @@ fn budget(plan: &Plan) -> u64 {
                 1
             }
         }
-        Task::Attractors { starts, .. } => starts.saturating_mul(5000),
+        Task::Attractors { starts, impacts, .. } => starts.saturating_mul(impacts.map_or(5000, u64::from)),
         Task::Basin(basin) => basin.starts().saturating_mul(basin.impacts.map_or(5000, u64::from)),
         Task::Map(map) => map.points().saturating_mul(map.starts).saturating_mul(map.impacts.map_or(5000, u64::from)),
         Task::Diagram(diagram) => {

@@ -8,7 +8,7 @@ from vibroimpact import _core
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, fields_of
 from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import SEED, STARTS, THREADS, whole
+from vibroimpact._whole import BUDGET, SEED, STARTS, THREADS, maybe, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -74,7 +74,13 @@ class Attractors:
 
 
 def attractors(
-    osc: Oscillator, *, starts: int = 200, seed: int = 1, threads: int = 0, progress: Progress = None
+    osc: Oscillator,
+    *,
+    starts: int = 200,
+    seed: int = 1,
+    impacts: int | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> Attractors:
     """Find the attractors to which many scattered starts lead, and their shares of the starts.
 
@@ -89,6 +95,8 @@ def attractors(
         Number of starts, 1 to 1e9.
     seed : int
         Seed of the sequence of starts.
+    impacts : int
+        Budget of impacts for each start. Motions that have not settled by then are undecided. Default: 20 000.
     threads : int
         Number of threads; 0 for one per core. The result does not depend on it.
     progress : bool or callable
@@ -102,7 +110,12 @@ def attractors(
     """
     with watched(progress, "starts") as tell:
         found = _core.attractors(
-            osc, whole("starts", starts, STARTS), whole("seed", seed, SEED), whole("threads", threads, THREADS), tell
+            osc,
+            whole("starts", starts, STARTS),
+            whole("seed", seed, SEED),
+            maybe("impacts", impacts, BUDGET),
+            whole("threads", threads, THREADS),
+            tell,
         )
     motions = [
         Attractor(**fields_of(osc, fields), share=share, count=count) for fields, share, count in found["motions"]

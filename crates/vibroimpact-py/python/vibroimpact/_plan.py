@@ -180,9 +180,15 @@ class Plan:
         return cls._of(osc, "lyapunov", task, tile)
 
     @classmethod
-    def attractors(cls, osc: Oscillator, starts: int, *, seed: int = 1, tile: int | None = None) -> "Plan":
+    def attractors(
+        cls, osc: Oscillator, starts: int, *, seed: int = 1, impacts: int | None = None, tile: int | None = None
+    ) -> "Plan":
         """A plan for the motion to which each of many scattered starts leads."""
-        task = {"starts": whole("starts", starts, STARTS), "seed": whole("seed", seed, SEED)}
+        task = {
+            "starts": whole("starts", starts, STARTS),
+            "seed": whole("seed", seed, SEED),
+            "impacts": maybe("impacts", impacts, BUDGET),
+        }
         return cls._of(osc, "attractors", task, tile)
 
     @classmethod

@@ -13,6 +13,7 @@ from vibroimpact._core import Oscillator
 from vibroimpact._cycle import finite
 from vibroimpact._figure import Scale, legend, named, new_axes, title
 from vibroimpact._palette import SERIES
+from vibroimpact._whole import BUDGET, maybe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -151,7 +152,14 @@ def _runs(branch: ResponseCurve) -> list[tuple[int, int]]:
     return runs
 
 
-def response(osc: Oscillator, vary: str, over: Axis, *, quantity: str = "displacement_amplitude") -> Response:
+def response(
+    osc: Oscillator,
+    vary: str,
+    over: Axis,
+    *,
+    quantity: str = "displacement_amplitude",
+    impacts: int | None = None,
+) -> Response:
     """Compute the response over a parameter, such as the frequency.
 
     A sweep with rising values and one with falling values settle the motion at each value from the state of the motion at
@@ -170,6 +178,8 @@ def response(osc: Oscillator, vary: str, over: Axis, *, quantity: str = "displac
         Its values: a range ("0.5:1.5:201" has 201 values) or an evenly spaced array.
     quantity : str
         The quantity that is drawn; all are computed. `Motion.quantities` has the names.
+    impacts : int
+        Budget of impacts for the motion at each value. Motions that have not settled by then are undecided.
 
     Examples
     --------
@@ -179,7 +189,8 @@ def response(osc: Oscillator, vary: str, over: Axis, *, quantity: str = "displac
     >>> found.up.label.tolist()[-1], found.down.label.tolist()[-1], len(found.branches)
     ('1/1', '2/1', 1)
     """
-    found = _core.response(osc, vary, span(over), quantity.replace("-", "_"))
+    budget = maybe("impacts", impacts, BUDGET)
+    found = _core.response(osc, vary, span(over), quantity.replace("-", "_"), budget)
 
     def curve(fields: dict[str, Any]) -> ResponseCurve:
         values = fields["values"]

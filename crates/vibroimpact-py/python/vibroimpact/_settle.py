@@ -11,10 +11,12 @@ from vibroimpact._axis import numbers
 from vibroimpact._core import Oscillator
 from vibroimpact._motion import Motion, fields_of
 from vibroimpact._progress import Progress, watched
-from vibroimpact._whole import THREADS, whole
+from vibroimpact._whole import BUDGET, THREADS, maybe, whole
 
 
-def settle(osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: float = 0.0) -> Motion:
+def settle(
+    osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: float = 0.0, impacts: int | None = None
+) -> Motion:
     """Follow the motion from a start until it has settled, and confirm the result.
 
     Parameters
@@ -25,6 +27,8 @@ def settle(osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: fl
         Position at the start, in units of F/k. Default: at rest, or on the stop.
     v, phase : float
         Velocity, and phase of the force in radians, at the start.
+    impacts : int
+        Budget of impacts, 1 to 1 000 000. A motion that has not settled by then is undecided. Default: 20 000.
 
     Examples
     --------
@@ -33,7 +37,7 @@ def settle(osc: Oscillator, *, x: float | None = None, v: float = 0.0, phase: fl
     >>> settle(osc), settle(osc, x=-2)
     (<Motion 2/1, stable>, <Motion 1/1, stable>)
     """
-    fields, _ = _core.settle(osc, (x, v, phase))
+    fields, _ = _core.settle(osc, (x, v, phase), maybe("impacts", impacts, BUDGET))
     return Motion(**fields_of(osc, fields))
 
 

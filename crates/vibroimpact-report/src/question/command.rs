@@ -23,9 +23,12 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
             let line = Line::new("simulate").system(system, &[]).start(start);
             line.given("impacts", *impacts).given("periods", periods.map(number))
         }
-        Task::Settle { start } => Line::new("settle").system(system, &[]).start(start),
-        Task::Attractors { starts, seed } => {
-            Line::new("attractors").system(system, &[]).flag("starts", starts).unless("seed", *seed, 1)
+        Task::Settle { start, impacts } => {
+            Line::new("settle").system(system, &[]).start(start).given("impacts", *impacts)
+        }
+        Task::Attractors { starts, seed, impacts } => {
+            let line = Line::new("attractors").system(system, &[]).flag("starts", starts);
+            line.unless("seed", *seed, 1).given("impacts", *impacts)
         }
         Task::Orbit { label } => Line::new("orbit").system(system, &[]).flag("label", label),
         Task::Basin(task) => basin(system, task)?,
@@ -37,7 +40,7 @@ pub fn command(plan: &Plan) -> Option<Vec<String>> {
         Task::Region(task) => region(system, task),
         Task::Response(task) => {
             let line = Line::new("response").system(system, &[(task.vary, Some(task.over.to_string()))]);
-            line.unless_amplitude(task.quantity)
+            line.unless_amplitude(task.quantity).given("impacts", task.impacts)
         }
         Task::Margins(task) => margins(system, task),
     };

@@ -20,9 +20,10 @@ pub fn python(plan: &Plan) -> Option<String> {
             let call = Call::new("simulate").start(start);
             ("motion", call.given("impacts", *impacts).given("periods", periods.map(number)))
         }
-        Task::Settle { start } => ("motion", Call::new("settle").start(start)),
-        Task::Attractors { starts, seed } => {
-            ("motions", Call::new("attractors").named("starts", starts).unless("seed", *seed, 1))
+        Task::Settle { start, impacts } => ("motion", Call::new("settle").start(start).given("impacts", *impacts)),
+        Task::Attractors { starts, seed, impacts } => {
+            let call = Call::new("attractors").named("starts", starts).unless("seed", *seed, 1);
+            ("motions", call.given("impacts", *impacts))
         }
         Task::Orbit { label } => ("orbits", Call::new("orbits").then(text(label))),
         Task::Basin(task) => ("basin", basin(task)),
@@ -52,7 +53,8 @@ pub fn python(plan: &Plan) -> Option<String> {
         Task::Response(task) => {
             let call = Call::new("response").then(text(task.vary.name())).then(text(&task.over.to_string()));
             let usual = task.quantity == Quantity::DisplacementAmplitude;
-            ("found", call.given("quantity", (!usual).then(|| text(task.quantity.name()))))
+            let call = call.given("quantity", (!usual).then(|| text(task.quantity.name())));
+            ("found", call.given("impacts", task.impacts))
         }
         Task::Margins(task) => ("margins", margins(task)),
     };
@@ -69,7 +71,7 @@ pub fn python(plan: &Plan) -> Option<String> {
 #[must_use]
 pub fn python_showing(plan: &Plan, view: View) -> Option<String> {
     let text = python(plan)?;
-    let Task::Settle { start } = &plan.task else { return Some(text) };
+    let Task::Settle { start, .. } = &plan.task else { return Some(text) };
     let shown = match view {
         View::Waveform => "motion.plot()".to_owned(),
         View::Phase => "t, x, v = motion.waveform()  # of a periodic motion, v over x".to_owned(),
@@ -260,7 +262,12 @@ mod tests {
         for (task, said) in [
             (r#"{"simulate":{"start":{"v":1}}}"#, "motion = vi.simulate(osc, v=1, impacts=100)\n"),
             (r#"{"settle":{"start":{"x":-1.5,"phase":1e-7}}}"#, "motion = vi.settle(osc, x=-1.5, phase=1e-7)\n"),
+            (r#"{"settle":{"start":{},"impacts":70}}"#, "motion = vi.settle(osc, impacts=70)\n"),
             (r#"{"attractors":{"starts":9,"seed":2}}"#, "motions = vi.attractors(osc, starts=9, seed=2)\n"),
+            (
+                r#"{"attractors":{"starts":9,"seed":1,"impacts":70}}"#,
+                "motions = vi.attractors(osc, starts=9, impacts=70)\n",
+            ),
             (r#"{"orbit":{"label":"2/1"}}"#, "orbits = vi.orbits(osc, \"2/1\")\n"),
             (
                 r#"{"basin":{"axes":[{"vary":"x","over":"-1:0.75:4"},{"vary":"v","over":[0,1.5]}],"start":{"phase":1},"refine":2}}"#,

@@ -39,10 +39,17 @@ fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<It
     })
 }
 
-/// The parameters at a point of a line, in the units of the results.
+/// The parameters at a point of a line, in the units of the results: 20 Hz where 20 was typed, and not 20.000000000000004.
 pub(super) fn values(cut: &Cut, value: f64, units: &Units) -> String {
-    let cell = |(parameter, value)| Number(value * units.of(parameter)).to_string();
+    let cell = |(parameter, value)| Number(converted(value, units.of(parameter))).to_string();
     cut.values(value).map(cell).collect::<Vec<_>>().join(",")
+}
+
+/// The value in another unit, to fifteen digits: the conversion there and back is not exact to more. A value that is not
+/// converted has all its digits.
+fn converted(value: f64, unit: f64) -> f64 {
+    let product = value * unit;
+    if unit == 1.0 { value } else { format!("{product:.14e}").parse().unwrap_or(product) }
 }
 
 /// The text of a number; empty for a number that is not finite.
@@ -66,4 +73,18 @@ pub(super) fn cells(cycle: &Cycle, units: &Units) -> String {
         list(&|point| point.state.phase),
         list(&|point| point.state.velocity * units.velocity())
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_typed_frequency_comes_back() {
+        // beta of 20 Hz for a mass of 0.8 kg on 12000 N/m, and the natural frequency in Hz
+        let natural = (12_000.0_f64 / 0.8).sqrt();
+        let beta = core::f64::consts::TAU * 20.0 / natural;
+        assert_eq!(converted(beta, natural / core::f64::consts::TAU), 20.0);
+        assert_eq!(converted(0.1 + 0.2, 1.0), 0.1 + 0.2);
+    }
 }

@@ -1,7 +1,7 @@
 //! The plan of a basin: the starts and the systems.
 
 use crate::axis::{self, Axis, Coordinate};
-use crate::map::{check_impacts, check_refine};
+use crate::map::{check_impacts, check_refine, options};
 use crate::quantity::Quantity;
 use crate::{PlanError, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
@@ -71,7 +71,7 @@ impl BasinPlan {
     /// The options with which each start is followed.
     #[must_use]
     pub fn options(&self) -> SettleOptions {
-        self.impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
+        options(self.impacts)
     }
 
     /// Total number of starts.

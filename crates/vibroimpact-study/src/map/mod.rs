@@ -3,7 +3,7 @@
 mod plan;
 
 pub use plan::MapPlan;
-pub(crate) use plan::{check_impacts, check_refine};
+pub(crate) use plan::{check_impacts, check_refine, options};
 
 use vibroimpact::Oscillator;
 use vibroimpact::lanes::Width;

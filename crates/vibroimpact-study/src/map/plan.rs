@@ -66,6 +66,12 @@ pub(crate) fn check_impacts(impacts: Option<u32>) -> Result<(), PlanError> {
     }
 }
 
+/// The options with which each start is followed.
+#[must_use]
+pub(crate) fn options(impacts: Option<u32>) -> SettleOptions {
+    impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
+}
+
 impl MapPlan {
     /// A map over inverse frequency ratio and gap, the plane of the 1971 paper.
     #[must_use]
@@ -93,7 +99,7 @@ impl MapPlan {
     /// The options with which each start is followed.
     #[must_use]
     pub fn options(&self) -> SettleOptions {
-        self.impacts.map_or_else(SettleOptions::default, SettleOptions::at_most)
+        options(self.impacts)
     }
 
     /// Total number of points.

@@ -1,5 +1,6 @@
 //! The plan of a response.
 
+use crate::map::check_impacts;
 use crate::quantity::Quantity;
 use crate::{Cut, Parameter, PlanError, Span, SystemPlan};
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,9 @@ pub struct ResponsePlan {
     #[serde(default = "amplitude", with = "crate::quantity::one")]
     #[schemars(with = "crate::quantity::Name")]
     pub quantity: Quantity,
+    /// Impacts to follow each motion of a sweep for, at most, as for a map; the default of `SettleOptions` when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<u32>,
 }
 
 const fn amplitude() -> Quantity {
@@ -31,7 +35,7 @@ impl ResponsePlan {
     /// The displacement amplitude over a parameter.
     #[must_use]
     pub const fn new(vary: Parameter, over: Span) -> Self {
-        Self { vary, over, quantity: amplitude() }
+        Self { vary, over, quantity: amplitude(), impacts: None }
     }
 
     /// The line over which the parameter varies, from the smaller to the larger end.
@@ -59,6 +63,7 @@ impl ResponsePlan {
         if self.over.count() > MOST_VALUES {
             return Err(PlanError::Values { given: self.over.count(), most: MOST_VALUES });
         }
+        check_impacts(self.impacts)?;
         cut.check(system)
     }
 }

@@ -2,11 +2,12 @@
 
 use super::ResponsePlan;
 use crate::diagram::carried_state;
+use crate::map::options;
 use crate::{Control, RunError, SystemPlan};
 use vibroimpact::motion::{Motion, Path};
 use vibroimpact::orbit::Cycle;
 use vibroimpact::quantities::{Quantities, of_verdict};
-use vibroimpact::verdict::{NoImpact, SettleOptions, Verdict, settle_while};
+use vibroimpact::verdict::{NoImpact, Verdict, settle_while};
 use vibroimpact::{Oscillator, Side, Start};
 
 /// The motion of a sweep at one value.
@@ -45,8 +46,7 @@ pub(super) fn sweep(
             Some((before, state)) => carried_state(state, &before, &there)?,
             None => Start::at_rest(&osc),
         };
-        let options = SettleOptions::default();
-        let Some(settled) = settle_while(&osc, start, &options, || !control.stopping()) else { break };
+        let Some(settled) = settle_while(&osc, start, &options(plan.impacts), || !control.stopping()) else { break };
         last = Some((there, state_on(&osc, &settled.verdict, start)));
         motions.push(SweptMotion {
             value,

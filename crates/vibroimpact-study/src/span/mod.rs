@@ -7,6 +7,7 @@ mod double;
 mod even;
 
 use crate::PlanError;
+use crate::typed::decimal;
 use core::fmt;
 use core::str::FromStr;
 use even::Rule;
@@ -138,7 +139,7 @@ impl FromStr for Span {
         let [first, last, count] = parts else {
             return Err(bad());
         };
-        let number = |part: &str| part.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(bad);
+        let number = |part: &str| decimal(part).filter(|x| x.is_finite()).ok_or_else(bad);
         let count: u64 = count.trim().parse().map_err(|_| bad())?;
         let (first, last) = (number(first)?, number(last)?);
         let Ok(count) = u32::try_from(count) else {
@@ -187,7 +188,7 @@ mod refusals {
     fn bad_ranges_are_named() {
         for bad in ["", "1", "1:2", "1:2:3:4", "a:2:3", "nan:1:3", "0:inf:3", "0:1:-3", "0:1:2.5"] {
             let message = bad.parse::<Span>().unwrap_err().to_string();
-            assert!(message.contains("A:B:N"), "{bad}: {message}");
+            assert!(message.contains("is not A:B:N") && message.contains("\nhint: "), "{bad}: {message}");
         }
         for bad in ["0:1:3:log", "-1:-2:3:log"] {
             let message = bad.parse::<Span>().unwrap_err().to_string();
@@ -197,6 +198,11 @@ mod refusals {
             let message = bad.parse::<Span>().unwrap_err().to_string();
             assert!(message.contains("allowed is 1 to 1000000"), "{bad}: {message}");
         }
+    }
+
+    #[test]
+    fn the_minus_sign_of_typeset_text_is_a_minus_sign() {
+        assert_eq!("\u{2212}3:\u{2212}1:3".parse(), Span::new(-3.0, -1.0, 3));
     }
 
     #[test]

@@ -85,6 +85,7 @@ impl BasinFill {
     pub(crate) fn scattered(
         system: &SystemPlan,
         (starts, seed): (u64, u64),
+        options: &SettleOptions,
         tile: Option<u32>,
     ) -> Result<Self, PlanError> {
         let osc = system.oscillator()?;
@@ -93,8 +94,7 @@ impl BasinFill {
         let dimension = Dimension { name: "start".into(), count, tile };
         let grid = Grid { dimensions: vec![dimension] };
         let starts = Starts::Scattered { area: StartBox::natural(&osc), seed };
-        Ok(Self { system: *system, one: None, starts, grid, refine: None, options: SettleOptions::default() }
-            .surveyed(Some(osc)))
+        Ok(Self { system: *system, one: None, starts, grid, refine: None, options: *options }.surveyed(Some(osc)))
     }
 
     fn surveyed(self, osc: Option<Oscillator>) -> Self {

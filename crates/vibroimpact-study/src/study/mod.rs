@@ -28,6 +28,7 @@ pub(crate) use refine::Cell;
 pub use tables::{Cells, StudyTable, Tiles};
 pub(crate) use {basin::BasinFill, diagram::DiagramFill, map::MapFill};
 
+use crate::map::options;
 use crate::{Column, Field, Grid, Plan, PlanError, Task};
 
 /// A plan that fills a grid.
@@ -46,7 +47,9 @@ impl Study {
         let fill: Box<dyn fill::Columns> = match &plan.task {
             Task::Map(map) => Box::new(MapFill::new(&plan.system, map, tile)),
             Task::Basin(basin) => Box::new(BasinFill::plane(&plan.system, basin, tile)?),
-            Task::Attractors { starts, seed } => Box::new(BasinFill::scattered(&plan.system, (*starts, *seed), tile)?),
+            Task::Attractors { starts, seed, impacts } => {
+                Box::new(BasinFill::scattered(&plan.system, (*starts, *seed), &options(*impacts), tile)?)
+            }
             Task::Lyapunov(lyapunov) => Box::new(lyapunov::LyapunovFill::new(&plan.system, lyapunov, tile)),
             Task::Diagram(diagram) => Box::new(DiagramFill::new(&plan.system, diagram, tile)),
             Task::Simulate { .. } => return Err(PlanError::NoStudy("simulate")),

@@ -129,7 +129,7 @@ fn refinement_computes_less_and_the_same() {
 
 #[test]
 fn scattered_starts_exponents_and_three_axes() {
-    let found = sheet(S, Task::Attractors { starts: 500, seed: 3 }, Some(64), 2);
+    let found = sheet(S, Task::Attractors { starts: 500, seed: 3, impacts: None }, Some(64), 2);
     let census = vibroimpact::verdict::attractors(&S.oscillator().unwrap(), 500, 3, &SettleOptions::default());
     for motion in census.motions() {
         let here = columns(&found, "label").whole().iter().filter(|c| **c == code(&motion.verdict)).count();
@@ -215,6 +215,6 @@ fn a_diagram_is_that_of_its_steps() {
 
 #[test]
 fn questions_without_a_grid_are_no_studies() {
-    let refusal = Study::new(&Plan::new(S, Task::Settle { start: StartPlan::default() })).err().unwrap();
+    let refusal = Study::new(&Plan::new(S, Task::Settle { start: StartPlan::default(), impacts: None })).err().unwrap();
     assert!(refusal.to_string().starts_with("a plan that asks to settle fills no grid"), "{refusal}");
 }

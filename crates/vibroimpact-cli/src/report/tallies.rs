@@ -1,0 +1,39 @@
+//! Numbers of points of a store that were not computed themselves, or whose motion is undecided.
+
+use crate::failure::Failure;
+use vibroimpact_store::Store;
+use vibroimpact_study::Column;
+use vibroimpact_study::study::UNDECIDED;
+
+/// Number of points of a store up to which its labels are read for its status; each tile of a larger one takes time, above all in a
+/// bucket.
+const MOST_READ: u64 = 1_000_000;
+
+/// Number of points of a refined store that were computed themselves; `None` for other stores.
+pub(crate) fn computed(store: &Store) -> Result<Option<u64>, Failure> {
+    let Some(field) = store.field("computed") else { return Ok(None) };
+    let mut count = 0;
+    for tile in 0..store.study().grid().tiles() {
+        let (_, columns) = store.tile(tile)?;
+        if let Column::I8(values) = &columns[field] {
+            count += values.iter().filter(|value| **value == 1).count() as u64;
+        }
+    }
+    Ok(Some(count))
+}
+
+/// Number of points with an undecided motion, in all complete tiles; `None` if the store has no labels, or so many points that
+/// reading them would take long.
+pub(crate) fn undecided(store: &Store) -> Result<Option<u64>, Failure> {
+    let Some(label) = store.field("label") else { return Ok(None) };
+    if store.study().grid().points() > MOST_READ {
+        return Ok(None);
+    }
+    let width = store.study().fields()[label].width();
+    let mut count = 0;
+    for tile in 0..store.study().grid().tiles() {
+        let (_, columns) = store.tile(tile)?;
+        count += columns[label].whole().chunks(width).filter(|point| point.contains(&UNDECIDED)).count() as u64;
+    }
+    Ok(Some(count))
+}
