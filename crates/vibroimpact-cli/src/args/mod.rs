@@ -1,8 +1,10 @@
 //! Groups of arguments that several commands share. Arguments of one command are in the file of that command.
 
 mod axes;
+mod colour;
 mod excitation;
 mod fields;
+mod figure;
 mod machine_ranges;
 mod numbers;
 mod output;
@@ -16,7 +18,9 @@ mod system;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
+pub(crate) use colour::ColourArgs;
 pub(crate) use fields::{FieldsArgs, quantity};
+pub(crate) use figure::FigureArgs;
 use machine_ranges::MachineRangesArgs;
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;

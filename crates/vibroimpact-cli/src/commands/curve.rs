@@ -1,6 +1,6 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
-use crate::args::{Named, Over, ParameterFlag, SystemArgs, whole};
+use crate::args::{FigureArgs, Named, Over, ParameterFlag, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -63,6 +63,9 @@ pub(crate) struct Curve {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    figure: FigureArgs,
+
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -103,6 +106,6 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let asked = args.system.over(&[args.vary.0, args.and.0])?;
     let plan = Plan::new(asked.system, Task::Curve(args.plan(&asked.units)));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

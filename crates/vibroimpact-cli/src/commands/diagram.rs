@@ -1,6 +1,6 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
-use crate::args::{Ends, Named, ParameterFlag, StoreArgs, SystemArgs, parameter, whole};
+use crate::args::{Ends, FigureArgs, Named, ParameterFlag, StoreArgs, SystemArgs, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -90,6 +90,9 @@ pub(crate) struct Diagram {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    figure: FigureArgs,
+
     /// Print one JSON object with the number of motions of each kind
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -151,6 +154,6 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         keep: args.keep,
     };
     let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
 }
