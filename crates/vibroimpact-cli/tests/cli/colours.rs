@@ -30,7 +30,7 @@ fn a_store_has_the_same_figure() {
         format!("{LINE} --colour impact-power"),
         format!("{BASIN} --colour impact-speed-max"),
         format!("map {MACHINE} --frequency-hz 2.5:3:3 --starts 4 --color impulse-max --of worst"),
-        format!("map {MACHINE} --omega-rad-per-s 17 --starts 4 --colour impact-loss-per-period"),
+        format!("map {MACHINE} --frequency-hz 2.7 --starts 4 --colour impact-loss-per-period"),
     ]
     .iter()
     .enumerate()

@@ -70,7 +70,8 @@ fn a_picture_has_the_size_and_the_resolution_that_are_asked_for() {
     assert_eq!(of("--size 84x60mm --dpi 200"), (661, 472, 7874));
     assert_eq!(of("--size 3x2in"), (900, 600, 11_811));
     let (width, _, per_metre) = of("--dpi 600");
-    assert_eq!((width, per_metre), (2008, 23_622));
+    // the figure is 125 mm wide
+    assert_eq!((width, per_metre), (2953, 23_622));
 }
 
 #[test]

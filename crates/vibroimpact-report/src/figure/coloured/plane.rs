@@ -103,15 +103,15 @@ mod tests {
     #[test]
     fn without_any_value_there_is_no_bar() {
         let of = (Quantity::ImpactsPerPeriod, Units::default());
-        let svg = draw(&plane("1:2:2", "0:1:1"), &[Value::NotComputed; 2], of.0, &of.1, None).unwrap().to_svg();
+        let svg = draw(&plane("1:2:2", "0:1:2"), &[Value::NotComputed; 4], of.0, &of.1, None).unwrap().to_svg();
         assert!(!svg.contains("<linearGradient") && svg.contains("not computed<"));
     }
 
     #[test]
     fn a_row_of_equal_cells_is_one_rectangle_whichever_way_the_axis_runs() {
         for x in ["0:4:5", "4:0:5"] {
-            let rects = runs(&plane(x, "0:1:1"), &[Value::Undecided; 5], &|_| Some(0), vec![Value::Undecided.look().0]);
-            assert_eq!(rects.rects.iter().map(|rect| rect.x).collect::<Vec<_>>(), [(-0.5, 4.5)], "{x}");
+            let rects = runs(&plane(x, "0:1:2"), &[Value::Undecided; 10], &|_| Some(0), vec![Value::Undecided.look().0]);
+            assert_eq!(rects.rects.iter().map(|rect| rect.x).collect::<Vec<_>>(), [(-0.5, 4.5); 2], "{x}");
         }
     }
 }
