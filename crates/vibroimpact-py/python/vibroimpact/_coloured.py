@@ -82,8 +82,8 @@ def _values(
     missing[np.isnan(values)] = "not defined"
     missing[np.isnan(values) & (words == "undecided")] = "undecided"
     missing[np.isinf(values)] = "infinite"
-    if "computed" in ds:
-        # a cell that took the label of its neighbours has no quantities of its own
+    if "computed" in ds and "cycle" not in ds:
+        # a cell that took the label of its neighbours has no quantities of its own, unless all starts are of one system
         own = ds["computed"].transpose(*dims).values == 1
         missing[(missing == "not defined") & ~own[..., None]] = "not computed"
     there = words != ""

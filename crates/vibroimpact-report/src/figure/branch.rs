@@ -42,7 +42,8 @@ pub fn figure(
     let show = behind.map_or(Show::Velocity, |diagram| diagram.plan.show);
     let oscillator = |value: f64| cut.oscillator(&asked.system, value).ok();
     let (what, size) = match show {
-        Show::Velocity => (What::Velocity, asked.units.velocity()),
+        // a branch has no figure over a quantity; `vibro response` draws that
+        Show::Velocity | Show::Quantity(_) => (What::Velocity, asked.units.velocity()),
         Show::Strobe => (What::Position(&oscillator), asked.units.length()),
     };
     let unit = asked.units.of(cut.vary);

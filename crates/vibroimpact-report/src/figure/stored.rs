@@ -85,7 +85,10 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             column(quantity.name())?.map(|values| (values, units.of_quantity(quantity)))
         }
     };
-    let (labels, shares, computed) = (store.array(label)?, column("share")?, column("computed")?);
+    // starts of one system share the quantities of their cycle, so those that took it from their neighbours have values
+    let one_system = store.field_number("cycle").is_some();
+    let computed = if one_system { None } else { column("computed")? };
+    let (labels, shares) = (store.array(label)?, column("share")?);
     let width = fields[label].width();
     let mut known: BTreeMap<i32, (String, usize)> = BTreeMap::new();
     let mut points = Vec::with_capacity(labels.len() / width.max(1));

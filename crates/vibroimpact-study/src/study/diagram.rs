@@ -109,6 +109,8 @@ impl Fill for DiagramFill {
                 fields.push(real("x", "position at phase 0 of the force", "F/k"));
                 fields.push(real("v", "velocity at phase 0 of the force", "omega_n F/k"));
             }
+            // `Study::new` refuses it
+            Show::Quantity(_) => {}
         }
         fields
     }
@@ -149,6 +151,7 @@ impl Fill for DiagramFill {
                 vec![tile.kind, tile.first, tile.second, tile.side].into_iter().map(Part::column).collect()
             }
             Show::Strobe => vec![tile.kind, tile.first, tile.second].into_iter().map(Part::column).collect(),
+            Show::Quantity(_) => vec![tile.kind.column()],
         }
     }
 }

@@ -71,7 +71,8 @@ pub fn draw(
             Value::Undecided => (low - away, Shape::Cross, Colour::hex(0xd0_2020)),
             _ => (low - 2.0 * away, Shape::Plus, Colour::GREY),
         };
-        let style = PointStyle { shape, size, colour, filled: true, rim: None };
+        // neighbouring marks in a row stay apart
+        let style = PointStyle { shape, size: 0.75 * size, colour, filled: true, rim: None };
         let marks = Points { ys: vec![y; xs.len()], xs, style };
         legend = legend.points(&marks, value.look().1);
         panel.add(marks);
