@@ -179,7 +179,7 @@ fn a_quantity_of_the_settled_motion() {
     };
     for gap in ["0.5", "1"] {
         let settled = json(&format!("settle --inverse-beta 1.3 --restitution 0.5 --gap {gap}"));
-        let speed = settled["quantities"]["impact_speed_max"].as_f64().expect("a number");
+        let speed = settled["motion"]["quantities"]["impact_speed_max"].as_f64().expect("a number");
         assert!((value(gap, "up") - speed).abs() < 1e-9 && (value(gap, "down") - speed).abs() < 1e-9, "{gap}: {table}");
     }
     // between them 2/1 and 1/1 coexist, and the sweeps find one each

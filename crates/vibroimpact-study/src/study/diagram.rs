@@ -255,6 +255,8 @@ impl Tile {
         for (i, point) in step.points.iter().take(keep).enumerate() {
             let at = at * keep + i;
             (first[at], second[at], side[at]) = match *point {
+                // a diagram of a quantity has no columns
+                DiagramPoint::Value { .. } => continue,
                 DiagramPoint::Impact { phase, velocity, side } => (velocity, phase, sign(side)),
                 DiagramPoint::Chatter { phase, side } => (0.0, phase, 2 * sign(side)),
                 DiagramPoint::State { x, v } => (x, v, 0),

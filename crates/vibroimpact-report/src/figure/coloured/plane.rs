@@ -110,7 +110,8 @@ mod tests {
     #[test]
     fn a_row_of_equal_cells_is_one_rectangle_whichever_way_the_axis_runs() {
         for x in ["0:4:5", "4:0:5"] {
-            let rects = runs(&plane(x, "0:1:2"), &[Value::Undecided; 10], &|_| Some(0), vec![Value::Undecided.look().0]);
+            let rects =
+                runs(&plane(x, "0:1:2"), &[Value::Undecided; 10], &|_| Some(0), vec![Value::Undecided.look().0]);
             assert_eq!(rects.rects.iter().map(|rect| rect.x).collect::<Vec<_>>(), [(-0.5, 4.5); 2], "{x}");
         }
     }
