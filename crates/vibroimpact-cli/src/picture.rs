@@ -1,5 +1,6 @@
 //! Output files of figures.
 
+use crate::args::FigureArgs;
 use crate::failure::Failure;
 use crate::files::Target;
 use std::path::Path;
@@ -10,11 +11,12 @@ use vibroimpact_plot::{DPI_300, Figure};
 pub(crate) struct Picture {
     target: Target,
     png: bool,
+    look: FigureArgs,
 }
 
 impl Picture {
     /// Reserves a file that ends in .svg or .png.
-    pub(crate) fn reserve(path: &Path, force: bool) -> Result<Self, Failure> {
+    pub(crate) fn reserve(path: &Path, look: &FigureArgs, force: bool) -> Result<Self, Failure> {
         if path == Path::new("-") {
             return Err(Failure::bad("a figure cannot go to stdout\nhint: name a file that ends in .svg or .png"));
         }
@@ -32,12 +34,18 @@ impl Picture {
                 return Err(Failure::bad(format!("the figure `{name}` ends in neither .svg nor .png{hint}")));
             }
         };
+        look.check(png)?;
         let target = Target::reserve(path, force)?;
-        Ok(Self { target, png })
+        Ok(Self { target, png, look: look.clone() })
     }
 
-    pub(crate) fn write(self, figure: &Figure) -> Result<(), Failure> {
-        let bytes = if self.png { figure.to_png(DPI_300)? } else { figure.to_svg().into_bytes() };
+    pub(crate) fn write(self, figure: Figure) -> Result<(), Failure> {
+        let figure = self.look.apply(figure)?;
+        let bytes = match (self.png, self.look.resolution()) {
+            (false, _) => figure.to_svg().into_bytes(),
+            (true, None) => figure.to_png(DPI_300)?,
+            (true, Some(dpi)) => figure.to_print(dpi)?,
+        };
         self.target.write(|out| out.write_all(&bytes))
     }
 }

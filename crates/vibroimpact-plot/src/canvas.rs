@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::axis::Mapping;
+use crate::colour_map::colour_at;
 use crate::hatch::Hatch;
 use crate::number::N;
 
@@ -12,8 +13,12 @@ pub(crate) struct Canvas {
     pub(crate) body: String,
     /// Prefix of every id, so that two figures can share one web page.
     pub(crate) prefix: String,
+    /// Whether images are grey; the colours of the other marks become grey in the text.
+    pub(crate) grey: bool,
     hatches: BTreeSet<Hatch>,
     clips: String,
+    /// Whether a colour bar needs the gradient of its colours.
+    gradient: bool,
 }
 
 impl Canvas {
@@ -31,6 +36,12 @@ impl Canvas {
         format!("url(#{}{})", self.prefix, hatch.id())
     }
 
+    /// The paint of the continuous colours from the lower to the upper edge, whose definition is added once.
+    pub(crate) fn gradient(&mut self) -> String {
+        self.gradient = true;
+        format!("url(#{}colours)", self.prefix)
+    }
+
     pub(crate) fn define_clip(&mut self, frame: &Frame) {
         self.clips.push_str(&format!("<clipPath id=\"{}{}\">{}</clipPath>\n", self.prefix, frame.clip, frame.rect("")));
     }
@@ -43,8 +54,22 @@ impl Canvas {
     /// All definitions.
     pub(crate) fn definitions(&self) -> String {
         let hatches: String = self.hatches.iter().map(|h| h.definition(&self.prefix)).collect();
-        format!("{}{hatches}", self.clips)
+        let gradient = if self.gradient { gradient(&self.prefix) } else { String::new() };
+        format!("{}{hatches}{gradient}", self.clips)
     }
+}
+
+/// The stops of the gradient: between two of them a straight line in sRGB differs from the map by less than an eye can see.
+const STOPS: u32 = 32;
+
+/// The definition of the gradient of continuous colours.
+fn gradient(prefix: &str) -> String {
+    let stop = |k: u32| {
+        let place = f64::from(k) / f64::from(STOPS);
+        format!("<stop offset=\"{}\" stop-color=\"{}\"/>", place, colour_at(place).to_hex())
+    };
+    let stops: String = (0..=STOPS).map(stop).collect();
+    format!("<linearGradient id=\"{prefix}colours\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">{stops}</linearGradient>\n")
 }
 
 /// The inside of a panel's axes, in page coordinates (y downwards).

@@ -22,6 +22,13 @@ pub enum PlotError {
         /// Height in pixels.
         height: f64,
     },
+    /// A figure of this size has no room for its panels.
+    NoRoom {
+        /// Width in millimetres.
+        width: f64,
+        /// Height in millimetres.
+        height: f64,
+    },
     /// The renderer refused the SVG text: a defect of this crate.
     Svg(String),
     /// The PNG encoder failed: a defect of this crate.
@@ -43,6 +50,11 @@ impl fmt::Display for PlotError {
                 f,
                 "an image of {width} x {height} pixels lies outside 1..={MAX_SIDE} on a side\n\
                  hint: scale is pixels per figure unit; 1.476 gives 300 dpi"
+            ),
+            Self::NoRoom { width, height } => write!(
+                f,
+                "a figure of {width} x {height} mm has no room for its axes and its legend\n\
+                 hint: the usual figure of one column is 85 mm wide and 60 mm high"
             ),
             Self::Svg(why) => write!(f, "the renderer refused the figure's SVG text: {why}"),
             Self::Png(why) => write!(f, "the figure could not be encoded as PNG: {why}"),

@@ -2,6 +2,7 @@
 
 use crate::axis::Mapping;
 use crate::canvas::Frame;
+use crate::colour_bar::PreparedBar;
 use crate::figure::Figure;
 use crate::legend::{Arranged, Legend, Place};
 use crate::panel::{Margins, Prepared};
@@ -14,8 +15,12 @@ pub(crate) struct Layout {
     pub(crate) panels: Vec<(Frame, Prepared)>,
     /// Left, top, and the columns of the legend.
     pub(crate) legend: Option<(f64, f64, Arranged)>,
+    /// Left, top and bottom of the colour bar, and its ticks.
+    pub(crate) colour_bar: Option<(f64, (f64, f64), PreparedBar)>,
 }
 
+/// Approximate room below a frame, for the numbers and the label of its axis.
+const AXIS: f64 = 80.0;
 /// Minimum size of a frame.
 const SMALLEST: f64 = 20.0;
 
@@ -27,13 +32,15 @@ impl Layout {
         let (width, height) = (size(figure.width, theme::COLUMN), size(figure.height, 480.0));
         let edge = theme::MARGIN;
         let head = edge + if figure.title.is_some() { 1.5 * theme::TITLE_TEXT } else { 0.0 };
-        let legend = figure.legend.as_ref().filter(|l| !l.entries.is_empty());
+        let legend = figure.legend.as_ref().filter(|l| !l.entries.is_empty() || l.title.is_some());
         let arranged = legend.map(|l| arrange(l, width - 2.0 * edge, height - head - 60.0));
         let beside = match &arranged {
             Some((Place::Right, a)) => a.width + theme::GAP,
             _ => 0.0,
         };
-        let inner = (width - 2.0 * edge - beside, height - head - edge);
+        let bar = figure.colour_bar.as_ref().map(|bar| bar.prepare((height - head - AXIS).max(SMALLEST)));
+        let barred = bar.as_ref().map_or(0.0, |bar| bar.width + theme::GAP / 2.0);
+        let inner = (width - 2.0 * edge - beside - barred, height - head - edge);
         let panels = frames(figure, (edge, head), inner);
         let (mut outer, mut spot) = (height, None);
         if let Some((place, a)) = arranged {
@@ -50,7 +57,11 @@ impl Layout {
             };
             spot = Some((left, top, a));
         }
-        Self { width, height: outer, panels, legend: spot }
+        let top = panels.iter().map(|(frame, _)| frame.top).fold(f64::INFINITY, f64::min);
+        let bottom = panels.iter().map(|(frame, _)| frame.bottom()).fold(f64::NEG_INFINITY, f64::max);
+        let bar = bar.filter(|_| top < bottom);
+        let colour_bar = bar.map(|bar| (width - edge - beside - bar.width, (top, bottom), bar));
+        Self { width, height: outer, panels, legend: spot, colour_bar }
     }
 }
 
@@ -136,6 +147,13 @@ mod tests {
     }
 
     #[test]
+    fn a_legend_may_be_one_line_of_text() {
+        let (bare, said) = (Figure::new(panel()), Figure::new(panel()).legend(Legend::below().title("a sentence")));
+        assert!(said.outer_size().1 > bare.outer_size().1 && said.to_svg().contains("a sentence"));
+        assert_eq!(Figure::new(panel()).legend(Legend::below()).outer_size(), bare.outer_size());
+    }
+
+    #[test]
     fn a_legend_beside_starts_right_of_the_frames() {
         let right = |text: &str| Legend { place: Place::Right, ..legend(text) };
         let layout = Layout::of(&Figure::new(panel()).legend(right("1/1")));
@@ -144,6 +162,16 @@ mod tests {
         let layout = Layout::of(&Figure::new(panel()).legend(right(&"long ".repeat(20))));
         let top = layout.legend.map_or(0.0, |(_, top, _)| top);
         assert!(top > layout.panels[0].0.bottom(), "too wide: below");
+    }
+
+    #[test]
+    fn a_colour_bar_is_as_high_as_the_frame_and_beside_it() {
+        let bar = crate::ColourBar::new(FigureAxis::new("speed (m/s)").range(0.0, 1000.0));
+        let layout = Layout::of(&Figure::new(panel()).legend(legend("undecided")).colour_bar(bar));
+        let (frame, (left, (top, bottom), bar)) = (&layout.panels[0].0, layout.colour_bar.expect("a bar"));
+        assert!(left > frame.right() && left + bar.width <= layout.width);
+        assert_eq!((top, bottom), (frame.top, frame.bottom()));
+        assert!(layout.legend.is_some_and(|(_, top, _)| top > bottom));
     }
 
     #[test]

@@ -7,7 +7,8 @@ use crate::label::{Anchor, Placed};
 use crate::layout::Layout;
 use crate::markup;
 use crate::number::N;
-use crate::{render, theme};
+use crate::theme::UNITS_PER_MM;
+use crate::{grey, render, resolution, theme};
 
 impl Figure {
     /// Width and height including the legend, in figure units: the number of PNG pixels at scale 1.
@@ -17,12 +18,20 @@ impl Figure {
         (layout.width, layout.height)
     }
 
+    /// Width and height of the smallest frame, in figure units; `None` without panels.
+    pub(crate) fn smallest_frame(&self) -> Option<(f64, f64)> {
+        let layout = Layout::of(self);
+        let frames = layout.panels.iter().map(|(frame, _)| (frame.width, frame.height));
+        frames.reduce(|a, b| (a.0.min(b.0), a.1.min(b.1)))
+    }
+
     /// The figure as SVG text. Values that cannot be shown are left out, so this never fails.
     #[must_use]
     pub fn to_svg(&self) -> String {
         let layout = Layout::of(self);
         let prefix: String = self.id.chars().filter(|c| c.is_ascii_alphanumeric() || "-_".contains(*c)).collect();
         let mut canvas = Canvas::new(&prefix);
+        canvas.grey = self.grey;
         if let Some(title) = &self.title {
             let y = theme::MARGIN + theme::TITLE_TEXT;
             let placed = Placed::new(title, layout.width / 2.0, y, theme::TITLE_TEXT);
@@ -34,18 +43,27 @@ impl Figure {
         if let (Some(legend), Some((left, top, arranged))) = (&self.legend, &layout.legend) {
             legend.draw(&mut canvas, *left, *top, arranged);
         }
+        if let (Some(bar), Some((left, ends, prepared))) = (&self.colour_bar, &layout.colour_bar) {
+            bar.draw(&mut canvas, *left, *ends, prepared);
+        }
         let (w, h) = (N(layout.width), N(layout.height));
+        let size = |units: f64| match (self.millimetres, N(units / UNITS_PER_MM)) {
+            (true, millimetres) => format!("{millimetres}mm"),
+            (false, _) => N(units).to_string(),
+        };
+        let (width, height) = (size(layout.width), size(layout.height));
         let title = self
             .title
             .as_ref()
             .map_or(String::new(), |t| format!("<title>{}</title>\n", markup::escape(&markup::strip(t))));
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
+        let svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {w} {h}\" \
              font-family=\"'DejaVu Sans', Verdana, sans-serif\">\n{title}<defs>\n{}</defs>\n\
              <rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n{}</svg>\n",
             canvas.definitions(),
             canvas.body
-        )
+        );
+        if self.grey { grey::greyed(&svg) } else { svg }
     }
 
     /// The figure as a PNG image with `scale` pixels per figure unit; [`DPI_300`](crate::DPI_300) is suitable for
@@ -54,7 +72,17 @@ impl Figure {
     /// # Errors
     /// If the image would have no pixels, or more than 16384 on a side.
     pub fn to_png(&self, scale: f64) -> Result<Vec<u8>, PlotError> {
-        render::png(&self.to_svg(), scale)
+        let pixels = Self { millimetres: false, ..self.clone() };
+        render::png(&pixels.to_svg(), scale)
+    }
+
+    /// The figure as a PNG image for paper, with its resolution in pixels in an inch written into the file, so that programs
+    /// place it at its size.
+    ///
+    /// # Errors
+    /// As [`Self::to_png`].
+    pub fn to_print(&self, dpi: f64) -> Result<Vec<u8>, PlotError> {
+        Ok(resolution::with(&self.to_png(dpi / 25.4 / UNITS_PER_MM)?, dpi))
     }
 }
 

@@ -9,8 +9,11 @@ pub const COLUMN: f64 = 680.0;
 /// Width of a figure across two columns (170 mm).
 pub const DOUBLE_COLUMN: f64 = 1360.0;
 
+/// Figure units in a millimetre on paper.
+pub const UNITS_PER_MM: f64 = 8.0;
+
 /// Pixels per unit for 300 dpi at the nominal width: 680 units become 1004 pixels.
-pub const DPI_300: f64 = 300.0 / 25.4 / 8.0;
+pub const DPI_300: f64 = 300.0 / 25.4 / UNITS_PER_MM;
 
 /// Font size of numbers at ticks.
 pub(crate) const TICK_TEXT: f64 = 20.0;

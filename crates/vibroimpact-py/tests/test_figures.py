@@ -132,3 +132,98 @@ def test_colours_are_those_of_the_command(root: Path) -> None:
     pairs = [(label, group) for label, group in re.findall(r'\("([^"]*)", "([^"]*)"\)', tests[0])]
     ours = [(label, group) for label, group in pairs if label not in ("", " 4/1 ", "2/1'", "∞/2", "Chaotic")]
     assert len(ours) > 12 and all(_palette.legend_group(label) == group for label, group in ours)
+
+
+def coloured(ds: Any, **options: Any) -> tuple[Axes, Any]:
+    """The axes and the array of colours of a figure."""
+    ax = ds.vibro.plot(plt.subplots(layout="constrained")[1], **options)
+    drawn(ax)
+    return ax, ax.collections[0]
+
+
+def test_cells_have_the_colours_of_a_quantity(s: vi.Oscillator) -> None:
+    ds = vi.basin(s, x="-4:0.75:30", v="-4:4:20", fields=["impact_speed_max"])
+    ax, mesh = coloured(ds, colour="impact-speed-max")
+    np.testing.assert_array_equal(np.asarray(mesh.get_array()).reshape(20, 30), ds["impact_speed_max"].values)
+    assert mesh.get_cmap().name == "viridis" and ax.get_legend() is None
+    assert ax.figure.axes[1].get_ylabel() == r"largest impact speed ($\omega_n F/k$)"
+
+
+def test_a_colour_is_that_of_the_worst_motion_unless_another_is_asked_for(s: vi.Oscillator) -> None:
+    over = {"inverse_beta": "1.2:1.3:4", "gap": "0.6:0.8:5"}
+    ds = vi.region_map(s, over, starts=20, fields=["impact_speed_max"])
+    speeds = ds["impact_speed_max"]
+    for of, expected in [
+        ("largest", speeds.max("motion")),
+        ("worst", speeds.max("motion")),
+        ("least", speeds.min("motion")),
+        ("likeliest", speeds.isel(motion=0)),
+    ]:
+        ax, mesh = coloured(ds, colour="impact_speed_max", of=of)
+        np.testing.assert_array_equal(np.asarray(mesh.get_array()).reshape(5, 4), expected.transpose("gap", ...).values)
+    assert ax.get_legend().get_title().get_text() == "where motions coexist: the most frequent motion"
+    assert bool((speeds.max("motion") > speeds.min("motion")).any())
+    with pytest.raises(vi.QuestionError, match="`median` is no way to choose"):
+        ds.vibro.plot(colour="impact_speed_max", of="median")
+
+
+def test_cells_without_a_value_look_different_and_are_explained() -> None:
+    osc = vi.Oscillator(inverse_beta=1, gap=0, restitution=0.5)
+    over = {"inverse_beta": "0.4:1:24", "gap": "-0.5:0.3:9"}
+    ds = vi.region_map(osc, over, starts=4, impacts=60, fields=["impacts_per_period", "impact_speed_mean"])
+    ax, mesh = coloured(ds, colour="impacts_per_period")
+    assert words(ax) == ["infinite", "undecided"] and len(ax.collections) == 3
+    values = ds["impacts_per_period"].values
+    masked = np.ma.getmaskarray(mesh.get_array()).reshape(9, 24)
+    expected = np.isinf(values).any(axis=-1) | ~np.isfinite(values).any(axis=-1)
+    np.testing.assert_array_equal(masked, expected)
+    looks = {(patch.get_facecolor(), patch.get_hatch()) for patch in ax.get_legend().get_patches()}
+    assert len(looks) == 2
+    # the mean speed of a chatter and of a motion without impacts is not defined
+    assert "not defined" in words(coloured(ds, colour="impact_speed_mean")[0])
+    nothing = ds.copy()
+    nothing["label"] = ds["label"].where(ds["gap"] > 0, -9).astype(np.int32)
+    assert "not computed" in words(coloured(nothing, colour="impacts_per_period")[0])
+    refined = ds.assign(computed=(("gap", "inverse_beta"), np.full((9, 24), 2, dtype=np.int8)))
+    assert "not computed" in words(coloured(refined, colour="impact_speed_mean")[0])
+
+
+def test_metres_and_seconds_in_colours() -> None:
+    osc = vi.Oscillator.from_units(mass=2, stiffness=800, force=4, frequency=2.5, gap=0.003, restitution=0.6)
+    ds = vi.basin(osc, x="-4:0.6:12", v="-4:4:10", fields=["impact_loss_per_period"]).vibro.si()
+    ax, mesh = coloured(ds, colour="impact_loss_per_period")
+    np.testing.assert_array_equal(np.asarray(mesh.get_array()).ravel(), ds["impact_loss_per_period"].values.ravel())
+    assert ax.figure.axes[1].get_ylabel() == "energy lost in impacts per forcing period (J)"
+    assert ax.get_xlabel() == "$x_0$ (m)" and ax.get_ylabel() == "$v_0$ (m/s)" and "$d = 0.003$ m" in ax.get_title()
+    diagram = vi.orbit_diagram(osc, "gap", "0.5:1:3").vibro.si()
+    with pytest.raises(vi.QuestionError, match="a diagram in metres and seconds is not drawn"):
+        diagram.vibro.plot()
+
+
+def test_a_map_over_one_axis(s: vi.Oscillator) -> None:
+    ds = vi.region_map(s, {"gap": "0.5:3:11"}, starts=12, impacts=60, fields=["impact_speed_mean"])
+    ax = ds.vibro.plot()
+    drawn(ax)
+    assert ax.get_ylabel() == "share of starts" and ax.get_ylim() == (0, 1)
+    heights = sum(np.array([bar.get_height() for bar in bars]) for bars in ax.containers)
+    np.testing.assert_allclose(heights, 1)
+    first = ax.containers[0]
+    labels = ds.vibro.labels()
+    assert words(ax)[0] == first.get_label() == "no impact"
+    np.testing.assert_allclose([bar.get_height() for bar in first], ds["share"].where(labels == "0", 0).sum("motion"))
+    dots = ds.vibro.plot(colour="impact_speed_mean")
+    drawn(dots)
+    speeds = ds["impact_speed_mean"].values
+    shown = [line for line in dots.lines if line.get_marker() == "o"]
+    assert sum(len(line.get_xdata()) for line in shown) == np.isfinite(speeds).sum()
+    assert {"undecided", "not defined"} <= set(words(dots))
+    marks = {line.get_label(): len(line.get_xdata()) for line in dots.lines}
+    assert marks["undecided"] == (labels == "undecided").sum() and marks["not defined"] == (labels == "0").sum()
+
+
+def test_colours_that_are_refused(s: vi.Oscillator) -> None:
+    ds = vi.basin(s, x="-4:0.75:5", v="-4:4:4", fields=["power"])
+    with pytest.raises(vi.QuestionError, match="`speed` is no quantity of the motions in this Dataset; there are power"):
+        ds.vibro.plot(colour="speed")
+    with pytest.raises(vi.QuestionError, match="only basins and maps have colours"):
+        vi.orbit_diagram(s, "gap", "0:3:5").vibro.plot(colour="velocity")

@@ -1,5 +1,6 @@
 //! A plan, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
+use crate::figure::coloured::{self, Coloured};
 use crate::figure::{self, title};
 use crate::scene::{View, Viewed, phase_portrait};
 use crate::{Asked, ReportError, Table, Units, json, table};
@@ -36,11 +37,13 @@ pub struct Shown {
     pub diagram: bool,
     /// Whether to draw the inadmissible solutions of a branch.
     pub inadmissible: bool,
+    /// The quantity whose values are the colours of a map or basin.
+    pub colour: Option<Coloured>,
 }
 
 impl Default for Shown {
     fn default() -> Self {
-        Self { view: None, step: None, diagram: true, inadmissible: false }
+        Self { view: None, step: None, diagram: true, inadmissible: false, colour: None }
     }
 }
 
@@ -152,6 +155,13 @@ impl Answer {
     pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
         let Self { asked, osc, plan, .. } = self;
         let default = shown.view.is_none_or(|view| view == View::Waveform);
+        if let Some(colour) = shown.colour {
+            return Ok(Some(match &self.results {
+                Results::Map(found) => coloured::of_map(found, colour, asked)?,
+                Results::Basin(found) => coloured::of_basin(found, colour.quantity, osc, asked)?,
+                _ => return Err(ReportError::NoColours.into()),
+            }));
+        }
         Ok(Some(match (&plan.task, &self.results) {
             (_, Results::Settle(start, found)) => {
                 Viewed::new(shown.view.unwrap_or_default(), (osc, *start), found, asked)?.figure()

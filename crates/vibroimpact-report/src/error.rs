@@ -1,6 +1,7 @@
 //! The errors of figures and tables.
 
 use crate::number::short;
+use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::PlotError;
 use vibroimpact_study::PlanError;
 
@@ -31,6 +32,18 @@ pub enum ReportError {
     /// A store without the field to be drawn.
     #[error("there are no labels")]
     NoLabels,
+    /// A colour by a quantity that the plan does not ask for.
+    #[error("there are no values of `{}`: the plan asks for {}\nhint: --fields {} computes them",
+        flag(*quantity), listed(there), flag(*quantity))]
+    NoField {
+        /// The quantity.
+        quantity: Quantity,
+        /// The quantities that the plan asks for.
+        there: Vec<Quantity>,
+    },
+    /// A colour by a quantity in a figure without cells or motions.
+    #[error("only maps and basins have colours by a quantity")]
+    NoColours,
     /// A waveform with more points than a table may have.
     #[error(
         "step = {} gives {} points over a time of {}; at most {most} are allowed\nhint: a longer step, or fewer periods or impacts",
@@ -53,4 +66,17 @@ pub enum ReportError {
     /// A value overflows in the units of the results.
     #[error(transparent)]
     Plan(#[from] PlanError),
+}
+
+/// A quantity as the command writes it.
+fn flag(quantity: Quantity) -> String {
+    quantity.name().replace('_', "-")
+}
+
+/// A list of quantities in a sentence.
+fn listed(quantities: &[Quantity]) -> String {
+    match quantities {
+        [] => "no quantities".to_owned(),
+        list => list.iter().map(|quantity| flag(*quantity)).collect::<Vec<_>>().join(", "),
+    }
 }

@@ -118,6 +118,12 @@ impl Units {
     /// The value of a quantity in these units; not-a-number if it is not defined.
     #[must_use]
     pub fn value_of(&self, of: &Quantities, quantity: Quantity) -> f64 {
+        of.get(quantity) * self.of_quantity(quantity)
+    }
+
+    /// The unit of a quantity; not-a-number if it is not defined in the frame of these units.
+    #[must_use]
+    pub fn of_quantity(&self, quantity: Quantity) -> f64 {
         let equivalent = matches!(
             quantity,
             Quantity::DampingLossPerPeriod | Quantity::DampingPower | Quantity::WorkPerPeriod | Quantity::Power
@@ -125,7 +131,7 @@ impl Units {
         if equivalent && self.frame.is_some_and(|frame| frame.apart) {
             return f64::NAN;
         }
-        of.get(quantity) * self.of_kind(quantity.kind())
+        self.of_kind(quantity.kind())
     }
 
     /// The name of a column with values of this kind, which ends in the unit if there is one.

@@ -108,6 +108,11 @@ pub enum PlanError {
         "a plan that asks to {0} fills no grid, so there is nothing to store\nhint: tasks for a store are map, basin, attractors, diagram and lyapunov"
     )]
     NoStudy(&'static str),
+    /// A diagram of a quantity, which has no store.
+    #[error(
+        "a diagram of a quantity is computed in memory, and has no store\nhint: a map over one parameter with --fields has one, and all coexisting motions"
+    )]
+    NoStoredQuantity,
     /// The frame of positions and phases is not finite.
     #[error("the frame of positions and phases is not finite: phase = {phase}, offset_m = {offset_m}")]
     Frame {

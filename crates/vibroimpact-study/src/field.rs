@@ -120,6 +120,12 @@ impl Column {
         if let Self::I32(values) = self { values } else { &[] }
     }
 
+    /// The values of a column of 8-bit integers; empty for other types.
+    #[must_use]
+    pub fn flags(&self) -> &[i8] {
+        if let Self::I8(values) = self { values } else { &[] }
+    }
+
     /// The values of a column of floating-point numbers; empty for other types.
     #[must_use]
     pub fn real(&self) -> &[f64] {

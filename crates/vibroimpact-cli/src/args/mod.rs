@@ -1,7 +1,9 @@
 //! Groups of arguments that several commands share. Arguments of one command are in the file of that command.
 
 mod axes;
+mod colour;
 mod fields;
+mod figure;
 mod machine;
 mod numbers;
 mod output;
@@ -16,7 +18,9 @@ mod unit_text;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
+pub(crate) use colour::ColourArgs;
 pub(crate) use fields::{FieldsArgs, quantity};
+pub(crate) use figure::FigureArgs;
 pub(crate) use machine::MachineArgs;
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use output::Globals;

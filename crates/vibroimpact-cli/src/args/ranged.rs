@@ -83,7 +83,8 @@ impl FromStr for Ranged {
         }
         let list = text.contains(',');
         let bad = || {
-            let what = if list { "no list of numbers" } else { "neither a number, nor a range A:B:N, nor a list of numbers" };
+            let what =
+                if list { "no list of numbers" } else { "neither a number, nor a range A:B:N, nor a list of numbers" };
             format!("`{}` is {what}{}", shown(text), hint(text))
         };
         Self::read(text, |part| decimal(part).filter(|x| x.is_finite()).ok_or_else(bad))

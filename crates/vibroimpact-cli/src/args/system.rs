@@ -161,7 +161,7 @@ impl SystemArgs {
     }
 
     /// The same with results in SI units.
-    pub(super) fn in_si(&self) -> Self {
+    pub(crate) fn in_si(&self) -> Self {
         Self { units: Convention::Si, ..self.clone() }
     }
 }

@@ -1,6 +1,6 @@
 //! `vibro attractors`: the attractors of a system, and the share of starts that lead to each.
 
-use crate::args::{StoreArgs, SystemArgs, whole};
+use crate::args::{FigureArgs, StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -51,6 +51,6 @@ pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts };
     let plan = args.store.tiled(Plan::new(asked.system, task))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), None, args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (None, &FigureArgs::default()), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), Some(&args.store), session)
 }

@@ -1,6 +1,6 @@
 //! `vibro basin`: the motion to which each start of a plane leads.
 
-use crate::args::{FieldsArgs, StoreArgs, SystemArgs, number, whole};
+use crate::args::{ColourArgs, FieldsArgs, FigureArgs, StoreArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -58,6 +58,11 @@ pub(crate) struct Basin {
     plot: Option<PathBuf>,
 
     #[command(flatten)]
+    colour: ColourArgs,
+    #[command(flatten)]
+    figure: FigureArgs,
+
+    #[command(flatten)]
     fields: FieldsArgs,
 
     /// Print one JSON object with the motions and their shares
@@ -69,10 +74,16 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let asked = args.system.asked()?;
     let units = asked.units;
     let plane = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
-    let task = BasinPlan { refine: args.refine, impacts: args.impacts, fields: args.fields.fields.clone(), ..plane };
+    let task = BasinPlan {
+        refine: args.refine,
+        impacts: args.impacts,
+        fields: args.colour.fields(&args.fields.fields),
+        ..plane
+    };
     let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(asked.system, Task::Basin(task)))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    outputs.drawable(&axes)?;
-    respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    outputs.drawable(&axes, 2)?;
+    let shown = Shown { colour: args.colour.coloured(outputs.drawn())?, ..Shown::default() };
+    respond::run(&plan, units, (outputs, shown), Some(&args.store), session)
 }

@@ -1,6 +1,6 @@
 //! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
-use crate::args::{Named, ParameterFlag, SystemArgs, Value, number, parameter, whole};
+use crate::args::{FigureArgs, Named, ParameterFlag, SystemArgs, Value, number, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -73,6 +73,9 @@ pub(crate) struct Branch {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    figure: FigureArgs,
+
     /// Leave out the simulation behind the figure
     #[arg(long, help_heading = "Output")]
     no_diagram: bool,
@@ -107,7 +110,7 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     };
     let plan = Plan::new(asked.system, Task::Branch(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let shown = Shown { diagram: !args.no_diagram, inadmissible: args.show_virtual, ..Shown::default() };
     respond::run(&plan, asked.units, (outputs, shown), None, session)
 }

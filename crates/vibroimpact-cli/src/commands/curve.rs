@@ -1,6 +1,6 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
-use crate::args::{Named, Over, SystemArgs, of_oscillator, whole};
+use crate::args::{FigureArgs, Named, Over, SystemArgs, of_oscillator, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -63,6 +63,9 @@ pub(crate) struct Curve {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    figure: FigureArgs,
+
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -105,6 +108,6 @@ pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let parameters = of_oscillator(&mut asked, &varied)?;
     let plan = Plan::new(asked.system, Task::Curve(args.plan(&asked.units, &parameters)));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

@@ -1,6 +1,6 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
-use crate::args::{Ends, Named, ParameterFlag, StoreArgs, SystemArgs, parameter, whole};
+use crate::args::{Ends, FigureArgs, Named, ParameterFlag, StoreArgs, SystemArgs, parameter, quantity, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
-use vibroimpact_study::{DiagramPlan, Plan, Span, Stretch, Task};
+use vibroimpact_study::{DiagramPlan, Plan, PlanError, Span, Stretch, Task};
 
 /// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
 ///
@@ -35,6 +35,7 @@ use vibroimpact_study::{DiagramPlan, Plan, Span, Stretch, Task};
         --direction scatter --starts 20 --plot beta.png\n  \
         vibro diagram --beta 0.9 --gap 2 --damping 0.05 --vary restitution --over 0:1:201 \\\n    \
         --show strobe --csv strobe.csv\n  \
+        vibro diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:301 --show impact-speed-max --plot speed.png\n  \
         vibro diagram --restitution 0.5 --vary inverse-beta --over 1.05:1.15:401 --also gap=1.5:3 --plot line.png"
 )]
 pub(crate) struct Diagram {
@@ -66,9 +67,11 @@ pub(crate) struct Diagram {
     #[arg(long, value_parser = whole::<u64>, value_name = "S", help_heading = "Sweep")]
     seed: Option<u64>,
 
-    /// What is shown
-    #[arg(long, value_enum, value_name = "WHAT", default_value_t = What::Velocity, help_heading = "Sweep")]
-    show: What,
+    /// What is shown: velocity (phase and speed of arrival of each impact), strobe (position and velocity once in every
+    /// forcing period, at phase 0), or a quantity of the settled motion by name, one value of each motion: impact-speed-max,
+    /// power and others, as in --fields of `vibro map`
+    #[arg(long, value_parser = what, value_name = "WHAT", default_value = "velocity", help_heading = "Sweep")]
+    show: Show,
 
     /// Impacts (velocity) or forcing periods (strobe) to pass before anything is shown, up to 1000000
     #[arg(long, value_parser = whole::<u64>, value_name = "K", default_value_t = DEFAULT_TRANSIENT, allow_hyphen_values = true, help_heading = "Sweep")]
@@ -82,13 +85,16 @@ pub(crate) struct Diagram {
     store: StoreArgs,
 
     /// Write one row a point to this file; - for stdout. Columns: the parameter, that of --also, sweep, kind, side, phase,
-    /// velocity; for strobe the parameters, sweep, kind, x, v
+    /// velocity; for strobe the parameters, sweep, kind, x, v; for a quantity the parameters, sweep, kind, its value
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
     /// Draw the diagram into this file, .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    figure: FigureArgs,
 
     /// Print one JSON object with the number of motions of each kind
     #[arg(long, help_heading = "Output")]
@@ -107,12 +113,13 @@ enum Way {
     Scatter,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum What {
-    /// Phase and speed of arrival of each impact
-    Velocity,
-    /// Position and velocity once in every forcing period, at phase 0
-    Strobe,
+/// Parses what is shown.
+fn what(text: &str) -> Result<Show, String> {
+    match text {
+        "velocity" => Ok(Show::Velocity),
+        "strobe" => Ok(Show::Strobe),
+        name => quantity(name).map(Show::Quantity).map_err(|why| format!("{why}; besides these, velocity and strobe")),
+    }
 }
 
 impl Diagram {
@@ -142,15 +149,15 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         vary,
         over: args.over.scaled(units.of(vary))?,
         also: args.also.map(stretch),
-        show: match args.show {
-            What::Velocity => Show::Velocity,
-            What::Strobe => Show::Strobe,
-        },
+        show: args.show,
         direction: args.direction()?,
         transient: args.transient,
         keep: args.keep,
     };
+    if args.store.store.is_some() && matches!(args.show, Show::Quantity(_)) {
+        return Err(PlanError::NoStoredQuantity.into());
+    }
     let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
 }

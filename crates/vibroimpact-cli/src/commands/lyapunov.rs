@@ -1,6 +1,6 @@
 //! `vibro lyapunov`: the Lyapunov exponents of a motion, and sections of its attractor.
 
-use crate::args::{StartArgs, SystemArgs, whole};
+use crate::args::{FigureArgs, StartArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -53,6 +53,9 @@ pub(crate) struct Lyapunov {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    figure: FigureArgs,
+
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -75,6 +78,6 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     };
     let plan = Plan::new(asked.system, Task::Lyapunov(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.section.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

@@ -1,6 +1,6 @@
 //! `vibro map`: the motions at each point of a plane of parameters.
 
-use crate::args::{FieldsArgs, RangedSystemArgs, StoreArgs, whole};
+use crate::args::{ColourArgs, FieldsArgs, FigureArgs, RangedSystemArgs, StoreArgs, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -52,9 +52,14 @@ pub(crate) struct Map {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw the map into this file, .svg or .png
+    /// Draw the map into this file, .svg or .png: the labels over two parameters, their shares over one
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    colour: ColourArgs,
+    #[command(flatten)]
+    figure: FigureArgs,
 
     #[command(flatten)]
     fields: FieldsArgs,
@@ -78,11 +83,12 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         seed: args.seed,
         refine: args.refine,
         impacts: args.impacts,
-        fields: args.fields.fields.clone(),
+        fields: args.colour.fields(&args.fields.fields),
     };
     let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(system, Task::Map(task)))?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
-    outputs.drawable(&axes)?;
-    respond::run(&plan, units, (outputs, Shown::default()), Some(&args.store), session)
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    outputs.drawable(&axes, 1)?;
+    let shown = Shown { colour: args.colour.coloured(outputs.drawn())?, ..Shown::default() };
+    respond::run(&plan, units, (outputs, shown), Some(&args.store), session)
 }

@@ -1,6 +1,6 @@
 //! `vibro margins`: how far a periodic motion is from the events that end or change it.
 
-use crate::args::{Named, ParameterFlag, StartArgs, SystemArgs, number, parameter, whole};
+use crate::args::{FigureArgs, Named, ParameterFlag, StartArgs, SystemArgs, number, parameter, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -72,7 +72,7 @@ pub(crate) struct Margins {
 }
 
 pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
-    let (asked, vary) = args.varied(session)?;
+    let (asked, vary) = args.varied()?;
     let start = args.start.plan(&asked.units);
     if args.label.is_some() && start != StartPlan::default() {
         return Err(Failure::bad("--label cannot go together with a start\nhint: --label, or --x, --v and --phase"));
@@ -80,39 +80,37 @@ pub(super) fn run(args: &Margins, session: &Session) -> Result<(), Failure> {
     let task = MarginsPlan { start, label: args.label.clone(), vary, within: args.within, lines: args.lines };
     let plan = Plan::new(asked.system, Task::Margins(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), None, args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (None, &FigureArgs::default()), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }
 
 impl Margins {
     /// The system with its units, and the parameters that vary; none stands for all.
-    fn varied(&self, session: &Session) -> Result<(Asked, Vec<ScaledParameter>), Failure> {
-        let system = self.system.asked()?.system;
+    fn varied(&self) -> Result<(Asked, Vec<ScaledParameter>), Failure> {
         let machine = self.system.is_machine();
-        let has_unit = |parameter| matches!(parameter, Parameter::Beta | Parameter::Gap | Parameter::SecondGap);
-        let flag_of = |parameter| ParameterFlag { parameter, si: machine && has_unit(parameter) };
+        let asked = if machine { self.system.in_si().asked()? } else { self.system.asked()? };
+        let known = MarginsPlan::parameters(&asked.system);
         let named = self.vary.iter().chain(self.scale.iter().map(|Named(named, _)| named));
-        if let Some(wrong) = named.clone().find(|named| machine && **named != flag_of(named.parameter)) {
-            let twin = ParameterFlag { parameter: wrong.parameter, si: true };
+        let nondimensional = |of: Parameter| {
+            matches!(
+                of,
+                Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap | Parameter::Damping
+            )
+        };
+        if let Some(wrong) = named.clone().find(|named| machine && nondimensional(named.parameter)) {
             return Err(Failure::bad(format!(
                 "{} is nondimensional, and margins of a system in physical units are in SI units\nhint: {}",
                 wrong.flag(),
-                if has_unit(wrong.parameter) { twin.flag() } else { "frequency-hz" }
+                match wrong.parameter {
+                    Parameter::Gap => "gap-m",
+                    Parameter::SecondGap => "second-gap-m",
+                    Parameter::Damping => "damping-ratio",
+                    _ => "frequency-hz",
+                }
             )));
         }
-        let mut flags = self.vary.clone();
-        if flags.is_empty() {
-            let all: Vec<ParameterFlag> = MarginsPlan::parameters(&system).into_iter().map(flag_of).collect();
-            // of a machine with an excitation other than a force, some parameters cannot vary
-            flags = all.iter().copied().filter(|one| self.system.over(&[*one]).is_ok()).collect();
-            let left: Vec<&str> = all.iter().filter(|one| !flags.contains(one)).map(|one| one.flag()).collect();
-            if !left.is_empty() {
-                let names = left.join(", ");
-                session.note(&format!("left out: {names}, which cannot vary with this excitation yet"));
-            }
-        }
-        let mut asked = self.system.over(&flags)?;
-        (asked.units.si, asked.units.hertz) = (machine, machine);
+        let all: Vec<ParameterFlag> = known.into_iter().map(|parameter| ParameterFlag { parameter }).collect();
+        let flags = if self.vary.is_empty() { all } else { self.vary.clone() };
         let scale = |parameter| {
             let of = |Named(named, value): &Named<f64>| (named.parameter == parameter).then_some(*value);
             self.scale.iter().rev().find_map(of).map(|value| value / asked.units.of(parameter))
@@ -125,8 +123,7 @@ impl Margins {
             )));
         }
         let scaled = |flag: &ParameterFlag| ScaledParameter { parameter: flag.parameter, scale: scale(flag.parameter) };
-        let every = flags.len() == MarginsPlan::parameters(&system).len() && self.vary.is_empty();
-        let all = every && self.scale.is_empty();
+        let all = self.vary.is_empty() && self.scale.is_empty();
         Ok((asked, if all { Vec::new() } else { flags.iter().map(scaled).collect() }))
     }
 }

@@ -1,6 +1,6 @@
 //! `vibro orbit`: the periodic orbits with a label, stable or not.
 
-use crate::args::SystemArgs;
+use crate::args::{FigureArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -42,6 +42,6 @@ pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let task = Task::Orbit { label: args.label.clone() };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
-    let outputs = Outputs::reserve(None, None, args.json, session)?;
+    let outputs = Outputs::reserve(None, (None, &FigureArgs::default()), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

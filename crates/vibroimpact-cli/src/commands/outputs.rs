@@ -1,12 +1,13 @@
 //! The output files of a command: a table, a figure, or both. They are reserved before the computation.
 
+use crate::args::FigureArgs;
 use crate::failure::Failure;
 use crate::files::Target;
 use crate::picture::Picture;
 use crate::session::Session;
 use std::path::Path;
 use vibroimpact_plot::Figure;
-use vibroimpact_report::figure::plane::Plane;
+use vibroimpact_report::figure::plane::{Plane, PlaneAxis};
 use vibroimpact_report::{Table, Units};
 use vibroimpact_study::Axis;
 
@@ -25,7 +26,7 @@ enum Sheet {
 impl Outputs {
     pub(super) fn reserve(
         csv: Option<&Path>,
-        plot: Option<&Path>,
+        (plot, look): (Option<&Path>, &FigureArgs),
         json: bool,
         session: &Session,
     ) -> Result<Self, Failure> {
@@ -40,16 +41,32 @@ impl Outputs {
                 Some(Sheet::File(target, path.display().to_string()))
             }
         };
-        let picture = plot.map(|path| Picture::reserve(path, session.force)).transpose()?;
+        if plot.is_none() && look.any() {
+            return Err(Failure::bad(
+                "--title, --size, --dpi, --x-limits, --y-limits and --greyscale say how the figure looks\nhint: --plot FILE",
+            ));
+        }
+        let picture = plot.map(|path| Picture::reserve(path, look, session.force)).transpose()?;
         Ok(Self { csv, picture, json })
     }
 
-    /// Refuses axes over which no figure can be drawn, before the computation.
-    pub(super) fn drawable(&self, axes: &[Axis]) -> Result<(), Failure> {
-        if self.picture.is_some() {
-            Plane::of(axes, &Units::default())?;
+    /// Refuses axes over which no figure can be drawn, before the computation. Some figures need one axis only.
+    pub(super) fn drawable(&self, axes: &[Axis], fewest: usize) -> Result<(), Failure> {
+        match axes {
+            _ if self.picture.is_none() => {}
+            [axis] if fewest == 1 => {
+                PlaneAxis::of(axis, &Units::default())?;
+            }
+            axes => {
+                Plane::of(axes, &Units::default())?;
+            }
         }
         Ok(())
+    }
+
+    /// Whether a figure was requested.
+    pub(super) const fn drawn(&self) -> bool {
+        self.picture.is_some()
     }
 
     /// Whether a table or a figure was requested.
@@ -91,7 +108,7 @@ impl Outputs {
         figure: impl FnOnce() -> Result<Figure, Failure>,
     ) -> Result<(), Failure> {
         if let Some(picture) = self.picture {
-            picture.write(&figure()?)?;
+            picture.write(figure()?)?;
         }
         match self.csv {
             None => Ok(()),

@@ -1,6 +1,7 @@
 //! `vibro plot`: the figure of a store.
 
 use super::stored;
+use crate::args::{ColourArgs, FigureArgs};
 use crate::failure::Failure;
 use crate::picture::Picture;
 use crate::session::Session;
@@ -18,12 +19,18 @@ pub(crate) struct Plot {
     /// The file, .svg or .png
     #[arg(value_name = "FILE")]
     file: PathBuf,
+
+    #[command(flatten)]
+    colour: ColourArgs,
+    #[command(flatten)]
+    look: FigureArgs,
 }
 
 pub(super) fn run(args: &Plot, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
-    let picture = Picture::reserve(&args.file, session.force)?;
-    picture.write(&figure::<_, Failure>(&store)?)?;
+    let colour = args.colour.coloured(true)?;
+    let picture = Picture::reserve(&args.file, &args.look, session.force)?;
+    picture.write(figure::<_, Failure>(&store, colour)?)?;
     session.note(&format!("wrote {}", args.file.display()));
     Ok(())
 }

@@ -1,6 +1,8 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
-use crate::args::{AxesArgs, Convention, MachineArgs, ParameterFlag, Place, SystemArgs, of_oscillator, whole};
+use crate::args::{
+    AxesArgs, Convention, FigureArgs, MachineArgs, ParameterFlag, Place, SystemArgs, of_oscillator, whole,
+};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -80,6 +82,9 @@ pub(crate) struct Region {
     /// Draw both regions into this file, .svg or .png; edges of the sheet "above" are thin
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    figure: FigureArgs,
 
     /// Print one JSON object with the polygons instead of text
     #[arg(long, help_heading = "Output")]
@@ -161,6 +166,6 @@ pub(super) fn run(args: &Region, session: &Session) -> Result<(), Failure> {
     let task = RegionPlan { label: args.label.clone(), across, up, grid: args.grid };
     let plan = Plan::new(asked.system, Task::Region(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)
 }

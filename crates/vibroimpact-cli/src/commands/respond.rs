@@ -19,7 +19,7 @@ pub(super) fn run(
     session: &Session,
 ) -> Result<(), Failure> {
     if let Some(place) = store.and_then(|store| store.store.as_ref()) {
-        return stored::run(&in_units(plan, &units), place, Part::ALL, outputs, session);
+        return stored::run(&in_units(plan, &units), place, Part::ALL, (outputs, shown.colour), session);
     }
     let answer = compute(plan, units, session)?;
     tell(&answer, (outputs, shown), session)

@@ -1,6 +1,6 @@
 //! `vibro response`: a quantity of all motions over one parameter.
 
-use crate::args::{RangedSystemArgs, quantity, whole};
+use crate::args::{FigureArgs, RangedSystemArgs, quantity, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -45,6 +45,9 @@ pub(crate) struct Response {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    figure: FigureArgs,
+
     /// Print one JSON object instead of text
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -66,6 +69,6 @@ pub(super) fn run(args: &Response, session: &Session) -> Result<(), Failure> {
     let task = ResponsePlan { quantity: args.quantity.unwrap_or(task.quantity), impacts: args.impacts, ..task };
     let plan = Plan::new(system, Task::Response(task));
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, units, (outputs, Shown::default()), None, session)
 }

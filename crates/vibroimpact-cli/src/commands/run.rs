@@ -1,7 +1,7 @@
 //! `vibro run`: fills a store with the study of a plan in a file.
 
 use super::stored;
-use crate::args::Tiles;
+use crate::args::{ColourArgs, FigureArgs, Tiles};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::hints;
@@ -41,6 +41,11 @@ pub(crate) struct Run {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
 
+    #[command(flatten)]
+    colour: ColourArgs,
+    #[command(flatten)]
+    figure: FigureArgs,
+
     /// Print one JSON object with what was done
     #[arg(long, help_heading = "Output")]
     json: bool,
@@ -66,7 +71,8 @@ pub(super) fn default_store(plan: &Path) -> String {
 pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
     let plan = read(&args.plan)?;
     plan.check()?;
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
-    stored::run(&plan, &place, args.tiles.map_or(Part::ALL, |tiles| tiles.0), outputs, session)
+    let colour = args.colour.coloured(outputs.drawn())?;
+    stored::run(&plan, &place, args.tiles.map_or(Part::ALL, |tiles| tiles.0), (outputs, colour), session)
 }

@@ -1,6 +1,6 @@
 //! `vibro settle`: the motion from one start after its transient.
 
-use crate::args::{StartArgs, SystemArgs, number, whole};
+use crate::args::{FigureArgs, StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -64,6 +64,9 @@ pub(crate) struct Settle {
     /// Draw the steady motion into this file, .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    figure: FigureArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -107,7 +110,7 @@ pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
     if args.show.is_some() && args.csv.is_none() && args.plot.is_none() {
         return Err(Failure::bad("--show says what is drawn or written: it belongs to --plot and --csv"));
     }
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let mut answer = respond::compute(&plan, asked.units, session)?;
     if let (Some(rule), Results::Settle(start, _)) = (rule, &answer.results) {
         answer.paper_rule = Some((rule, paper_rule(&answer.osc, *start, rule)));

@@ -1,6 +1,6 @@
 //! `vibro simulate`: the events of a motion.
 
-use crate::args::{StartArgs, SystemArgs, number, whole};
+use crate::args::{FigureArgs, StartArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
 use crate::failure::Failure;
@@ -51,6 +51,9 @@ pub(crate) struct Simulate {
     /// Draw the waveform into this file, .svg or .png
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     plot: Option<PathBuf>,
+
+    #[command(flatten)]
+    figure: FigureArgs,
 }
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
@@ -63,6 +66,6 @@ pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
     if let Some(step) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(Failure::bad(format!("step = {step} lies outside 0 < step < infinity")));
     }
-    let outputs = Outputs::reserve(args.csv.as_deref(), args.plot.as_deref(), args.json, session)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown { step, ..Shown::default() }), None, session)
 }

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::report::stored as report;
 use crate::session::Session;
 use serde::Serialize;
+use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::stored::figure;
 use vibroimpact_store::{Part, Ran, Store, StoreError, shelf};
 use vibroimpact_study::{Plan, counted};
@@ -63,7 +64,13 @@ impl Filled {
 }
 
 /// Fills a store according to the flags of a command, then writes the requested outputs from it.
-pub(super) fn run(plan: &Plan, place: &str, part: Part, outputs: Outputs, session: &Session) -> Result<(), Failure> {
+pub(super) fn run(
+    plan: &Plan,
+    place: &str,
+    part: Part,
+    (outputs, colour): (Outputs, Option<Coloured>),
+    session: &Session,
+) -> Result<(), Failure> {
     let store = begin(plan, place)?;
     let filled = fill(&store, part, session)?;
     if filled.left > 0 && outputs.any_file() {
@@ -71,7 +78,7 @@ pub(super) fn run(plan: &Plan, place: &str, part: Part, outputs: Outputs, sessio
         return Ok(());
     }
     let (json, silent) = (outputs.json(), outputs.any());
-    outputs.stream(session, |out| report::table(&store, false, out), || figure(&store))?;
+    outputs.stream(session, |out| report::table(&store, false, out), || figure(&store, colour))?;
     if json {
         return session.print_json(&report::StoredFields::new(&store, Some(filled))?);
     }

@@ -159,3 +159,57 @@ fn a_line_through_two_parameters() {
     let pairs: Vec<(&str, &str)> = rows.iter().map(|row| (row[0].as_str(), row[1].as_str())).collect();
     assert!(pairs.iter().all(|pair| [("0.01", "0.004"), ("0.02", "0.005")].contains(pair)), "{pairs:?}");
 }
+
+/// One value of each motion: where both sweeps have one cycle its quantity is that of `settle`, in the units of the question.
+#[test]
+fn a_quantity_of_the_settled_motion() {
+    let line = "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0.5:1:3 --show impact-speed-max";
+    let said = |line: &str| {
+        let output = vibro(line).output().expect("vibro runs");
+        assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let table = said(&format!("{line} --csv -"));
+    let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows[0], ["gap", "sweep", "kind", "impact_speed_max"]);
+    assert_eq!(rows.len(), 1 + 2 * 3, "{table}");
+    let value = |gap: &str, sweep: &str| {
+        let row = rows.iter().find(|row| row[0] == gap && row[1] == sweep).expect("the row");
+        row[3].parse::<f64>().expect("a number")
+    };
+    for gap in ["0.5", "1"] {
+        let settled = json(&format!("settle --inverse-beta 1.3 --restitution 0.5 --gap {gap}"));
+        let speed = settled["motion"]["quantities"]["impact_speed_max"].as_f64().expect("a number");
+        assert!((value(gap, "up") - speed).abs() < 1e-9 && (value(gap, "down") - speed).abs() < 1e-9, "{gap}: {table}");
+    }
+    // between them 2/1 and 1/1 coexist, and the sweeps find one each
+    assert!((value("0.75", "up") - value("0.75", "down")).abs() > 0.01, "{table}");
+    let machine = "diagram --mass-kg 2 --stiffness-n-per-m 800 --force-n 4 --frequency-hz 2.5 --gap-m 0.003 --restitution 0.6 \
+                   --units si --vary gap --over 0.001:0.3:4 --show";
+    let empty = said(&format!("{machine} impact_speed_mean --direction down --csv -"));
+    assert!(empty.starts_with("gap_m,sweep,kind,impact_speed_mean_m_per_s\n"), "{empty}");
+    assert!(empty.lines().any(|row| row == "0.3,down,none,"), "no impacts have no mean speed: {empty}");
+    let folder = tempfile::tempdir().expect("a folder");
+    let svg = folder.path().join("a.svg");
+    said(&format!("{machine} impact-speed-max --plot {}", svg.display()));
+    assert!(std::fs::read_to_string(svg).expect("the figure").contains("largest impact speed (m/s)"));
+    for (options, sentence) in [
+        ("--store a.zarr", "a diagram of a quantity is computed in memory, and has no store"),
+        ("--show everything", "`everything` is no quantity; there are impact-speed-max"),
+    ] {
+        let line = if options.contains("show") {
+            line.replace("--show impact-speed-max", options)
+        } else {
+            format!("{line} {options}")
+        };
+        let output = vibro(&line).current_dir(&folder).output().expect("vibro runs");
+        let complaint = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{complaint}");
+        assert!(complaint.contains(sentence), "{complaint}");
+    }
+    // a plan in a file is refused too
+    let plan = r#"{"version":1,"system":{"inverse_beta":1.3,"gap":0,"restitution":0.5},"task":{"diagram":{"vary":"gap","over":"0:1:3","show":{"quantity":"power"}}}}"#;
+    std::fs::write(folder.path().join("plan.json"), plan).expect("a plan");
+    let output = vibro("run plan.json").current_dir(&folder).output().expect("vibro runs");
+    assert!(String::from_utf8_lossy(&output.stderr).contains("has no store"), "{output:?}");
+}

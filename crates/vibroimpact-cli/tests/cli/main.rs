@@ -3,9 +3,11 @@
 mod answers;
 mod arguments;
 mod branches;
+mod colours;
 mod diagrams;
 mod edges;
 mod excitation;
+mod figures;
 mod files;
 mod lyapunov;
 mod margins;

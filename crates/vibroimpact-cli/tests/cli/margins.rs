@@ -69,16 +69,31 @@ fn a_machine_in_si_units() {
     let (down, event) = (&of(&answer, "frequency_hz")["down"], &branch["events"][0]);
     assert_eq!((&answer["units"], &down["event"]["kind"]), (&"si".into(), &event["kind"]));
     assert!((number(&down["at"]) - number(&event["parameter"])).abs() < 1e-9);
-    assert!((number(&of(&answer, "gap")["value"]) - 0.0015).abs() < 1e-15);
+    assert!((number(&of(&answer, "gap_m")["value"]) - 0.0015).abs() < 1e-15);
     // a scale in its units
-    let scaled = json(&format!("margins {MACHINE} --vary gap-m,damping --scale gap-m=0.0003"));
-    assert!((number(&of(&scaled, "gap")["scale"]) - 0.0003).abs() < 1e-15);
+    let scaled = json(&format!("margins {MACHINE} --vary gap-m,damping-ratio --scale gap-m=0.0003"));
+    assert!((number(&of(&scaled, "gap_m")["scale"]) - 0.0003).abs() < 1e-15);
     assert_eq!(scaled["parameters"].as_array().unwrap().len(), 2);
-    // parameters on which the force of a moving base depends are left out
+    // each number of the machine varies, and its force depends on the motion of the base
     let base = MACHINE.replace("--force-n 30", "--base-acceleration-m-per-s2 30");
-    let moved = json(&format!("margins {base}"));
-    let names: Vec<&Value> = moved["parameters"].as_array().unwrap().iter().map(|one| &one["parameter"]).collect();
-    assert!(!names.contains(&&"frequency_hz".into()) && names.contains(&&"gap".into()), "{names:?}");
+    let moved = json(&format!("margins {base} --lines 0"));
+    let names: Vec<&str> =
+        moved["parameters"].as_array().unwrap().iter().map(|one| one["parameter"].as_str().unwrap()).collect();
+    let expected = [
+        "mass_kg",
+        "stiffness_n_per_m",
+        "damping_ratio",
+        "frequency_hz",
+        "gap_m",
+        "base_acceleration_m_per_s2",
+        "restitution",
+    ];
+    assert_eq!(names, expected);
+    // twice the acceleration has the motion of half the gap
+    let (wider, weaker) = (of(&answer, "gap_m"), of(&answer, "force_n"));
+    let events = |of: &Value| [of["down"]["event"]["kind"].clone(), of["up"]["event"]["kind"].clone()];
+    let [down, up] = events(wider);
+    assert_eq!(events(weaker), [up, down]);
 }
 
 #[test]

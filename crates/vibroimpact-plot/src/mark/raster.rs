@@ -9,6 +9,7 @@ use crate::error::{MAX_SIDE, PlotError};
 use crate::mark::extent::Extent;
 use crate::number::N;
 use crate::scale::Scale;
+use crate::vision::Vision;
 
 /// Equal cells over a rectangle, each in the colour of its class.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +76,14 @@ impl Raster {
             return;
         }
         // page coordinates increase downwards, so the first row is the lowest line of the image
-        let Some(png) = self.png(b < a, c > d) else {
+        let greyed;
+        let shown = if canvas.grey {
+            greyed = self.greyed();
+            &greyed
+        } else {
+            self
+        };
+        let Some(png) = shown.png(b < a, c > d) else {
             return;
         };
         let clip = canvas.clip(frame);
@@ -89,6 +97,12 @@ impl Raster {
             N(height),
             base64::encode(&png)
         ));
+    }
+
+    /// The same raster in greys.
+    fn greyed(&self) -> Self {
+        let palette = self.palette.iter().map(|colour| Vision::Grey.see(*colour)).collect();
+        Self { palette, ..self.clone() }
     }
 
     fn colour(&self, class: u16) -> Option<Colour> {

@@ -110,8 +110,14 @@ class VibroAccessor:
 
         return _si.converted(self._ds, units)
 
-    def plot(self, ax: "Axes | None" = None, *, which: str | None = None) -> "Axes":
-        """Draw the Dataset: the motions over two axes, or the points of an orbit diagram.
+    def plot(
+        self, ax: "Axes | None" = None, *, which: str | None = None, colour: str | None = None, of: str = "largest"
+    ) -> "Axes":
+        """Draw the Dataset: the motions over two axes, their shares over one, or the points of an orbit diagram.
+
+        With `colour`, the values of a quantity of the motions are drawn: over two axes in colours with a colour bar, over
+        one axis as dots in the colours of the labels. Cells without a value (not defined, infinite, undecided, not
+        computed) have looks of their own.
 
         The title states the coordinates of the Dataset, so it is still correct after `isel`, `sel`, `concat` and similar
         operations. A parameter that varied and whose coordinate was dropped is stated as not known. Values of an axis that
@@ -123,14 +129,36 @@ class VibroAccessor:
             The axes to draw on; by default those of a new figure.
         which : str
             For an orbit diagram, the variable on the ordinate; by default "velocity" or, if absent, "x".
-        """
-        from vibroimpact import _cells, _clouds
+        colour : str
+            For a basin or map, the variable whose values are drawn: one of the `fields` it was computed with, or another
+            number of each motion, such as "share". The Dataset of `ds.vibro.si()` gives values in SI units.
+        of : str
+            Which of several motions at a point has the colour: the one with the "largest" value (or "worst"), with the
+            "smallest" (or "least"), or the "likeliest", to which most starts lead.
 
-        if self._ds.attrs.get("units") == "si":
-            raise QuestionError("a Dataset in metres and seconds is not drawn\nhint: plot it before si() converts it")
+        Examples
+        --------
+        >>> from vibroimpact import Oscillator, region_map
+        >>> osc = Oscillator(inverse_beta=1, gap=0, restitution=0.5)
+        >>> over = {"inverse_beta": "1:1.3:4", "gap": "0.5:1:3"}
+        >>> ds = region_map(osc, over, starts=4, fields=["impact_speed_max"])
+        >>> ax = ds.vibro.plot(colour="impact_speed_max")
+        >>> ax.figure.axes[1].get_ylabel()
+        'largest impact speed ($\\\\omega_n F/k$)'
+        """
+        from vibroimpact import _cells, _clouds, _coloured
+
         if _clouds.is_diagram(self._ds):
+            if self._ds.attrs.get("units") == "si":
+                raise QuestionError(
+                    "a diagram in metres and seconds is not drawn\nhint: plot it before si() converts it"
+                )
+            if colour is not None:
+                raise QuestionError("only basins and maps have colours by a quantity\nhint: which=... is the ordinate")
             return _clouds.plot(self._ds, ax, which)
         if "label" in self._ds:
+            if colour is not None:
+                return _coloured.plot(self._ds, ax, colour, of)
             return _cells.plot(self._ds, ax)
         raise QuestionError(
             "this Dataset is none that vibroimpact draws\nhint: those of basin, region_map and orbit_diagram have a figure"

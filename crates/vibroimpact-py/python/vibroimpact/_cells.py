@@ -1,4 +1,4 @@
-"""Figures of basins and maps: the motions over two axes, in colours.
+"""Figures of basins and maps: the motions over two axes, in colours, or their shares over one axis.
 
 If several motions coexist at a point of a map, its cell is divided between them, with the most frequent on the left.
 """
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact._core import QuestionError
 from vibroimpact._figure import legend, new_axes
 from vibroimpact._palette import CLASSES, LEGEND, legend_group
-from vibroimpact._stated import along, symbol, title
+from vibroimpact._stated import along, named, title
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,17 +25,16 @@ _STRIPES = 12
 
 def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
     """Draw cells over two axes; the faster one is the abscissa. Axes and title use the coordinates, not the plan."""
-    dims = [str(name) for name in ds["label"].dims if name != "motion"]
-    if len(dims) != 2:
-        raise QuestionError(
-            f"a figure has two axes, and there are {len(dims)}: {', '.join(dims)}\nhint: ds.isel(...) takes one value of an axis"
-        )
+    shares = "motion" in ds["label"].dims and "share" in ds
+    dims = axes_of(ds, (1, 2) if shares else (2,))
+    if len(dims) == 1:
+        return _shares(in_order(ds, dims[0]), ax, dims[0])
     up, across = dims
     for name in dims:
-        ds = _in_order(ds, name)
+        ds = in_order(ds, name)
     classes, cells = _classes(ds, ds["label"].transpose(up, across, ...))
     ax = new_axes(ax, (7.4, 5.0))
-    xs, ys = _edges(ds[across].values), _edges(ds[up].values)
+    xs, ys = edges(ds[across].values), edges(ds[up].values)
     cells, xs = _divided(cells, xs)
 
     from matplotlib.colors import ListedColormap
@@ -45,13 +44,51 @@ def plot(ds: "xr.Dataset", ax: "Axes | None") -> "Axes":
     ax.pcolormesh(xs, ys, cells, cmap=colours, vmin=-0.5, vmax=len(classes) - 0.5, rasterized=True)
     handles = [Patch(facecolor=colour, edgecolor="0.4", linewidth=0.6, label=name) for name, colour in classes]
     legend(ax, handles)
-    ax.set_xlabel(symbol(across))
-    ax.set_ylabel(symbol(up))
+    ax.set_xlabel(named(ds, across))
+    ax.set_ylabel(named(ds, up))
     ax.set_title(title(ds, (across, up)))
     return ax
 
 
-def _in_order(ds: "xr.Dataset", name: str) -> "xr.Dataset":
+def axes_of(ds: "xr.Dataset", allowed: tuple[int, ...]) -> list[str]:
+    """The dimensions of the cells, the slowest first, if their number is allowed."""
+    dims = [str(name) for name in ds["label"].dims if name != "motion"]
+    if len(dims) not in allowed:
+        words = " or ".join({1: "one", 2: "two"}[count] for count in allowed)
+        raise QuestionError(
+            f"a figure has {words} axes, and there are {len(dims)}: {', '.join(dims)}\nhint: ds.isel(...) takes one value of an axis"
+        )
+    return dims
+
+
+def _shares(ds: "xr.Dataset", ax: "Axes | None", dim: str) -> "Axes":
+    """Stacked bars over one axis: the shares of starts that lead to the motions of each group."""
+    words = ds["label"].transpose(dim, "motion")
+    groups = ds.assign(label=words).vibro.labels().values
+    known = {word: legend_group(word) if word else "" for word in np.unique(groups)}
+    groups = np.array([known[word] for word in groups.ravel()], dtype=np.str_).reshape(groups.shape)
+    shares = np.nan_to_num(ds["share"].transpose(dim, "motion").values)
+    ax = new_axes(ax, (7.4, 4.2))
+    xs = edges(ds[dim].values)
+    bottom = np.zeros(len(groups))
+    for group, colour in CLASSES.items():
+        height = np.where(groups == group, shares, 0.0).sum(axis=1)
+        if height.any():
+            # undecided starts are hatched, because white bars would look like none
+            hatch = "xxxx" if group == "undecided" else None
+            ax.bar(xs[:-1], height, np.diff(xs), bottom, align="edge", facecolor=colour, edgecolor="#d02020", hatch=hatch,
+                   linewidth=0, label=LEGEND[group])
+            bottom += height
+    ax.set_xlim(min(xs[0], xs[-1]), max(xs[0], xs[-1]))
+    ax.set_ylim(0, 1)
+    ax.set_xlabel(named(ds, dim))
+    ax.set_ylabel("share of starts")
+    ax.set_title(title(ds, (dim,)))
+    legend(ax)
+    return ax
+
+
+def in_order(ds: "xr.Dataset", name: str) -> "xr.Dataset":
     """The Dataset sorted along an axis, unless its values already rise or fall, as neighbouring cells require."""
     steps = np.diff(along(ds, name))
     if np.all(steps > 0) or np.all(steps < 0):
@@ -106,7 +143,7 @@ def _variant(colour: str, k: int) -> tuple[float, float, float]:
     return mixed[0], mixed[1], mixed[2]
 
 
-def _edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
+def edges(centres: NDArray[np.float64]) -> NDArray[np.float64]:
     """Edges of cells around values that rise or fall."""
     if len(centres) == 1:
         return np.array([centres[0] - 0.5, centres[0] + 0.5])

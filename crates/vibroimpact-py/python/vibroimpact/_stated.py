@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 #: Symbols of the coordinates of a start.
 STARTS = {"x": r"\xi_0", "v": r"u_0", "phase": r"\varphi_0"}
 _FREQUENCIES = ("beta", "inverse_beta")
+#: Symbols of coordinates in metres and seconds.
+IN_METRES = {"gap": "d", "second_gap": "d_2", "x": "x_0", "v": "v_0"}
 #: Parameters that a title always states if they are known. The others are stated only where `_worth_saying` holds.
 _ALWAYS = (*_FREQUENCIES, "gap", "restitution")
 
@@ -41,6 +43,23 @@ def symbol(name: str) -> str:
     """The symbol of a coordinate, or its name if it has no symbol."""
     known = SYMBOLS | STARTS
     return f"${known[name]}$" if name in known else name
+
+
+def named(ds: "xr.Dataset", name: str) -> str:
+    """The symbol of a coordinate for an axis, with its unit in a Dataset in metres and seconds."""
+    unit = _unit(ds, name)
+    return f"{_sign(ds, name)} ({unit})" if unit else _sign(ds, name)
+
+
+def _sign(ds: "xr.Dataset", name: str) -> str:
+    """The symbol of a coordinate in the units of the Dataset."""
+    return f"${IN_METRES[name]}$" if _unit(ds, name) and name in IN_METRES else symbol(name)
+
+
+def _unit(ds: "xr.Dataset", name: str) -> str:
+    """The SI unit of a coordinate; empty for a number, an angle, and in nondimensional Datasets."""
+    unit = str(ds[name].attrs.get("units", "1")) if name in ds.coords else "1"
+    return unit if ds.attrs.get("units") == "si" and unit not in ("1", "radian") else ""
 
 
 def along(ds: "xr.Dataset", name: str) -> NDArray[np.float64]:
@@ -77,7 +96,9 @@ def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
             values = np.unique(ds[name].values.astype(np.float64))
             known = values[np.isfinite(values)]
             if _worth_saying(ds, name, known, axes, plan):
-                one = equal(symbol(name), known[0]) if len(known) == 1 else span(symbol(name), known[0], known[-1])
+                sign, unit = _sign(ds, name), _unit(ds, name)
+                one = equal(sign, known[0]) if len(known) == 1 else span(sign, known[0], known[-1])
+                one += f" {unit}" if unit else ""
                 said.append(one if len(known) == len(values) else f"{one} or none")
     return ", ".join(said)
 

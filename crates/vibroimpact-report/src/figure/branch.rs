@@ -42,13 +42,14 @@ pub fn figure(
     let show = behind.map_or(Show::Velocity, |diagram| diagram.plan.show);
     let oscillator = |value: f64| cut.oscillator(&asked.system, value).ok();
     let what = match show {
-        Show::Velocity => What::Velocity,
+        // a branch has no figure over a quantity; `vibro response` draws that
+        Show::Velocity | Show::Quantity(_) => What::Velocity,
         Show::Strobe => What::Position(&oscillator),
     };
     // the unit of the ordinate where the parameter has this value
     let size = |value: f64| {
         let units = asked.units.at(cut.vary, value);
-        if show == Show::Velocity { units.velocity() } else { units.length() }
+        if show == Show::Strobe { units.length() } else { units.velocity() }
     };
     let unit = asked.units.of(cut.vary);
     let (from, to) = cut.ends;

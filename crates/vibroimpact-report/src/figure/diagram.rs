@@ -4,7 +4,7 @@
 //! Where both sweeps have the same cycle, the small dot of one lies inside the large dot of the other, so both colours
 //! are visible. Motions that do not repeat have small dots in both sweeps.
 
-use crate::figure::{along, plane::PlaneAxis, symbol, title_without};
+use crate::figure::{along, plane::PlaneAxis, quantity_name, symbol, title_without};
 use crate::units::shown_span;
 use crate::{Asked, ReportError, Units};
 use std::collections::HashSet;
@@ -79,6 +79,7 @@ fn ordinate_of(point: &DiagramPoint, units: &Units) -> f64 {
         DiagramPoint::Impact { velocity, .. } => velocity * units.velocity(),
         DiagramPoint::Chatter { .. } => 0.0,
         DiagramPoint::State { x, .. } => x * units.length(),
+        DiagramPoint::Value { quantity, value } => value * units.of_quantity(*quantity),
     }
 }
 
@@ -92,6 +93,7 @@ pub(super) fn ordinate(show: Show, asked: &Asked) -> FigureAxis {
     FigureAxis::new(match show {
         Show::Velocity => asked.units.named("arrival velocity *u*_−", "m/s"),
         Show::Strobe => asked.units.named("*ξ* at phase 0", "m"),
+        Show::Quantity(quantity) => quantity_name(quantity, &asked.units),
     })
 }
 

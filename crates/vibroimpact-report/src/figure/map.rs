@@ -1,7 +1,7 @@
 //! The figure of a map: each point of the parameter plane in the colours of its coexisting motions.
 
 use crate::figure::plane::{Plane, varied};
-use crate::figure::title_without;
+use crate::figure::{shares, title_without};
 use crate::{Asked, ReportError};
 use vibroimpact_plot::{
     ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_group, legend_text,
@@ -12,12 +12,16 @@ use vibroimpact_study::{MapPoint, RegionMap};
 /// drawn.
 const SPLIT: usize = 40_000;
 
-/// The figure of `vibro map`.
+/// The figure of `vibro map`: a plane, or the shares of the motions over one axis.
 ///
 /// # Errors
-/// [`ReportError`] if there are not two axes with rising or falling values, or if an axis is too long.
+/// [`ReportError`] if there are not one or two axes with rising or falling values, or if an axis is too long.
 pub fn figure(found: &RegionMap, asked: &Asked) -> Result<Figure, ReportError> {
     let axes = &found.plan.axes;
+    if let [axis] = axes.as_slice() {
+        let points = shares::points(found, None, &asked.units);
+        return shares::draw(axis, &points, &asked.units, title_without(asked, &varied(axes)));
+    }
     let cell = |point: &MapPoint| groups(point.motions.iter().map(|motion| motion.verdict.label()));
     let cells: Vec<Vec<usize>> = found.points.iter().map(cell).collect();
     draw(&Plane::of(axes, &asked.units)?, &cells, title_without(asked, &varied(axes)))

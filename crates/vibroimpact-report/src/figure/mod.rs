@@ -2,6 +2,7 @@
 
 pub mod basin;
 pub mod branch;
+pub mod coloured;
 pub mod curve;
 pub mod diagram;
 pub mod map;
@@ -10,6 +11,7 @@ pub mod region;
 pub mod response;
 pub mod section;
 pub mod settle;
+pub mod shares;
 pub mod stored;
 pub mod styles;
 mod tracks;
@@ -18,6 +20,7 @@ pub mod waveform;
 use crate::number::short;
 use crate::{Asked, Units};
 use vibroimpact::MachineParameter;
+use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, plain};
 use vibroimpact_study::{Cut, Parameter};
 
@@ -113,6 +116,15 @@ pub fn named(parameter: Parameter, units: &Units) -> String {
         "Hz" => "frequency (Hz)".into(),
         unit if parameter == Parameter::SecondGap => format!("second gap ({unit})"),
         unit => format!("gap ({unit})"),
+    }
+}
+
+/// A quantity in words with its unit, for an axis.
+#[must_use]
+pub fn quantity_name(quantity: Quantity, units: &Units) -> String {
+    match quantity.kind().unit() {
+        "" => quantity.description().to_owned(),
+        unit => units.named(quantity.description(), unit),
     }
 }
 

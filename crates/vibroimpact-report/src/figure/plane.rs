@@ -38,12 +38,7 @@ impl Plane {
     /// [`ReportError`] if there are not two axes with rising or falling values, or if an axis is too long.
     pub fn of(axes: &[Along], units: &Units) -> Result<Self, ReportError> {
         let [x, y] = axes else { return Err(ReportError::Axes(axes.len())) };
-        let plane = Self { x: PlaneAxis::of(x, units)?, y: PlaneAxis::of(y, units)? };
-        let given = plane.x.count().max(plane.y.count());
-        if given > MOST {
-            return Err(ReportError::Values { given, most: MOST });
-        }
-        Ok(plane)
+        Ok(Self { x: PlaneAxis::of(x, units)?, y: PlaneAxis::of(y, units)? })
     }
 }
 
@@ -63,8 +58,13 @@ impl PlaneAxis {
     /// The axis of a plan in the given units.
     ///
     /// # Errors
-    /// [`ReportError::Order`] as for [`Self::new`], and [`ReportError::Plan`] if a value overflows in these units.
+    /// [`ReportError::Order`] as for [`Self::new`], [`ReportError::Values`] for more than 16384 values, and
+    /// [`ReportError::Plan`] if a value overflows in these units.
     pub fn of(axis: &Along, units: &Units) -> Result<Self, ReportError> {
+        let given = axis.over.count();
+        if given > MOST {
+            return Err(ReportError::Values { given, most: MOST });
+        }
         let name = match axis.vary {
             Coordinate::Parameter(parameter) => named(parameter, units),
             Coordinate::X => units.named("*ξ*_0", "m"),
@@ -78,6 +78,11 @@ impl PlaneAxis {
     #[must_use]
     pub fn count(&self) -> usize {
         self.values.count()
+    }
+
+    /// Value number `k`.
+    pub(crate) fn at(&self, k: usize) -> f64 {
+        self.values.at(k)
     }
 
     /// The first and the last value, if the values are evenly spaced.

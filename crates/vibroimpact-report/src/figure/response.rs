@@ -1,6 +1,6 @@
 //! The figure of a response: branches as curves, stable solid and unstable dashed, and the motions of both sweeps.
 
-use crate::figure::{label, named, title_without, variant};
+use crate::figure::{label, named, quantity_name, title_without, variant};
 use crate::json::response::value;
 use crate::{Asked, ReportError};
 use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Stroke};
@@ -27,10 +27,10 @@ pub fn figure(found: &ResponseCurves, asked: &Asked) -> Result<Figure, ReportErr
     let (units, plan) = (&asked.units, &found.plan);
     let (unit, quantity) = (units.of(plan.vary), plan.quantity);
     let (from, to) = plan.cut().ends;
-    let text = units.named(quantity.description(), quantity.kind().unit());
-    let text = text.trim_end_matches(" ()").to_owned();
-    let mut panel =
-        Panel::new(FigureAxis::new(named(plan.vary, units)).range(from * unit, to * unit), FigureAxis::new(text));
+    let mut panel = Panel::new(
+        FigureAxis::new(named(plan.vary, units)).range(from * unit, to * unit),
+        FigureAxis::new(quantity_name(quantity, units)),
+    );
     let mut legend = Legend::below();
     // the sweeps lie below the branches; where both have the same motion, the small dot is inside the large one
     let sweeps: [(&str, &[SweptMotion], f64, Colour); 2] =

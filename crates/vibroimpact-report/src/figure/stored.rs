@@ -1,29 +1,121 @@
 //! The figure of a store, equal to that of the command for the same question.
 
+use crate::figure::coloured::{self, Coloured, Value, has_field};
 use crate::figure::plane::{Plane, PlaneAxis, varied};
+use crate::figure::shares::{self, PointMotion};
 use crate::figure::{basin, diagram, map, title_without};
 use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
+use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
-use vibroimpact_study::study::{StudyArrays, diagram_of, label_of};
+use vibroimpact_study::study::{NOT_COMPUTED, StudyArrays, diagram_of, label_of};
 use vibroimpact_study::{Axis as Along, LyapunovPlan, Task};
 
-/// Draws the figure of a study.
+/// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given.
 ///
 /// # Errors
 /// [`ReportError`] for a study without a figure, and the error of the store if it cannot be read.
-pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(store: &A) -> Result<Figure, E> {
+pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    colour: Option<Coloured>,
+) -> Result<Figure, E> {
     let asked = Asked { system: store.plan().system, units: Units::of_plan(store.plan()) };
-    match &store.plan().task {
-        Task::Map(plan) => of_map(store, &plan.axes, title_without(&asked, &varied(&plan.axes))),
-        Task::Basin(plan) => of_basin(store, &plan.axes, title_without(&asked, &varied(&plan.axes))),
-        Task::Lyapunov(plan) => of_exponents(store, plan, &asked),
+    match (&store.plan().task, colour) {
+        (Task::Map(plan), None) if plan.axes.len() > 1 => {
+            of_map(store, &plan.axes, title_without(&asked, &varied(&plan.axes)))
+        }
+        (Task::Map(plan), colour) => {
+            let title = title_without(&asked, &varied(&plan.axes));
+            let points = points::<A, E>(store, colour.map(|colour| colour.quantity))?;
+            Ok(match (plan.axes.as_slice(), colour) {
+                ([axis], None) => shares::draw(axis, &points, &asked.units, title)?,
+                ([axis], Some(colour)) => coloured::draw_dots(axis, &points, colour.quantity, &asked.units, title)?,
+                (axes, colour) => {
+                    let plane = Plane::of(axes, &asked.units)?;
+                    let colour = colour.ok_or(ReportError::Axes(axes.len()))?;
+                    coloured::of_points(&plane, &points, colour, (&asked.units, title))?
+                }
+            })
+        }
+        (Task::Basin(plan), Some(colour)) => {
+            let plane = Plane::of(&plan.axes, &asked.units)?;
+            let points = points::<A, E>(store, Some(colour.quantity))?;
+            let cells = points.iter().map(|motions| colour.of.among(motions.iter().map(|motion| motion.value)));
+            let cells: Vec<Value> = cells.collect();
+            let figure = coloured::draw_plane(&plane, &cells, colour.quantity, &asked.units, None)?;
+            Ok(figure.title(title_without(&asked, &varied(&plan.axes))))
+        }
+        (_, Some(_)) => Err(ReportError::NoColours.into()),
+        (task, None) => of_task(store, task, &asked),
+    }
+}
+
+/// Draws the figure of a study that is no map.
+fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    task: &Task,
+    asked: &Asked,
+) -> Result<Figure, E> {
+    match task {
+        Task::Basin(plan) => of_basin(store, &plan.axes, title_without(asked, &varied(&plan.axes))),
+        Task::Lyapunov(plan) => of_exponents(store, plan, asked),
         Task::Diagram(plan) => {
             let columns = (0..store.study().fields().len()).map(|k| store.array(k)).collect::<Result<Vec<_>, _>>()?;
-            Ok(diagram::figure(&diagram_of(plan, &columns), &asked)?)
+            Ok(diagram::figure(&diagram_of(plan, &columns), asked)?)
         }
         _ => Err(ReportError::Scattered.into()),
     }
+}
+
+/// The motions at each point of a map or basin, with the values of a quantity in the units of the plan. Points that a store
+/// has not computed yet, and those that took the label of their neighbours, have no value.
+fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    quantity: Option<Quantity>,
+) -> Result<Vec<Vec<PointMotion>>, E> {
+    let units = Units::of_plan(store.plan());
+    let fields = store.study().fields();
+    let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
+    let column = |name: &str| store.field_number(name).map(|field| store.array(field)).transpose();
+    let numbers = match quantity {
+        None => None,
+        Some(quantity) => {
+            let asked = fields.iter().filter_map(|field| Quantity::from_name(field.name)).collect::<Vec<_>>();
+            has_field(&asked, quantity)?;
+            column(quantity.name())?.map(|values| (values, units.of_quantity(quantity)))
+        }
+    };
+    // starts of one system share the quantities of their cycle, so those that took it from their neighbours have values
+    let one_system = store.field_number("cycle").is_some();
+    let computed = if one_system { None } else { column("computed")? };
+    let (labels, shares) = (store.array(label)?, column("share")?);
+    let width = fields[label].width();
+    let mut known: BTreeMap<i32, (String, usize)> = BTreeMap::new();
+    let mut points = Vec::with_capacity(labels.len() / width.max(1));
+    for (point, codes) in labels.whole().chunks(width).enumerate() {
+        let own = computed.as_ref().is_none_or(|computed| computed.flags().get(point) == Some(&1));
+        let mut motions = Vec::new();
+        for (k, code) in codes.iter().enumerate().filter(|(_, code)| label_of(**code).is_some()) {
+            let (label, group) = known.entry(*code).or_insert_with(|| {
+                let label = label_of(*code).unwrap_or_default();
+                let group = map::group(&label);
+                (label, group)
+            });
+            let number = numbers.as_ref().map(|(values, unit)| values.real()[point * width + k] * unit);
+            let value = match Value::of(label, number) {
+                Value::Undefined if !own => Value::NotComputed,
+                value => value,
+            };
+            let share = shares.as_ref().map_or(1.0, |shares| shares.real()[point * width + k]);
+            motions.push(PointMotion { group: *group, share, value });
+        }
+        if motions.is_empty() && codes[0] != NOT_COMPUTED {
+            // no valid system: it has no motions
+            motions.push(PointMotion { group: map::group(""), share: 0.0, value: Value::Undefined });
+        }
+        points.push(motions);
+    }
+    Ok(points)
 }
 
 fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(

@@ -15,7 +15,7 @@ struct DiagramFields {
     over: Range,
     #[serde(skip_serializing_if = "Option::is_none")]
     also: Option<Pair>,
-    columns: Vec<&'static str>,
+    columns: Vec<String>,
     sweeps: Vec<Counts>,
 }
 

@@ -183,7 +183,11 @@ fn diagram(system: &SystemPlan, task: &DiagramPlan) -> Line {
             line.flag("direction", "scatter").flag("starts", starts).flag("seed", seed)
         }
     };
-    let line = if task.show == Show::Strobe { line.flag("show", "strobe") } else { line };
+    let line = match task.show {
+        Show::Velocity => line,
+        Show::Strobe => line.flag("show", "strobe"),
+        Show::Quantity(quantity) => line.flag("show", quantity.name().replace('_', "-")),
+    };
     line.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP)
 }
 

@@ -215,7 +215,11 @@ fn diagram(task: &DiagramPlan) -> Call {
             call.named("direction", text("scatter")).named("starts", starts).named("seed", seed)
         }
     };
-    let call = if task.show == Show::Strobe { call.named("show", text("strobe")) } else { call };
+    let call = match task.show {
+        Show::Velocity => call,
+        Show::Strobe => call.named("show", text("strobe")),
+        Show::Quantity(quantity) => call.named("show", text(quantity.name())),
+    };
     call.unless("transient", task.transient, DEFAULT_TRANSIENT).unless("keep", task.keep, DEFAULT_KEEP)
 }
 

@@ -19,15 +19,20 @@ pub fn table(found: &Diagram, units: Units) -> Result<Table<'_>, PlanError> {
 
 /// The columns of the table.
 #[must_use]
-pub fn columns(found: &Diagram, units: &Units) -> Vec<&'static str> {
+pub fn columns(found: &Diagram, units: &Units) -> Vec<String> {
+    let quantity;
     let shown: &[&str] = match (found.plan.show, units.si) {
         (Show::Velocity, false) => &["sweep", "kind", "side", "phase", "velocity"],
         (Show::Velocity, true) => &["sweep", "kind", "side", "phase", "velocity_m_per_s"],
         (Show::Strobe, false) => &["sweep", "kind", "x", "v"],
         (Show::Strobe, true) => &["sweep", "kind", "x_m", "v_m_per_s"],
+        (Show::Quantity(of), _) => {
+            quantity = units.column(of.name(), of.kind());
+            &["sweep", "kind", &quantity]
+        }
     };
     let parameters = found.plan.cut().parameters().map(|parameter| units.column_of(parameter));
-    parameters.chain(shown.iter().copied()).collect()
+    parameters.chain(shown.iter().copied()).map(str::to_owned).collect()
 }
 
 /// One row for each point; a motion without points has one row with empty cells. Values of the parameter are exactly
@@ -36,6 +41,7 @@ fn rows(found: &Diagram, over: Span, units: Units) -> impl Iterator<Item = Strin
     let none = match found.plan.show {
         Show::Velocity => ",,",
         Show::Strobe => ",",
+        Show::Quantity(_) => "",
     };
     found.steps.iter().flat_map(move |step| {
         // the value of the second parameter, without rounding by a conversion of the first
@@ -57,6 +63,12 @@ fn row(step: &DiagramStep, point: &DiagramPoint, units: Units) -> String {
         DiagramPoint::Chatter { phase, side: at } => format!("chatter,{},{},0", side(*at), Number(*phase)),
         DiagramPoint::State { x, v } => {
             format!("{},{},{}", kind(step.kind), Number(x * units.length()), Number(v * units.velocity()))
+        }
+        DiagramPoint::Value { quantity, value } => {
+            let value = value * units.of_quantity(*quantity);
+            // a quantity that is not defined in the frame of these units is an empty cell
+            let cell = if value.is_finite() { Number(value).to_string() } else { String::new() };
+            format!("{},{cell}", kind(step.kind))
         }
     }
 }

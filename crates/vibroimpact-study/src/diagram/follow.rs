@@ -1,5 +1,6 @@
 //! The result of following one motion: its kind, the points to show and its last state.
 
+use crate::quantity::Quantity;
 use crate::{PlanError, SystemPlan};
 use vibroimpact::verdict::SettleOptions;
 use vibroimpact::{Side, Start};
@@ -44,6 +45,13 @@ pub enum DiagramPoint {
         x: f64,
         /// Velocity.
         v: f64,
+    },
+    /// The value of a quantity of the settled motion, finite.
+    Value {
+        /// The quantity.
+        quantity: Quantity,
+        /// Its value.
+        value: f64,
     },
 }
 

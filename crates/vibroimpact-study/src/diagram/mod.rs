@@ -9,11 +9,13 @@
 mod follow;
 mod impacts;
 mod plan;
+mod settled;
 mod strobes;
 
 pub(crate) use follow::carried_state;
 pub use follow::{DiagramPoint, MotionKind};
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirection};
+pub(crate) use settled::state_on;
 
 use crate::{PlanError, SystemPlan};
 use follow::AfterTransient;
@@ -85,6 +87,7 @@ pub(crate) fn step(
     let AfterTransient { kind, points, last } = match plan.show {
         Show::Velocity => impacts::after_transients(&osc, start, plan.transient, plan.keep),
         Show::Strobe => strobes::after_transients(&osc, start, plan.transient, plan.keep),
+        Show::Quantity(quantity) => settled::after_transients(&osc, start, quantity),
     };
     Ok((DiagramStep { index, sweep, kind, points }, (there, last)))
 }

@@ -1,6 +1,7 @@
 //! The plan of an orbit diagram: the parameter and its values, the starts, and the points to show.
 
 use crate::limits::{MOST_STARTS, starts};
+use crate::quantity::Quantity;
 use crate::{Cut, Parameter, PlanError, Span, Stretch, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::Oscillator;
@@ -30,7 +31,8 @@ pub struct DiagramPlan {
     /// How the starts at each value are chosen.
     #[serde(default)]
     pub direction: SweepDirection,
-    /// Impacts (for [`Show::Velocity`]) or forcing periods (for [`Show::Strobe`]) before anything is shown.
+    /// Impacts (for [`Show::Velocity`]) or forcing periods (for [`Show::Strobe`]) before anything is shown. The motion whose
+    /// quantity is shown is settled, however long its transient is.
     #[serde(default = "transient")]
     pub transient: u64,
     /// Impacts or states shown at each value, at most: a motion that repeats itself is shown once.
@@ -55,6 +57,12 @@ pub enum Show {
     Velocity,
     /// Position and velocity once in every forcing period, at phase 0.
     Strobe,
+    /// One value of the settled motion: that of this quantity.
+    Quantity(
+        #[serde(with = "crate::quantity::one")]
+        #[schemars(with = "crate::quantity::Name")]
+        Quantity,
+    ),
 }
 
 /// How the starts at each value are chosen.

@@ -5,11 +5,11 @@ use super::scope::Scope;
 use super::tried_box::{MotionBox, tried_box};
 
 use crate::chosen::choose;
-use crate::{Control, PlanError, RunError, Stopped, SystemPlan};
+use crate::{Control, Parameter, PlanError, RunError, Stopped, SystemPlan};
 use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, SolutionPoint};
 use vibroimpact::orbit::{Cycle, without_impacts};
 use vibroimpact::verdict::{NoImpact, SettleOptions, Verdict, settle_while};
-use vibroimpact::{Label, Oscillator, Start};
+use vibroimpact::{Label, Oscillator, ParameterPath, Start};
 
 /// The distances of a motion from its nearest events.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,7 +113,11 @@ pub(crate) fn margins(
     let Some(cycle) = cycle_of(&all.motion, &osc) else { return Ok(all) };
     let scopes = plan.scopes(system)?;
     for scope in &scopes {
-        let end = |direction| nearest(&osc, &cycle, scope, direction, control);
+        let path = match (scope.parameter, system.machine) {
+            (Parameter::Machine(parameter), Some(machine)) => ParameterPath::of_machine(machine, parameter),
+            (parameter, _) => ParameterPath::from(parameter),
+        };
+        let end = |direction| nearest(&osc, &cycle, (scope, path), direction, control);
         let (down, up) = (end(Direction::Down)?, end(Direction::Up)?);
         all.parameters.push(ParameterMargin { scope: *scope, down, up });
     }
@@ -143,7 +147,7 @@ fn cycle_of(motion: &Verdict, osc: &Oscillator) -> Option<Cycle> {
 fn nearest(
     osc: &Oscillator,
     cycle: &Cycle,
-    scope: &Scope,
+    (scope, path): (&Scope, ParameterPath),
     direction: Direction,
     control: &Control<'_>,
 ) -> Result<MarginEnd, PlanError> {
@@ -153,7 +157,7 @@ fn nearest(
         return Ok(none);
     }
     let range = scope.low..=scope.high;
-    let branch = Branch::new(osc, cycle, scope.parameter, range, direction, BranchOptions::default())?;
+    let branch = Branch::new(osc, cycle, path, range, direction, BranchOptions::default())?;
     let mut points = branch.take_while(|_| !control.stopping());
     let first = points.find(|point| point.event.is_some());
     Ok(match first.filter(|point| point.event != Some(BranchEvent::EndOfRange)) {
@@ -212,6 +216,7 @@ mod tests {
     }
 
     const SYSTEM: SystemPlan = SystemPlan {
+        machine: None,
         beta: Some(1.0 / 1.11),
         inverse_beta: None,
         gap: 1.5,

@@ -3,7 +3,7 @@
 use super::scope::{ScaledParameter, Scope};
 use crate::{Parameter, PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
-use vibroimpact::Label;
+use vibroimpact::{Amplitude, Damping, Label, MachineParameter};
 
 /// Default ratio of the ends of the range of a parameter to its value.
 pub const DEFAULT_WITHIN: f64 = 2.0;
@@ -61,9 +61,32 @@ impl Default for MarginsPlan {
 }
 
 impl MarginsPlan {
-    /// The parameters of a system, the frequency in the form in which it is given.
+    /// The parameters of a system, the frequency in the form in which it is given. A machine has its numbers in SI units,
+    /// without those that are 0.
     #[must_use]
     pub fn parameters(system: &SystemPlan) -> Vec<Parameter> {
+        if let Some(machine) = &system.machine {
+            let coefficient = matches!(machine.machine.damping, Damping::NsPerM(_));
+            let base = machine.excitation.base.amplitude;
+            let kept = |of: &MachineParameter| match of {
+                MachineParameter::DampingCoefficient => coefficient,
+                MachineParameter::DampingRatio => !coefficient,
+                MachineParameter::BaseDisplacement => matches!(base, Amplitude::DisplacementM(_)),
+                MachineParameter::BaseVelocity => matches!(base, Amplitude::VelocityMPerS(_)),
+                MachineParameter::BaseAcceleration => matches!(base, Amplitude::AccelerationMPerS2(_)),
+                // a stop on the base moves with it
+                MachineParameter::StopDisplacement => machine.stop_apart(),
+                MachineParameter::Gaps | MachineParameter::Restitutions => false,
+                _ => true,
+            };
+            let given = |of: &MachineParameter| {
+                let always = matches!(of, MachineParameter::Gap | MachineParameter::SecondGap);
+                of.get(machine).is_some_and(|value| always || value != 0.0)
+            };
+            let own = MachineParameter::ALL.into_iter().filter(kept).filter(given).map(Parameter::Machine);
+            let restitutions = [Parameter::Restitution, Parameter::SecondRestitution];
+            return own.chain(restitutions.into_iter().filter(|of| system.value(*of).is_ok())).collect();
+        }
         let other = if system.inverse_beta.is_some() { Parameter::Beta } else { Parameter::InverseBeta };
         Parameter::ALL.into_iter().filter(|of| *of != other && system.value(*of).is_ok()).collect()
     }
@@ -85,9 +108,7 @@ impl MarginsPlan {
             return Err(PlanError::Lines { given: self.lines, most: MOST_LINES });
         }
         for (k, one) in self.vary.iter().enumerate() {
-            let same = |other: &&ScaledParameter| {
-                other.parameter == one.parameter || other.parameter.is_frequency() && one.parameter.is_frequency()
-            };
+            let same = |other: &&ScaledParameter| other.parameter.same_number(one.parameter);
             if let Some(other) = self.vary[..k].iter().find(same) {
                 return Err(PlanError::VariedTwice(other.parameter.name(), one.parameter.name()));
             }
@@ -115,6 +136,7 @@ mod tests {
     use crate::{Plan, SecondStop, Task};
 
     const SYSTEM: SystemPlan = SystemPlan {
+        machine: None,
         beta: None,
         inverse_beta: Some(1.11),
         gap: 1.5,

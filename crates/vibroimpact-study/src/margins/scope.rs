@@ -2,6 +2,7 @@
 
 use crate::{Parameter, PlanError, SystemPlan};
 use serde::{Deserialize, Serialize};
+use vibroimpact::MachineParameter;
 
 /// A parameter that varies, and its scale in the box.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -48,7 +49,8 @@ impl Scope {
         let value = system.value(parameter)?;
         let usual = match parameter {
             _ if value != 0.0 => value.abs(),
-            Parameter::Damping => 0.1,
+            Parameter::Damping | Parameter::Machine(MachineParameter::DampingRatio) => 0.1,
+            Parameter::Machine(of) if of.unit() == "m" => system.scales().map_or(1.0, |scales| scales.length_m),
             _ => 1.0,
         };
         let (low, high) = match parameter {
@@ -59,7 +61,17 @@ impl Scope {
         let (low, high) = match parameter {
             Parameter::Damping => (low.max(0.0), high.min(RATIOS.1)),
             Parameter::Beta | Parameter::InverseBeta => (low.max(RATIOS.0), high.min(RATIOS.1)),
+            Parameter::Machine(MachineParameter::DampingCoefficient | MachineParameter::DampingRatio) => {
+                (low.max(0.0), high)
+            }
             // the two stops may not touch
+            Parameter::Machine(MachineParameter::Gap | MachineParameter::SecondGap) => {
+                let sum = |of: MachineParameter| system.value(Parameter::Machine(of)).ok();
+                match sum(MachineParameter::Gap).zip(sum(MachineParameter::SecondGap)) {
+                    Some((one, two)) => (low.max(value - (1.0 - ROOM) * (one + two)), high),
+                    None => (low, high),
+                }
+            }
             Parameter::Gap | Parameter::SecondGap => match system.second_stop {
                 Some(stop) => (low.max(value - (1.0 - ROOM) * (system.gap + stop.gap)), high),
                 None => (low, high),
@@ -74,7 +86,8 @@ impl Scope {
     fn legal_end(&self, end: f64) -> bool {
         match self.parameter {
             Parameter::Restitution | Parameter::SecondRestitution => true,
-            Parameter::Damping => end == 0.0,
+            Parameter::Damping
+            | Parameter::Machine(MachineParameter::DampingCoefficient | MachineParameter::DampingRatio) => end == 0.0,
             _ => false,
         }
     }

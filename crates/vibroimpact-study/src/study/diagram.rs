@@ -109,6 +109,8 @@ impl Fill for DiagramFill {
                 fields.push(real("x", "position at phase 0 of the force", "F/k"));
                 fields.push(real("v", "velocity at phase 0 of the force", "omega_n F/k"));
             }
+            // `Study::new` refuses it
+            Show::Quantity(_) => {}
         }
         fields
     }
@@ -149,6 +151,7 @@ impl Fill for DiagramFill {
                 vec![tile.kind, tile.first, tile.second, tile.side].into_iter().map(Part::column).collect()
             }
             Show::Strobe => vec![tile.kind, tile.first, tile.second].into_iter().map(Part::column).collect(),
+            Show::Quantity(_) => vec![tile.kind.column()],
         }
     }
 }
@@ -252,6 +255,8 @@ impl Tile {
         for (i, point) in step.points.iter().take(keep).enumerate() {
             let at = at * keep + i;
             (first[at], second[at], side[at]) = match *point {
+                // a diagram of a quantity has no columns
+                DiagramPoint::Value { .. } => continue,
                 DiagramPoint::Impact { phase, velocity, side } => (velocity, phase, sign(side)),
                 DiagramPoint::Chatter { phase, side } => (0.0, phase, 2 * sign(side)),
                 DiagramPoint::State { x, v } => (x, v, 0),

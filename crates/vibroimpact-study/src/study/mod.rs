@@ -28,8 +28,9 @@ pub(crate) use refine::Cell;
 pub use tables::{Cells, StudyTable, Tiles};
 pub(crate) use {basin::BasinFill, diagram::DiagramFill, map::MapFill};
 
+use crate::diagram::Show;
 use crate::map::options;
-use crate::{Column, Field, Grid, Plan, PlanError, Task};
+use crate::{Column, DiagramPlan, Field, Grid, Plan, PlanError, Task};
 
 /// A plan that fills a grid.
 pub struct Study {
@@ -51,6 +52,7 @@ impl Study {
                 Box::new(BasinFill::scattered(&plan.system, (*starts, *seed), &options(*impacts), tile)?)
             }
             Task::Lyapunov(lyapunov) => Box::new(lyapunov::LyapunovFill::new(&plan.system, lyapunov, tile)),
+            Task::Diagram(DiagramPlan { show: Show::Quantity(_), .. }) => return Err(PlanError::NoStoredQuantity),
             Task::Diagram(diagram) => Box::new(DiagramFill::new(&plan.system, diagram, tile)),
             Task::Simulate { .. } => return Err(PlanError::NoStudy("simulate")),
             Task::Settle { .. } => return Err(PlanError::NoStudy("settle")),

@@ -1,0 +1,50 @@
+//! The resolution of a PNG image, as the chunk `pHYs` of the PNG specification (W3C, third edition, 11.3.4.3).
+
+/// Length of the signature and the chunk `IHDR`, after which the chunk may stand.
+const HEAD: usize = 8 + 4 + 4 + 13 + 4;
+
+/// The image with its resolution in pixels in an inch.
+pub(crate) fn with(png: &[u8], dpi: f64) -> Vec<u8> {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast limits to 32 bits")]
+    let per_metre = (dpi / 0.0254).round() as u32;
+    let mut chunk = b"pHYs".to_vec();
+    chunk.extend(per_metre.to_be_bytes());
+    chunk.extend(per_metre.to_be_bytes());
+    // the unit is the metre
+    chunk.push(1);
+    let Some((head, rest)) = png.split_at_checked(HEAD) else { return png.to_vec() };
+    let mut out = head.to_vec();
+    out.extend(9_u32.to_be_bytes());
+    out.extend(&chunk);
+    out.extend(checksum(&chunk).to_be_bytes());
+    out.extend(rest);
+    out
+}
+
+/// The checksum of a chunk: CRC-32 with the polynomial of ISO 3309.
+fn checksum(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
+    !bytes.iter().fold(u32::MAX, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use resvg::tiny_skia::Pixmap;
+
+    #[test]
+    fn the_checksum_is_that_of_the_standard() {
+        assert_eq!(checksum(b"123456789"), 0xcbf4_3926);
+        assert_eq!(checksum(b"IEND"), 0xae42_6082);
+    }
+
+    #[test]
+    fn the_image_stays_readable() {
+        let png = Pixmap::new(3, 2).and_then(|image| image.encode_png().ok()).unwrap_or_default();
+        let print = with(&png, 300.0);
+        let at = HEAD + 8;
+        assert_eq!(print[at..at + 4], 11_811_u32.to_be_bytes());
+        assert!(Pixmap::decode_png(&print).is_ok_and(|image| image.width() == 3));
+        assert_eq!(with(b"short", 300.0), b"short");
+    }
+}

@@ -1,0 +1,81 @@
+//! The motions over one parameter: the shares of starts that lead to each, as stacked bars.
+
+use crate::figure::coloured::Value;
+use crate::figure::map::group;
+use crate::figure::plane::PlaneAxis;
+use crate::{ReportError, Units};
+use vibroimpact::quantities::Quantity;
+use vibroimpact_plot::{Figure, FigureAxis, GROUPS, Legend, Panel, Rect, Rects, class_style, legend_text};
+use vibroimpact_study::{Axis, RegionMap};
+
+/// A motion at a point of a map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointMotion {
+    /// The index of its group in the legend.
+    pub group: usize,
+    /// The share of starts that lead to it.
+    pub share: f64,
+    /// The value of a quantity, if the figure shows one.
+    pub value: Value,
+}
+
+/// The motions at each point of a map, the most frequent first, with the values of a quantity in these units.
+#[must_use]
+pub fn points(found: &RegionMap, quantity: Option<Quantity>, units: &Units) -> Vec<Vec<PointMotion>> {
+    let motion = |motion: &vibroimpact_study::Share| {
+        let label = motion.verdict.label();
+        let number = quantity.and_then(|quantity| motion.quantities.map(|of| units.value_of(&of, quantity)));
+        PointMotion { group: group(&label), share: motion.share, value: Value::of(&label, number) }
+    };
+    found.points.iter().map(|point| point.motions.iter().map(motion).collect()).collect()
+}
+
+/// Draws the shares of the groups of motions at each value of an axis, from the first group of the legend upwards.
+///
+/// # Errors
+/// [`ReportError::Order`], and [`ReportError::Plan`] if a value overflows in these units.
+pub fn draw(axis: &Axis, points: &[Vec<PointMotion>], units: &Units, title: String) -> Result<Figure, ReportError> {
+    let side = PlaneAxis::of(axis, units)?;
+    let mut rects = Rects::new(GROUPS.map(class_style).to_vec());
+    let mut present = [false; GROUPS.len()];
+    for (k, motions) in points.iter().enumerate() {
+        let mut low = 0.0;
+        for (class, present) in present.iter_mut().enumerate() {
+            let share: f64 = motions.iter().filter(|motion| motion.group == class).map(|motion| motion.share).sum();
+            if share > 0.0 {
+                *present = true;
+                rects.rects.push(Rect { x: side.cell(k), y: (low, low + share), class });
+                low += share;
+            }
+        }
+    }
+    let mut legend = Legend::below();
+    for (group, _) in GROUPS.iter().zip(present).filter(|(_, present)| *present) {
+        legend = legend.patch(class_style(group), legend_text(group));
+    }
+    let panel = Panel::new(side.axis(), FigureAxis::new("share of starts").range(0.0, 1.0)).with(rects);
+    Ok(Figure::new(panel).title(title).legend(legend))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vibroimpact_plot::Mark;
+    use vibroimpact_study::{Parameter, Span};
+
+    #[test]
+    fn bars_are_stacked_in_the_order_of_the_legend() {
+        let axis = Axis::parameter(Parameter::Gap, "0:1:2".parse::<Span>().unwrap());
+        let motion = |group, share| PointMotion { group, share, value: Value::Undefined };
+        let points = [vec![motion(2, 0.75), motion(1, 0.25)], vec![motion(1, 0.5), motion(2, 0.25), motion(1, 0.25)]];
+        let figure = draw(&axis, &points, &Units::default(), String::new()).unwrap();
+        let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("bars") };
+        let bars: Vec<_> = rects.rects.iter().map(|rect| (rect.class, rect.x, rect.y)).collect();
+        let (first, second) = ((-0.5, 0.5), (0.5, 1.5));
+        assert_eq!(
+            bars,
+            [(1, first, (0.0, 0.25)), (2, first, (0.25, 1.0)), (1, second, (0.0, 0.75)), (2, second, (0.75, 1.0))]
+        );
+        assert_eq!(figure.legend.unwrap().entries.len(), 2);
+    }
+}
