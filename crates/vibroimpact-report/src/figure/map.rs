@@ -1,11 +1,10 @@
 //! The figure of a map: each point of the parameter plane in the colours of its coexisting motions.
 
 use crate::figure::plane::{Plane, varied};
+use crate::figure::point_motion::{group, points};
 use crate::figure::{shares, title_without};
 use crate::{Asked, ReportError};
-use vibroimpact_plot::{
-    ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_group, legend_text,
-};
+use vibroimpact_plot::{ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_text};
 use vibroimpact_study::{MapPoint, RegionMap};
 
 /// With more points than this, coexisting motions would be too small to be visible, and only the most frequent one is
@@ -19,19 +18,12 @@ const SPLIT: usize = 40_000;
 pub fn figure(found: &RegionMap, asked: &Asked) -> Result<Figure, ReportError> {
     let axes = &found.plan.axes;
     if let [axis] = axes.as_slice() {
-        let points = shares::points(found, None, &asked.units);
+        let points = points(found, None, &asked.units);
         return shares::draw(axis, &points, &asked.units, title_without(asked, &varied(axes)));
     }
     let cell = |point: &MapPoint| groups(point.motions.iter().map(|motion| motion.verdict.label()));
     let cells: Vec<Vec<usize>> = found.points.iter().map(cell).collect();
     draw(&Plane::of(axes, &asked.units)?, &cells, title_without(asked, &varied(axes)))
-}
-
-/// The index of the group of a label in the legend.
-#[must_use]
-pub fn group(label: &str) -> usize {
-    let group = legend_group(label);
-    GROUPS.iter().position(|g| *g == group).unwrap_or(GROUPS.len() - 1)
 }
 
 /// Draws a map. `cells` has the distinct groups of the motions at each point, the most frequent first.

@@ -7,6 +7,7 @@ pub mod curve;
 pub mod diagram;
 pub mod map;
 pub mod plane;
+pub mod point_motion;
 pub mod region;
 pub mod response;
 pub mod section;

@@ -1,34 +1,10 @@
 //! The motions over one parameter: the shares of starts that lead to each, as stacked bars.
 
-use crate::figure::coloured::Value;
-use crate::figure::map::group;
 use crate::figure::plane::PlaneAxis;
+use crate::figure::point_motion::PointMotion;
 use crate::{ReportError, Units};
-use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Figure, FigureAxis, GROUPS, Legend, Panel, Rect, Rects, class_style, legend_text};
-use vibroimpact_study::{Axis, RegionMap};
-
-/// A motion at a point of a map.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PointMotion {
-    /// The index of its group in the legend.
-    pub group: usize,
-    /// The share of starts that lead to it.
-    pub share: f64,
-    /// The value of a quantity, if the figure shows one.
-    pub value: Value,
-}
-
-/// The motions at each point of a map, the most frequent first, with the values of a quantity in these units.
-#[must_use]
-pub fn points(found: &RegionMap, quantity: Option<Quantity>, units: &Units) -> Vec<Vec<PointMotion>> {
-    let motion = |motion: &vibroimpact_study::Share| {
-        let label = motion.verdict.label();
-        let number = quantity.and_then(|quantity| motion.quantities.map(|of| units.value_of(&of, quantity)));
-        PointMotion { group: group(&label), share: motion.share, value: Value::of(&label, number) }
-    };
-    found.points.iter().map(|point| point.motions.iter().map(motion).collect()).collect()
-}
+use vibroimpact_study::Axis;
 
 /// Draws the shares of the groups of motions at each value of an axis, from the first group of the legend upwards.
 ///
@@ -60,6 +36,7 @@ pub fn draw(axis: &Axis, points: &[Vec<PointMotion>], units: &Units, title: Stri
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figure::coloured::Value;
     use vibroimpact_plot::Mark;
     use vibroimpact_study::{Parameter, Span};
 

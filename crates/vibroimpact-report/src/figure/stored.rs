@@ -2,8 +2,8 @@
 
 use crate::figure::coloured::{self, Coloured, Value, has_field};
 use crate::figure::plane::{Plane, PlaneAxis, varied};
-use crate::figure::shares::{self, PointMotion};
-use crate::figure::{basin, diagram, map, title_without};
+use crate::figure::point_motion::{PointMotion, group};
+use crate::figure::{basin, diagram, map, shares, title_without};
 use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact::quantities::Quantity;
@@ -98,8 +98,8 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         for (k, code) in codes.iter().enumerate().filter(|(_, code)| label_of(**code).is_some()) {
             let (label, group) = known.entry(*code).or_insert_with(|| {
                 let label = label_of(*code).unwrap_or_default();
-                let group = map::group(&label);
-                (label, group)
+                let number = group(&label);
+                (label, number)
             });
             let number = numbers.as_ref().map(|(values, unit)| values.real()[point * width + k] * unit);
             let value = match Value::of(label, number) {
@@ -111,7 +111,7 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         }
         if motions.is_empty() && codes[0] != NOT_COMPUTED {
             // no valid system: it has no motions
-            motions.push(PointMotion { group: map::group(""), share: 0.0, value: Value::Undefined });
+            motions.push(PointMotion { group: group(""), share: 0.0, value: Value::Undefined });
         }
         points.push(motions);
     }
@@ -127,12 +127,12 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
     let mut known: BTreeMap<i32, usize> = BTreeMap::new();
-    let mut group = |code: i32| *known.entry(code).or_insert_with(|| map::group(&label_of(code).unwrap_or_default()));
+    let mut number = |code: i32| *known.entry(code).or_insert_with(|| group(&label_of(code).unwrap_or_default()));
     let column = store.array(label)?;
     let cells: Vec<Vec<usize>> = (column.whole().chunks(width))
         .map(|codes| {
             let mut groups = Vec::new();
-            for group in codes.iter().filter(|code| label_of(**code).is_some()).map(|code| group(*code)) {
+            for group in codes.iter().filter(|code| label_of(**code).is_some()).map(|code| number(*code)) {
                 if !groups.contains(&group) {
                     groups.push(group);
                 }

@@ -2,8 +2,8 @@
 
 use super::Value;
 use crate::figure::plane::PlaneAxis;
+use crate::figure::point_motion::PointMotion;
 use crate::figure::quantity_name;
-use crate::figure::shares::PointMotion;
 use crate::{ReportError, Units};
 use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{

@@ -9,8 +9,8 @@ pub use plane::draw as draw_plane;
 pub use value::{Coloured, Of, Value};
 
 use crate::figure::plane::{Plane, varied};
-use crate::figure::shares::PointMotion;
-use crate::figure::{shares, title, title_without};
+use crate::figure::point_motion::{PointMotion, points};
+use crate::figure::{title, title_without};
 use crate::{Asked, ReportError, Units};
 use vibroimpact::Oscillator;
 use vibroimpact::quantities::{Quantity, of_verdict_only};
@@ -25,7 +25,7 @@ pub fn of_map(found: &RegionMap, coloured: Coloured, asked: &Asked) -> Result<Fi
     let (axes, units) = (&found.plan.axes, &asked.units);
     has_field(&found.plan.fields, coloured.quantity)?;
     let title = title_without(asked, &varied(axes));
-    let points = shares::points(found, Some(coloured.quantity), units);
+    let points = points(found, Some(coloured.quantity), units);
     if let [axis] = axes.as_slice() {
         return dots::draw(axis, &points, coloured.quantity, units, title);
     }
