@@ -87,6 +87,16 @@ impl Units {
         self.scales.as_ref().filter(|_| self.si).map(|scales| UnitsPlan::new(scales, self.hertz, self.frame))
     }
 
+    /// The units at point number `k` of the axes, the first of which varies fastest.
+    #[must_use]
+    pub fn at_point(&self, axes: &[Axis], k: usize) -> Self {
+        if self.machine.is_none() {
+            return *self;
+        }
+        let stride = |axis: usize| axes[..axis].iter().map(|axis| axis.over.count()).product::<usize>();
+        self.over(axes, |axis| axes[axis].over.at(k / stride(axis) % axes[axis].over.count()))
+    }
+
     fn factor(&self, of: impl Fn(&Scales) -> f64) -> f64 {
         self.scales.as_ref().filter(|_| self.si).map_or(1.0, of)
     }

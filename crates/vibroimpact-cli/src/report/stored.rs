@@ -157,6 +157,8 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     bands(store, |block, columns| {
         for p in 0..block.points() {
             let index = block.index(p);
+            // axis k is dimension number k from the last
+            let units = units.over(axes, |k| axes[k].over.at(index[index.len() - 1 - k]));
             let place = index.iter().zip(&along).rev().map(|(i, values)| match values {
                 Some(values) => Number(values[*i]).to_string(),
                 None => (i + 1).to_string(),

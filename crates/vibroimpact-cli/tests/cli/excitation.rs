@@ -105,6 +105,13 @@ fn each_value_of_a_sweep_is_a_machine() {
         ));
         let mapped: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
         assert_eq!(mapped[0][0], flag.replace('-', "_"));
+        // a store has the same table, each point in the units of its machine
+        let folder = tempfile::tempdir().unwrap();
+        let line = format!(
+            "map {system} {rest} --{flag} {range} --starts 1 --fields impact-speed-max,displacement-max,work-per-period,impulse-max --store m.zarr --quiet --csv -"
+        );
+        let stored = vibro(&line).current_dir(&folder).output().unwrap();
+        assert_eq!(String::from_utf8(stored.stdout).unwrap(), table, "{}", String::from_utf8_lossy(&stored.stderr));
         let swept = json(&format!("response {system} {rest} --{flag} {range} --quantity impact-speed-max"));
         for value in values {
             let alone = json(&format!("settle {system} {rest} --{flag} {value} --units si"));

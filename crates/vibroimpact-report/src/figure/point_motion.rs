@@ -4,7 +4,7 @@ use crate::Units;
 use crate::figure::coloured::Value;
 use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{GROUPS, legend_group};
-use vibroimpact_study::RegionMap;
+use vibroimpact_study::{MapPoint, RegionMap};
 
 /// The index of the group of a label in the legend.
 #[must_use]
@@ -27,10 +27,14 @@ pub struct PointMotion {
 /// The motions at each point of a map, the most frequent first, with the values of a quantity in these units.
 #[must_use]
 pub fn points(found: &RegionMap, quantity: Option<Quantity>, units: &Units) -> Vec<Vec<PointMotion>> {
-    let motion = |motion: &vibroimpact_study::Share| {
+    let motion = |motion: &vibroimpact_study::Share, units: &Units| {
         let label = motion.verdict.label();
         let number = quantity.and_then(|quantity| motion.quantities.map(|of| units.value_of(&of, quantity)));
         PointMotion { group: group(&label), share: motion.share, value: Value::of(&label, number) }
     };
-    found.points.iter().map(|point| point.motions.iter().map(motion).collect()).collect()
+    let point = |point: &MapPoint| {
+        let units = units.over(&found.plan.axes, |axis| point.at[axis]);
+        point.motions.iter().map(|one| motion(one, &units)).collect()
+    };
+    found.points.iter().map(point).collect()
 }

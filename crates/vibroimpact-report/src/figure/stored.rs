@@ -26,7 +26,7 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         }
         (Task::Map(plan), colour) => {
             let title = title_without(&asked, &varied(&plan.axes));
-            let points = points::<A, E>(store, colour.map(|colour| colour.quantity))?;
+            let points = points::<A, E>(store, &plan.axes, colour.map(|colour| colour.quantity))?;
             Ok(match (plan.axes.as_slice(), colour) {
                 ([axis], None) => shares::draw(axis, &points, &asked.units, title)?,
                 ([axis], Some(colour)) => coloured::draw_dots(axis, &points, colour.quantity, &asked.units, title)?,
@@ -39,7 +39,7 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         }
         (Task::Basin(plan), Some(colour)) => {
             let plane = Plane::of(&plan.axes, &asked.units)?;
-            let points = points::<A, E>(store, Some(colour.quantity))?;
+            let points = points::<A, E>(store, &plan.axes, Some(colour.quantity))?;
             let cells = points.iter().map(|motions| colour.of.among(motions.iter().map(|motion| motion.value)));
             let cells: Vec<Value> = cells.collect();
             let figure = coloured::draw_plane(&plane, &cells, colour.quantity, &asked.units, None)?;
@@ -71,6 +71,7 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
 /// has not computed yet, and those that took the label of their neighbours, have no value.
 fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
+    axes: &[Along],
     quantity: Option<Quantity>,
 ) -> Result<Vec<Vec<PointMotion>>, E> {
     let units = Units::of_plan(store.plan());
@@ -82,7 +83,7 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         Some(quantity) => {
             let asked = fields.iter().filter_map(|field| Quantity::from_name(field.name)).collect::<Vec<_>>();
             has_field(&asked, quantity)?;
-            column(quantity.name())?.map(|values| (values, units.of_quantity(quantity)))
+            column(quantity.name())?.map(|values| (values, quantity))
         }
     };
     // starts of one system share the quantities of their cycle, so those that took it from their neighbours have values
@@ -95,13 +96,15 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     for (point, codes) in labels.whole().chunks(width).enumerate() {
         let own = computed.as_ref().is_none_or(|computed| computed.flags().get(point) == Some(&1));
         let mut motions = Vec::new();
+        let units = units.at_point(axes, point);
         for (k, code) in codes.iter().enumerate().filter(|(_, code)| label_of(**code).is_some()) {
             let (label, group) = known.entry(*code).or_insert_with(|| {
                 let label = label_of(*code).unwrap_or_default();
                 let number = group(&label);
                 (label, number)
             });
-            let number = numbers.as_ref().map(|(values, unit)| values.real()[point * width + k] * unit);
+            let number = numbers.as_ref();
+            let number = number.map(|(values, of)| values.real()[point * width + k] * units.of_quantity(*of));
             let value = match Value::of(label, number) {
                 Value::Undefined if !own => Value::NotComputed,
                 value => value,
