@@ -77,16 +77,19 @@ impl Cut {
     /// The same line in the form used for branches that begin where the first parameter has the value `value`.
     ///
     /// # Errors
-    /// [`PlanError`] if both parameters are the same one, if both ends of the first parameter are equal, or for a number of
-    /// a machine together with a second parameter.
+    /// [`PlanError`] if both parameters are the same one, or if both ends of the first parameter are equal.
     pub fn varying(&self, system: &SystemPlan, value: f64) -> Result<ParameterPath, PlanError> {
         let (first, last) = self.ends;
-        let alone = match self.vary {
-            Parameter::Machine(parameter) => {
+        let of_machine = self.parameters().find_map(|parameter| match parameter {
+            Parameter::Machine(parameter) => Some(parameter),
+            _ => None,
+        });
+        let alone = match of_machine {
+            Some(parameter) => {
                 let there = self.system(system, value)?.machine;
-                ParameterPath::of_machine(there.ok_or(SystemError::NoMachine(parameter.name()))?, parameter)
+                ParameterPath::of_machine(there.ok_or(SystemError::NoMachine(parameter.name()))?, self.vary)
             }
-            parameter => ParameterPath::from(parameter),
+            None => ParameterPath::from(self.vary),
         };
         let Some(also) = self.also else { return Ok(alone) };
         if first == last {

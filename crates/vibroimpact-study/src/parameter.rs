@@ -3,7 +3,7 @@
 use crate::{PlanError, SecondStop, SystemPlan};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub use vibroimpact::Parameter;
-use vibroimpact::{Damping, DrivenMachine, Frequency, MachineParameter, MachineStop, Reduced, SystemError};
+use vibroimpact::{MachineParameter, SystemError};
 
 /// Whether a parameter is a length (with unit $`F/k`$).
 #[must_use]
@@ -50,7 +50,7 @@ impl SystemPlan {
     /// number of a machine if the system is none, and [`PlanError`] for a value of such a number that gives no system.
     pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
         if let Some(machine) = self.machine {
-            return Self::of_machine(changed(&machine, parameter, value)?);
+            return Self::of_machine(machine.with(parameter, value)?);
         }
         let second = || self.second_stop.ok_or(PlanError::NoSecondStop(parameter.name()));
         Ok(match parameter {
@@ -81,33 +81,6 @@ impl SystemPlan {
         }
         parameter.get(&self.oscillator()?).ok_or(PlanError::NoSecondStop(parameter.name()))
     }
-}
-
-/// The machine with another value of a parameter of its oscillator or of its own.
-fn changed(driven: &DrivenMachine, parameter: Parameter, value: f64) -> Result<DrivenMachine, PlanError> {
-    if let Parameter::Machine(parameter) = parameter {
-        return Ok(parameter.set(driven, value)?);
-    }
-    let Reduced { scales, offset_m, .. } = driven.reduced()?;
-    let mut changed = *driven;
-    let machine = &mut changed.machine;
-    let second = |stop: Option<MachineStop>| stop.ok_or(PlanError::NoSecondStop(parameter.name()));
-    match parameter {
-        Parameter::Beta => machine.frequency = Frequency::RadPerS(value / scales.time_s),
-        Parameter::InverseBeta => machine.frequency = Frequency::RadPerS(1.0 / (value * scales.time_s)),
-        Parameter::Damping => machine.damping = Damping::Ratio(value),
-        Parameter::Gap => machine.gap_m = value * scales.length_m + offset_m,
-        Parameter::Restitution => machine.restitution = value,
-        Parameter::SecondGap => {
-            let gap_m = value * scales.length_m - offset_m;
-            machine.second_stop = Some(MachineStop { gap_m, ..second(machine.second_stop)? });
-        }
-        Parameter::SecondRestitution => {
-            machine.second_stop = Some(MachineStop { restitution: value, ..second(machine.second_stop)? });
-        }
-        Parameter::Machine(_) => {}
-    }
-    Ok(changed)
 }
 
 #[cfg(test)]

@@ -146,6 +146,7 @@ impl SystemArgs {
             };
             return Ok(Asked { system, units: Units::default() });
         }
+        let plan = machine.plan((self.restitution, self.second_restitution), set)?;
         let twice = [
             ("--beta", self.beta),
             ("--inverse-beta", self.inverse_beta),
@@ -156,7 +157,6 @@ impl SystemArgs {
         if let Some((flag, _)) = twice.iter().find(|(_, value)| value.is_some()) {
             return Err(Failure::bad(format!("{flag} cannot go together with a system in physical units")));
         }
-        let plan = machine.plan((self.restitution, self.second_restitution), set)?;
         super::machine::asked(&plan, self.units == Convention::Si)
     }
 

@@ -167,7 +167,10 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
             for i in 0..width {
                 let cell = |k: &usize| {
                     let at = p * all[*k].width() + if all[*k].width() > 1 { i } else { 0 };
-                    text(&all[*k], &columns[*k], at, units.of_kind(kinds[*k]))
+                    // some quantities are not defined in the frame of the machine
+                    let unit = Quantity::from_name(all[*k].name)
+                        .map_or_else(|| units.of_kind(kinds[*k]), |quantity| units.of_quantity(quantity));
+                    text(&all[*k], &columns[*k], at, unit)
                 };
                 if i > 0 && all.iter().enumerate().all(|(k, f)| f.width() == 1 || cell(&k).is_empty()) {
                     continue;

@@ -227,7 +227,6 @@ fn typical_mistakes_get_a_hint() {
     }
     // values with blanks
     for (flag, value, hint) in [
-        ("--gap", "1.5 mm", "--gap takes a number without unit; --gap-m takes metres: 0.0015"),
         ("--beta", "15 Hz", "--beta takes a number without unit; --frequency-hz takes hertz: 15"),
         ("--restitution", "50 %", "write 0.5"),
     ] {

@@ -4,9 +4,10 @@ use super::Table;
 use crate::Units;
 use crate::json::motion::pairs;
 use crate::number::Number;
+use crate::units::given;
 use vibroimpact::QuantityKind;
 use vibroimpact::orbit::Cycle;
-use vibroimpact_study::{Branches, Cut};
+use vibroimpact_study::{Branches, Cut, Parameter};
 
 /// The table of `vibro branch`.
 #[must_use]
@@ -39,17 +40,15 @@ fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<It
     })
 }
 
-/// The parameters at a point of a line, in the units of the results: 20 Hz where 20 was typed, and not 20.000000000000004.
+/// The parameters at a point of a line, in the units of the results; at its ends as they were given: 20 Hz where 20 was
+/// typed, and not 20.000000000000004.
 pub(super) fn values(cut: &Cut, value: f64, units: &Units) -> String {
-    let cell = |(parameter, value)| Number(converted(value, units.of(parameter))).to_string();
+    let end = value == cut.ends.0 || value == cut.ends.1;
+    let cell = |(parameter, value): (Parameter, f64)| {
+        let unit = units.of(parameter);
+        Number(if end { given(value, unit) } else { value * unit }).to_string()
+    };
     cut.values(value).map(cell).collect::<Vec<_>>().join(",")
-}
-
-/// The value in another unit, to fifteen digits: the conversion there and back is not exact to more. A value that is not
-/// converted has all its digits.
-fn converted(value: f64, unit: f64) -> f64 {
-    let product = value * unit;
-    if unit == 1.0 { value } else { format!("{product:.14e}").parse().unwrap_or(product) }
 }
 
 /// The text of a number; empty for a number that is not finite.
@@ -84,7 +83,7 @@ mod tests {
         // beta of 20 Hz for a mass of 0.8 kg on 12000 N/m, and the natural frequency in Hz
         let natural = (12_000.0_f64 / 0.8).sqrt();
         let beta = core::f64::consts::TAU * 20.0 / natural;
-        assert_eq!(converted(beta, natural / core::f64::consts::TAU), 20.0);
-        assert_eq!(converted(0.1 + 0.2, 1.0), 0.1 + 0.2);
+        assert_eq!(given(beta, natural / core::f64::consts::TAU), 20.0);
+        assert_eq!(given(0.1 + 0.2, 1.0), 0.1 + 0.2);
     }
 }

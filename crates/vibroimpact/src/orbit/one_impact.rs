@@ -145,7 +145,8 @@ mod tests {
             assert_eq!(orbits.len(), 2, "{beta}");
             for orbit in orbits.iter().filter(|orbit| orbit.physical) {
                 let state = orbit.cycle.points[0].state;
-                let next = crate::motion::Motion::after(&osc, &state, crate::flight::SearchLimits::default()).next().unwrap();
+                let next =
+                    crate::motion::Motion::after(&osc, &state, crate::flight::SearchLimits::default()).next().unwrap();
                 let crate::motion::EventKind::Impact { velocity_before, .. } = next.kind else { panic!("{next:?}") };
                 let (moved, ratio) = (phase::difference(next.phase, state.phase), velocity_before / state.velocity);
                 assert!(moved.abs() < 1e-12 && (ratio - 1.0).abs() < 1e-12, "{beta}: {moved:e} {:e}", ratio - 1.0);

@@ -1,7 +1,8 @@
 //! A machine with everything that drives it, and its numbers by name.
 
 use super::{
-    Amplitude, Damping, Excitation, Frequency, Machine, MachineStop, Oscillator, Scales, Shaking, Side, SystemError,
+    Amplitude, Damping, Excitation, Frequency, Machine, MachineStop, Oscillator, Parameter, Scales, Shaking, Side,
+    SystemError,
 };
 use core::f64::consts::TAU;
 
@@ -93,6 +94,47 @@ impl DrivenMachine {
         Ok(Reduced { oscillator, scales, phase: same.phase, offset_m: same.offset_m })
     }
 
+    /// The same machine with another value of a parameter, of its own or of its oscillator, and all its other numbers.
+    ///
+    /// # Errors
+    /// [`SystemError::NoSecondStop`] for a parameter of a second stop if there is none; for a parameter of the oscillator
+    /// that is measured in units of the machine, the errors of [`Self::reduced`].
+    pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, SystemError> {
+        let mut changed = *self;
+        let machine = &mut changed.machine;
+        let second = || self.machine.second_stop.ok_or(SystemError::NoSecondStop(parameter.name()));
+        match parameter {
+            Parameter::Machine(parameter) => return parameter.set(self, value),
+            Parameter::Beta => machine.frequency = Frequency::RadPerS(value / self.reduced()?.scales.time_s),
+            Parameter::InverseBeta => {
+                machine.frequency = Frequency::RadPerS(1.0 / (value * self.reduced()?.scales.time_s));
+            }
+            Parameter::Damping => machine.damping = Damping::Ratio(value),
+            Parameter::Gap => {
+                let Reduced { scales, offset_m, .. } = self.reduced()?;
+                machine.gap_m = value * scales.length_m + offset_m;
+            }
+            Parameter::Restitution => machine.restitution = value,
+            Parameter::SecondGap => {
+                let Reduced { scales, offset_m, .. } = self.reduced()?;
+                machine.second_stop = Some(MachineStop { gap_m: value * scales.length_m - offset_m, ..second()? });
+            }
+            Parameter::SecondRestitution => {
+                machine.second_stop = Some(MachineStop { restitution: value, ..second()? });
+            }
+        }
+        Ok(changed)
+    }
+
+    /// The value of a parameter, of its own or of its oscillator; `None` if it does not have it.
+    #[must_use]
+    pub fn value(&self, parameter: Parameter) -> Option<f64> {
+        match parameter {
+            Parameter::Machine(parameter) => parameter.get(self),
+            parameter => parameter.get(&self.reduced().ok()?.oscillator),
+        }
+    }
+
     /// Whether the stop moves otherwise than the base. Then the loss in the damper and the work of the equivalent force
     /// are not those of the machine.
     #[must_use]
@@ -169,16 +211,16 @@ impl MachineParameter {
             Self::Stiffness => "stiffness",
             Self::DampingCoefficient => "damping coefficient",
             Self::DampingRatio => "damping ratio",
-            Self::Force => "amplitude of the force",
-            Self::Frequency => "frequency of the force",
-            Self::Gap => "gap of the stop",
-            Self::SecondGap => "gap of the second stop",
+            Self::Force => "force",
+            Self::Frequency => "frequency",
+            Self::Gap => "gap",
+            Self::SecondGap => "second gap",
             Self::Gaps => "gap of both stops",
             Self::Restitutions => "restitution of both stops",
-            Self::BaseDisplacement => "displacement amplitude of the base",
-            Self::BaseVelocity => "velocity amplitude of the base",
-            Self::BaseAcceleration => "acceleration amplitude of the base",
-            Self::StopDisplacement => "displacement amplitude of the stop",
+            Self::BaseDisplacement => "base displacement",
+            Self::BaseVelocity => "base velocity",
+            Self::BaseAcceleration => "base acceleration",
+            Self::StopDisplacement => "stop displacement",
             Self::Unbalance => "rotating unbalance",
             Self::ConstantForce => "constant force",
         }
@@ -287,25 +329,29 @@ impl MachineParameter {
         }
         Ok(changed)
     }
+}
 
-    /// The derivatives of [`numbers`] of the oscillator with respect to this parameter, where it has the value `value`.
-    /// They are differences with a relative error of about $`10^{-10}`$; at the edge of the allowed range the difference
-    /// is one-sided. Branches use them for their direction only, so that this error moves no solution.
-    ///
-    /// # Errors
-    /// As [`DrivenMachine::reduced`].
-    pub(super) fn rates(self, driven: &DrivenMachine, value: f64) -> Result<[f64; 6], SystemError> {
-        let at = |value: f64| self.set(driven, value)?.reduced().map(|reduced| numbers(&reduced.oscillator));
-        let step = STEP * value.abs().max(self.get(driven).map_or(0.0, f64::abs)).max(f64::MIN_POSITIVE);
-        let (low, high) = (value - step, value + step);
-        let ((a, from), (b, to)) = match (at(low), at(high)) {
-            (Ok(a), Ok(b)) => ((a, low), (b, high)),
-            (Err(_), Ok(b)) => ((at(value)?, value), (b, high)),
-            (Ok(a), Err(_)) => ((a, low), (at(value)?, value)),
-            (Err(error), Err(_)) => return Err(error),
-        };
-        Ok(core::array::from_fn(|k| (b[k] - a[k]) / (to - from)))
-    }
+/// The derivatives of [`numbers`] of the oscillator along a line of machines, at its place `value`; `size` is the size of
+/// a value. They are differences with a relative error of about $`10^{-10}`$; at the edge of the allowed range the
+/// difference is one-sided. Branches use them for their direction only, so that this error moves no solution.
+///
+/// # Errors
+/// The error of `along` if it has no system on either side.
+pub(super) fn rates(
+    along: impl Fn(f64) -> Result<Oscillator, SystemError>,
+    value: f64,
+    size: f64,
+) -> Result<[f64; 6], SystemError> {
+    let at = |value: f64| along(value).map(|osc| numbers(&osc));
+    let step = STEP * value.abs().max(size).max(f64::MIN_POSITIVE);
+    let (low, high) = (value - step, value + step);
+    let ((a, from), (b, to)) = match (at(low), at(high)) {
+        (Ok(a), Ok(b)) => ((a, low), (b, high)),
+        (Err(_), Ok(b)) => ((at(value)?, value), (b, high)),
+        (Ok(a), Err(_)) => ((a, low), (at(value)?, value)),
+        (Err(error), Err(_)) => return Err(error),
+    };
+    Ok(core::array::from_fn(|k| (b[k] - a[k]) / (to - from)))
 }
 
 /// The step of a difference, relative to the value: about the cube root of the rounding unit.
@@ -370,7 +416,8 @@ mod tests {
         ] {
             let value = parameter.get(&plain).unwrap();
             let after = of(&parameter.set(&plain, 1.7 * value).unwrap());
-            let rates = parameter.rates(&plain, value).unwrap();
+            let along = |value| parameter.set(&plain, value)?.reduced().map(|reduced| reduced.oscillator);
+            let rates = rates(along, value, 0.0).unwrap();
             for k in 0..6 {
                 let expected = before[k] * 1.7_f64.powf(powers[k]);
                 assert!((after[k] - expected).abs() < 1e-14 * expected.abs(), "{} {k}", parameter.name());

@@ -1,6 +1,7 @@
 //! A straight line through one or two parameters of an oscillator or of a machine.
 
-use super::{DrivenMachine, MachineParameter, Oscillator, Parameter, SystemError};
+use super::machine::rates;
+use super::{DrivenMachine, Oscillator, Parameter, SystemError};
 
 /// A parameter that varies, and optionally another one that varies in proportion to it: a straight line through the
 /// parameters. The value of the first parameter gives the place on the line.
@@ -40,15 +41,13 @@ impl ParameterPath {
     ///
     /// # Errors
     /// [`SystemError::Together`] if `other` varies already, [`SystemError::Rate`] if the rate is not finite,
-    /// [`SystemError::NoMachine`] for a number of a machine, which varies alone.
+    /// [`SystemError::NoMachine`] for a number of a machine if the line is none of machines.
     pub fn with(self, other: Parameter, rate: f64) -> Result<Self, SystemError> {
         if self.parameter.same_number(other) {
             return Err(SystemError::Together(self.parameter.name(), other.name()));
         }
-        for parameter in [self.parameter, other] {
-            if let Parameter::Machine(parameter) = parameter {
-                return Err(SystemError::NoMachine(parameter.name()));
-            }
+        if let (Parameter::Machine(parameter), None) = (other, self.machine) {
+            return Err(SystemError::NoMachine(parameter.name()));
         }
         if !rate.is_finite() {
             return Err(SystemError::Rate { name: other.name(), rate });
@@ -59,8 +58,18 @@ impl ParameterPath {
     /// The line along which a number of a machine varies, and all its other numbers do not. The numbers of the oscillator
     /// change together: with the mass, the frequency ratio and, for a given damping coefficient, the damping ratio.
     #[must_use]
-    pub const fn of_machine(machine: DrivenMachine, parameter: MachineParameter) -> Self {
-        Self { parameter: Parameter::Machine(parameter), also: None, machine: Some(machine) }
+    pub const fn of_machine(machine: DrivenMachine, parameter: Parameter) -> Self {
+        Self { parameter, also: None, machine: Some(machine) }
+    }
+
+    /// The machine at a place of a line of machines.
+    fn machine_at(&self, machine: &DrivenMachine, value: f64) -> Result<DrivenMachine, SystemError> {
+        let changed = machine.with(self.parameter, value)?;
+        let Some((other, rate)) = self.also else { return Ok(changed) };
+        let missing = |parameter: Parameter| SystemError::NoSecondStop(parameter.name());
+        let from = machine.value(self.parameter).ok_or_else(|| missing(self.parameter))?;
+        let second = machine.value(other).ok_or_else(|| missing(other))? + rate * (value - from);
+        changed.with(other, second)
     }
 
     /// The parameter whose value gives the place on the line.
@@ -75,14 +84,16 @@ impl ParameterPath {
     /// # Errors
     /// [`SystemError`] for a value of a number of a machine that gives no valid system.
     pub fn rates(self, value: f64) -> Result<impl Iterator<Item = (Parameter, f64)>, SystemError> {
-        let (line, machine) = match (self.parameter, self.machine) {
-            (Parameter::Machine(parameter), Some(machine)) => {
-                let rates = parameter.rates(&machine, value)?;
+        let (line, machine) = match &self.machine {
+            Some(machine) => {
+                let along = |value| self.machine_at(machine, value)?.reduced().map(|reduced| reduced.oscillator);
+                let rates = rates(along, value, machine.value(self.parameter).map_or(0.0, f64::abs))?;
                 (None, NUMBERS.into_iter().zip(rates).filter(|(_, rate)| *rate != 0.0).collect())
             }
-            _ => (Some((self.parameter, 1.0)), Vec::new()),
+            None => (Some((self.parameter, 1.0)), Vec::new()),
         };
-        Ok(line.into_iter().chain(self.also).chain(machine))
+        let also = self.also.filter(|_| line.is_some());
+        Ok(line.into_iter().chain(also).chain(machine))
     }
 
     /// The place of an oscillator on its line: the value of the first parameter. For a number of a machine it is that of
@@ -91,8 +102,8 @@ impl ParameterPath {
     /// # Errors
     /// [`SystemError::NoSecondStop`] for a parameter of a second stop if there is only one stop.
     pub fn get(self, osc: &Oscillator) -> Result<f64, SystemError> {
-        if let (Parameter::Machine(parameter), Some(machine)) = (self.parameter, &self.machine) {
-            return parameter.get(machine).ok_or(SystemError::NoSecondStop(parameter.name()));
+        if let Some(machine) = &self.machine {
+            return machine.value(self.parameter).ok_or(SystemError::NoSecondStop(self.parameter.name()));
         }
         let value = |parameter: Parameter| parameter.get(osc).ok_or(SystemError::NoSecondStop(parameter.name()));
         self.also.map_or(Ok(0.0), |(other, _)| value(other))?;
@@ -104,8 +115,8 @@ impl ParameterPath {
     /// # Errors
     /// As [`Parameter::set`], for either parameter.
     pub fn set(self, osc: &Oscillator, value: f64) -> Result<Oscillator, SystemError> {
-        if let (Parameter::Machine(parameter), Some(machine)) = (self.parameter, &self.machine) {
-            return parameter.set(machine, value)?.reduced().map(|reduced| reduced.oscillator);
+        if let Some(machine) = &self.machine {
+            return self.machine_at(machine, value)?.reduced().map(|reduced| reduced.oscillator);
         }
         let Some((other, rate)) = self.also else { return self.parameter.set(osc, value) };
         let from = self.get(osc)?;
@@ -118,7 +129,7 @@ impl ParameterPath {
     }
 }
 
-/// The parameters of an oscillator in the order of [`MachineParameter::rates`].
+/// The parameters of an oscillator in the order of [`rates`].
 const NUMBERS: [Parameter; 6] = [
     Parameter::Beta,
     Parameter::Gap,
