@@ -46,6 +46,7 @@ pub(crate) fn system_fields(osc: Oscillator) -> Result<String, Trouble> {
 /// The units of length, time and mass of a machine at each combination of values of some of its parameters, in the order
 /// of the parameters, the last one fastest. Combinations that are no machine have not-a-number.
 #[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // arguments from Python
 pub(crate) fn scales_over(text: &str, names: Vec<String>, values: Vec<Vec<f64>>) -> Result<[Vec<f64>; 3], Trouble> {
     let plan = read(text)?;
     let parameters = names.iter().map(|name| crate::axis::parameter(name)).collect::<Result<Vec<_>, _>>()?;

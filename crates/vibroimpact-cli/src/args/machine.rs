@@ -98,6 +98,9 @@ pub(crate) struct MachineArgs {
 
 const EXCITATION: &str = "Excitation of a system in physical units, besides the force or instead of it";
 
+/// A number of the machine and the ends of its range.
+pub(crate) type Ends = (ParameterFlag, (f64, f64));
+
 impl MachineArgs {
     /// The numbers that are given, in the order of the flags. The damping ratio stands for the logarithmic decrement too,
     /// and the frequency in Hz for that in rad/s; those two forms cannot vary.
@@ -163,7 +166,7 @@ impl MachineArgs {
     }
 
     /// The numbers with several values, which are ranges A:B.
-    pub(crate) fn ends(&self) -> Result<Vec<(ParameterFlag, (f64, f64))>, Failure> {
+    pub(crate) fn ends(&self) -> Result<Vec<Ends>, Failure> {
         let ends = |(parameter, ranged): (MachineParameter, &Ranged)| {
             let named = ParameterFlag::of_machine(parameter);
             let ends = ranged.ends().filter(|(from, to)| from < to);

@@ -205,7 +205,7 @@ fn has_short(fields: &[Field]) -> bool {
 /// The text of a number of a column: the name of a flag, and an empty text for a missing value.
 fn text(field: &Field, column: &Column, at: usize, unit: f64) -> String {
     match column {
-        Column::F64(values) if !values[at].is_finite() => String::new(),
+        Column::F64(values) if !(values[at] * unit).is_finite() => String::new(),
         Column::F64(values) => Number(values[at] * unit).to_string(),
         Column::I32(values) if field.name == "label" => match values[at] {
             NOT_COMPUTED => "not_computed".to_owned(),

@@ -4,7 +4,6 @@ use super::Table;
 use crate::Units;
 use crate::json::motion::pairs;
 use crate::number::Number;
-use crate::units::given;
 use vibroimpact::QuantityKind;
 use vibroimpact::orbit::Cycle;
 use vibroimpact_study::{Branches, Cut, Parameter};
@@ -46,9 +45,15 @@ pub(super) fn values(cut: &Cut, value: f64, units: &Units) -> String {
     let end = value == cut.ends.0 || value == cut.ends.1;
     let cell = |(parameter, value): (Parameter, f64)| {
         let unit = units.of(parameter);
-        Number(if end { given(value, unit) } else { value * unit }).to_string()
+        Number(if end { typed(value, unit) } else { value * unit }).to_string()
     };
     cut.values(value).map(cell).collect::<Vec<_>>().join(",")
+}
+
+/// A value that was typed in another unit, to fifteen digits: the conversion there and back is not exact to more.
+fn typed(value: f64, unit: f64) -> f64 {
+    let product = value * unit;
+    if unit == 1.0 { value } else { format!("{product:.14e}").parse().unwrap_or(product) }
 }
 
 /// The text of a number; empty for a number that is not finite.
@@ -83,7 +88,7 @@ mod tests {
         // beta of 20 Hz for a mass of 0.8 kg on 12000 N/m, and the natural frequency in Hz
         let natural = (12_000.0_f64 / 0.8).sqrt();
         let beta = core::f64::consts::TAU * 20.0 / natural;
-        assert_eq!(given(beta, natural / core::f64::consts::TAU), 20.0);
-        assert_eq!(given(0.1 + 0.2, 1.0), 0.1 + 0.2);
+        assert_eq!(typed(beta, natural / core::f64::consts::TAU), 20.0);
+        assert_eq!(typed(0.1 + 0.2, 1.0), 0.1 + 0.2);
     }
 }

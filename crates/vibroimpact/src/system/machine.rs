@@ -1,8 +1,7 @@
 //! A machine with everything that drives it, and its numbers by name.
 
 use super::{
-    Amplitude, Damping, Excitation, Frequency, Machine, MachineStop, Oscillator, Parameter, Scales, Shaking, Side,
-    SystemError,
+    Amplitude, Damping, Excitation, Frequency, Machine, MachineStop, Oscillator, Scales, Shaking, Side, SystemError,
 };
 use core::f64::consts::TAU;
 
@@ -92,47 +91,6 @@ impl DrivenMachine {
         let same = self.excitation.equivalent(&self.machine)?;
         let (oscillator, scales) = same.machine.nondimensional()?;
         Ok(Reduced { oscillator, scales, phase: same.phase, offset_m: same.offset_m })
-    }
-
-    /// The same machine with another value of a parameter, of its own or of its oscillator, and all its other numbers.
-    ///
-    /// # Errors
-    /// [`SystemError::NoSecondStop`] for a parameter of a second stop if there is none; for a parameter of the oscillator
-    /// that is measured in units of the machine, the errors of [`Self::reduced`].
-    pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, SystemError> {
-        let mut changed = *self;
-        let machine = &mut changed.machine;
-        let second = || self.machine.second_stop.ok_or(SystemError::NoSecondStop(parameter.name()));
-        match parameter {
-            Parameter::Machine(parameter) => return parameter.set(self, value),
-            Parameter::Beta => machine.frequency = Frequency::RadPerS(value / self.reduced()?.scales.time_s),
-            Parameter::InverseBeta => {
-                machine.frequency = Frequency::RadPerS(1.0 / (value * self.reduced()?.scales.time_s));
-            }
-            Parameter::Damping => machine.damping = Damping::Ratio(value),
-            Parameter::Gap => {
-                let Reduced { scales, offset_m, .. } = self.reduced()?;
-                machine.gap_m = value * scales.length_m + offset_m;
-            }
-            Parameter::Restitution => machine.restitution = value,
-            Parameter::SecondGap => {
-                let Reduced { scales, offset_m, .. } = self.reduced()?;
-                machine.second_stop = Some(MachineStop { gap_m: value * scales.length_m - offset_m, ..second()? });
-            }
-            Parameter::SecondRestitution => {
-                machine.second_stop = Some(MachineStop { restitution: value, ..second()? });
-            }
-        }
-        Ok(changed)
-    }
-
-    /// The value of a parameter, of its own or of its oscillator; `None` if it does not have it.
-    #[must_use]
-    pub fn value(&self, parameter: Parameter) -> Option<f64> {
-        match parameter {
-            Parameter::Machine(parameter) => parameter.get(self),
-            parameter => parameter.get(&self.reduced().ok()?.oscillator),
-        }
     }
 
     /// Whether the stop moves otherwise than the base. Then the loss in the damper and the work of the equivalent force

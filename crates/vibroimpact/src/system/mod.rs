@@ -19,6 +19,7 @@ mod error;
 mod excitation;
 mod free;
 mod machine;
+mod machine_change;
 mod oscillator;
 mod parameter;
 mod parameter_path;

@@ -1,0 +1,85 @@
+//! A machine with another value of a parameter, its own or one of its oscillator.
+
+use super::{Damping, DrivenMachine, Frequency, MachineStop, Parameter, Reduced, SystemError};
+
+impl DrivenMachine {
+    /// The same machine with another value of a parameter, of its own or of its oscillator, and all its other numbers.
+    ///
+    /// # Errors
+    /// [`SystemError::NoSecondStop`] for a parameter of a second stop if there is none; for a parameter of the oscillator
+    /// that is measured in units of the machine, the errors of [`Self::reduced`].
+    pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, SystemError> {
+        let mut changed = *self;
+        let machine = &mut changed.machine;
+        let second = || self.machine.second_stop.ok_or(SystemError::NoSecondStop(parameter.name()));
+        match parameter {
+            Parameter::Machine(parameter) => return parameter.set(self, value),
+            Parameter::Beta => machine.frequency = Frequency::RadPerS(value / self.reduced()?.scales.time_s),
+            Parameter::InverseBeta => {
+                machine.frequency = Frequency::RadPerS(1.0 / (value * self.reduced()?.scales.time_s));
+            }
+            Parameter::Damping => machine.damping = Damping::Ratio(value),
+            Parameter::Gap => {
+                let Reduced { scales, offset_m, .. } = self.reduced()?;
+                machine.gap_m = value * scales.length_m + offset_m;
+            }
+            Parameter::Restitution => machine.restitution = value,
+            Parameter::SecondGap => {
+                let Reduced { scales, offset_m, .. } = self.reduced()?;
+                machine.second_stop = Some(MachineStop { gap_m: value * scales.length_m - offset_m, ..second()? });
+            }
+            Parameter::SecondRestitution => {
+                machine.second_stop = Some(MachineStop { restitution: value, ..second()? });
+            }
+        }
+        Ok(changed)
+    }
+
+    /// The value of a parameter, of its own or of its oscillator; `None` if it does not have it.
+    #[must_use]
+    pub fn value(&self, parameter: Parameter) -> Option<f64> {
+        match parameter {
+            Parameter::Machine(parameter) => parameter.get(self),
+            parameter => parameter.get(&self.reduced().ok()?.oscillator),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::{Excitation, Machine, MachineParameter};
+
+    #[test]
+    fn parameters_of_the_oscillator_are_set_and_read() {
+        let machine = Machine {
+            mass_kg: 0.7,
+            damping: Damping::NsPerM(2.1),
+            stiffness_n_per_m: 900.0,
+            force_n: 3.0,
+            frequency: Frequency::Hz(5.0),
+            gap_m: 0.004,
+            restitution: 0.7,
+            second_stop: Some(MachineStop { gap_m: 0.006, restitution: 0.6 }),
+        };
+        let driven =
+            DrivenMachine { machine, excitation: Excitation { constant_force_n: 0.5, ..Excitation::default() } };
+        for parameter in Parameter::ALL {
+            let changed = driven.with(parameter, 0.45).unwrap();
+            assert!((changed.value(parameter).unwrap() - 0.45).abs() < 1e-15, "{}", parameter.name());
+            for other in MachineParameter::ALL.map(Parameter::Machine) {
+                let moved = changed.value(other) != driven.value(other);
+                let expected = match parameter {
+                    Parameter::Beta | Parameter::InverseBeta => "frequency_hz",
+                    Parameter::Gap => "gap_m",
+                    Parameter::SecondGap => "second_gap_m",
+                    Parameter::Damping => "damping",
+                    _ => "",
+                };
+                assert!(!moved || !expected.is_empty() && other.name().starts_with(expected), "{}", other.name());
+            }
+        }
+        let alone = DrivenMachine { machine: Machine { second_stop: None, ..machine }, ..driven };
+        assert_eq!(alone.with(Parameter::SecondGap, 1.0), Err(SystemError::NoSecondStop("second_gap")));
+    }
+}
