@@ -6,7 +6,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use std::collections::hash_map::DefaultHasher;
 use std::fmt::Write;
 use std::hash::{Hash, Hasher};
-use vibroimpact::{Scales, Side};
+use vibroimpact::{MachineParameter, Scales, Side};
 use vibroimpact_study::{MachinePlan, Parameter, SecondStop, SystemPlan};
 
 /// A hash of numbers that is equal for equal numbers (0 and -0 are equal).
@@ -215,7 +215,11 @@ impl Oscillator {
                 "inverse_beta" => Some(Parameter::InverseBeta),
                 name => Parameter::from_name(name).filter(|parameter| matches!(parameter, Parameter::Machine(_))),
             };
-            let (Some(parameter), Ok(value), true) = (parameter, value, plan.machine.is_some()) else {
+            // a second stop that is new has the restitution of the first, as for any oscillator
+            let second = [Parameter::Machine(MachineParameter::SecondGap), Parameter::SecondRestitution];
+            let new = |of: Parameter| second.contains(&of) && plan.second_stop.is_none();
+            let (Some(parameter), Ok(value), true) = (parameter.filter(|of| !new(*of)), value, plan.machine.is_some())
+            else {
                 return Ok(None);
             };
             plan = plan.with(parameter, value).map_err(Trouble::from)?;

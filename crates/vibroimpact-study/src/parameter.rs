@@ -50,7 +50,17 @@ impl SystemPlan {
     /// number of a machine if the system is none, and [`PlanError`] for a value of such a number that gives no system.
     pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
         if let Some(machine) = self.machine {
-            return Self::of_machine(machine.with(parameter, value)?);
+            let system = Self::of_machine(machine.with(parameter, value)?)?;
+            // a nondimensional number is exactly the given one, although the machine rounds it
+            return Ok(match parameter {
+                Parameter::Beta => Self { beta: Some(value), ..system },
+                Parameter::InverseBeta => Self { beta: None, inverse_beta: Some(value), ..system },
+                Parameter::Gap => Self { gap: value, ..system },
+                Parameter::SecondGap => {
+                    Self { second_stop: system.second_stop.map(|stop| SecondStop { gap: value, ..stop }), ..system }
+                }
+                _ => system,
+            });
         }
         let second = || self.second_stop.ok_or(PlanError::NoSecondStop(parameter.name()));
         Ok(match parameter {

@@ -128,7 +128,10 @@ impl Plan {
     pub fn canonical(&self) -> Result<Self, PlanError> {
         let system =
             self.task.varied().into_iter().try_fold(self.system, |system, (p, value)| system.with(p, value))?;
-        Ok(Self { system, ..self.clone() })
+        let own = |units: UnitsPlan| {
+            UnitsPlan::of_system(&system).map_or(units, |own| UnitsPlan { hertz: units.hertz, ..own })
+        };
+        Ok(Self { system, units: self.units.map(own), ..self.clone() })
     }
 }
 
@@ -211,7 +214,9 @@ impl TryFrom<PlanText> for Plan {
         let varies = |parameter| varied.iter().any(|(other, _)| *other == parameter);
         let asked = written.system;
         if let Some(system) = asked.of_machine(&varied)? {
-            let units = written.units.or_else(|| UnitsPlan::of_system(&system));
+            // the units are those of the machine at the first values of what varies
+            let hertz = written.units.is_none_or(|units| units.hertz);
+            let units = UnitsPlan::of_system(&system).map(|units| UnitsPlan { hertz, ..units });
             return Self { version: written.version, system, task: written.task, tile: written.tile, units }
                 .canonical();
         }
