@@ -24,10 +24,12 @@ pub(crate) struct Fields<'py> {
     values: Bound<'py, PyArray2<f64>>,
 }
 
-/// The names of the quantities; the sweeps up and down; the branches.
+/// The names of the quantities and their units; the sweeps up and down; the branches.
 #[derive(IntoPyObject)]
 pub(crate) struct Found<'py> {
     names: Vec<&'static str>,
+    /// Their units.
+    units: Vec<&'static str>,
     up: Fields<'py>,
     down: Fields<'py>,
     branches: Vec<Fields<'py>>,
@@ -96,6 +98,12 @@ pub(crate) fn response<'py>(
     };
     Ok(Found {
         names: Quantity::ALL.map(Quantity::name).to_vec(),
+        units: Quantity::ALL
+            .map(|quantity| match vary {
+                Parameter::Machine(_) => quantity.kind().unit(),
+                _ => quantity.kind().nondimensional(),
+            })
+            .to_vec(),
         up: Fields::swept(py, &found.up, scales)?,
         down: Fields::swept(py, &found.down, scales)?,
         branches: found.branches.iter().map(|branch| Fields::branch(py, branch, scales)).collect::<PyResult<_>>()?,

@@ -12,7 +12,8 @@ pub(crate) fn text(found: &ResponseCurves, units: &Units) -> String {
     let (unit, quantity) = (units.of(found.plan.vary), found.plan.quantity);
     let (from, to) = found.plan.cut().ends;
     let name = named(found.plan.vary, units);
-    let of = |motion: &SweptMotion| value(motion.quantities, quantity, units);
+    let vary = found.plan.vary;
+    let of = |motion: &SweptMotion| value(motion.quantities, quantity, &units.at(vary, motion.value));
     let mut text =
         format!("{} over {name} from {} to {}\n\n", quantity.description(), short(from * unit), short(to * unit));
     for (sweep, motions) in [("up", &found.up), ("down", &found.down)] {
@@ -20,7 +21,7 @@ pub(crate) fn text(found: &ResponseCurves, units: &Units) -> String {
         if let Some(most) = most {
             text.push_str(&format!(
                 "sweep {sweep}: at most {} at {}, {}\n",
-                most.quantities.map_or_else(String::new, |of| units.text(&of, quantity)),
+                most.quantities.map_or_else(String::new, |of| units.at(vary, most.value).text(&of, quantity)),
                 short(most.value * unit),
                 most.label
             ));

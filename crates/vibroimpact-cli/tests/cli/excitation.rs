@@ -166,3 +166,21 @@ fn a_branch_over_the_force_is_one_over_the_gap() {
         alone["orbits"].as_array().unwrap().iter().any(|orbit| (speeds(orbit) / speeds(point) - 1.0).abs() < 1e-9);
     assert!(found, "{alone}");
 }
+
+/// The spectrum and the transient of `settle`: the largest values on the way are at least those of the motion, and the
+/// harmonics have the mean square of the positions (Parseval).
+#[test]
+fn harmonics_and_transient() {
+    let answer = json("settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --v 5");
+    let motion = |name: &str| answer["motion"]["quantities"][name].as_f64().unwrap();
+    let way = |name: &str| answer["transient"]["quantities"][name].as_f64().unwrap();
+    assert!(way("velocity_max") >= 5.0 && way("displacement_min") <= motion("displacement_min"));
+    assert_eq!(answer["transient"]["impacts"], answer["impacts_followed"]);
+    let all = answer["harmonics"].as_array().unwrap();
+    let power: f64 = all.iter().map(|of| 0.5 * of["amplitude"].as_f64().unwrap().powi(2)).sum();
+    let square = motion("displacement_rms").powi(2) - motion("displacement_mean").powi(2);
+    assert!(power <= square * (1.0 + 1e-12) && power > 0.999 * square, "{power} {square}");
+    // chaos has neither
+    let chaos = json("settle --inverse-beta 1.11 --gap 3 --restitution 0.5");
+    assert!(chaos.get("harmonics").is_none() && chaos.get("transient").is_none());
+}

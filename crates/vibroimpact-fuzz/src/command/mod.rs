@@ -118,7 +118,7 @@ impl Property for Commands {
         }
         let has = |flag: &str| case.words.iter().any(|word| word == flag || word.starts_with(&format!("{flag}=")));
         if has("--json") && !has("--help") {
-            told(verb, &ran.stdout, has("--store") || verb == "run", !has("--mass-kg") && !has("--rule"))?;
+            told(verb, &ran.stdout, has("--store") || verb == "run", !has("--rule"))?;
         }
         if ran.took < SOON {
             again(self, case, &ran)?;
@@ -134,7 +134,10 @@ fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), Stri
         return Ok(());
     }
     rules::answer(verb, &object)?;
-    let Some(plan) = object.get("plan").filter(|_| plain) else { return Ok(()) };
+    // a plan has the units of a machine only if its results are in them
+    let nondimensional = object.get("system").is_none_or(|system| system.get("scales").is_none());
+    let reproducible = nondimensional || object.get("units").is_some_and(|units| units == "si");
+    let Some(plan) = object.get("plan").filter(|_| plain && reproducible) else { return Ok(()) };
     let plan = Plan::from_text(&plan.to_string()).map_err(|why| format!("the plan it prints does not read: {why}"))?;
     let asked = answer(&plan, Units::default(), &Control { threads: 1, ..Control::default() });
     let second = asked.map_err(|why| format!("the plan it prints is refused: {why}"))?.json();

@@ -1,7 +1,7 @@
 //! Parts of a command line: flags with their values, systems, starts, outputs, and unexpected words.
 
 use crate::system::{self, SystemValues};
-use crate::values::{ProptestText, file, number, odd, restitution, typed};
+use crate::values::{ProptestText, file, number, odd, range, restitution, typed};
 use proptest::prelude::*;
 
 /// Words of a command line.
@@ -42,11 +42,12 @@ pub(super) fn system() -> Words {
 }
 
 fn positive() -> ProptestText {
-    prop_oneof![8 => (0.05..20.0_f64).prop_map(typed), 1 => number()].boxed()
+    let with_unit = word(&["1.5mm", "12 N/mm", "900rpm", "2 %", "0.5 g", "20 g mm", "3 furlongs", "1,5 mm"]);
+    prop_oneof![16 => (0.05..20.0_f64).prop_map(typed), 2 => number(), 1 => with_unit].boxed()
 }
 
 /// The mass, spring, force, gap and restitution of a system in physical units, of which something may be missing.
-pub(super) fn machine_without_frequency() -> Words {
+fn machine_without_frequency() -> Words {
     all(vec![
         flag("mass-kg", 0.97, positive()),
         flag("stiffness-n-per-m", 0.97, positive()),
@@ -54,6 +55,32 @@ pub(super) fn machine_without_frequency() -> Words {
         flag("gap-m", 0.97, prop_oneof![(-0.1..0.5_f64).prop_map(typed), number()].boxed()),
         flag("restitution", 0.97, restitution()),
     ])
+}
+
+/// A system in physical units of which one or two numbers vary over ranges.
+pub(super) fn machine_with_ranges() -> Words {
+    const NUMBERS: [&str; 9] = [
+        "mass-kg",
+        "stiffness-n-per-m",
+        "force-n",
+        "frequency-hz",
+        "gap-m",
+        "damping-ns-per-m",
+        "unbalance-kg-m",
+        "base-acceleration-m-per-s2",
+        "constant-force-n",
+    ];
+    let over =
+        prop_oneof![6 => range(0.1, 3.0), 1 => word(&["1 mm:2 mm:3", "1N:2N:2", "15Hz:25Hz:2", "0.5:2", "2 %:4 %:2"])];
+    let varied = prop::collection::vec((prop::sample::select(NUMBERS.to_vec()), over), 1..3);
+    (varied, machine())
+        .prop_map(|(over, mut words)| {
+            let is = |word: &String, name: &str| word.starts_with(&format!("--{name}="));
+            words.retain(|word| !over.iter().any(|(name, _)| is(word, name)) && !is(word, "units"));
+            words.extend(over.into_iter().map(|(name, range)| format!("--{name}={range}")));
+            words
+        })
+        .boxed()
 }
 
 /// What drives a machine besides its force.
@@ -70,7 +97,7 @@ fn excitation() -> Words {
 }
 
 /// A system in physical units, of which something may be missing.
-fn machine() -> Words {
+pub(super) fn machine() -> Words {
     let parts: Vec<Words> = vec![
         machine_without_frequency(),
         flag("frequency-hz", 0.95, positive()),
@@ -78,6 +105,8 @@ fn machine() -> Words {
         excitation(),
         flag("damping-ns-per-m", 0.4, positive()),
         flag("second-gap-m", 0.2, positive()),
+        flag("gaps-m", 0.03, positive()),
+        flag("log-decrement", 0.05, positive()),
         flag("units", 0.6, word(&["si", "nondimensional", "imperial"])),
         flag("gap", 0.03, number()),
     ];
@@ -95,7 +124,17 @@ pub(super) fn outputs(table: &'static str) -> Words {
     const FIGURES: &[&str] = &[".svg", ".svg", ".png", ".jpg"];
     let table_to = prop_oneof![2 => file(TABLES), 1 => Just("-".to_owned())].boxed();
     let table = if table.is_empty() { Just(Vec::new()).boxed() } else { flag(table, 0.15, table_to) };
-    all(vec![table, flag("plot", 0.1, file(FIGURES)), switch("json", 0.5)])
+    let look = all(vec![
+        flag("title", 0.1, word(&["a title", "", "*x*_2"])),
+        flag("size", 0.3, word(&["85x60mm", "8cmx5cm", "3x2in", "0x1mm", "x"])),
+        flag("dpi", 0.2, word(&["72", "600", "0", "1e9"])),
+        flag("x-limits", 0.2, word(&["0:1", "1:0", "0:0", "-1e308:1e308", "a"])),
+        flag("y-limits", 0.2, word(&["-1:1", "0", ""])),
+        switch("greyscale", 0.2),
+    ]);
+    let figure =
+        prop_oneof![4 => flag("plot", 0.1, file(FIGURES)), 1 => all(vec![flag("plot", 0.6, file(FIGURES)), look])];
+    all(vec![table, figure.boxed(), switch("json", 0.5)])
 }
 
 /// The words of several parts, in order.

@@ -39,6 +39,7 @@ fn basin() -> Words {
             flag("phase", 0.3, crate::values::number()),
             flag("impacts", 0.6, budget()),
             fields(),
+            colour(),
             store(),
             outputs("csv"),
         ],
@@ -75,10 +76,19 @@ fn varied(
         .boxed()
 }
 
+/// The quantity in the colours of which a figure is drawn.
+fn colour() -> Words {
+    all(vec![
+        flag("colour", 0.1, word(&["power", "impact-speed-max", "impact-speed-mean", "impacts-per-period", "speed"])),
+        flag("of", 0.05, word(&["largest", "smallest", "likeliest", "worst", "all"])),
+    ])
+}
+
 fn map() -> Words {
-    let system = (1..3_usize)
+    let nondimensional = (1..3_usize)
         .prop_flat_map(|n| varied(n, range))
         .prop_map(|(over, system)| [flags(&over), flags(&system)].concat());
+    let system = prop_oneof![3 => nondimensional, 1 => super::parts::machine_with_ranges()];
     line(
         "map",
         vec![
@@ -88,6 +98,7 @@ fn map() -> Words {
             flag("impacts", 0.6, budget()),
             flag("axes", 0.05, word(&["gap,inverse-beta", "gap", "mass", ""])),
             fields(),
+            colour(),
             store(),
             outputs("csv"),
         ],
@@ -95,21 +106,27 @@ fn map() -> Words {
 }
 
 fn diagram() -> Words {
-    let system = varied(1, range).prop_map(|(over, system)| {
+    let machine =
+        (super::parts::machine(), word(&["force-n", "mass-kg", "gap-m", "frequency-hz", "gaps-m"]), range(0.1, 3.0))
+            .prop_map(|(system, name, range)| {
+                [system, vec![format!("--vary={name}"), format!("--over={range}")]].concat()
+            });
+    let nondimensional = varied(1, range).prop_map(|(over, system)| {
         let mut words = flags(&system);
         for (name, range) in over {
             words.extend([format!("--vary={}", name.replace('_', "-")), format!("--over={range}")]);
         }
         words
     });
+    let system = prop_oneof![4 => nondimensional, 1 => machine];
     line(
         "diagram",
         vec![
             system.boxed(),
-            flag("also", 0.1, word(&["gap=1:2", "restitution=0.5:0.4", "damping=0:0.1", "gap=1", "mass=1:2"])),
+            flag("also", 0.1, word(&["gap=1:2", "restitution=0.5:0.4", "damping=0:0.1", "gap=1", "mass-kg=1:2"])),
             flag("direction", 0.5, word(&["up", "down", "both", "scatter", "left"])),
             flag("starts", 0.1, few()),
-            flag("show", 0.4, word(&["velocity", "strobe", "all"])),
+            flag("show", 0.4, word(&["velocity", "strobe", "power", "impact-speed-max", "all"])),
             flag("transient", 0.9, word(&["0", "10", "100", "-1", "1000001"])),
             flag("keep", 0.7, word(&["1", "5", "64", "0", "100001"])),
             store(),
@@ -134,11 +151,7 @@ fn region() -> Words {
 
 fn response() -> Words {
     let nondimensional = varied(1, range).prop_map(|(over, system)| [flags(&over), flags(&system)].concat()).boxed();
-    let machine = all(vec![
-        super::parts::machine_without_frequency(),
-        flag("frequency-hz", 0.97, range(0.05, 2.0)),
-        flag("damping-ratio", 0.3, word(&["0.02", "0", "-1", "0:0.1:3"])),
-    ]);
+    let machine = super::parts::machine_with_ranges();
     line(
         "response",
         vec![

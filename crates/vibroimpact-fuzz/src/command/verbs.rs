@@ -4,8 +4,21 @@ use super::parts::{Words, flag, line, outputs, start, switch, system, word};
 use crate::values::{count, label, number, plain};
 use proptest::prelude::*;
 
-const PARAMETERS: &[&str] =
-    &["gap", "inverse-beta", "beta", "restitution", "damping", "second-gap", "second-restitution", "mass", ""];
+const PARAMETERS: &[&str] = &[
+    "gap",
+    "inverse-beta",
+    "beta",
+    "restitution",
+    "damping",
+    "second-gap",
+    "second-restitution",
+    "mass-kg",
+    "force-n",
+    "frequency-hz",
+    "gap-m",
+    "mass",
+    "",
+];
 
 /// Any of these command lines.
 pub(super) fn lines() -> Words {
@@ -46,6 +59,17 @@ pub(super) fn lines() -> Words {
             outputs(""),
         ]),
         2 => branch(),
+        1 => line("margins", vec![
+            system(),
+            start(),
+            flag("label", 0.3, label()),
+            flag("vary", 0.3, word(PARAMETERS)),
+            flag("scale", 0.1, word(&["gap=0.1", "gap-m=0.1", "damping=0", "x"])),
+            flag("within", 0.2, word(&["1.5", "1", "100", "nan"])),
+            flag("lines", 0.9, word(&["0", "1", "5", "100001"])),
+            flag("csv", 0.1, word(&["-", "m.csv"])),
+            switch("json", 0.5),
+        ]),
     ]
     .boxed()
 }

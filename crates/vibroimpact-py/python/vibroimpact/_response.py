@@ -65,6 +65,8 @@ class Response:
         The motions of the sweeps with rising and with falling values.
     branches : list of ResponseCurve
         The branches on which their cycles lie.
+    units : dict of str
+        The unit of each quantity; those of SI over a number of a machine.
     plan : str
         The plan as JSON.
     """
@@ -75,6 +77,7 @@ class Response:
     up: ResponseCurve
     down: ResponseCurve
     branches: list[ResponseCurve]
+    units: dict[str, str]
     plan: str
 
     def __repr__(self) -> str:
@@ -131,7 +134,8 @@ class Response:
         if any(not branch.stable[branch.physical].all() for branch in self.branches):
             ax.plot([], [], "--", color="black", linewidth=1.8, label="unstable")
         ax.set_xlabel(Scale(self.osc, False).axis(self.vary))
-        ax.set_ylabel(quantity.replace("_", " "))
+        unit = self.units[quantity] if self.vary in _core.machine_parameters() else ""
+        ax.set_ylabel(quantity.replace("_", " ") + (f" ({unit})" if unit else ""))
         ax.set_title(title(self.osc, (self.vary,)))
         legend(ax)
         return ax
@@ -205,5 +209,6 @@ def response(
         up=curve(found["up"]),
         down=curve(found["down"]),
         branches=[curve(fields) for fields in found["branches"]],
+        units=dict(zip(found["names"], found["units"], strict=True)),
         plan=found["plan"],
     )

@@ -50,6 +50,8 @@ pub fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> S
         }
     }
     given.retain(|(parameter, _)| !varied.iter().any(|other| same_in_title(*other, *parameter)));
+    // the frequency of a machine is in Hz, whatever varies
+    let units = &Units { hertz: units.hertz || units.machine.is_some(), ..*units };
     let part = |(parameter, value): &(Parameter, f64)| {
         let (unit, number) = (units.unit_of(*parameter), short(value * units.of(*parameter)));
         match unit {

@@ -2,9 +2,11 @@
 
 use super::Document;
 use super::motion::MotionFields;
-use crate::Asked;
+use super::quantities::QuantityFields;
+use crate::{Asked, Units};
 use serde::Serialize;
-use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled};
+use vibroimpact::quantities::{Harmonic, harmonics, of_transient};
+use vibroimpact::verdict::{PaperRule, PaperVerdict, Settled, Verdict};
 use vibroimpact::{Oscillator, Start};
 use vibroimpact_study::Plan;
 
@@ -14,8 +16,55 @@ struct SettleFields {
     motion: MotionFields,
     impacts_followed: u64,
     time_followed: f64,
+    /// The spectrum of the positions; none of a motion that is no cycle.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    harmonics: Vec<HarmonicObject>,
+    /// The way from the start to the impact at which the motion was settled; none of motions that do not settle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transient: Option<TransientObject>,
     #[serde(skip_serializing_if = "Option::is_none")]
     paper_rule: Option<PaperAnswer>,
+}
+
+/// A harmonic of the positions of a motion with the period of n forcing periods.
+#[derive(Serialize)]
+struct HarmonicObject {
+    /// Its frequency is this number over n, times that of the force.
+    order: u32,
+    amplitude: f64,
+    phase: f64,
+}
+
+/// The largest values on the way, and means over it.
+#[derive(Serialize)]
+struct TransientObject {
+    impacts: u64,
+    time: f64,
+    quantities: QuantityFields,
+}
+
+/// Harmonics up to this multiple of the frequency of the force, and at most this number of them.
+const HARMONICS: u32 = 8;
+const MOST_HARMONICS: u32 = 64;
+/// A longer way is not measured: it takes about a second.
+const LONGEST_WAY: u64 = 20_000;
+
+fn harmonics_of(verdict: &Verdict, osc: &Oscillator, units: &Units) -> Vec<HarmonicObject> {
+    let Verdict::Periodic(cycle) = verdict else { return Vec::new() };
+    let highest = HARMONICS.saturating_mul(cycle.label.periods).min(MOST_HARMONICS);
+    let all = harmonics(osc, cycle, highest).unwrap_or_default();
+    let object =
+        |of: Harmonic| HarmonicObject { order: of.order, amplitude: of.amplitude * units.length(), phase: of.phase };
+    all.into_iter().map(object).collect()
+}
+
+fn transient_of(settled: &Settled, osc: &Oscillator, start: &Start, units: &Units) -> Option<TransientObject> {
+    let ends = !matches!(settled.verdict, Verdict::Chaotic(_) | Verdict::Undecided(_));
+    (ends && settled.impacts <= LONGEST_WAY).then(|| TransientObject {
+        impacts: settled.impacts,
+        time: settled.time * units.time(),
+        quantities: QuantityFields::new(of_transient(osc, *start, settled.impacts), units),
+    })
 }
 
 #[derive(Serialize)]
@@ -45,6 +94,8 @@ pub fn document<'a>(
         motion: MotionFields::new(&settled.verdict, osc, units).after(settled.transient, units),
         impacts_followed: settled.impacts,
         time_followed: settled.time * units.time(),
+        harmonics: harmonics_of(&settled.verdict, osc, units),
+        transient: transient_of(settled, osc, start, units),
         paper_rule: paper.map(|(rule, verdict)| PaperAnswer::new(rule, verdict)),
     };
     Document::new(asked, osc, plan, answer).start(start, units)
