@@ -25,9 +25,11 @@ fn vibro(line: &str, folder: &Path) -> std::process::Output {
 
 #[test]
 fn shown_output_is_real_output() {
-    let folder = tempfile::tempdir().unwrap();
     let mut shown = 0;
-    for block in blocks(&(readme() + &page("docs/machines-in-si.md")), "console") {
+    let blocks = [readme(), page("docs/machines-in-si.md")].map(|page| blocks(&page, "console")).concat();
+    for block in blocks {
+        // pages may name the same file
+        let folder = tempfile::tempdir().unwrap();
         let (command, expected) = block.split_once('\n').unwrap();
         let output = vibro(command.trim_start_matches("$ "), folder.path());
         assert!(output.status.success(), "{command}");
