@@ -1,5 +1,6 @@
 //! A command line that the parser refuses: all that is missing is named at once, and flags without their dashes are recognised.
 
+use crate::args::ParameterFlag;
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
@@ -7,20 +8,8 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 const OF_ONE_SYSTEM: [&str; 7] = ["attractors", "basin", "orbit", "branch", "curve", "diagram", "region"];
 /// Commands in which at least one parameter has a range.
 const OF_RANGES: [&str; 2] = ["map", "response"];
-/// Parameters that may have a range there.
-const RANGED: [&str; 11] = [
-    "--beta",
-    "--inverse-beta",
-    "--gap",
-    "--restitution",
-    "--damping",
-    "--second-gap",
-    "--second-restitution",
-    "--frequency-hz",
-    "--gap-m",
-    "--damping-ratio",
-    "--second-gap-m",
-];
+/// Short names of numbers of a machine that may have a range there, besides the names of parameters.
+const SHORT: [&str; 3] = ["mass", "stiffness", "frequency"];
 
 /// Flags any one of which gives a quantity, and how the parser writes them.
 type Needed = (&'static [&'static str], &'static str);
@@ -99,8 +88,9 @@ fn lacking(words: &[String], named: &[String]) -> Vec<String> {
         !flags.iter().any(given) && !named.iter().any(|text| flags.iter().any(|flag| text.contains(flag)))
     };
     let mut all: Vec<String> = needed.iter().filter(open).map(|(_, text)| (*text).to_owned()).collect();
-    let ranged = |flag: &&str| value(words, flag).is_some_and(|text| text.contains([':', ',']));
-    if OF_RANGES.contains(&command) && !RANGED.iter().any(ranged) {
+    let ranged = |flag: &str| value(words, &format!("--{flag}")).is_some_and(|text| text.contains([':', ',']));
+    let mut varying = ParameterFlag::all().map(ParameterFlag::flag).chain(SHORT);
+    if OF_RANGES.contains(&command) && !varying.any(ranged) {
         all.push("a range A:B:N instead of one of the values".to_owned());
     }
     all

@@ -63,10 +63,7 @@ pub(crate) fn scales_over(text: &str, names: Vec<String>, values: Vec<Vec<f64>>)
                 value
             })
             .collect();
-        let system = parameters
-            .iter()
-            .zip(place.iter().rev())
-            .try_fold(plan.system, |system, (parameter, value)| system.with(*parameter, *value));
+        let system = plan.system.with_all(parameters.iter().copied().zip(place.into_iter().rev()));
         let scales = system.ok().and_then(|system| system.scales());
         let of = scales.map_or([f64::NAN; 3], |scales| [scales.length_m, scales.time_s, scales.mass_kg]);
         found.iter_mut().zip(of).for_each(|(column, value)| column.push(value));

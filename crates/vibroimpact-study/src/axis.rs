@@ -261,13 +261,11 @@ pub(crate) fn too_many(what: &'static str, axes: &[Axis]) -> PlanError {
 /// # Errors
 /// [`PlanError::NoSecondStop`] if an axis varies a parameter of a second stop and there is none.
 pub fn system_at(system: &SystemPlan, axes: &[Axis], index: impl Fn(usize) -> usize) -> Result<SystemPlan, PlanError> {
-    let mut system = *system;
-    for (k, axis) in axes.iter().enumerate() {
-        if let Coordinate::Parameter(parameter) = axis.vary {
-            system = system.with(parameter, axis.over.at(index(k)))?;
-        }
-    }
-    Ok(system)
+    let value = |(k, axis): (usize, &Axis)| match axis.vary {
+        Coordinate::Parameter(parameter) => Some((parameter, axis.over.at(index(k)))),
+        _ => None,
+    };
+    system.with_all(axes.iter().enumerate().filter_map(value))
 }
 
 /// The start at a point of the axes: values on an axis replace those of `start`. `index(k)` is the place on axis `k`.

@@ -63,7 +63,7 @@ impl Cut {
     /// # Errors
     /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
     pub fn system(&self, system: &SystemPlan, value: f64) -> Result<SystemPlan, PlanError> {
-        self.values(value).try_fold(*system, |system, (parameter, value)| system.with(parameter, value))
+        system.with_all(self.values(value))
     }
 
     /// The checked oscillator where the first parameter has the value `value`.

@@ -49,19 +49,33 @@ impl SystemPlan {
     /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none, [`SystemError::NoMachine`] for a
     /// number of a machine if the system is none, and [`PlanError`] for a value of such a number that gives no system.
     pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
-        if let Some(machine) = self.machine {
-            let system = Self::of_machine(machine.with(parameter, value)?)?;
+        self.with_all([(parameter, value)])
+    }
+
+    /// The same system with other values of several parameters. A machine is converted once, with all of them: between two
+    /// of them its stops may leave no room.
+    ///
+    /// # Errors
+    /// As [`Self::with`].
+    pub fn with_all(&self, values: impl IntoIterator<Item = (Parameter, f64)>) -> Result<Self, PlanError> {
+        let Some(mut machine) = self.machine else {
+            return values.into_iter().try_fold(*self, |system, (parameter, value)| system.changed(parameter, value));
+        };
+        let mut exact = Vec::new();
+        for (parameter, value) in values {
+            machine = machine.with(parameter, value)?;
             // a nondimensional number is exactly the given one, although the machine rounds it
-            return Ok(match parameter {
-                Parameter::Beta => Self { beta: Some(value), ..system },
-                Parameter::InverseBeta => Self { beta: None, inverse_beta: Some(value), ..system },
-                Parameter::Gap => Self { gap: value, ..system },
-                Parameter::SecondGap => {
-                    Self { second_stop: system.second_stop.map(|stop| SecondStop { gap: value, ..stop }), ..system }
-                }
-                _ => system,
-            });
+            if matches!(parameter, Parameter::Beta | Parameter::InverseBeta | Parameter::Gap | Parameter::SecondGap) {
+                exact.push((parameter, value));
+            }
         }
+        exact
+            .into_iter()
+            .try_fold(Self::of_machine(machine)?, |system, (parameter, value)| system.changed(parameter, value))
+    }
+
+    /// The same nondimensional numbers but for one.
+    fn changed(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
         let second = || self.second_stop.ok_or(PlanError::NoSecondStop(parameter.name()));
         Ok(match parameter {
             Parameter::Beta => Self { beta: Some(value), inverse_beta: None, ..*self },

@@ -126,8 +126,7 @@ impl Plan {
     /// # Errors
     /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none.
     pub fn canonical(&self) -> Result<Self, PlanError> {
-        let system =
-            self.task.varied().into_iter().try_fold(self.system, |system, (p, value)| system.with(p, value))?;
+        let system = self.system.with_all(self.task.varied())?;
         let own = |units: UnitsPlan| {
             UnitsPlan::of_system(&system).map_or(units, |own| UnitsPlan { hertz: units.hertz, ..own })
         };

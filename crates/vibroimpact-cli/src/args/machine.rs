@@ -5,9 +5,9 @@ use super::ranged::{Ranged, with_unit};
 use super::unit_text::UnitKind;
 use crate::failure::Failure;
 use clap::Args;
-use vibroimpact::{DrivenMachine, Excitation, MachineParameter, Reduced};
+use vibroimpact::{DrivenMachine, MachineParameter};
 use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{Axis, FramePlan, MachinePlan, Parameter, SystemPlan};
+use vibroimpact_study::{Axis, MachinePlan, Parameter, SystemPlan, UnitsPlan};
 
 /// The system as a machine: mass, stiffness, force, frequency, gap and restitution, instead of --beta, --gap and --damping.
 #[derive(Clone, Debug, Default, Args)]
@@ -232,13 +232,11 @@ impl MachineArgs {
 
 /// The system of a machine: in SI units, or nondimensional with the units of the machine beside it.
 pub(super) fn asked(plan: &MachinePlan, si: bool) -> Result<Asked, Failure> {
-    let machine = plan.driven()?;
-    let Reduced { scales, phase, offset_m, .. } = machine.reduced()?;
-    let plain = machine.excitation == Excitation::default();
-    let frame = (!plain).then(|| FramePlan { phase, offset_m, apart: machine.stop_apart() });
-    let system = SystemPlan::of_machine(machine)?;
-    let (system, machine) = if si { (system, Some(machine)) } else { (SystemPlan { machine: None, ..system }, None) };
-    Ok(Asked { system, units: Units { scales: Some(scales), si, hertz: false, frame, machine } })
+    let system = SystemPlan::of_machine(plan.driven()?)?;
+    let units = UnitsPlan::of_system(&system).as_ref().map(Units::from).unwrap_or_default();
+    // without --units si the machine only gives the scales
+    let machine = system.machine.filter(|_| si);
+    Ok(Asked { system: SystemPlan { machine, ..system }, units: Units { si, hertz: false, machine, ..units } })
 }
 
 /// The parameter of the oscillator that a number of a machine is, apart from its unit; `None` if other numbers of the

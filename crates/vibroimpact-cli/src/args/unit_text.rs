@@ -29,6 +29,7 @@ enum Factor {
 
 use Factor::{Over, Ten, Times};
 use core::f64::consts::TAU;
+use vibroimpact_study::typed::{decimal, shifted};
 
 /// Standard gravity in m/s^2.
 const GRAVITY: f64 = 9.806_65;
@@ -73,12 +74,12 @@ impl UnitKind {
     pub(crate) fn split(self, text: &str) -> Result<(f64, bool), String> {
         let whole = text.trim();
         let shown = || whole.chars().take(60).collect::<String>();
-        if let Ok(number) = whole.parse() {
+        if let Some(number) = decimal(whole) {
             return Ok((number, false));
         }
         // the longest beginning that is a number
         let ends = (0..=whole.len()).rev().filter(|at| whole.is_char_boundary(*at));
-        let at = ends.into_iter().find(|at| whole[..*at].trim_end().parse::<f64>().is_ok()).unwrap_or(0);
+        let at = ends.into_iter().find(|at| decimal(&whole[..*at]).is_some()).unwrap_or(0);
         let (number, unit) = (whole[..at].trim_end(), plain(&whole[at..]));
         let known = self.units();
         let names =
@@ -90,11 +91,11 @@ impl UnitKind {
             let hint = if unit.starts_with(',') { "; write a decimal point: 1.5" } else { "" };
             return Err(format!("`{}` does not end in one of the units {}{hint}", shown(), names()));
         };
-        let value: f64 = number.parse().map_err(|_| format!("`{}` is not a number", shown()))?;
+        let value = decimal(number).ok_or_else(|| format!("`{}` is not a number", shown()))?;
         Ok((
             match factor {
                 Ten(0) => value,
-                Ten(power) => shifted(number, *power).unwrap_or(value),
+                Ten(power) => shifted(value, *power),
                 Over(by) => value / by,
                 Times(by) => value * by,
             },
@@ -108,13 +109,6 @@ fn plain(unit: &str) -> String {
     let unit: String =
         unit.chars().filter(|c| !c.is_whitespace() && !['*', '.', '\u{b7}', '\u{22c5}'].contains(c)).collect();
     unit.replace(['\u{b5}', '\u{3bc}'], "u").replace('\u{b2}', "^2")
-}
-
-/// A number times a power of ten, rounded once.
-fn shifted(number: &str, power: i32) -> Option<f64> {
-    let (digits, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
-    let exponent: i32 = exponent.parse().ok()?;
-    format!("{digits}e{}", exponent.checked_add(power)?).parse().ok()
 }
 
 #[cfg(test)]

@@ -184,3 +184,21 @@ fn harmonics_and_transient() {
     let chaos = json("settle --inverse-beta 1.11 --gap 3 --restitution 0.5");
     assert!(chaos.get("harmonics").is_none() && chaos.get("transient").is_none());
 }
+
+/// Along a line through both gaps, the stops of a machine may leave no room after the first change alone. And a map over
+/// any number of a machine has its range.
+#[test]
+fn both_gaps_of_a_machine_move_together() {
+    let machine = "--mass-kg 0.7 --stiffness-n-per-m 900 --force-n 3 --frequency-hz 4.5 --restitution 0.7";
+    let line = format!(
+        "diagram {machine} --gap-m 0.001 --second-gap-m 0.002 --vary gap-m --over 0.001:-0.003:3 --also second-gap-m=0.002:0.006 --keep 2 --transient 20 --csv -"
+    );
+    let output = vibro(&line).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.lines().any(|row| row.starts_with("-0.003,0.006,")), "{text}");
+    let missing =
+        vibro(&format!("map {} --force-n 1:3:3 --gap-m 0.004", machine.replace("--force-n 3 ", ""))).output().unwrap();
+    let complaint = String::from_utf8_lossy(&missing.stderr).into_owned();
+    assert!(complaint.contains("--starts") && !complaint.contains("a range A:B:N"), "{complaint}");
+}

@@ -147,7 +147,7 @@ impl DiagramPlan {
     /// # Errors
     /// As [`Self::oscillator`].
     pub fn system(&self, system: &SystemPlan, k: u32) -> Result<SystemPlan, PlanError> {
-        self.values(k).try_fold(*system, |system, (parameter, value)| system.with(parameter, value))
+        system.with_all(self.values(k))
     }
 
     /// Number of motions followed at each value.

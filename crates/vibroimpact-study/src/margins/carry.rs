@@ -1,6 +1,7 @@
 //! A periodic motion carried from one system to a system nearby.
 
 use vibroimpact::orbit::{Cycle, CyclePoint, from_release, refine};
+use vibroimpact::system::phase;
 use vibroimpact::{Oscillator, Side};
 
 /// Why a motion was not found at a system nearby.
@@ -96,9 +97,8 @@ fn repeats(cycle: &Cycle) -> bool {
 
 fn close(a: &CyclePoint, b: &CyclePoint) -> bool {
     let speed = a.state.velocity.max(b.state.velocity).max(f64::MIN_POSITIVE);
-    let turn = (a.state.phase - b.state.phase).abs();
     a.state.side == b.state.side
-        && turn.min(core::f64::consts::TAU - turn) <= REPEATS
+        && phase::difference(a.state.phase, b.state.phase).abs() <= REPEATS
         && (a.state.velocity - b.state.velocity).abs() <= REPEATS * speed
 }
 

@@ -9,7 +9,7 @@
 
 use super::carry::{Loss, carry};
 use super::scope::Scope;
-use crate::{Control, PlanError, RunError, Stopped, SystemPlan};
+use crate::{Control, RunError, Stopped, SystemPlan};
 use vibroimpact::Oscillator;
 use vibroimpact::orbit::Cycle;
 
@@ -112,10 +112,9 @@ impl Trial<'_, '_> {
     }
 
     /// The system with these values; `None` if the two stops leave no room.
-    fn oscillator(&self, values: &[f64]) -> Result<Option<Oscillator>, PlanError> {
-        let mut all = self.scopes.iter().zip(values);
-        let system = all.try_fold(*self.system, |of, (scope, value)| of.with(scope.parameter, *value))?;
-        Ok(system.oscillator().ok())
+    fn oscillator(&self, values: &[f64]) -> Option<Oscillator> {
+        let all = self.scopes.iter().zip(values).map(|(scope, value)| (scope.parameter, *value));
+        self.system.with_all(all).and_then(|system| system.oscillator()).ok()
     }
 
     /// Carries the motion along a line to this size. Returns where it is lost before.
@@ -129,7 +128,7 @@ impl Trial<'_, '_> {
         while size < to {
             let next = if size + step < to { size + step } else { to };
             let values = self.values(direction, next);
-            match self.oscillator(&values)?.ok_or(Loss::NoSystem).and_then(|osc| carry(&osc, &here)) {
+            match self.oscillator(&values).ok_or(Loss::NoSystem).and_then(|osc| carry(&osc, &here)) {
                 Ok(there) => {
                     (size, here) = (next, there);
                     self.sizes.push(size);

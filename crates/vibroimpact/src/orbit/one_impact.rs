@@ -29,6 +29,12 @@ pub struct OneImpact {
     pub physical: bool,
 }
 
+impl OneImpact {
+    fn judged(osc: &Oscillator, cycle: Cycle) -> Self {
+        Self { physical: earlier_contact(osc, &cycle).is_none(), cycle }
+    }
+}
+
 /// All solutions with one impact on the first stop in `n` forcing periods, the slower arrival first.
 ///
 /// At $`U = 0`$ the quadratic is $`\delta^2/f^2 - 1`$. If the gap equals $`|f|`$, exactly or to within the rounding
@@ -87,8 +93,7 @@ pub fn one_impact(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
         let state = ImpactState { phase: theta, velocity, side: Side::Upper };
         let cycle = shooting::assemble(osc, vec![(state, interval)], n, 0.0);
         let cycle = if interval < SHORT { polished(osc, &cycle).unwrap_or(cycle) } else { cycle };
-        let physical = earlier_contact(osc, &cycle).is_none();
-        orbits.push(OneImpact { cycle, physical });
+        orbits.push(OneImpact::judged(osc, cycle));
     }
     orbits
 }
@@ -122,9 +127,8 @@ fn bouncing(osc: &Oscillator, n: u32) -> Vec<OneImpact> {
     let orbit = |sine: f64| {
         let velocity = -gap * interval / (1.0 + eps);
         let state = ImpactState { phase: phase::wrap(atan2(sine, cosine)), velocity, side: Side::Upper };
-        let cycle = polished(osc, &shooting::assemble(osc, vec![(state, interval)], n, 0.0))?;
-        let physical = earlier_contact(osc, &cycle).is_none();
-        Some(OneImpact { cycle, physical })
+        polished(osc, &shooting::assemble(osc, vec![(state, interval)], n, 0.0))
+            .map(|cycle| OneImpact::judged(osc, cycle))
     };
     // beyond the fold the sine is not a number, and there is no cycle
     let mut orbits: Vec<OneImpact> = [sine, -sine].into_iter().filter(|s| s.is_finite()).filter_map(orbit).collect();
