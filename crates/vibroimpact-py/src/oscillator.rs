@@ -6,8 +6,8 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use std::collections::hash_map::DefaultHasher;
 use std::fmt::Write;
 use std::hash::{Hash, Hasher};
-use vibroimpact::{MachineParameter, Scales, Side};
-use vibroimpact_study::{MachinePlan, Parameter, SecondStop, SystemPlan};
+use vibroimpact::{PhysicalParameter, Scales, Side};
+use vibroimpact_study::{Parameter, PhysicalPlan, SecondStop, SystemPlan};
 
 /// A hash of numbers that is equal for equal numbers (0 and -0 are equal).
 fn hash_of(numbers: impl Iterator<Item = f64>) -> u64 {
@@ -197,7 +197,7 @@ impl Oscillator {
             keywords.set_item("units", units)?;
         }
         if let Some(machine) = &self.plan.machine {
-            let text = serde_json::to_string(&MachinePlan::from(machine));
+            let text = serde_json::to_string(&PhysicalPlan::from(machine));
             keywords.set_item("machine", text.map_err(|_| Trouble::Defect("writing the machine"))?)?;
         }
         Ok(keywords)
@@ -213,10 +213,10 @@ impl Oscillator {
                 "second_restitution" => Some(Parameter::SecondRestitution),
                 "beta" => Some(Parameter::Beta),
                 "inverse_beta" => Some(Parameter::InverseBeta),
-                name => Parameter::from_name(name).filter(|parameter| matches!(parameter, Parameter::Machine(_))),
+                name => Parameter::from_name(name).filter(|parameter| matches!(parameter, Parameter::Physical(_))),
             };
             // a second stop that is new has the restitution of the first, as for any oscillator
-            let second = [Parameter::Machine(MachineParameter::SecondGap), Parameter::SecondRestitution];
+            let second = [Parameter::Physical(PhysicalParameter::SecondGap), Parameter::SecondRestitution];
             let new = |of: Parameter| second.contains(&of) && plan.second_stop.is_none();
             let (Some(parameter), Ok(value), true) = (parameter.filter(|of| !new(*of)), value, plan.machine.is_some())
             else {
@@ -276,7 +276,7 @@ impl Oscillator {
     ) -> Result<Self, Trouble> {
         // the form in which the oscillator of a machine is pickled
         if let Some(text) = machine {
-            let machine: MachinePlan = serde_json::from_str(text)
+            let machine: PhysicalPlan = serde_json::from_str(text)
                 .map_err(|error| Trouble::question(format!("machine = {text} does not read: {error}")))?;
             return Self::checked(SystemPlan::of_machine(machine.driven()?)?, units);
         }
@@ -364,7 +364,7 @@ impl Oscillator {
         if second_gap.is_none() && second_restitution.is_some() {
             return Err(no_second_gap());
         }
-        let machine = MachinePlan {
+        let machine = PhysicalPlan {
             mass_kg: Some(mass),
             stiffness_n_per_m: Some(stiffness),
             force_n: Some(force),

@@ -4,7 +4,7 @@ use crate::error::Trouble;
 use crate::oscillator::Oscillator;
 use pyo3::prelude::*;
 use std::collections::HashMap;
-use vibroimpact::MachineParameter;
+use vibroimpact::PhysicalParameter;
 use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, Task};
 
 /// The plan of a text.
@@ -74,11 +74,11 @@ pub(crate) fn scales_over(text: &str, names: Vec<String>, values: Vec<Vec<f64>>)
 /// The parameters that are numbers of a machine, by name: their descriptions with units, for the axes of figures.
 #[pyfunction]
 pub(crate) fn machine_parameters() -> HashMap<&'static str, String> {
-    let text = |parameter: MachineParameter| match parameter.unit() {
+    let text = |parameter: PhysicalParameter| match parameter.unit() {
         "" => parameter.description().to_owned(),
         unit => format!("{} ({unit})", parameter.description()),
     };
-    MachineParameter::ALL.into_iter().map(|parameter| (parameter.name(), text(parameter))).collect()
+    PhysicalParameter::ALL.into_iter().map(|parameter| (parameter.name(), text(parameter))).collect()
 }
 
 /// Name, value, long name and unit of a coordinate.

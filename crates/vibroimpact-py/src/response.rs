@@ -93,14 +93,14 @@ pub(crate) fn response<'py>(
     // over a number of a machine the nondimensional units may change from value to value
     let vary = found.plan.vary;
     let scales = |value: f64| match vary {
-        Parameter::Machine(_) => osc.plan.with(vary, value).ok().and_then(|system| system.scales()),
+        Parameter::Physical(_) => osc.plan.with(vary, value).ok().and_then(|system| system.scales()),
         _ => None,
     };
     Ok(Found {
         names: Quantity::ALL.map(Quantity::name).to_vec(),
         units: Quantity::ALL
             .map(|quantity| match vary {
-                Parameter::Machine(_) => quantity.kind().unit(),
+                Parameter::Physical(_) => quantity.kind().unit(),
                 _ => quantity.kind().nondimensional(),
             })
             .to_vec(),

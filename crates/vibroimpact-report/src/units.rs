@@ -2,7 +2,7 @@
 
 use crate::number::short;
 use vibroimpact::quantities::{Quantities, Quantity};
-use vibroimpact::{DrivenMachine, QuantityKind, Scales};
+use vibroimpact::{DrivenOscillator, QuantityKind, Scales};
 use vibroimpact_study::{
     Axis, Coordinate, FramePlan, Parameter, Plan, PlanError, Span, SystemPlan, UnitsPlan, Values, is_length,
     natural_hertz,
@@ -40,7 +40,7 @@ pub struct Units {
     /// The frame of positions and phases, if the machine is driven by more than a force.
     pub frame: Option<FramePlan>,
     /// The machine, if the system is one.
-    pub machine: Option<DrivenMachine>,
+    pub machine: Option<DrivenOscillator>,
 }
 
 impl From<&UnitsPlan> for Units {
@@ -61,7 +61,7 @@ impl Units {
     /// drives it.
     #[must_use]
     pub fn at(&self, parameter: Parameter, value: f64) -> Self {
-        let (Parameter::Machine(parameter), Some(machine), true) = (parameter, self.machine, self.si) else {
+        let (Parameter::Physical(parameter), Some(machine), true) = (parameter, self.machine, self.si) else {
             return *self;
         };
         let changed = parameter.set(&machine, value).and_then(|machine| Ok((machine, machine.reduced()?)));
@@ -172,7 +172,7 @@ impl Units {
     pub const fn unit_of(&self, parameter: Parameter) -> &'static str {
         match parameter {
             Parameter::Beta if self.si && self.hertz => "Hz",
-            Parameter::Machine(parameter) => parameter.unit(),
+            Parameter::Physical(parameter) => parameter.unit(),
             _ if self.si && is_length(parameter) => "m",
             _ => "",
         }

@@ -49,7 +49,7 @@ impl Coordinate {
             Self::Parameter(Parameter::Damping) => "damping ratio zeta",
             Self::Parameter(Parameter::SecondGap) => "gap of the second stop",
             Self::Parameter(Parameter::SecondRestitution) => "coefficient of restitution of the second stop",
-            Self::Parameter(Parameter::Machine(parameter)) => parameter.description(),
+            Self::Parameter(Parameter::Physical(parameter)) => parameter.description(),
             Self::X => "position of the start",
             Self::V => "velocity of the start",
             Self::Phase => "phase of the force at the start",
@@ -63,7 +63,7 @@ impl Coordinate {
             Self::Parameter(Parameter::Gap | Parameter::SecondGap) | Self::X => "F/k",
             Self::V => "omega_n F/k",
             Self::Phase => "radian",
-            Self::Parameter(Parameter::Machine(parameter)) if !parameter.unit().is_empty() => parameter.unit(),
+            Self::Parameter(Parameter::Physical(parameter)) if !parameter.unit().is_empty() => parameter.unit(),
             Self::Parameter(_) => "1",
         }
     }

@@ -81,13 +81,13 @@ impl Cut {
     pub fn varying(&self, system: &SystemPlan, value: f64) -> Result<ParameterPath, PlanError> {
         let (first, last) = self.ends;
         let of_machine = self.parameters().find_map(|parameter| match parameter {
-            Parameter::Machine(parameter) => Some(parameter),
+            Parameter::Physical(parameter) => Some(parameter),
             _ => None,
         });
         let alone = match of_machine {
             Some(parameter) => {
                 let there = self.system(system, value)?.machine;
-                ParameterPath::of_machine(there.ok_or(SystemError::NoMachine(parameter.name()))?, self.vary)
+                ParameterPath::of_machine(there.ok_or(SystemError::NotPhysical(parameter.name()))?, self.vary)
             }
             None => ParameterPath::from(self.vary),
         };

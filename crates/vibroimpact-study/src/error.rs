@@ -16,7 +16,7 @@ pub enum PlanError {
     System(#[from] SystemError),
     /// A number of a machine in two forms.
     #[error("{0} and {1} are two forms of one number, and both are given")]
-    MachineTwice(&'static str, &'static str),
+    PhysicalTwice(&'static str, &'static str),
     /// A stop that moves by itself, and a base that moves too.
     #[error("the motion of the stop is given, and a base that moves: a stop moves with its base or is fixed in space")]
     StopAndBase,
@@ -24,7 +24,7 @@ pub enum PlanError {
     #[error(
         "{name} = {given} of the system is not that of its machine, {own}\nhint: leave the nondimensional numbers out"
     )]
-    NotOfMachine {
+    NotOfPhysical {
         /// The name of the number.
         name: &'static str,
         /// The number that is given.
@@ -36,7 +36,7 @@ pub enum PlanError {
     #[error(
         "{0} cannot vary in a curve or region: their planes have parameters of the oscillator, such as beta and gap"
     )]
-    MachinePlane(&'static str),
+    PhysicalPlane(&'static str),
     /// A text that cannot be read as a plan.
     #[error("the plan does not read: {0}")]
     Text(String),

@@ -28,7 +28,7 @@
 //! | the distances of a motion from its nearest events | [`MarginsPlan`], [`MotionMargins`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
-//! | a machine in SI units; the units of a plan | [`MachinePlan`], [`UnitsPlan`] |
+//! | a machine in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
 pub mod axis;
@@ -47,10 +47,10 @@ mod grid;
 mod in_memory;
 mod limits;
 mod lyapunov;
-mod machine;
 mod map;
 mod margins;
 mod parameter;
+mod physical;
 mod plan;
 mod plan_text;
 mod quantity;
@@ -81,13 +81,13 @@ pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
-pub use machine::MachinePlan;
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,
     ScaledParameter, Scope,
 };
 pub use parameter::{Parameter, is_length};
+pub use physical::PhysicalPlan;
 pub use plan::{Plan, Task};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};

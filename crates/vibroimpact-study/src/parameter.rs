@@ -3,7 +3,7 @@
 use crate::{PlanError, SecondStop, SystemPlan};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub use vibroimpact::Parameter;
-use vibroimpact::{MachineParameter, SystemError};
+use vibroimpact::{PhysicalParameter, SystemError};
 
 /// Whether a parameter is a length (with unit $`F/k`$).
 #[must_use]
@@ -37,7 +37,7 @@ pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Paramete
 
 /// The names of all parameters, those of a machine last.
 pub(crate) fn names() -> Vec<&'static str> {
-    let machine = MachineParameter::ALL.map(MachineParameter::name);
+    let machine = PhysicalParameter::ALL.map(PhysicalParameter::name);
     Parameter::ALL.map(Parameter::name).into_iter().chain(machine).collect()
 }
 
@@ -46,7 +46,7 @@ impl SystemPlan {
     /// given. For a machine all its other numbers are held.
     ///
     /// # Errors
-    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none, [`SystemError::NoMachine`] for a
+    /// [`PlanError::NoSecondStop`] for a parameter of a second stop if there is none, [`SystemError::NotPhysical`] for a
     /// number of a machine if the system is none, and [`PlanError`] for a value of such a number that gives no system.
     pub fn with(&self, parameter: Parameter, value: f64) -> Result<Self, PlanError> {
         self.with_all([(parameter, value)])
@@ -87,7 +87,7 @@ impl SystemPlan {
             Parameter::SecondRestitution => {
                 Self { second_stop: Some(SecondStop { restitution: value, ..second()? }), ..*self }
             }
-            Parameter::Machine(parameter) => return Err(SystemError::NoMachine(parameter.name()).into()),
+            Parameter::Physical(parameter) => return Err(SystemError::NotPhysical(parameter.name()).into()),
         })
     }
 
@@ -99,8 +99,8 @@ impl SystemPlan {
         if let (Parameter::InverseBeta, Some(inverse)) = (parameter, self.inverse_beta) {
             return Ok(inverse);
         }
-        if let Parameter::Machine(parameter) = parameter {
-            let machine = self.machine.ok_or(SystemError::NoMachine(parameter.name()))?;
+        if let Parameter::Physical(parameter) = parameter {
+            let machine = self.machine.ok_or(SystemError::NotPhysical(parameter.name()))?;
             return parameter.get(&machine).ok_or(PlanError::NoSecondStop(parameter.name()));
         }
         parameter.get(&self.oscillator()?).ok_or(PlanError::NoSecondStop(parameter.name()))

@@ -2,10 +2,10 @@
 
 use crate::plan::{Plan, Task};
 use crate::system::{SecondStop, SystemPlan};
-use crate::{Axis, Coordinate, MachinePlan, Parameter, PlanError, UnitsPlan};
+use crate::{Axis, Coordinate, Parameter, PhysicalPlan, PlanError, UnitsPlan};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use vibroimpact::MachineParameter;
+use vibroimpact::PhysicalParameter;
 
 /// What is asked, of which system. What varies on an axis need not be given in the system.
 #[derive(Deserialize, JsonSchema)]
@@ -49,7 +49,7 @@ struct System {
     /// A stop on the other side.
     second_stop: Option<SecondStop>,
     /// A machine in SI units, instead of all numbers above.
-    machine: Option<MachinePlan>,
+    machine: Option<PhysicalPlan>,
 }
 
 impl Task {
@@ -175,10 +175,10 @@ impl System {
         let Some(mut machine) = self.machine else { return Ok(None) };
         for (parameter, value) in varied {
             match parameter {
-                Parameter::Machine(parameter) => machine.set(*parameter, *value),
+                Parameter::Physical(parameter) => machine.set(*parameter, *value),
                 Parameter::Restitution => machine.restitution = Some(*value),
                 Parameter::SecondRestitution => machine.second_restitution = Some(*value),
-                Parameter::Damping => machine.set(MachineParameter::DampingRatio, *value),
+                Parameter::Damping => machine.set(PhysicalParameter::DampingRatio, *value),
                 _ => {}
             }
         }
@@ -188,7 +188,7 @@ impl System {
         for (parameter, given) in given {
             let own = system.value(parameter).unwrap_or(f64::NAN);
             if let Some(given) = given.filter(|given| *given != own) {
-                return Err(PlanError::NotOfMachine { name: parameter.name(), given, own });
+                return Err(PlanError::NotOfPhysical { name: parameter.name(), given, own });
             }
         }
         Ok(Some(system))

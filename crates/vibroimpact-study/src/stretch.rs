@@ -45,8 +45,8 @@ const NARROWEST: f64 = 1e-100;
 /// [`PlanError`] for ends out of order or too close, for equal parameters, and for an invalid system at a corner.
 pub(crate) fn check_plane(system: &SystemPlan, one: &Stretch, two: &Stretch) -> Result<(), PlanError> {
     for stretch in [one, two] {
-        if let Parameter::Machine(parameter) = stretch.parameter {
-            return Err(PlanError::MachinePlane(parameter.name()));
+        if let Parameter::Physical(parameter) = stretch.parameter {
+            return Err(PlanError::PhysicalPlane(parameter.name()));
         }
         if !(stretch.from.is_finite() && stretch.to.is_finite() && stretch.from < stretch.to) {
             let name = stretch.parameter.name();

@@ -2,7 +2,7 @@
 
 use crate::PlanError;
 use serde::{Deserialize, Serialize};
-use vibroimpact::{DrivenMachine, Oscillator, Reduced, Scales, Side, Start};
+use vibroimpact::{DrivenOscillator, Oscillator, Reduced, Scales, Side, Start};
 
 /// The oscillator: exactly one of `beta` and `inverse_beta`, one or two stops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -25,9 +25,9 @@ pub struct SystemPlan {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_stop: Option<SecondStop>,
     /// The machine in SI units, if the system is one. The numbers above are those of its oscillator.
-    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::machine")]
-    #[schemars(with = "Option<crate::MachinePlan>")]
-    pub machine: Option<DrivenMachine>,
+    #[serde(default, skip_serializing_if = "Option::is_none", with = "crate::physical")]
+    #[schemars(with = "Option<crate::PhysicalPlan>")]
+    pub machine: Option<DrivenOscillator>,
 }
 
 /// A stop at `x = -gap`.
@@ -45,7 +45,7 @@ impl SystemPlan {
     ///
     /// # Errors
     /// [`PlanError`] names the invalid number of the machine.
-    pub fn of_machine(machine: DrivenMachine) -> Result<Self, PlanError> {
+    pub fn of_machine(machine: DrivenOscillator) -> Result<Self, PlanError> {
         let Reduced { oscillator, .. } = machine.reduced()?;
         Ok(Self {
             beta: Some(oscillator.beta()),

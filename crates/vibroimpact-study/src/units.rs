@@ -66,7 +66,7 @@ impl UnitsPlan {
     /// Checks that all units are positive and finite, and those of the machine if the system is one.
     ///
     /// # Errors
-    /// [`PlanError::Unit`] or [`PlanError::NotOfMachine`] for the first that is not.
+    /// [`PlanError::Unit`] or [`PlanError::NotOfPhysical`] for the first that is not.
     pub(crate) fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         if let Some(own) = Self::of_system(system) {
             for (name, given, own) in [
@@ -75,7 +75,7 @@ impl UnitsPlan {
                 ("mass_kg", self.mass_kg, own.mass_kg),
             ] {
                 if given != own {
-                    return Err(PlanError::NotOfMachine { name, given, own });
+                    return Err(PlanError::NotOfPhysical { name, given, own });
                 }
             }
         }

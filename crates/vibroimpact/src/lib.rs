@@ -52,7 +52,7 @@
 //! # Units
 //!
 //! All quantities are nondimensional - lengths in static deflections $`F/k`$, times in $`1/\omega_n`$ - unless a name
-//! says otherwise. [`Machine`] converts from kg, N/m, N and Hz and back. Phases are in radians in $`[0, 2\pi)`$;
+//! says otherwise. [`PhysicalOscillator`] converts from kg, N/m, N and Hz and back. Phases are in radians in $`[0, 2\pi)`$;
 //! arrival speeds are positive.
 //!
 //! # Source
@@ -78,9 +78,9 @@ pub mod verdict;
 
 pub use orbit::Label;
 pub use system::{
-    Amplitude, Damping, DrivenMachine, EquivalentMachine, Excitation, Frequency, Machine, MachineParameter,
-    MachineStop, Oscillator, Parameter, ParameterPath, QuantityKind, Reduced, Scales, Shaking, Side, Start, Stop,
-    SystemError,
+    Amplitude, Damping, DrivenOscillator, EquivalentOscillator, Excitation, Frequency, Oscillator, Parameter,
+    ParameterPath, PhysicalOscillator, PhysicalParameter, PhysicalStop, QuantityKind, Reduced, Scales, Shaking, Side,
+    Start, Stop, SystemError,
 };
 
 /// The listings of the README are compiled and run.

@@ -1,7 +1,7 @@
 //! A parameter as it is named on the command line.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use vibroimpact::MachineParameter;
+use vibroimpact::PhysicalParameter;
 use vibroimpact_study::Parameter;
 
 /// A parameter that varies, as it was named: a parameter of the oscillator or a number of a machine.
@@ -12,19 +12,19 @@ pub(crate) struct ParameterFlag {
 
 impl ParameterFlag {
     /// A number of a machine.
-    pub(crate) const fn of_machine(parameter: MachineParameter) -> Self {
-        Self { parameter: Parameter::Machine(parameter) }
+    pub(crate) const fn of_machine(parameter: PhysicalParameter) -> Self {
+        Self { parameter: Parameter::Physical(parameter) }
     }
 
     /// All of them, those of a machine last.
     pub(crate) fn all() -> impl Iterator<Item = Self> {
-        let machine = MachineParameter::ALL.into_iter().map(Self::of_machine);
+        let machine = PhysicalParameter::ALL.into_iter().map(Self::of_machine);
         Parameter::ALL.into_iter().map(|parameter| Self { parameter }).chain(machine)
     }
 
     /// The number of a machine, if it is one.
-    pub(crate) const fn machine(self) -> Option<MachineParameter> {
-        if let Parameter::Machine(parameter) = self.parameter { Some(parameter) } else { None }
+    pub(crate) const fn machine(self) -> Option<PhysicalParameter> {
+        if let Parameter::Physical(parameter) = self.parameter { Some(parameter) } else { None }
     }
 
     /// Its name on the command line, without dashes before it.
@@ -34,7 +34,7 @@ impl ParameterFlag {
 
     fn meaning(self) -> String {
         match self.parameter {
-            Parameter::Machine(parameter) => {
+            Parameter::Physical(parameter) => {
                 let unit = parameter.unit();
                 let name = parameter.description();
                 if unit.is_empty() {
@@ -67,28 +67,28 @@ pub(crate) const fn flag(parameter: Parameter) -> &'static str {
         Parameter::Damping => "damping",
         Parameter::SecondGap => "second-gap",
         Parameter::SecondRestitution => "second-restitution",
-        Parameter::Machine(parameter) => machine_flag(parameter),
+        Parameter::Physical(parameter) => machine_flag(parameter),
     }
 }
 
-const fn machine_flag(parameter: MachineParameter) -> &'static str {
+const fn machine_flag(parameter: PhysicalParameter) -> &'static str {
     match parameter {
-        MachineParameter::Mass => "mass-kg",
-        MachineParameter::Stiffness => "stiffness-n-per-m",
-        MachineParameter::DampingCoefficient => "damping-ns-per-m",
-        MachineParameter::DampingRatio => "damping-ratio",
-        MachineParameter::Force => "force-n",
-        MachineParameter::Frequency => "frequency-hz",
-        MachineParameter::Gap => "gap-m",
-        MachineParameter::SecondGap => "second-gap-m",
-        MachineParameter::Gaps => "gaps-m",
-        MachineParameter::Restitutions => "restitutions",
-        MachineParameter::BaseDisplacement => "base-displacement-m",
-        MachineParameter::BaseVelocity => "base-velocity-m-per-s",
-        MachineParameter::BaseAcceleration => "base-acceleration-m-per-s2",
-        MachineParameter::StopDisplacement => "stop-displacement-m",
-        MachineParameter::Unbalance => "unbalance-kg-m",
-        MachineParameter::ConstantForce => "constant-force-n",
+        PhysicalParameter::Mass => "mass-kg",
+        PhysicalParameter::Stiffness => "stiffness-n-per-m",
+        PhysicalParameter::DampingCoefficient => "damping-ns-per-m",
+        PhysicalParameter::DampingRatio => "damping-ratio",
+        PhysicalParameter::Force => "force-n",
+        PhysicalParameter::Frequency => "frequency-hz",
+        PhysicalParameter::Gap => "gap-m",
+        PhysicalParameter::SecondGap => "second-gap-m",
+        PhysicalParameter::Gaps => "gaps-m",
+        PhysicalParameter::Restitutions => "restitutions",
+        PhysicalParameter::BaseDisplacement => "base-displacement-m",
+        PhysicalParameter::BaseVelocity => "base-velocity-m-per-s",
+        PhysicalParameter::BaseAcceleration => "base-acceleration-m-per-s2",
+        PhysicalParameter::StopDisplacement => "stop-displacement-m",
+        PhysicalParameter::Unbalance => "unbalance-kg-m",
+        PhysicalParameter::ConstantForce => "constant-force-n",
         other => other.name(),
     }
 }
@@ -102,7 +102,7 @@ const fn meaning(parameter: Parameter) -> &'static str {
         Parameter::Damping => "Damping ratio zeta",
         Parameter::SecondGap => "Distance of the second stop",
         Parameter::SecondRestitution => "Restitution of the second stop",
-        Parameter::Machine(parameter) => parameter.description(),
+        Parameter::Physical(parameter) => parameter.description(),
     }
 }
 
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn flags_of_a_machine_are_its_names_with_hyphens() {
-        for parameter in MachineParameter::ALL {
+        for parameter in PhysicalParameter::ALL {
             assert_eq!(machine_flag(parameter), parameter.name().replace('_', "-"));
         }
     }

@@ -1,12 +1,12 @@
 //! SYSTEM with ranges: each parameter is one value or the values of an axis.
 
-use super::machine::MachineArgs;
 use super::parameter_flag::{ParameterFlag, flag};
+use super::physical::PhysicalArgs;
 use super::system::{MaybeLength, maybe_lengths};
 use super::{AxesArgs, Ranged};
 use crate::failure::Failure;
 use clap::Args;
-use vibroimpact::MachineParameter;
+use vibroimpact::PhysicalParameter;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::{Axis, Parameter, SecondStop, SystemPlan};
 
@@ -48,7 +48,7 @@ pub(crate) struct RangedSystemArgs {
     axes: AxesArgs,
 
     #[command(flatten)]
-    machine: MachineArgs,
+    machine: PhysicalArgs,
 }
 
 impl RangedSystemArgs {
@@ -94,7 +94,7 @@ impl RangedSystemArgs {
                 )));
             }
             let restitutions = (Some(self.restitution.first()), Some(second_restitution));
-            return super::machine::asked(&machine.plan(restitutions, &[])?, true);
+            return super::physical::asked(&machine.plan(restitutions, &[])?, true);
         }
         let system = SystemPlan {
             beta: first(&self.beta),
@@ -109,9 +109,10 @@ impl RangedSystemArgs {
     }
 
     /// The numbers of the machine, with gaps that were written with a unit.
-    fn machine(&self) -> MachineArgs {
+    fn machine(&self) -> PhysicalArgs {
         let mut machine = self.machine.clone();
-        for (parameter, given) in [(MachineParameter::Gap, &self.gap), (MachineParameter::SecondGap, &self.second_gap)]
+        for (parameter, given) in
+            [(PhysicalParameter::Gap, &self.gap), (PhysicalParameter::SecondGap, &self.second_gap)]
         {
             if let Some(metres) = given.as_ref().and_then(MaybeLength::metres) {
                 machine.put(parameter, metres.clone());

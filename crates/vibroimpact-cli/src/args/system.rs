@@ -1,12 +1,12 @@
 //! SYSTEM: the oscillator, in nondimensional or in physical units.
 
-use super::machine::MachineArgs;
+use super::physical::PhysicalArgs;
 use super::unit_text::UnitKind;
 use super::{Ranged, number};
 use crate::failure::Failure;
 use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
-use vibroimpact::MachineParameter;
+use vibroimpact::PhysicalParameter;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::{Parameter, SecondStop, SystemPlan};
 
@@ -43,7 +43,7 @@ pub(crate) struct SystemArgs {
     second_restitution: Option<f64>,
 
     #[command(flatten)]
-    pub(super) machine: MachineArgs,
+    pub(super) machine: PhysicalArgs,
 
     /// Units of starts, ranges and results
     #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional)]
@@ -107,16 +107,17 @@ impl SystemArgs {
     }
 
     /// The same, with numbers of the machine that vary and have these first values.
-    pub(super) fn asked_with(&self, set: &[(MachineParameter, f64)]) -> Result<Asked, Failure> {
+    pub(super) fn asked_with(&self, set: &[(PhysicalParameter, f64)]) -> Result<Asked, Failure> {
         self.machine
             .one_value("`vibro map`, `vibro region` and `vibro response` take ranges; --vary FLAG elsewhere")?;
         self.first(set)
     }
 
     /// The system with the first value of each range.
-    pub(crate) fn first(&self, set: &[(MachineParameter, f64)]) -> Result<Asked, Failure> {
+    pub(crate) fn first(&self, set: &[(PhysicalParameter, f64)]) -> Result<Asked, Failure> {
         let mut machine = self.machine.clone();
-        for (parameter, given) in [(MachineParameter::Gap, &self.gap), (MachineParameter::SecondGap, &self.second_gap)]
+        for (parameter, given) in
+            [(PhysicalParameter::Gap, &self.gap), (PhysicalParameter::SecondGap, &self.second_gap)]
         {
             if let Some(metres) = given.as_ref().and_then(MaybeLength::metres) {
                 machine.put(parameter, metres.clone());
@@ -157,7 +158,7 @@ impl SystemArgs {
         if let Some((flag, _)) = twice.iter().find(|(_, value)| value.is_some()) {
             return Err(Failure::bad(format!("{flag} cannot go together with a system in physical units")));
         }
-        super::machine::asked(&plan, self.units == Convention::Si)
+        super::physical::asked(&plan, self.units == Convention::Si)
     }
 
     /// The same with results in SI units.
@@ -189,7 +190,7 @@ impl SystemArgs {
 /// Functions for a plane, whose values may be ranges.
 impl SystemArgs {
     /// The system with these values.
-    pub(crate) fn of(values: &[(Parameter, Option<f64>)], machine: MachineArgs, units: Convention) -> Self {
+    pub(crate) fn of(values: &[(Parameter, Option<f64>)], machine: PhysicalArgs, units: Convention) -> Self {
         let mut args = Self {
             beta: None,
             inverse_beta: None,
@@ -220,7 +221,7 @@ impl SystemArgs {
             Parameter::Damping => self.damping = value,
             Parameter::SecondGap => self.second_gap = value.map(|value| MaybeLength::Plain(Ranged::At(value))),
             Parameter::SecondRestitution => self.second_restitution = value,
-            Parameter::Machine(_) => {}
+            Parameter::Physical(_) => {}
         }
     }
 
@@ -234,7 +235,7 @@ impl SystemArgs {
             Parameter::Damping => self.damping.is_some(),
             Parameter::SecondGap => self.second_gap.is_some(),
             Parameter::SecondRestitution => self.second_restitution.is_some(),
-            Parameter::Machine(_) => false,
+            Parameter::Physical(_) => false,
         }
     }
 

@@ -1,23 +1,23 @@
 //! VARY: parameters that vary over ranges, and the system without them.
 
 use super::SystemArgs;
-use super::machine::alone;
 use super::parameter_flag::{ParameterFlag, flag};
+use super::physical::alone;
 use crate::failure::Failure;
-use vibroimpact::MachineParameter;
+use vibroimpact::PhysicalParameter;
 use vibroimpact_report::{Asked, Units};
 use vibroimpact_study::Parameter;
 
 impl SystemArgs {
     /// The system with results in SI units if one of these parameters is a number of a machine, whose first values are
     /// given for those that are not given otherwise.
-    fn with_first(&self, varied: &[ParameterFlag], set: &[(MachineParameter, f64)]) -> Result<Asked, Failure> {
+    fn with_first(&self, varied: &[ParameterFlag], set: &[(PhysicalParameter, f64)]) -> Result<Asked, Failure> {
         let Some(si) = varied.iter().find(|named| named.machine().is_some()) else { return self.asked() };
         if !self.is_machine() {
             let twin = match si.parameter {
-                Parameter::Machine(MachineParameter::Frequency) => "; beta is nondimensional",
-                Parameter::Machine(MachineParameter::Gap) => "; gap is nondimensional",
-                Parameter::Machine(MachineParameter::SecondGap) => "; second-gap is nondimensional",
+                Parameter::Physical(PhysicalParameter::Frequency) => "; beta is nondimensional",
+                Parameter::Physical(PhysicalParameter::Gap) => "; gap is nondimensional",
+                Parameter::Physical(PhysicalParameter::SecondGap) => "; second-gap is nondimensional",
                 _ => "",
             };
             return Err(Failure::bad(format!(
@@ -59,7 +59,7 @@ impl SystemArgs {
                 args.set(*parameter, Some(*first));
             }
         }
-        let set: Vec<(MachineParameter, f64)> =
+        let set: Vec<(PhysicalParameter, f64)> =
             varied.iter().filter_map(|(named, first, _)| Some((named.machine()?, *first))).collect();
         let mut asked = args.with_first(&varied.iter().map(|(named, ..)| *named).collect::<Vec<_>>(), &set)?;
         for (ParameterFlag { parameter }, first, _) in varied {
@@ -76,7 +76,7 @@ pub(crate) fn of_oscillator(asked: &mut Asked, varied: &[ParameterFlag]) -> Resu
     let Units { machine, .. } = asked.units;
     let parameter = |named: &ParameterFlag| {
         match (named.parameter, machine) {
-        (Parameter::Machine(parameter), Some(machine)) => alone(parameter, &machine).ok_or_else(|| {
+        (Parameter::Physical(parameter), Some(machine)) => alone(parameter, &machine).ok_or_else(|| {
             Failure::bad(format!(
                 "{} changes several parameters of the oscillator, and a plane has two\nhint: `vibro map`, `vibro branch` and `vibro response` take it",
                 named.flag()
@@ -86,6 +86,6 @@ pub(crate) fn of_oscillator(asked: &mut Asked, varied: &[ParameterFlag]) -> Resu
     }
     };
     let parameters = varied.iter().map(parameter).collect::<Result<Vec<_>, Failure>>()?;
-    asked.units.hertz = varied.iter().any(|named| named.machine() == Some(MachineParameter::Frequency));
+    asked.units.hertz = varied.iter().any(|named| named.machine() == Some(PhysicalParameter::Frequency));
     Ok(parameters)
 }

@@ -1,7 +1,7 @@
 //! `vibro region`: the regions of a plane of two parameters in which a motion exists and in which it is stable.
 
 use crate::args::{
-    AxesArgs, Convention, FigureArgs, MachineArgs, ParameterFlag, Place, SystemArgs, of_oscillator, whole,
+    AxesArgs, Convention, FigureArgs, ParameterFlag, PhysicalArgs, Place, SystemArgs, of_oscillator, whole,
 };
 use crate::commands::outputs::Outputs;
 use crate::commands::respond;
@@ -64,7 +64,7 @@ pub(crate) struct Region {
     axes: AxesArgs,
 
     #[command(flatten)]
-    machine: MachineArgs,
+    machine: PhysicalArgs,
 
     /// Units of ranges and results
     #[arg(long, value_enum, value_name = "UNITS", default_value_t = Convention::Nondimensional, help_heading = "Plane")]

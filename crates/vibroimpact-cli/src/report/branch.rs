@@ -11,7 +11,7 @@ use vibroimpact_study::{Branches, Chosen, Cut, Followed, counted};
 
 /// The name of a parameter in a sentence, such as `gap` or `inverse beta`.
 pub(crate) fn named(parameter: Parameter, units: &Units) -> String {
-    if let Parameter::Machine(parameter) = parameter {
+    if let Parameter::Physical(parameter) = parameter {
         let (name, unit) = (parameter.description(), parameter.unit());
         return if unit.is_empty() { name.to_owned() } else { format!("{name} ({unit})") };
     }

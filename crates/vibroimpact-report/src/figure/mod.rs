@@ -20,7 +20,7 @@ pub mod waveform;
 
 use crate::number::short;
 use crate::{Asked, Units};
-use vibroimpact::MachineParameter;
+use vibroimpact::PhysicalParameter;
 use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, plain};
 use vibroimpact_study::{Cut, Parameter};
@@ -67,18 +67,18 @@ pub fn title_without(Asked { system, units }: &Asked, varied: &[Parameter]) -> S
 
 /// Whether a parameter that varies determines a number of the title.
 fn same_in_title(varied: Parameter, number: Parameter) -> bool {
-    let Parameter::Machine(varied) = varied else { return varied.same_number(number) };
+    let Parameter::Physical(varied) = varied else { return varied.same_number(number) };
     match varied {
-        MachineParameter::Frequency => number.is_frequency(),
-        MachineParameter::Gap => number == Parameter::Gap,
-        MachineParameter::SecondGap => number == Parameter::SecondGap,
-        MachineParameter::Gaps => matches!(number, Parameter::Gap | Parameter::SecondGap),
-        MachineParameter::Restitutions => matches!(number, Parameter::Restitution | Parameter::SecondRestitution),
+        PhysicalParameter::Frequency => number.is_frequency(),
+        PhysicalParameter::Gap => number == Parameter::Gap,
+        PhysicalParameter::SecondGap => number == Parameter::SecondGap,
+        PhysicalParameter::Gaps => matches!(number, Parameter::Gap | Parameter::SecondGap),
+        PhysicalParameter::Restitutions => matches!(number, Parameter::Restitution | Parameter::SecondRestitution),
         // the damping ratio of a given coefficient changes with the mass and the stiffness
-        MachineParameter::Mass
-        | MachineParameter::Stiffness
-        | MachineParameter::DampingRatio
-        | MachineParameter::DampingCoefficient => number == Parameter::Damping,
+        PhysicalParameter::Mass
+        | PhysicalParameter::Stiffness
+        | PhysicalParameter::DampingRatio
+        | PhysicalParameter::DampingCoefficient => number == Parameter::Damping,
         _ => false,
     }
 }
@@ -106,7 +106,7 @@ pub const fn symbol(parameter: Parameter) -> &'static str {
         Parameter::Damping => "*ζ*",
         Parameter::SecondGap => "*δ*_2",
         Parameter::SecondRestitution => "*ε*_2",
-        Parameter::Machine(parameter) => parameter.description(),
+        Parameter::Physical(parameter) => parameter.description(),
     }
 }
 
@@ -115,7 +115,7 @@ pub const fn symbol(parameter: Parameter) -> &'static str {
 pub fn named(parameter: Parameter, units: &Units) -> String {
     match units.unit_of(parameter) {
         "" => symbol(parameter).into(),
-        unit if matches!(parameter, Parameter::Machine(_)) => format!("{} ({unit})", symbol(parameter)),
+        unit if matches!(parameter, Parameter::Physical(_)) => format!("{} ({unit})", symbol(parameter)),
         "Hz" => "frequency (Hz)".into(),
         unit if parameter == Parameter::SecondGap => format!("second gap ({unit})"),
         unit => format!("gap ({unit})"),

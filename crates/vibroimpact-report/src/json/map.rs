@@ -77,7 +77,7 @@ fn objects(
         };
         let varies = |axis: &Axis| match axis.vary {
             // a number of a machine may determine several of these; the machine of the plan has all others
-            Coordinate::Parameter(Parameter::Machine(_)) => true,
+            Coordinate::Parameter(Parameter::Physical(_)) => true,
             vary => vary == Coordinate::Parameter(parameter),
         };
         if let Some(value) = given.filter(|_| !axes.iter().any(varies)) {

@@ -114,7 +114,7 @@ pub(crate) fn margins(
     let scopes = plan.scopes(system)?;
     for scope in &scopes {
         let path = match (scope.parameter, system.machine) {
-            (parameter @ Parameter::Machine(_), Some(machine)) => ParameterPath::of_machine(machine, parameter),
+            (parameter @ Parameter::Physical(_), Some(machine)) => ParameterPath::of_machine(machine, parameter),
             (parameter, _) => ParameterPath::from(parameter),
         };
         let end = |direction| nearest(&osc, &cycle, (scope, path), direction, control);

@@ -3,7 +3,7 @@
 use super::scope::{ScaledParameter, Scope};
 use crate::{Parameter, PlanError, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
-use vibroimpact::{Amplitude, Damping, Label, MachineParameter};
+use vibroimpact::{Amplitude, Damping, Label, PhysicalParameter};
 
 /// Default ratio of the ends of the range of a parameter to its value.
 pub const DEFAULT_WITHIN: f64 = 2.0;
@@ -68,22 +68,22 @@ impl MarginsPlan {
         if let Some(machine) = &system.machine {
             let coefficient = matches!(machine.machine.damping, Damping::NsPerM(_));
             let base = machine.excitation.base.amplitude;
-            let kept = |of: &MachineParameter| match of {
-                MachineParameter::DampingCoefficient => coefficient,
-                MachineParameter::DampingRatio => !coefficient,
-                MachineParameter::BaseDisplacement => matches!(base, Amplitude::DisplacementM(_)),
-                MachineParameter::BaseVelocity => matches!(base, Amplitude::VelocityMPerS(_)),
-                MachineParameter::BaseAcceleration => matches!(base, Amplitude::AccelerationMPerS2(_)),
+            let kept = |of: &PhysicalParameter| match of {
+                PhysicalParameter::DampingCoefficient => coefficient,
+                PhysicalParameter::DampingRatio => !coefficient,
+                PhysicalParameter::BaseDisplacement => matches!(base, Amplitude::DisplacementM(_)),
+                PhysicalParameter::BaseVelocity => matches!(base, Amplitude::VelocityMPerS(_)),
+                PhysicalParameter::BaseAcceleration => matches!(base, Amplitude::AccelerationMPerS2(_)),
                 // a stop on the base moves with it
-                MachineParameter::StopDisplacement => machine.stop_apart(),
-                MachineParameter::Gaps | MachineParameter::Restitutions => false,
+                PhysicalParameter::StopDisplacement => machine.stop_apart(),
+                PhysicalParameter::Gaps | PhysicalParameter::Restitutions => false,
                 _ => true,
             };
-            let given = |of: &MachineParameter| {
-                let always = matches!(of, MachineParameter::Gap | MachineParameter::SecondGap);
+            let given = |of: &PhysicalParameter| {
+                let always = matches!(of, PhysicalParameter::Gap | PhysicalParameter::SecondGap);
                 of.get(machine).is_some_and(|value| always || value != 0.0)
             };
-            let own = MachineParameter::ALL.into_iter().filter(kept).filter(given).map(Parameter::Machine);
+            let own = PhysicalParameter::ALL.into_iter().filter(kept).filter(given).map(Parameter::Physical);
             let restitutions = [Parameter::Restitution, Parameter::SecondRestitution];
             return own.chain(restitutions.into_iter().filter(|of| system.value(*of).is_ok())).collect();
         }

@@ -2,7 +2,7 @@
 
 use crate::{Parameter, PlanError, SystemPlan};
 use serde::{Deserialize, Serialize};
-use vibroimpact::MachineParameter;
+use vibroimpact::PhysicalParameter;
 
 /// A parameter that varies, and its scale in the box.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -49,8 +49,8 @@ impl Scope {
         let value = system.value(parameter)?;
         let usual = match parameter {
             _ if value != 0.0 => value.abs(),
-            Parameter::Damping | Parameter::Machine(MachineParameter::DampingRatio) => 0.1,
-            Parameter::Machine(of) if of.unit() == "m" => system.scales().map_or(1.0, |scales| scales.length_m),
+            Parameter::Damping | Parameter::Physical(PhysicalParameter::DampingRatio) => 0.1,
+            Parameter::Physical(of) if of.unit() == "m" => system.scales().map_or(1.0, |scales| scales.length_m),
             _ => 1.0,
         };
         let (low, high) = match parameter {
@@ -61,13 +61,13 @@ impl Scope {
         let (low, high) = match parameter {
             Parameter::Damping => (low.max(0.0), high.min(RATIOS.1)),
             Parameter::Beta | Parameter::InverseBeta => (low.max(RATIOS.0), high.min(RATIOS.1)),
-            Parameter::Machine(MachineParameter::DampingCoefficient | MachineParameter::DampingRatio) => {
+            Parameter::Physical(PhysicalParameter::DampingCoefficient | PhysicalParameter::DampingRatio) => {
                 (low.max(0.0), high)
             }
             // the two stops may not touch
-            Parameter::Machine(MachineParameter::Gap | MachineParameter::SecondGap) => {
-                let sum = |of: MachineParameter| system.value(Parameter::Machine(of)).ok();
-                match sum(MachineParameter::Gap).zip(sum(MachineParameter::SecondGap)) {
+            Parameter::Physical(PhysicalParameter::Gap | PhysicalParameter::SecondGap) => {
+                let sum = |of: PhysicalParameter| system.value(Parameter::Physical(of)).ok();
+                match sum(PhysicalParameter::Gap).zip(sum(PhysicalParameter::SecondGap)) {
                     Some((one, two)) => (low.max(value - (1.0 - ROOM) * (one + two)), high),
                     None => (low, high),
                 }
@@ -87,7 +87,9 @@ impl Scope {
         match self.parameter {
             Parameter::Restitution | Parameter::SecondRestitution => true,
             Parameter::Damping
-            | Parameter::Machine(MachineParameter::DampingCoefficient | MachineParameter::DampingRatio) => end == 0.0,
+            | Parameter::Physical(PhysicalParameter::DampingCoefficient | PhysicalParameter::DampingRatio) => {
+                end == 0.0
+            }
             _ => false,
         }
     }

@@ -114,7 +114,7 @@ pub(crate) fn by_parameter(osc: &Oscillator, ring: &Ring, parameter: Parameter) 
         Parameter::SecondRestitution => Some(by_stop(osc, ring, Side::Lower, false)),
         Parameter::Beta | Parameter::InverseBeta | Parameter::Damping => by_difference(osc, ring, parameter),
         // a number of a machine changes several parameters: `ParameterPath::rates`
-        Parameter::Machine(_) => None,
+        Parameter::Physical(_) => None,
     }
 }
 

@@ -55,7 +55,7 @@ pub enum SystemError {
     NoSecondStop(&'static str),
     /// A number of a machine, but the system is an oscillator without units.
     #[error("{0} is a number of a machine in SI units, and the system is nondimensional")]
-    NoMachine(&'static str),
+    NotPhysical(&'static str),
     /// Two parameters on one line that are the same.
     #[error("{0} and {1} cannot vary together: a line goes through two different parameters")]
     Together(&'static str, &'static str),

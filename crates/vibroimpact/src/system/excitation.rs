@@ -14,7 +14,7 @@
 //!
 //! The conversion is exact. A stop on the base has $`r = y`$, and then $`\hat F = m\omega^2 Y e^{i\varphi_y}`$.
 
-use super::{Machine, MachineStop, SystemError};
+use super::{PhysicalOscillator, PhysicalStop, SystemError};
 use crate::math::{atan2, hypot, sin_cos};
 
 /// The amplitude of a harmonic motion in one of three forms, not negative. The form that is given is held when the
@@ -80,10 +80,10 @@ pub struct Excitation {
 
 /// The machine with a force alone that has the same motions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EquivalentMachine {
+pub struct EquivalentOscillator {
     /// The machine. Its positions are those relative to the stop's motion, from the equilibrium under the constant
     /// force.
-    pub machine: Machine,
+    pub machine: PhysicalOscillator,
     /// Phase of its force relative to $`\sin\omega t`$: the phase of an event is $`\omega t`$ plus this.
     pub phase: f64,
     /// The position of the equilibrium, $`F_0/k`$ in m: add it to a position, and then the motion of the stop.
@@ -95,9 +95,9 @@ impl Excitation {
     /// $`F\sin\omega t`$, and may be 0.
     ///
     /// ```
-    /// use vibroimpact::{Amplitude, Damping, Excitation, Frequency, Machine, Shaking};
+    /// use vibroimpact::{Amplitude, Damping, Excitation, Frequency, PhysicalOscillator, Shaking};
     /// // a base that moves by 1 mm at 20 rad/s, with the stop on it
-    /// let machine = Machine {
+    /// let machine = PhysicalOscillator {
     ///     mass_kg: 2.0, damping: Damping::NsPerM(3.0), stiffness_n_per_m: 800.0, force_n: 0.0,
     ///     frequency: Frequency::RadPerS(20.0), gap_m: 0.002, restitution: 0.6, second_stop: None,
     /// };
@@ -110,7 +110,7 @@ impl Excitation {
     /// # Errors
     /// [`SystemError`] for an amplitude or unbalance that is negative or not finite, a constant force or phase that is
     /// not finite, or if the sum of all excitations is 0.
-    pub fn equivalent(&self, machine: &Machine) -> Result<EquivalentMachine, SystemError> {
+    pub fn equivalent(&self, machine: &PhysicalOscillator) -> Result<EquivalentOscillator, SystemError> {
         let (base, stop) = (self.base.amplitude.value(), self.stop.amplitude.value());
         for (name, value, unit) in [
             ("amplitude of the base", base.0, base.1),
@@ -151,8 +151,9 @@ impl Excitation {
         }
         let offset_m = self.constant_force_n / k;
         // the equilibrium moves towards the first stop and away from the second
-        let second_stop = machine.second_stop.map(|stop| MachineStop { gap_m: stop.gap_m + offset_m, ..stop });
-        let machine = Machine { force_n: hypot(re, im), gap_m: machine.gap_m - offset_m, second_stop, ..*machine };
+        let second_stop = machine.second_stop.map(|stop| PhysicalStop { gap_m: stop.gap_m + offset_m, ..stop });
+        let machine =
+            PhysicalOscillator { force_n: hypot(re, im), gap_m: machine.gap_m - offset_m, second_stop, ..*machine };
         if machine.force_n == 0.0 {
             return Err(SystemError::Quantity {
                 name: "sum of all excitations",
@@ -162,7 +163,7 @@ impl Excitation {
                 hint: "give a force, a moving base, an unbalance or a moving stop",
             });
         }
-        Ok(EquivalentMachine { machine, phase: atan2(im, re), offset_m })
+        Ok(EquivalentOscillator { machine, phase: atan2(im, re), offset_m })
     }
 }
 
@@ -172,7 +173,7 @@ mod tests {
     use crate::motion::{EventKind, Motion};
     use crate::system::{Damping, Frequency, Start};
 
-    const MACHINE: Machine = Machine {
+    const MACHINE: PhysicalOscillator = PhysicalOscillator {
         mass_kg: 0.7,
         damping: Damping::NsPerM(2.1),
         stiffness_n_per_m: 900.0,
@@ -207,7 +208,7 @@ mod tests {
                 },
             ),
         ] {
-            let machine = Machine { force_n: force, ..MACHINE };
+            let machine = PhysicalOscillator { force_n: force, ..MACHINE };
             let same = excitation.equivalent(&machine).unwrap();
             let (osc, scales) = same.machine.nondimensional().unwrap();
             // at rest in the equilibrium of the moving frame
@@ -227,7 +228,7 @@ mod tests {
     }
 
     /// Times and speeds, relative to the stop, of the first impacts, from the position `z` relative to it, at rest there.
-    fn physical(machine: &Machine, excitation: &Excitation, z: f64, count: usize) -> Vec<(f64, f64)> {
+    fn physical(machine: &PhysicalOscillator, excitation: &Excitation, z: f64, count: usize) -> Vec<(f64, f64)> {
         let (m, k) = (machine.mass_kg, machine.stiffness_n_per_m);
         let c = machine.damping.ns_per_m(m, k);
         let w = machine.frequency.rad_per_s();
@@ -274,7 +275,7 @@ mod tests {
 
     #[test]
     fn nonsense_is_named() {
-        let nothing = Excitation::default().equivalent(&Machine { force_n: 0.0, ..MACHINE }).unwrap_err();
+        let nothing = Excitation::default().equivalent(&PhysicalOscillator { force_n: 0.0, ..MACHINE }).unwrap_err();
         assert!(nothing.to_string().contains("sum of all excitations = 0 N"), "{nothing}");
         let negative = Excitation { unbalance_kg_m: -1.0, ..Excitation::default() }.equivalent(&MACHINE).unwrap_err();
         assert!(negative.to_string().contains("unbalance = -1 kg m"), "{negative}");

@@ -8,8 +8,8 @@
 //! | its parameters by name, read and changed | [`Parameter`] |
 //! | a line through two parameters | [`ParameterPath`] |
 //! | a start within the stops | [`Start`] |
-//! | conversion from physical units to nondimensional numbers and back | [`Machine`] |
-//! | a machine with all that drives it, and its numbers by name | [`DrivenMachine`], [`MachineParameter`] |
+//! | conversion from physical units to nondimensional numbers and back | [`PhysicalOscillator`] |
+//! | a machine with all that drives it, and its numbers by name | [`DrivenOscillator`], [`PhysicalParameter`] |
 //! | a moving base, an unbalance, a moving stop, a constant force: the equivalent machine | [`Excitation`] |
 //! | the kind of a quantity, and its unit | [`QuantityKind`] |
 //! | the phase of the force, kept in $`[0, 2\pi)`$ | [`phase`] |
@@ -18,24 +18,24 @@ mod commensurable;
 mod error;
 mod excitation;
 mod free;
-mod machine;
-mod machine_change;
 mod oscillator;
 mod parameter;
 mod parameter_path;
 pub mod phase;
+mod physical;
+mod physical_change;
 mod quantity_kind;
 mod response;
 mod start;
 mod units;
 
 pub use error::SystemError;
-pub use excitation::{Amplitude, EquivalentMachine, Excitation, Shaking};
-pub use machine::{DrivenMachine, MachineParameter, Reduced};
+pub use excitation::{Amplitude, EquivalentOscillator, Excitation, Shaking};
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;
+pub use physical::{DrivenOscillator, PhysicalParameter, Reduced};
 pub use quantity_kind::QuantityKind;
 pub use response::{Propagator, Response};
 pub use start::Start;
-pub use units::{Damping, Frequency, Machine, MachineStop, Scales};
+pub use units::{Damping, Frequency, PhysicalOscillator, PhysicalStop, Scales};

@@ -1,6 +1,6 @@
 //! The parameters of an oscillator by name.
 
-use super::{MachineParameter, Oscillator, Side, SystemError};
+use super::{Oscillator, PhysicalParameter, Side, SystemError};
 
 /// A parameter of an [`Oscillator`].
 ///
@@ -30,7 +30,7 @@ pub enum Parameter {
     SecondRestitution,
     /// A number of the machine in SI units. An oscillator alone does not have it: it varies through
     /// [`ParameterPath::of_machine`](super::ParameterPath::of_machine).
-    Machine(MachineParameter),
+    Physical(PhysicalParameter),
 }
 
 impl Parameter {
@@ -56,7 +56,7 @@ impl Parameter {
             Self::Damping => "damping",
             Self::SecondGap => "second_gap",
             Self::SecondRestitution => "second_restitution",
-            Self::Machine(parameter) => parameter.name(),
+            Self::Physical(parameter) => parameter.name(),
         }
     }
 
@@ -64,16 +64,16 @@ impl Parameter {
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         let own = Self::ALL.into_iter().find(|parameter| parameter.name() == name);
-        own.or_else(|| MachineParameter::from_name(name).map(Self::Machine))
+        own.or_else(|| PhysicalParameter::from_name(name).map(Self::Physical))
     }
 
     /// Whether two parameters determine the same number, so that only one of them can vary.
     #[must_use]
     pub fn same_number(self, other: Self) -> bool {
         match (self, other) {
-            (Self::Machine(a), Self::Machine(b)) => a.same_number(b),
-            (Self::Machine(MachineParameter::Restitutions), Self::Restitution | Self::SecondRestitution)
-            | (Self::Restitution | Self::SecondRestitution, Self::Machine(MachineParameter::Restitutions)) => true,
+            (Self::Physical(a), Self::Physical(b)) => a.same_number(b),
+            (Self::Physical(PhysicalParameter::Restitutions), Self::Restitution | Self::SecondRestitution)
+            | (Self::Restitution | Self::SecondRestitution, Self::Physical(PhysicalParameter::Restitutions)) => true,
             (a, b) => a == b || a.is_frequency() && b.is_frequency(),
         }
     }
@@ -96,7 +96,7 @@ impl Parameter {
             Self::Damping => Some(osc.damping()),
             Self::SecondGap => second.map(|stop| stop.gap),
             Self::SecondRestitution => second.map(|stop| stop.restitution),
-            Self::Machine(_) => None,
+            Self::Physical(_) => None,
         }
     }
 
@@ -104,7 +104,7 @@ impl Parameter {
     ///
     /// # Errors
     /// [`SystemError`] for a value outside the range of the parameter, [`SystemError::NoSecondStop`] for a parameter of
-    /// a second stop if there is only one stop, [`SystemError::NoMachine`] for a number of a machine.
+    /// a second stop if there is only one stop, [`SystemError::NotPhysical`] for a number of a machine.
     pub fn set(self, osc: &Oscillator, value: f64) -> Result<Oscillator, SystemError> {
         let (mut beta, mut gap, mut restitution, mut damping) =
             (osc.beta(), osc.gap(), osc.restitution(), osc.damping());
@@ -118,7 +118,7 @@ impl Parameter {
             (Self::SecondGap, Some(stop)) => stop.gap = value,
             (Self::SecondRestitution, Some(stop)) => stop.restitution = value,
             (Self::SecondGap | Self::SecondRestitution, None) => return Err(SystemError::NoSecondStop(self.name())),
-            (Self::Machine(parameter), _) => return Err(SystemError::NoMachine(parameter.name())),
+            (Self::Physical(parameter), _) => return Err(SystemError::NotPhysical(parameter.name())),
         }
         let changed = Oscillator::new(beta, gap, restitution)?.with_damping(damping)?;
         match second {

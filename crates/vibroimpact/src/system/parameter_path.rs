@@ -1,7 +1,7 @@
 //! A straight line through one or two parameters of an oscillator or of a machine.
 
-use super::machine::rates;
-use super::{DrivenMachine, Oscillator, Parameter, SystemError};
+use super::physical::rates;
+use super::{DrivenOscillator, Oscillator, Parameter, SystemError};
 
 /// A parameter that varies, and optionally another one that varies in proportion to it: a straight line through the
 /// parameters. The value of the first parameter gives the place on the line.
@@ -26,7 +26,7 @@ pub struct ParameterPath {
     /// The other parameter, and its change for a change of the first by 1.
     also: Option<(Parameter, f64)>,
     /// The machine whose numbers vary.
-    machine: Option<DrivenMachine>,
+    machine: Option<DrivenOscillator>,
 }
 
 impl From<Parameter> for ParameterPath {
@@ -41,13 +41,13 @@ impl ParameterPath {
     ///
     /// # Errors
     /// [`SystemError::Together`] if `other` varies already, [`SystemError::Rate`] if the rate is not finite,
-    /// [`SystemError::NoMachine`] for a number of a machine if the line is none of machines.
+    /// [`SystemError::NotPhysical`] for a number of a machine if the line is none of machines.
     pub fn with(self, other: Parameter, rate: f64) -> Result<Self, SystemError> {
         if self.parameter.same_number(other) {
             return Err(SystemError::Together(self.parameter.name(), other.name()));
         }
-        if let (Parameter::Machine(parameter), None) = (other, self.machine) {
-            return Err(SystemError::NoMachine(parameter.name()));
+        if let (Parameter::Physical(parameter), None) = (other, self.machine) {
+            return Err(SystemError::NotPhysical(parameter.name()));
         }
         if !rate.is_finite() {
             return Err(SystemError::Rate { name: other.name(), rate });
@@ -58,12 +58,12 @@ impl ParameterPath {
     /// The line along which a number of a machine varies, and all its other numbers do not. The numbers of the oscillator
     /// change together: with the mass, the frequency ratio and, for a given damping coefficient, the damping ratio.
     #[must_use]
-    pub const fn of_machine(machine: DrivenMachine, parameter: Parameter) -> Self {
+    pub const fn of_machine(machine: DrivenOscillator, parameter: Parameter) -> Self {
         Self { parameter, also: None, machine: Some(machine) }
     }
 
     /// The machine at a place of a line of machines.
-    fn machine_at(&self, machine: &DrivenMachine, value: f64) -> Result<DrivenMachine, SystemError> {
+    fn machine_at(&self, machine: &DrivenOscillator, value: f64) -> Result<DrivenOscillator, SystemError> {
         let changed = machine.with(self.parameter, value)?;
         let Some((other, rate)) = self.also else { return Ok(changed) };
         let missing = |parameter: Parameter| SystemError::NoSecondStop(parameter.name());

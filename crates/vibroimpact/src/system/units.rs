@@ -74,7 +74,7 @@ impl Damping {
 
 /// A second stop of a machine, on the side opposite to the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MachineStop {
+pub struct PhysicalStop {
     /// Its distance from the rest position in m, negative for preload.
     pub gap_m: f64,
     /// Its restitution in [0, 1].
@@ -84,8 +84,8 @@ pub struct MachineStop {
 /// A machine in physical units: a mass on a spring near a stop, driven by a harmonic force.
 ///
 /// ```
-/// use vibroimpact::{Damping, Frequency, Machine};
-/// let machine = Machine {
+/// use vibroimpact::{Damping, Frequency, PhysicalOscillator};
+/// let machine = PhysicalOscillator {
 ///     mass_kg: 2.0, damping: Damping::NsPerM(0.0), stiffness_n_per_m: 800.0, force_n: 4.0,
 ///     frequency: Frequency::RadPerS(25.0), gap_m: 0.010, restitution: 0.5, second_stop: None,
 /// };
@@ -96,7 +96,7 @@ pub struct MachineStop {
 /// # Ok::<(), vibroimpact::SystemError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Machine {
+pub struct PhysicalOscillator {
     /// Mass $`m`$ in kg, positive.
     pub mass_kg: f64,
     /// The damper.
@@ -112,7 +112,7 @@ pub struct Machine {
     /// Restitution in [0, 1].
     pub restitution: f64,
     /// A second stop on the other side.
-    pub second_stop: Option<MachineStop>,
+    pub second_stop: Option<PhysicalStop>,
 }
 
 /// The nondimensional units in physical units.
@@ -134,7 +134,7 @@ impl Scales {
     }
 }
 
-impl Machine {
+impl PhysicalOscillator {
     /// The nondimensional oscillator, and the scales for the conversion back.
     ///
     /// # Errors
@@ -195,7 +195,7 @@ impl Machine {
             restitution: osc.restitution(),
             second_stop: osc
                 .stop(Side::Lower)
-                .map(|stop| MachineStop { gap_m: stop.gap * scales.length_m, restitution: stop.restitution }),
+                .map(|stop| PhysicalStop { gap_m: stop.gap * scales.length_m, restitution: stop.restitution }),
         })
     }
 }
@@ -212,7 +212,7 @@ fn positive(name: &'static str, value: f64, unit: &'static str, hint: &'static s
 mod tests {
     use super::*;
 
-    const MACHINE: Machine = Machine {
+    const MACHINE: PhysicalOscillator = PhysicalOscillator {
         mass_kg: 0.35,
         damping: Damping::NsPerM(1.2),
         stiffness_n_per_m: 5600.0,
@@ -220,13 +220,13 @@ mod tests {
         frequency: Frequency::Hz(21.0),
         gap_m: 0.0042,
         restitution: 0.6,
-        second_stop: Some(MachineStop { gap_m: 0.003, restitution: 0.5 }),
+        second_stop: Some(PhysicalStop { gap_m: 0.003, restitution: 0.5 }),
     };
 
     #[test]
     fn there_and_back() {
         let (osc, scales) = MACHINE.nondimensional().unwrap();
-        let back = Machine::from_nondimensional(&osc, scales).unwrap();
+        let back = PhysicalOscillator::from_nondimensional(&osc, scales).unwrap();
         for (a, b) in [
             (back.stiffness_n_per_m, MACHINE.stiffness_n_per_m),
             (back.damping.ns_per_m(1.0, 1.0), 1.2),
@@ -241,15 +241,15 @@ mod tests {
 
     #[test]
     fn impossible_machines_are_named() {
-        let no_force = Machine { force_n: 0.0, ..MACHINE }.nondimensional().unwrap_err();
+        let no_force = PhysicalOscillator { force_n: 0.0, ..MACHINE }.nondimensional().unwrap_err();
         assert!(no_force.to_string().contains("force F = 0 N"), "{no_force}");
         for bad in [
-            Machine { mass_kg: 0.0, ..MACHINE },
-            Machine { stiffness_n_per_m: -1.0, ..MACHINE },
-            Machine { frequency: Frequency::Hz(f64::NAN), ..MACHINE },
-            Machine { damping: Damping::NsPerM(-0.1), ..MACHINE },
-            Machine { force_n: 1e-300, stiffness_n_per_m: 1e300, ..MACHINE },
-            Machine { gap_m: f64::INFINITY, ..MACHINE },
+            PhysicalOscillator { mass_kg: 0.0, ..MACHINE },
+            PhysicalOscillator { stiffness_n_per_m: -1.0, ..MACHINE },
+            PhysicalOscillator { frequency: Frequency::Hz(f64::NAN), ..MACHINE },
+            PhysicalOscillator { damping: Damping::NsPerM(-0.1), ..MACHINE },
+            PhysicalOscillator { force_n: 1e-300, stiffness_n_per_m: 1e300, ..MACHINE },
+            PhysicalOscillator { gap_m: f64::INFINITY, ..MACHINE },
         ] {
             assert!(bad.nondimensional().is_err());
         }

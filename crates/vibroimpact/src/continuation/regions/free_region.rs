@@ -112,7 +112,7 @@ impl Limit {
                     breaks.extend(amplitude.ok().into_iter().chain(levels.iter().copied()));
                 }
                 // a region is asked over parameters of the oscillator only
-                Parameter::Restitution | Parameter::SecondRestitution | Parameter::Machine(_) => {}
+                Parameter::Restitution | Parameter::SecondRestitution | Parameter::Physical(_) => {}
             }
         }
         breaks.retain(|x| *x > self.x.low && *x < self.x.high);

@@ -5,16 +5,16 @@ use super::ranged::{Ranged, with_unit};
 use super::unit_text::UnitKind;
 use crate::failure::Failure;
 use clap::Args;
-use vibroimpact::{DrivenMachine, MachineParameter};
+use vibroimpact::{DrivenOscillator, PhysicalParameter};
 use vibroimpact_report::{Asked, Units};
-use vibroimpact_study::{Axis, MachinePlan, Parameter, SystemPlan, UnitsPlan};
+use vibroimpact_study::{Axis, Parameter, PhysicalPlan, SystemPlan, UnitsPlan};
 
 /// The system as a machine: mass, stiffness, force, frequency, gap and restitution, instead of --beta, --gap and --damping.
 #[derive(Clone, Debug, Default, Args)]
 #[command(
     next_help_heading = "System in physical units (instead of beta, gap and damping); units may be written: 1.5mm, 900rpm"
 )]
-pub(crate) struct MachineArgs {
+pub(crate) struct PhysicalArgs {
     /// Mass in kg, positive
     #[arg(long, visible_alias = "mass", value_parser = with_unit(UnitKind::Mass), value_name = "M", allow_hyphen_values = true)]
     mass_kg: Option<Ranged>,
@@ -101,11 +101,11 @@ const EXCITATION: &str = "Excitation of a system in physical units, besides the 
 /// A number of the machine and the ends of its range.
 pub(crate) type Ends = (ParameterFlag, (f64, f64));
 
-impl MachineArgs {
+impl PhysicalArgs {
     /// The numbers that are given, in the order of the flags. The damping ratio stands for the logarithmic decrement too,
     /// and the frequency in Hz for that in rad/s; those two forms cannot vary.
-    fn given(&self) -> impl Iterator<Item = (MachineParameter, &Ranged)> {
-        use MachineParameter as P;
+    fn given(&self) -> impl Iterator<Item = (PhysicalParameter, &Ranged)> {
+        use PhysicalParameter as P;
         let all = [
             (P::Mass, &self.mass_kg),
             (P::Stiffness, &self.stiffness_n_per_m),
@@ -137,17 +137,17 @@ impl MachineArgs {
     }
 
     /// A gap that was written with its unit under its nondimensional name.
-    pub(super) fn put(&mut self, parameter: MachineParameter, value: Ranged) {
+    pub(super) fn put(&mut self, parameter: PhysicalParameter, value: Ranged) {
         match parameter {
-            MachineParameter::Gap => self.gap_m = Some(value),
-            MachineParameter::SecondGap => self.second_gap_m = Some(value),
-            MachineParameter::DampingCoefficient => self.damping_ns_per_m = Some(value),
+            PhysicalParameter::Gap => self.gap_m = Some(value),
+            PhysicalParameter::SecondGap => self.second_gap_m = Some(value),
+            PhysicalParameter::DampingCoefficient => self.damping_ns_per_m = Some(value),
             _ => {}
         }
     }
 
     /// The numbers with several values.
-    pub(crate) fn ranges(&self) -> impl Iterator<Item = (MachineParameter, &Ranged)> {
+    pub(crate) fn ranges(&self) -> impl Iterator<Item = (PhysicalParameter, &Ranged)> {
         self.given().filter(|(_, ranged)| !ranged.is_one())
     }
 
@@ -167,7 +167,7 @@ impl MachineArgs {
 
     /// The numbers with several values, which are ranges A:B.
     pub(crate) fn ends(&self) -> Result<Vec<Ends>, Failure> {
-        let ends = |(parameter, ranged): (MachineParameter, &Ranged)| {
+        let ends = |(parameter, ranged): (PhysicalParameter, &Ranged)| {
             let named = ParameterFlag::of_machine(parameter);
             let ends = ranged.ends().filter(|(from, to)| from < to);
             ends.map(|ends| (named, ends))
@@ -178,7 +178,7 @@ impl MachineArgs {
 
     /// The axes over the numbers with several values.
     pub(super) fn axes(&self) -> Result<Vec<(ParameterFlag, Axis)>, Failure> {
-        let axis = |(parameter, ranged): (MachineParameter, &Ranged)| {
+        let axis = |(parameter, ranged): (PhysicalParameter, &Ranged)| {
             let named = ParameterFlag::of_machine(parameter);
             ranged.axis(named.parameter).map(|axis| (named, axis)).ok_or_else(|| {
                 let (from, to) = ranged.ends().unwrap_or_default();
@@ -196,17 +196,17 @@ impl MachineArgs {
     pub(super) fn plan(
         &self,
         (restitution, second_restitution): (Option<f64>, Option<f64>),
-        set: &[(MachineParameter, f64)],
-    ) -> Result<MachinePlan, Failure> {
+        set: &[(PhysicalParameter, f64)],
+    ) -> Result<PhysicalPlan, Failure> {
         let first = |given: &Option<Ranged>| given.as_ref().map(Ranged::first);
-        let mut plan = MachinePlan {
+        let mut plan = PhysicalPlan {
             log_decrement: first(&self.log_decrement),
             omega_rad_per_s: first(&self.omega_rad_per_s),
             restitution,
             base_phase: self.base_phase,
             stop_in_space: self.stop_in_space,
             stop_phase: self.stop_phase,
-            ..MachinePlan::default()
+            ..PhysicalPlan::default()
         };
         let given = self.given().map(|(parameter, ranged)| (parameter, ranged.first()));
         given.chain(set.iter().copied()).for_each(|(parameter, value)| plan.set(parameter, value));
@@ -231,7 +231,7 @@ impl MachineArgs {
 }
 
 /// The system of a machine: in SI units, or nondimensional with the units of the machine beside it.
-pub(super) fn asked(plan: &MachinePlan, si: bool) -> Result<Asked, Failure> {
+pub(super) fn asked(plan: &PhysicalPlan, si: bool) -> Result<Asked, Failure> {
     let system = SystemPlan::of_machine(plan.driven()?)?;
     let units = UnitsPlan::of_system(&system).as_ref().map(Units::from).unwrap_or_default();
     // without --units si the machine only gives the scales
@@ -241,16 +241,16 @@ pub(super) fn asked(plan: &MachinePlan, si: bool) -> Result<Asked, Failure> {
 
 /// The parameter of the oscillator that a number of a machine is, apart from its unit; `None` if other numbers of the
 /// oscillator change with it.
-pub(crate) fn alone(parameter: MachineParameter, machine: &DrivenMachine) -> Option<Parameter> {
+pub(crate) fn alone(parameter: PhysicalParameter, machine: &DrivenOscillator) -> Option<Parameter> {
     let excitation = &machine.excitation;
     let plain_force = excitation.unbalance_kg_m == 0.0
         && excitation.base.amplitude.displacement_m(1.0) == 0.0
         && excitation.stop.amplitude.displacement_m(1.0) == 0.0;
     match parameter {
-        MachineParameter::Frequency => plain_force.then_some(Parameter::Beta),
-        MachineParameter::DampingRatio => (!machine.stop_apart()).then_some(Parameter::Damping),
-        MachineParameter::Gap => (excitation.constant_force_n == 0.0).then_some(Parameter::Gap),
-        MachineParameter::SecondGap => (excitation.constant_force_n == 0.0).then_some(Parameter::SecondGap),
+        PhysicalParameter::Frequency => plain_force.then_some(Parameter::Beta),
+        PhysicalParameter::DampingRatio => (!machine.stop_apart()).then_some(Parameter::Damping),
+        PhysicalParameter::Gap => (excitation.constant_force_n == 0.0).then_some(Parameter::Gap),
+        PhysicalParameter::SecondGap => (excitation.constant_force_n == 0.0).then_some(Parameter::SecondGap),
         _ => None,
     }
 }

@@ -4,14 +4,15 @@ use crate::PlanError;
 use core::f64::consts::TAU;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use vibroimpact::{
-    Amplitude, Damping, DrivenMachine, Excitation, Frequency, Machine, MachineParameter, MachineStop, Shaking,
+    Amplitude, Damping, DrivenOscillator, Excitation, Frequency, PhysicalOscillator, PhysicalParameter, PhysicalStop,
+    Shaking,
 };
 
 /// A machine in SI units: a mass on a spring and a damper, one or two stops, and what drives it. What varies on an axis
 /// need not be given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct MachinePlan {
+pub struct PhysicalPlan {
     /// Mass in kg, positive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
@@ -82,33 +83,33 @@ fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
-impl MachinePlan {
+impl PhysicalPlan {
     /// Gives a number this value, in whichever form it was given before.
-    pub fn set(&mut self, parameter: MachineParameter, value: f64) {
+    pub fn set(&mut self, parameter: PhysicalParameter, value: f64) {
         let value = Some(value);
         match parameter {
-            MachineParameter::Mass => self.mass_kg = value,
-            MachineParameter::Stiffness => self.stiffness_n_per_m = value,
-            MachineParameter::DampingCoefficient => {
+            PhysicalParameter::Mass => self.mass_kg = value,
+            PhysicalParameter::Stiffness => self.stiffness_n_per_m = value,
+            PhysicalParameter::DampingCoefficient => {
                 (self.damping_ns_per_m, self.damping_ratio, self.log_decrement) = (value, None, None);
             }
-            MachineParameter::DampingRatio => {
+            PhysicalParameter::DampingRatio => {
                 (self.damping_ns_per_m, self.damping_ratio, self.log_decrement) = (None, value, None);
             }
-            MachineParameter::Force => self.force_n = value,
-            MachineParameter::Frequency => (self.frequency_hz, self.omega_rad_per_s) = (value, None),
-            MachineParameter::Gap => self.gap_m = value,
-            MachineParameter::SecondGap => self.second_gap_m = value,
-            MachineParameter::Gaps => (self.gap_m, self.second_gap_m) = (value, value),
-            MachineParameter::Restitutions => {
+            PhysicalParameter::Force => self.force_n = value,
+            PhysicalParameter::Frequency => (self.frequency_hz, self.omega_rad_per_s) = (value, None),
+            PhysicalParameter::Gap => self.gap_m = value,
+            PhysicalParameter::SecondGap => self.second_gap_m = value,
+            PhysicalParameter::Gaps => (self.gap_m, self.second_gap_m) = (value, value),
+            PhysicalParameter::Restitutions => {
                 (self.restitution, self.second_restitution) = (value, self.second_gap_m.and(value));
             }
-            MachineParameter::BaseDisplacement => self.set_base([value, None, None]),
-            MachineParameter::BaseVelocity => self.set_base([None, value, None]),
-            MachineParameter::BaseAcceleration => self.set_base([None, None, value]),
-            MachineParameter::StopDisplacement => self.stop_displacement_m = value,
-            MachineParameter::Unbalance => self.unbalance_kg_m = value,
-            MachineParameter::ConstantForce => self.constant_force_n = value,
+            PhysicalParameter::BaseDisplacement => self.set_base([value, None, None]),
+            PhysicalParameter::BaseVelocity => self.set_base([None, value, None]),
+            PhysicalParameter::BaseAcceleration => self.set_base([None, None, value]),
+            PhysicalParameter::StopDisplacement => self.stop_displacement_m = value,
+            PhysicalParameter::Unbalance => self.unbalance_kg_m = value,
+            PhysicalParameter::ConstantForce => self.constant_force_n = value,
             // a parameter of a later version of the core cannot be written in a plan of this one
             _ => {}
         }
@@ -133,9 +134,9 @@ impl MachinePlan {
     /// The machine.
     ///
     /// # Errors
-    /// [`PlanError::Missing`] names all numbers that are absent; [`PlanError::MachineTwice`] names two forms of one
+    /// [`PlanError::Missing`] names all numbers that are absent; [`PlanError::PhysicalTwice`] names two forms of one
     /// number, and [`PlanError::StopAndBase`] a stop that moves beside a base that does.
-    pub fn driven(&self) -> Result<DrivenMachine, PlanError> {
+    pub fn driven(&self) -> Result<DrivenOscillator, PlanError> {
         let force = self.force_n.or(self.is_shaken().then_some(0.0));
         let frequency = self.frequency_hz.or(self.omega_rad_per_s);
         let needed = [
@@ -153,7 +154,7 @@ impl MachinePlan {
                 needed.iter().filter(|(_, v)| v.is_none()).map(|(name, _)| *name).collect(),
             ));
         };
-        let machine = Machine {
+        let machine = PhysicalOscillator {
             mass_kg,
             stiffness_n_per_m,
             damping: self.damping()?,
@@ -167,12 +168,12 @@ impl MachinePlan {
             gap_m,
             restitution,
             second_stop: match (self.second_gap_m, self.second_restitution) {
-                (Some(gap_m), own) => Some(MachineStop { gap_m, restitution: own.unwrap_or(restitution) }),
+                (Some(gap_m), own) => Some(PhysicalStop { gap_m, restitution: own.unwrap_or(restitution) }),
                 (None, Some(_)) => return Err(PlanError::Missing(vec!["second_gap_m"])),
                 (None, None) => None,
             },
         };
-        Ok(DrivenMachine { machine, excitation: self.excitation()? })
+        Ok(DrivenOscillator { machine, excitation: self.excitation()? })
     }
 
     fn damping(&self) -> Result<Damping, PlanError> {
@@ -211,21 +212,21 @@ impl MachinePlan {
 /// The form in which a number is given, if any.
 ///
 /// # Errors
-/// [`PlanError::MachineTwice`] if there are two.
+/// [`PlanError::PhysicalTwice`] if there are two.
 fn one_of<T>(forms: [(&'static str, Option<T>); 3]) -> Result<Option<T>, PlanError> {
     let mut given: Option<(&'static str, T)> = None;
     for (name, form) in forms {
         let Some(form) = form else { continue };
         if let Some((other, _)) = given {
-            return Err(PlanError::MachineTwice(other, name));
+            return Err(PlanError::PhysicalTwice(other, name));
         }
         given = Some((name, form));
     }
     Ok(given.map(|(_, form)| form))
 }
 
-impl From<&DrivenMachine> for MachinePlan {
-    fn from(DrivenMachine { machine, excitation }: &DrivenMachine) -> Self {
+impl From<&DrivenOscillator> for PhysicalPlan {
+    fn from(DrivenOscillator { machine, excitation }: &DrivenOscillator) -> Self {
         let mut plan = Self {
             mass_kg: Some(machine.mass_kg),
             stiffness_n_per_m: Some(machine.stiffness_n_per_m),
@@ -265,13 +266,13 @@ impl From<&DrivenMachine> for MachinePlan {
     }
 }
 
-/// In a plan a machine is written as a [`MachinePlan`].
-pub(crate) fn serialize<S: Serializer>(machine: &Option<DrivenMachine>, to: S) -> Result<S::Ok, S::Error> {
-    machine.as_ref().map(MachinePlan::from).serialize(to)
+/// In a plan a machine is written as a [`PhysicalPlan`].
+pub(crate) fn serialize<S: Serializer>(machine: &Option<DrivenOscillator>, to: S) -> Result<S::Ok, S::Error> {
+    machine.as_ref().map(PhysicalPlan::from).serialize(to)
 }
 
-pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<DrivenMachine>, D::Error> {
-    let plan = Option::<MachinePlan>::deserialize(from)?;
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<DrivenOscillator>, D::Error> {
+    let plan = Option::<PhysicalPlan>::deserialize(from)?;
     plan.map(|plan| plan.driven().map_err(serde::de::Error::custom)).transpose()
 }
 
@@ -282,7 +283,7 @@ mod tests {
     /// A machine with each number in each of its forms is read from its text as it was written.
     #[test]
     fn a_machine_survives_its_text() {
-        let plain = MachinePlan {
+        let plain = PhysicalPlan {
             mass_kg: Some(0.8),
             stiffness_n_per_m: Some(12e3),
             force_n: Some(30.0),
@@ -290,32 +291,32 @@ mod tests {
             restitution: Some(0.65),
             frequency_hz: Some(15.0),
             damping_ratio: Some(0.02),
-            ..MachinePlan::default()
+            ..PhysicalPlan::default()
         };
-        let base = MachinePlan { base_acceleration_m_per_s2: Some(3.0), base_phase: 0.5, ..plain };
+        let base = PhysicalPlan { base_acceleration_m_per_s2: Some(3.0), base_phase: 0.5, ..plain };
         for plan in [
             plain,
-            MachinePlan { damping_ratio: None, log_decrement: Some(0.1), second_gap_m: Some(0.002), ..plain },
-            MachinePlan { frequency_hz: None, omega_rad_per_s: Some(90.0), unbalance_kg_m: Some(1e-3), ..plain },
+            PhysicalPlan { damping_ratio: None, log_decrement: Some(0.1), second_gap_m: Some(0.002), ..plain },
+            PhysicalPlan { frequency_hz: None, omega_rad_per_s: Some(90.0), unbalance_kg_m: Some(1e-3), ..plain },
             base,
-            MachinePlan { stop_in_space: true, constant_force_n: Some(-2.0), ..base },
-            MachinePlan { stop_displacement_m: Some(1e-4), stop_phase: 1.0, ..plain },
+            PhysicalPlan { stop_in_space: true, constant_force_n: Some(-2.0), ..base },
+            PhysicalPlan { stop_displacement_m: Some(1e-4), stop_phase: 1.0, ..plain },
         ] {
             let driven = plan.driven().unwrap();
-            let text = serde_json::to_string(&MachinePlan::from(&driven)).unwrap();
-            let read: MachinePlan = serde_json::from_str(&text).unwrap();
+            let text = serde_json::to_string(&PhysicalPlan::from(&driven)).unwrap();
+            let read: PhysicalPlan = serde_json::from_str(&text).unwrap();
             assert_eq!(read.driven().unwrap(), driven, "{text}");
             let reduced = driven.reduced().unwrap();
             assert_eq!(read.driven().unwrap().reduced().unwrap(), reduced);
         }
-        let twice = MachinePlan { damping_ns_per_m: Some(1.0), ..plain }.driven().unwrap_err();
-        assert_eq!(twice, PlanError::MachineTwice("damping_ns_per_m", "damping_ratio"));
-        let missing = MachinePlan { mass_kg: None, gap_m: None, ..plain }.driven().unwrap_err();
+        let twice = PhysicalPlan { damping_ns_per_m: Some(1.0), ..plain }.driven().unwrap_err();
+        assert_eq!(twice, PlanError::PhysicalTwice("damping_ns_per_m", "damping_ratio"));
+        let missing = PhysicalPlan { mass_kg: None, gap_m: None, ..plain }.driven().unwrap_err();
         assert_eq!(missing, PlanError::Missing(vec!["mass_kg", "gap_m"]));
-        assert_eq!(MachinePlan { stop_displacement_m: Some(1.0), ..base }.driven(), Err(PlanError::StopAndBase));
+        assert_eq!(PhysicalPlan { stop_displacement_m: Some(1.0), ..base }.driven(), Err(PlanError::StopAndBase));
         // a number that varies replaces each of its forms
-        for parameter in MachineParameter::ALL {
-            let mut plan = MachinePlan { second_gap_m: Some(0.002), ..plain };
+        for parameter in PhysicalParameter::ALL {
+            let mut plan = PhysicalPlan { second_gap_m: Some(0.002), ..plain };
             plan.set(parameter, 0.25);
             assert_eq!(parameter.get(&plan.driven().unwrap()), Some(0.25), "{}", parameter.name());
         }

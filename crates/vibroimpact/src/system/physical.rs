@@ -1,15 +1,16 @@
 //! A machine with everything that drives it, and its numbers by name.
 
 use super::{
-    Amplitude, Damping, Excitation, Frequency, Machine, MachineStop, Oscillator, Scales, Shaking, Side, SystemError,
+    Amplitude, Damping, Excitation, Frequency, Oscillator, PhysicalOscillator, PhysicalStop, Scales, Shaking, Side,
+    SystemError,
 };
 use core::f64::consts::TAU;
 
 /// A machine with all that drives it: its force, and a moving base or stop, an unbalance, a constant force.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DrivenMachine {
+pub struct DrivenOscillator {
     /// The machine.
-    pub machine: Machine,
+    pub machine: PhysicalOscillator,
     /// What drives it besides the force.
     pub excitation: Excitation,
 }
@@ -30,20 +31,20 @@ pub struct Reduced {
 /// A number of a machine, by name and in SI units.
 ///
 /// ```
-/// use vibroimpact::{Damping, DrivenMachine, Excitation, Frequency, Machine, MachineParameter};
-/// let machine = Machine {
+/// use vibroimpact::{Damping, DrivenOscillator, Excitation, Frequency, PhysicalOscillator, PhysicalParameter};
+/// let machine = PhysicalOscillator {
 ///     mass_kg: 2.0, damping: Damping::Ratio(0.02), stiffness_n_per_m: 800.0, force_n: 4.0,
 ///     frequency: Frequency::RadPerS(25.0), gap_m: 0.010, restitution: 0.5, second_stop: None,
 /// };
-/// let driven = DrivenMachine { machine, excitation: Excitation::default() };
+/// let driven = DrivenOscillator { machine, excitation: Excitation::default() };
 /// // twice the force halves the gap in units of F/k, and leaves all else
-/// let harder = MachineParameter::Force.set(&driven, 8.0)?.reduced()?.oscillator;
+/// let harder = PhysicalParameter::Force.set(&driven, 8.0)?.reduced()?.oscillator;
 /// assert_eq!((harder.gap(), harder.beta(), harder.damping()), (1.0, 1.25, 0.02));
 /// # Ok::<(), vibroimpact::SystemError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum MachineParameter {
+pub enum PhysicalParameter {
     /// Mass in kg.
     Mass,
     /// Stiffness in N/m.
@@ -78,7 +79,7 @@ pub enum MachineParameter {
     ConstantForce,
 }
 
-impl DrivenMachine {
+impl DrivenOscillator {
     /// The oscillator with the same motions, and its units.
     ///
     /// # Errors
@@ -111,7 +112,7 @@ impl DrivenMachine {
     }
 }
 
-impl MachineParameter {
+impl PhysicalParameter {
     /// All of them.
     pub const ALL: [Self; 16] = [
         Self::Mass,
@@ -215,8 +216,8 @@ impl MachineParameter {
 
     /// Its value; `None` for a second stop, or for symmetric stops, that the machine does not have.
     #[must_use]
-    pub fn get(self, driven: &DrivenMachine) -> Option<f64> {
-        let DrivenMachine { machine, excitation } = driven;
+    pub fn get(self, driven: &DrivenOscillator) -> Option<f64> {
+        let DrivenOscillator { machine, excitation } = driven;
         let (m, k, omega) = (machine.mass_kg, machine.stiffness_n_per_m, machine.frequency.rad_per_s());
         let base = excitation.base.amplitude;
         Some(match self {
@@ -251,14 +252,14 @@ impl MachineParameter {
     }
 
     /// The machine with another value of this parameter, and all others as they were given. Ranges are checked by
-    /// [`DrivenMachine::reduced`].
+    /// [`DrivenOscillator::reduced`].
     ///
     /// # Errors
     /// [`SystemError::NoSecondStop`] for a parameter of a second stop if there is only one stop.
-    pub fn set(self, driven: &DrivenMachine, value: f64) -> Result<DrivenMachine, SystemError> {
+    pub fn set(self, driven: &DrivenOscillator, value: f64) -> Result<DrivenOscillator, SystemError> {
         let mut changed = *driven;
         let machine = &mut changed.machine;
-        let second = |stop: Option<MachineStop>| stop.ok_or(SystemError::NoSecondStop(self.name()));
+        let second = |stop: Option<PhysicalStop>| stop.ok_or(SystemError::NoSecondStop(self.name()));
         match self {
             Self::Mass => machine.mass_kg = value,
             Self::Stiffness => machine.stiffness_n_per_m = value,
@@ -268,14 +269,14 @@ impl MachineParameter {
             Self::Frequency => machine.frequency = Frequency::Hz(value),
             Self::Gap => machine.gap_m = value,
             Self::SecondGap => {
-                machine.second_stop = Some(MachineStop { gap_m: value, ..second(machine.second_stop)? });
+                machine.second_stop = Some(PhysicalStop { gap_m: value, ..second(machine.second_stop)? });
             }
             Self::Gaps => {
-                machine.second_stop = Some(MachineStop { gap_m: value, ..second(machine.second_stop)? });
+                machine.second_stop = Some(PhysicalStop { gap_m: value, ..second(machine.second_stop)? });
                 machine.gap_m = value;
             }
             Self::Restitutions => {
-                machine.second_stop = machine.second_stop.map(|stop| MachineStop { restitution: value, ..stop });
+                machine.second_stop = machine.second_stop.map(|stop| PhysicalStop { restitution: value, ..stop });
                 machine.restitution = value;
             }
             Self::BaseDisplacement => return Ok(changed.with_base(Amplitude::DisplacementM(value))),
@@ -327,8 +328,8 @@ fn numbers(osc: &Oscillator) -> [f64; 6] {
 mod tests {
     use super::*;
 
-    const DRIVEN: DrivenMachine = DrivenMachine {
-        machine: Machine {
+    const DRIVEN: DrivenOscillator = DrivenOscillator {
+        machine: PhysicalOscillator {
             mass_kg: 0.7,
             damping: Damping::NsPerM(2.1),
             stiffness_n_per_m: 900.0,
@@ -336,7 +337,7 @@ mod tests {
             frequency: Frequency::Hz(5.0),
             gap_m: 0.004,
             restitution: 0.7,
-            second_stop: Some(MachineStop { gap_m: 0.006, restitution: 0.6 }),
+            second_stop: Some(PhysicalStop { gap_m: 0.006, restitution: 0.6 }),
         },
         excitation: Excitation {
             base: Shaking { amplitude: Amplitude::AccelerationMPerS2(1.5), phase: 0.3 },
@@ -348,29 +349,32 @@ mod tests {
 
     #[test]
     fn each_is_set_and_read() {
-        for parameter in MachineParameter::ALL {
+        for parameter in PhysicalParameter::ALL {
             let changed = parameter.set(&DRIVEN, 0.5).unwrap();
             assert_eq!(parameter.get(&changed), Some(0.5), "{}", parameter.name());
-            assert_eq!(MachineParameter::from_name(parameter.name()), Some(parameter));
-            let alone = DrivenMachine { machine: Machine { second_stop: None, ..DRIVEN.machine }, ..DRIVEN };
-            let second = matches!(parameter, MachineParameter::SecondGap | MachineParameter::Gaps);
+            assert_eq!(PhysicalParameter::from_name(parameter.name()), Some(parameter));
+            let alone =
+                DrivenOscillator { machine: PhysicalOscillator { second_stop: None, ..DRIVEN.machine }, ..DRIVEN };
+            let second = matches!(parameter, PhysicalParameter::SecondGap | PhysicalParameter::Gaps);
             assert_eq!(parameter.set(&alone, 0.5).is_err(), second, "{}", parameter.name());
         }
-        assert!(MachineParameter::Gaps.get(&DRIVEN).is_none() && MachineParameter::Restitutions.get(&DRIVEN).is_none());
+        assert!(
+            PhysicalParameter::Gaps.get(&DRIVEN).is_none() && PhysicalParameter::Restitutions.get(&DRIVEN).is_none()
+        );
     }
 
     /// The powers with which the numbers of the oscillator change, by hand.
     #[test]
     fn what_each_changes() {
-        let plain = DrivenMachine { excitation: Excitation::default(), ..DRIVEN };
-        let of = |driven: &DrivenMachine| numbers(&driven.reduced().unwrap().oscillator);
+        let plain = DrivenOscillator { excitation: Excitation::default(), ..DRIVEN };
+        let of = |driven: &DrivenOscillator| numbers(&driven.reduced().unwrap().oscillator);
         let before = of(&plain);
         for (parameter, powers) in [
-            (MachineParameter::Mass, [0.5, 0.0, 0.0, -0.5, 0.0, 0.0]),
-            (MachineParameter::Stiffness, [-0.5, 1.0, 0.0, -0.5, 1.0, 0.0]),
-            (MachineParameter::Force, [0.0, -1.0, 0.0, 0.0, -1.0, 0.0]),
-            (MachineParameter::Frequency, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-            (MachineParameter::DampingCoefficient, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
+            (PhysicalParameter::Mass, [0.5, 0.0, 0.0, -0.5, 0.0, 0.0]),
+            (PhysicalParameter::Stiffness, [-0.5, 1.0, 0.0, -0.5, 1.0, 0.0]),
+            (PhysicalParameter::Force, [0.0, -1.0, 0.0, 0.0, -1.0, 0.0]),
+            (PhysicalParameter::Frequency, [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+            (PhysicalParameter::DampingCoefficient, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
         ] {
             let value = parameter.get(&plain).unwrap();
             let after = of(&parameter.set(&plain, 1.7 * value).unwrap());
@@ -389,13 +393,16 @@ mod tests {
             }
         }
         // a force of an unbalance grows as the square of the frequency, that of a base with given acceleration does not
-        let only = |excitation| DrivenMachine { machine: Machine { force_n: 0.0, ..DRIVEN.machine }, excitation };
+        let only = |excitation| DrivenOscillator {
+            machine: PhysicalOscillator { force_n: 0.0, ..DRIVEN.machine },
+            excitation,
+        };
         let unbalance = only(Excitation { unbalance_kg_m: 0.002, ..Excitation::default() });
         let on_base =
             only(Excitation { base: DRIVEN.excitation.base, stop: DRIVEN.excitation.base, ..Excitation::default() });
         for (driven, power) in [(unbalance, -2.0), (on_base, 0.0)] {
-            let gap = |driven: &DrivenMachine| driven.reduced().unwrap().oscillator.gap();
-            let faster = MachineParameter::Frequency.set(&driven, 10.0).unwrap();
+            let gap = |driven: &DrivenOscillator| driven.reduced().unwrap().oscillator.gap();
+            let faster = PhysicalParameter::Frequency.set(&driven, 10.0).unwrap();
             assert!((gap(&faster) / gap(&driven) - 2.0_f64.powf(power)).abs() < 1e-14);
         }
     }

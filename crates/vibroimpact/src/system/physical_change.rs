@@ -1,8 +1,8 @@
 //! A machine with another value of a parameter, its own or one of its oscillator.
 
-use super::{Damping, DrivenMachine, Frequency, MachineStop, Parameter, Reduced, SystemError};
+use super::{Damping, DrivenOscillator, Frequency, Parameter, PhysicalStop, Reduced, SystemError};
 
-impl DrivenMachine {
+impl DrivenOscillator {
     /// The same machine with another value of a parameter, of its own or of its oscillator, and all its other numbers.
     ///
     /// # Errors
@@ -13,7 +13,7 @@ impl DrivenMachine {
         let machine = &mut changed.machine;
         let second = || self.machine.second_stop.ok_or(SystemError::NoSecondStop(parameter.name()));
         match parameter {
-            Parameter::Machine(parameter) => return parameter.set(self, value),
+            Parameter::Physical(parameter) => return parameter.set(self, value),
             Parameter::Beta => machine.frequency = Frequency::RadPerS(value / self.reduced()?.scales.time_s),
             Parameter::InverseBeta => {
                 machine.frequency = Frequency::RadPerS(1.0 / (value * self.reduced()?.scales.time_s));
@@ -26,10 +26,10 @@ impl DrivenMachine {
             Parameter::Restitution => machine.restitution = value,
             Parameter::SecondGap => {
                 let Reduced { scales, offset_m, .. } = self.reduced()?;
-                machine.second_stop = Some(MachineStop { gap_m: value * scales.length_m - offset_m, ..second()? });
+                machine.second_stop = Some(PhysicalStop { gap_m: value * scales.length_m - offset_m, ..second()? });
             }
             Parameter::SecondRestitution => {
-                machine.second_stop = Some(MachineStop { restitution: value, ..second()? });
+                machine.second_stop = Some(PhysicalStop { restitution: value, ..second()? });
             }
         }
         Ok(changed)
@@ -39,7 +39,7 @@ impl DrivenMachine {
     #[must_use]
     pub fn value(&self, parameter: Parameter) -> Option<f64> {
         match parameter {
-            Parameter::Machine(parameter) => parameter.get(self),
+            Parameter::Physical(parameter) => parameter.get(self),
             parameter => parameter.get(&self.reduced().ok()?.oscillator),
         }
     }
@@ -48,11 +48,11 @@ impl DrivenMachine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Excitation, Machine, MachineParameter};
+    use crate::system::{Excitation, PhysicalOscillator, PhysicalParameter};
 
     #[test]
     fn parameters_of_the_oscillator_are_set_and_read() {
-        let machine = Machine {
+        let machine = PhysicalOscillator {
             mass_kg: 0.7,
             damping: Damping::NsPerM(2.1),
             stiffness_n_per_m: 900.0,
@@ -60,14 +60,14 @@ mod tests {
             frequency: Frequency::Hz(5.0),
             gap_m: 0.004,
             restitution: 0.7,
-            second_stop: Some(MachineStop { gap_m: 0.006, restitution: 0.6 }),
+            second_stop: Some(PhysicalStop { gap_m: 0.006, restitution: 0.6 }),
         };
         let driven =
-            DrivenMachine { machine, excitation: Excitation { constant_force_n: 0.5, ..Excitation::default() } };
+            DrivenOscillator { machine, excitation: Excitation { constant_force_n: 0.5, ..Excitation::default() } };
         for parameter in Parameter::ALL {
             let changed = driven.with(parameter, 0.45).unwrap();
             assert!((changed.value(parameter).unwrap() - 0.45).abs() < 1e-15, "{}", parameter.name());
-            for other in MachineParameter::ALL.map(Parameter::Machine) {
+            for other in PhysicalParameter::ALL.map(Parameter::Physical) {
                 let moved = changed.value(other) != driven.value(other);
                 let expected = match parameter {
                     Parameter::Beta | Parameter::InverseBeta => "frequency_hz",
@@ -79,7 +79,7 @@ mod tests {
                 assert!(!moved || !expected.is_empty() && other.name().starts_with(expected), "{}", other.name());
             }
         }
-        let alone = DrivenMachine { machine: Machine { second_stop: None, ..machine }, ..driven };
+        let alone = DrivenOscillator { machine: PhysicalOscillator { second_stop: None, ..machine }, ..driven };
         assert_eq!(alone.with(Parameter::SecondGap, 1.0), Err(SystemError::NoSecondStop("second_gap")));
     }
 }
