@@ -68,6 +68,7 @@ pub mod continuation;
 pub mod flight;
 pub mod lanes;
 mod lyapunov;
+pub mod machine;
 pub mod math;
 pub mod motion;
 pub mod orbit;

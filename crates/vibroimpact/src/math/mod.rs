@@ -5,17 +5,22 @@
 //! plain Rust, for rarer functions. No fused multiply-add is used. On machines without it, it is a slow library call,
 //! and if only some machines used it, the bits would differ.
 
+mod dense;
 mod exact;
 mod lane;
 mod lu;
 mod matrix;
 mod scalar;
+mod symmetric;
 mod trig;
 
+pub use dense::Matrix;
+pub(crate) use dense::{add_scaled, dot};
 pub(crate) use exact::{Sum, two_prod, two_sum};
 pub(crate) use lane::{Lane, Mask, Numbers, Single, turned};
 pub(crate) use lu::Lu;
 pub use matrix::{Matrix2, Multiplier, eigenvalues};
+pub(crate) use symmetric::symmetric_eigen;
 pub use trig::sin_cos;
 pub(crate) use trig::sin_cos_lanes;
 

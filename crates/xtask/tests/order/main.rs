@@ -11,9 +11,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The folders of the core, in order.
-const ORDER: [&str; 13] = [
+const ORDER: [&str; 14] = [
     "math",
     "system",
+    "machine",
     "scenario.rs",
     "flight",
     "contact",

@@ -1,0 +1,223 @@
+//! Dense matrices of any size, by rows: the mass, damping and stiffness of machines.
+
+use core::ops::{Index, IndexMut};
+
+/// A real matrix, by rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Matrix {
+    rows: usize,
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl Matrix {
+    /// A matrix of zeros.
+    #[must_use]
+    pub fn zeros(rows: usize, columns: usize) -> Self {
+        Self { rows, columns, values: vec![0.0; rows * columns] }
+    }
+
+    /// A diagonal matrix.
+    #[must_use]
+    pub fn diagonal(values: &[f64]) -> Self {
+        let mut matrix = Self::zeros(values.len(), values.len());
+        for (i, value) in values.iter().enumerate() {
+            matrix[(i, i)] = *value;
+        }
+        matrix
+    }
+
+    /// The identity.
+    #[must_use]
+    pub fn identity(n: usize) -> Self {
+        Self::diagonal(&vec![1.0; n])
+    }
+
+    /// A matrix of these rows; `None` if they differ in length.
+    #[must_use]
+    pub fn from_rows(rows: &[Vec<f64>]) -> Option<Self> {
+        let columns = rows.first().map_or(0, Vec::len);
+        rows.iter().all(|row| row.len() == columns).then(|| Self { rows: rows.len(), columns, values: rows.concat() })
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub const fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of columns.
+    #[must_use]
+    pub const fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// One row.
+    #[must_use]
+    pub fn row(&self, i: usize) -> &[f64] {
+        &self.values[i * self.columns..(i + 1) * self.columns]
+    }
+
+    /// One row, to be changed.
+    pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.values[i * self.columns..(i + 1) * self.columns]
+    }
+
+    /// One column.
+    #[must_use]
+    pub fn column(&self, j: usize) -> Vec<f64> {
+        (0..self.rows).map(|i| self[(i, j)]).collect()
+    }
+
+    /// All values, row after row.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The transpose.
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        let mut other = Self::zeros(self.columns, self.rows);
+        for i in 0..self.rows {
+            for j in 0..self.columns {
+                other[(j, i)] = self[(i, j)];
+            }
+        }
+        other
+    }
+
+    /// The product `self * other`.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Self {
+        let mut product = Self::zeros(self.rows, other.columns);
+        for i in 0..self.rows {
+            for (k, factor) in self.row(i).iter().enumerate() {
+                if *factor == 0.0 {
+                    continue;
+                }
+                for (sum, value) in product.row_mut(i).iter_mut().zip(other.row(k)) {
+                    *sum += factor * value;
+                }
+            }
+        }
+        product
+    }
+
+    /// The image of a vector.
+    #[must_use]
+    pub fn apply(&self, vector: &[f64]) -> Vec<f64> {
+        (0..self.rows).map(|i| dot(self.row(i), vector)).collect()
+    }
+
+    /// The image of a vector under the transpose.
+    #[must_use]
+    pub fn apply_transposed(&self, vector: &[f64]) -> Vec<f64> {
+        let mut image = vec![0.0; self.columns];
+        for (i, factor) in vector.iter().enumerate() {
+            add_scaled(&mut image, *factor, self.row(i));
+        }
+        image
+    }
+
+    /// Adds `factor * left * right^T`.
+    pub(crate) fn add_outer(&mut self, factor: f64, left: &[f64], right: &[f64]) {
+        for (i, value) in left.iter().enumerate() {
+            add_scaled(self.row_mut(i), factor * value, right);
+        }
+    }
+
+    /// The largest absolute value.
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.values.iter().fold(0.0, |most, value| value.abs().max(most))
+    }
+
+    /// The lower factor $`L`$ of $`L L^T`$, by Cholesky's method; `None` if the matrix is not positive definite.
+    #[must_use]
+    pub fn cholesky(&self) -> Option<Self> {
+        let mut factor = Self::zeros(self.rows, self.rows);
+        for i in 0..self.rows {
+            for j in 0..=i {
+                let sum = self[(i, j)] - dot(&factor.row(i)[..j], &factor.row(j)[..j]);
+                if i == j {
+                    if !(sum > 8.0 * f64::EPSILON * self[(i, i)] && sum.is_finite()) {
+                        return None;
+                    }
+                    factor[(i, i)] = sum.sqrt();
+                } else {
+                    factor[(i, j)] = sum / factor[(j, j)];
+                }
+            }
+        }
+        Some(factor)
+    }
+
+    /// The solution of $`L x = v`$ for a lower triangular matrix.
+    #[must_use]
+    pub fn solve_lower(&self, vector: &[f64]) -> Vec<f64> {
+        let mut x = vector.to_vec();
+        for i in 0..self.rows {
+            let sum = dot(&self.row(i)[..i], &x[..i]);
+            x[i] = (x[i] - sum) / self[(i, i)];
+        }
+        x
+    }
+
+    /// The solution of $`L^T x = v`$ for a lower triangular matrix.
+    #[must_use]
+    pub fn solve_lower_transposed(&self, vector: &[f64]) -> Vec<f64> {
+        let mut x = vector.to_vec();
+        for i in (0..self.rows).rev() {
+            for k in i + 1..self.rows {
+                x[i] -= self[(k, i)] * x[k];
+            }
+            x[i] /= self[(i, i)];
+        }
+        x
+    }
+}
+
+impl Index<(usize, usize)> for Matrix {
+    type Output = f64;
+    fn index(&self, (i, j): (usize, usize)) -> &f64 {
+        &self.values[i * self.columns + j]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Matrix {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
+        &mut self.values[i * self.columns + j]
+    }
+}
+
+/// The scalar product.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Adds `factor * vector` to `sum`.
+pub(crate) fn add_scaled(sum: &mut [f64], factor: f64, vector: &[f64]) {
+    for (s, v) in sum.iter_mut().zip(vector) {
+        *s += factor * v;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn factors_and_solutions() {
+        let m = Matrix::from_rows(&[vec![4.0, 2.0, 0.4], vec![2.0, 3.0, -1.0], vec![0.4, -1.0, 2.0]]).unwrap();
+        let l = m.cholesky().unwrap();
+        let back = l.times(&l.transposed());
+        assert!((0..9).all(|k| (back.values()[k] - m.values()[k]).abs() < 1e-15));
+        let want = [0.3, -1.0, 2.0];
+        let x = l.solve_lower_transposed(&l.solve_lower(&m.apply(&want)));
+        assert!(x.iter().zip(&want).all(|(a, b)| (a - b).abs() < 1e-14));
+        assert_eq!(m.apply_transposed(&want), m.apply(&want));
+        assert_eq!(Matrix::from_rows(&[vec![1.0, 2.0], vec![2.0, 4.0]]).unwrap().cholesky(), None);
+        assert_eq!(Matrix::from_rows(&[vec![1.0, 2.0], vec![2.0]]), None);
+    }
+}
