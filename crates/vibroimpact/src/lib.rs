@@ -62,9 +62,11 @@
 //! System", Bulletin of the Faculty of Engineering, Hokkaido University 62 (1971) 31-39,
 //! <https://hdl.handle.net/2115/41063>.
 
+mod arc;
 pub mod chaos;
 pub mod contact;
 pub mod continuation;
+pub mod events;
 pub mod flight;
 pub mod lanes;
 mod lyapunov;
@@ -73,6 +75,7 @@ pub mod math;
 pub mod motion;
 pub mod orbit;
 pub mod quantities;
+pub mod regime;
 pub mod scenario;
 pub mod system;
 pub mod verdict;

@@ -5,8 +5,10 @@
 //! plain Rust, for rarer functions. No fused multiply-add is used. On machines without it, it is a slow library call,
 //! and if only some machines used it, the bits would differ.
 
+mod complex;
 mod dense;
 mod exact;
+mod general;
 mod lane;
 mod lu;
 mod matrix;
@@ -14,9 +16,11 @@ mod scalar;
 mod symmetric;
 mod trig;
 
+pub(crate) use complex::Complex;
 pub use dense::Matrix;
 pub(crate) use dense::{add_scaled, dot};
 pub(crate) use exact::{Sum, two_prod, two_sum};
+pub(crate) use general::general_eigenvalues;
 pub(crate) use lane::{Lane, Mask, Numbers, Single, turned};
 pub(crate) use lu::Lu;
 pub use matrix::{Matrix2, Multiplier, eigenvalues};

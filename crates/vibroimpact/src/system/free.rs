@@ -10,7 +10,7 @@
 use crate::math::{Lane, exp, exp_m1, sin_cos, two_prod};
 
 /// For damping ratios from this value on, nothing cancels at resonance.
-pub(super) const HEAVY: f64 = 0.5;
+pub(crate) const HEAVY: f64 = 0.5;
 
 /// From this damping ratio on the two exponents differ enough to divide by their difference.
 const TWO_ROOTS: f64 = 1.2;
@@ -19,29 +19,29 @@ const SMALL: f64 = 1.0;
 
 /// The free response for one damping ratio, with the quantities that do not depend on time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct FreeResponse {
-    pub(super) damping: f64,
+pub(crate) struct FreeResponse {
+    pub(crate) damping: f64,
     /// $`\sqrt{|1-\zeta^2|}`$, its rounding error, and below critical damping the shift of frequency $`1 - w`$ from
     /// which both are computed.
-    pub(super) root: f64,
+    pub(crate) root: f64,
     root_low: f64,
-    pub(super) shift: f64,
+    pub(crate) shift: f64,
 }
 
 /// The free response at one time.
 #[derive(Clone, Copy)]
-pub(super) struct Free {
-    pub(super) c: f64,
-    pub(super) one_minus_c: f64,
-    pub(super) s: f64,
-    pub(super) s_rate: f64,
-    pub(super) size: f64,
+pub(crate) struct Free {
+    pub(crate) c: f64,
+    pub(crate) one_minus_c: f64,
+    pub(crate) s: f64,
+    pub(crate) s_rate: f64,
+    pub(crate) size: f64,
     /// The angle that has a rounding error.
-    pub(super) angle: f64,
+    pub(crate) angle: f64,
 }
 
 impl FreeResponse {
-    pub(super) fn new(damping: f64) -> Self {
+    pub(crate) fn new(damping: f64) -> Self {
         let root = ((1.0 - damping) * (1.0 + damping)).abs().sqrt();
         let shift = damping * damping / (1.0 + root);
         let (root, root_low) = if damping < HEAVY { (1.0 - shift, (1.0 - (1.0 - shift)) - shift) } else { (root, 0.0) };
@@ -49,7 +49,7 @@ impl FreeResponse {
     }
 
     /// The free response after a time `s >= 0`.
-    pub(super) fn at(&self, s: f64) -> Free {
+    pub(crate) fn at(&self, s: f64) -> Free {
         if self.damping < 1.0 {
             let decay = if self.damping == 0.0 { (1.0, 0.0) } else { decay(self.damping * s) };
             self.swing(s, self.swing_angle(s), decay)
@@ -61,7 +61,7 @@ impl FreeResponse {
     /// Sine and cosine of $`ws`$, corrected for the rounding errors of the product and of $`w`$. Without the correction
     /// these errors would limit the accuracy of the position late in a long flight with light damping.
     #[inline]
-    pub(super) fn swing_angle(&self, s: f64) -> (f64, f64) {
+    pub(crate) fn swing_angle(&self, s: f64) -> (f64, f64) {
         let (angle, low) = two_prod(self.root, s);
         let (sin, cos) = sin_cos(angle);
         let rest = low + self.root_low * s;
@@ -70,7 +70,7 @@ impl FreeResponse {
 
     /// The free response below critical damping, from the sine and cosine of `w s` and the decay.
     #[inline]
-    pub(super) fn swing(&self, s: f64, (sw, cw): (f64, f64), (kept, loss): (f64, f64)) -> Free {
+    pub(crate) fn swing(&self, s: f64, (sw, cw): (f64, f64), (kept, loss): (f64, f64)) -> Free {
         let zeta = self.damping;
         let free_s = kept * if self.root == 0.0 { s } else { sw / self.root };
         let versine = versine(sw, cw);
@@ -130,14 +130,14 @@ impl FreeResponse {
 
 /// $`e^{-x}`$ and $`1 - e^{-x}`$, both accurate to their last bits.
 #[inline]
-pub(super) fn decay(x: f64) -> (f64, f64) {
+pub(crate) fn decay(x: f64) -> (f64, f64) {
     let loss = -exp_m1(-x);
     (if loss < 0.5 { 1.0 - loss } else { exp(-x) }, loss)
 }
 
 /// $`1 - \cos`$ without cancellation.
 #[inline(always)]
-pub(super) fn versine<L: Lane>(sin: L, cos: L) -> L {
+pub(crate) fn versine<L: Lane>(sin: L, cos: L) -> L {
     let one = L::splat(1.0);
     L::choose(L::splat(0.0).less(cos), sin * sin / (one + cos), one - cos)
 }

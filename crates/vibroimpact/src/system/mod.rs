@@ -31,6 +31,7 @@ mod units;
 
 pub use error::SystemError;
 pub use excitation::{Amplitude, EquivalentOscillator, Excitation, Shaking};
+pub(crate) use free::{FreeResponse, HEAVY, decay, versine};
 pub use oscillator::{Oscillator, Side, Stop};
 pub use parameter::Parameter;
 pub use parameter_path::ParameterPath;

@@ -11,10 +11,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The folders of the core, in order.
-const ORDER: [&str; 14] = [
+const ORDER: [&str; 17] = [
     "math",
     "system",
     "machine",
+    "regime",
+    "arc",
+    "events",
     "scenario.rs",
     "flight",
     "contact",

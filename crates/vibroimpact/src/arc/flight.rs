@@ -1,0 +1,336 @@
+//! The flight of a machine in one regime: its modes from a state, at any time.
+
+use crate::math::sin_cos;
+use crate::regime::{GuardKind, Mode, Signal, Structure, Turned};
+use std::sync::Arc;
+
+/// How the surface of a damped stop comes back after it has opened by force: $`s = a\,e^{-\kappa t} - b`$.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Recovery {
+    /// $`a`$.
+    pub(crate) size: f64,
+    /// $`\kappa = k/c`$.
+    pub(crate) rate: f64,
+    /// $`b = p/k`$.
+    pub(crate) offset: f64,
+}
+
+/// What a guard is at the beginning of a flight.
+#[derive(Clone, Debug)]
+pub(super) struct GuardStart {
+    /// Its value there.
+    pub(super) value: f64,
+    /// Size of the terms of this value, for its rounding error.
+    pub(super) size: f64,
+    /// How many of its derivatives, from the value on, are zero there because the flight begins on it.
+    pub(super) known: usize,
+    /// The amplitudes of its harmonics, turned to the phase of the beginning.
+    pub(super) harmonics: Vec<(f64, f64)>,
+    /// The surface of its stop.
+    pub(super) recovery: Option<Recovery>,
+}
+
+/// The flight of a machine from a state, in one regime.
+#[derive(Clone, Debug)]
+pub(crate) struct MachineFlight {
+    pub(crate) structure: Arc<Structure>,
+    /// Modal displacements and velocities at the beginning.
+    pub(super) y: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    /// Constant part and ramp of what drives each mode, and its harmonics, turned to the phase of the beginning.
+    pub(super) steady: Vec<f64>,
+    pub(super) ramp: Vec<f64>,
+    pub(super) harmonics: Vec<(f64, f64)>,
+    pub(super) guards: Vec<GuardStart>,
+    /// The set points of joints that hold.
+    set: Vec<f64>,
+    /// Sine and cosine of each harmonic at the beginning.
+    turns: Vec<(f64, f64)>,
+}
+
+/// The modes at one time.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Modes {
+    /// Displacements since the beginning.
+    pub(super) moved: Vec<f64>,
+    /// Displacements and velocities.
+    pub(super) y: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    /// Bounds of the rounding errors of the displacements.
+    pub(super) error: Vec<f64>,
+    pub(super) turned: Vec<Turned>,
+    pub(super) s: f64,
+}
+
+const HALF_ULP: f64 = 0.5 * f64::EPSILON;
+/// The largest number of terms of the Taylor series of a mode, and up to which turn it suffices.
+const LONG_TERMS: usize = 34;
+const LONG_REACH: f64 = 3.0;
+const SHORT_TERMS: usize = 13;
+const SHORT_REACH: f64 = 0.25;
+
+impl MachineFlight {
+    /// The flight from a mass-normalised state. `turns` are sine and cosine of each harmonic there, `set` the set points
+    /// of joints, and `known` tells how many derivatives of a guard are zero, and how its surface recovers.
+    pub(crate) fn new(
+        structure: Arc<Structure>,
+        x: &[f64],
+        rate: &[f64],
+        set: Vec<f64>,
+        phases: &[f64],
+        mut known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
+    ) -> Self {
+        let turns: Vec<(f64, f64)> = phases.iter().map(|phase| sin_cos(*phase)).collect();
+        let value = |signal: &Signal| {
+            let harmonics = signal.harmonics.iter().zip(&turns);
+            harmonics.fold(signal.steady(&set), |sum, ((a, b), (sin, cos))| sum + a * cos + b * sin)
+        };
+        let turn = |signal: &Signal| -> Vec<(f64, f64)> {
+            let harmonics = signal.harmonics.iter().zip(&turns);
+            harmonics.map(|((a, b), (sin, cos))| (a * cos + b * sin, b * cos - a * sin)).collect()
+        };
+        let (y, v) = structure.modal(x, rate, value);
+        let guards = structure
+            .guards
+            .iter()
+            .map(|guard| {
+                let (known, recovery) = known(guard.kind);
+                let function = &guard.function;
+                let (mut sum, mut size) = (value(&function.signal), function.signal.constant.abs());
+                for i in 0..y.len() {
+                    let (one, two) = (function.position[i] * y[i], function.velocity[i] * v[i]);
+                    sum += one + two;
+                    size += one.abs() + two.abs();
+                }
+                if let Some(surface) = recovery {
+                    sum += surface.size - surface.offset;
+                }
+                let harmonics = turn(&function.signal);
+                size += harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
+                GuardStart { value: if known > 0 { 0.0 } else { sum }, size, known, harmonics, recovery }
+            })
+            .collect();
+        let steady = structure.drive.iter().map(|signal| signal.steady(&set)).collect();
+        let ramp = structure.drive.iter().map(|signal| signal.ramp).collect();
+        let harmonics = structure.drive.iter().flat_map(turn).collect();
+        Self { structure, y, v, steady, ramp, harmonics, guards, set, turns }
+    }
+
+    pub(super) fn mode_harmonics(&self, i: usize) -> &[(f64, f64)] {
+        let h = self.structure.rates.len();
+        &self.harmonics[i * h..(i + 1) * h]
+    }
+
+    /// The modes a time `s` after the beginning.
+    pub(crate) fn at(&self, s: f64, modes: &mut Modes) {
+        modes.s = s;
+        modes.turned.clear();
+        modes.turned.extend(self.structure.rates.iter().map(|rate| Turned::of(rate * s)));
+        for all in [&mut modes.moved, &mut modes.y, &mut modes.v, &mut modes.error] {
+            all.clear();
+        }
+        let fastest = self.structure.rates.last().copied().unwrap_or(0.0);
+        for (i, mode) in self.structure.modes.iter().enumerate() {
+            let turn = s * mode.rate.max(fastest);
+            let (moved, v, error) = if turn < SHORT_REACH {
+                self.by_series(i, s, SHORT_TERMS)
+            } else if turn < LONG_REACH && self.slow(i) {
+                self.by_series(i, s, LONG_TERMS)
+            } else {
+                self.by_response(i, mode, s, &modes.turned)
+            };
+            modes.moved.push(moved);
+            modes.y.push(self.y[i] + moved);
+            modes.v.push(v);
+            modes.error.push(error);
+        }
+    }
+
+    /// Whether a mode begins so slowly that the closed form would lose digits of its displacement.
+    fn slow(&self, i: usize) -> bool {
+        let push: f64 =
+            self.mode_harmonics(i).iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>() + self.steady[i].abs();
+        let mode = &self.structure.modes[i];
+        self.v[i].abs() * mode.rate < 0.125 * (push + mode.k * self.y[i].abs())
+    }
+
+    fn by_response(&self, i: usize, mode: &Mode, s: f64, turned: &[Turned]) -> (f64, f64, f64) {
+        let free = mode.free(s);
+        let (y, v) = (self.y[i], self.v[i]);
+        let (p0, p1) = (self.steady[i], self.ramp[i]);
+        let mut moved = v * free.s - y * free.one_minus_c;
+        let mut rate = v * free.s_rate - y * mode.k * free.s + p0 * free.s;
+        let mut size = (v * free.s).abs() + y.abs() * free.size;
+        let mut angle = free.angle * (y.abs() * mode.omega * free.s.abs() + v.abs() * free.s.abs().max(1e-300).min(s));
+        moved += p0 * free.step;
+        size += p0.abs() * free.step.abs();
+        if p1 != 0.0 {
+            moved += p1 * free.ramp;
+            rate += p1 * free.step;
+            size += p1.abs() * free.ramp.abs() + (p1 / mode.k.max(1e-300)).abs().min(p1.abs() * s * s) * s;
+        }
+        for (h, (a, b)) in self.mode_harmonics(i).iter().enumerate() {
+            if *a == 0.0 && *b == 0.0 {
+                continue;
+            }
+            let w = self.structure.rates[h];
+            let (kc, ks, terms) = mode.forced(h, s, &free, &turned[h]);
+            moved += a * kc + b * ks;
+            rate += a * (free.s - w * ks) + b * (w * kc);
+            size += (a.abs() + b.abs()) * terms;
+        }
+        if mode.omega > 0.0 {
+            angle += free.angle * v.abs() / mode.omega;
+        }
+        (moved, rate, HALF_ULP * (5.0 * size + angle + moved.abs()))
+    }
+
+    fn by_series(&self, i: usize, s: f64, terms: usize) -> (f64, f64, f64) {
+        let mut c = [0.0; LONG_TERMS + 2];
+        self.coefficients(i, self.y[i], self.v[i], 0.0, self.mode_harmonics(i), &mut c[..terms + 2]);
+        let (mut y, mut v, mut size) = (0.0, 0.0, 0.0);
+        let mut real = f64::from(u32::try_from(terms + 1).unwrap_or(0));
+        for k in (1..terms + 2).rev() {
+            y = y * s + c[k];
+            size = size * s + c[k].abs();
+            v = v * s + real * c[k];
+            real -= 1.0;
+        }
+        (y * s, v, HALF_ULP * 4.0 * size * s)
+    }
+
+    /// The Taylor coefficients $`y^{(k)}/k!`$ of a mode at a state a time `s` after the beginning; `harmonics` are turned to
+    /// this time.
+    pub(super) fn coefficients(&self, i: usize, y: f64, v: f64, s: f64, harmonics: &[(f64, f64)], c: &mut [f64]) {
+        let mode = &self.structure.modes[i];
+        let terms = c.len();
+        (c[0], c[1]) = (y, v);
+        // first the coefficients of what drives the mode, in the places that they determine
+        c[2..].fill(0.0);
+        c[2] += self.steady[i] + self.ramp[i] * s;
+        if terms > 3 {
+            c[3] += self.ramp[i];
+        }
+        for ((a, b), w) in harmonics.iter().zip(&self.structure.rates) {
+            if *a == 0.0 && *b == 0.0 {
+                continue;
+            }
+            let (mut now, mut next, mut k) = (*a, w * b, 1.0);
+            for place in &mut c[2..] {
+                *place += now;
+                // coefficients of the harmonic: the one after next is -w^2 / (k (k + 1)) times this one
+                (now, next) = (next, -w * w * now / (k * (k + 1.0)));
+                k += 1.0;
+            }
+        }
+        let mut k = 0.0;
+        for j in 2..terms {
+            c[j] = (c[j] - 2.0 * mode.d * (k + 1.0) * c[j - 1] - mode.k * c[j - 2]) / ((k + 1.0) * (k + 2.0));
+            k += 1.0;
+        }
+    }
+
+    /// The value of a guard, its rate, and a bound of its rounding error.
+    pub(super) fn guard(&self, g: usize, modes: &Modes) -> (f64, f64, f64) {
+        let (function, start) = (&self.structure.guards[g].function, &self.guards[g]);
+        let mut value = start.value;
+        let mut rate = function.signal.ramp;
+        value += function.signal.ramp * modes.s;
+        let mut error = if start.known > 0 { 0.0 } else { start.size };
+        for i in 0..modes.y.len() {
+            let (a, b) = (function.position[i], function.velocity[i]);
+            if a != 0.0 {
+                let moved = a * modes.moved[i];
+                value += moved;
+                rate += a * modes.v[i];
+                error += moved.abs() + (a * modes.error[i]).abs() * (1.0 / HALF_ULP);
+            }
+            if b != 0.0 {
+                let mode = &self.structure.modes[i];
+                value += b * (modes.v[i] - self.v[i]);
+                let mut push = self.steady[i] + self.ramp[i] * modes.s;
+                for ((a, b), turned) in self.mode_harmonics(i).iter().zip(&modes.turned) {
+                    push += a * turned.cos + b * turned.sin;
+                }
+                rate += b * (push - 2.0 * mode.d * modes.v[i] - mode.k * modes.y[i]);
+                error +=
+                    b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i] * mode.rate.max(1e-300) / HALF_ULP);
+            }
+        }
+        for ((a, b), (turned, w)) in start.harmonics.iter().zip(modes.turned.iter().zip(&self.structure.rates)) {
+            value += b * turned.sin - a * turned.versine;
+            rate += w * (b * turned.cos - a * turned.sin);
+            error += (a.abs() + b.abs()) * w * modes.s * 0.5 + (b * turned.sin).abs() + (a * turned.versine).abs();
+        }
+        if let Some(surface) = start.recovery {
+            let (kept, loss) = crate::system::decay(surface.rate * modes.s);
+            value -= surface.size * loss;
+            rate -= surface.rate * surface.size * kept;
+            error += surface.size * loss;
+        }
+        (value, rate, 2.0 * HALF_ULP * error)
+    }
+
+    /// The value and the rate of a linear function of the state at the beginning.
+    pub(crate) fn first(&self, of: &crate::regime::Observable) -> (f64, f64) {
+        let signal = &of.signal;
+        let (mut value, mut rate) = (signal.steady(&self.set), signal.ramp);
+        for ((a, b), ((sin, cos), w)) in signal.harmonics.iter().zip(self.turns.iter().zip(&self.structure.rates)) {
+            value += a * cos + b * sin;
+            rate += w * (b * cos - a * sin);
+        }
+        for (i, mode) in self.structure.modes.iter().enumerate() {
+            let push = self.mode_harmonics(i).iter().fold(self.steady[i], |sum, (a, _)| sum + a);
+            let a = push - 2.0 * mode.d * self.v[i] - mode.k * self.y[i];
+            value += of.position[i] * self.y[i] + of.velocity[i] * self.v[i];
+            rate += of.position[i] * self.v[i] + of.velocity[i] * a;
+        }
+        (value, rate)
+    }
+
+    /// The size of the terms of a linear function of the state at the beginning.
+    pub(crate) fn size(&self, of: &crate::regime::Observable) -> f64 {
+        let signal = of.signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
+        let modes = (0..self.y.len()).map(|i| (of.position[i] * self.y[i]).abs() + (of.velocity[i] * self.v[i]).abs());
+        of.signal.steady(&self.set).abs() + signal + modes.sum::<f64>()
+    }
+
+    /// The size of the terms of its rate.
+    pub(crate) fn size_of_rate(&self, of: &crate::regime::Observable) -> f64 {
+        let harmonics = of.signal.harmonics.iter().zip(&self.structure.rates);
+        let signal = harmonics.map(|((a, b), w)| (a.abs() + b.abs()) * w).sum::<f64>();
+        let modes = (0..self.y.len()).map(|i| {
+            let mode = &self.structure.modes[i];
+            let push = self.mode_harmonics(i).iter().map(|(a, _)| a.abs()).sum::<f64>() + self.steady[i].abs();
+            let a = push + (2.0 * mode.d * self.v[i]).abs() + (mode.k * self.y[i]).abs();
+            (of.position[i] * self.v[i]).abs() + of.velocity[i].abs() * a
+        });
+        of.signal.ramp.abs() + signal + modes.sum::<f64>()
+    }
+
+    /// Mass-normalised coordinates and velocities at a time, from the modes there.
+    pub(crate) fn state(&self, modes: &Modes, x: &mut Vec<f64>, v: &mut Vec<f64>) {
+        let turned: Vec<(f64, f64)> = self
+            .turns
+            .iter()
+            .zip(&modes.turned)
+            .map(|((sin, cos), turned)| (sin * turned.cos + cos * turned.sin, cos * turned.cos - sin * turned.sin))
+            .collect();
+        let evaluate = |all: &[crate::regime::Observable], to: &mut Vec<f64>| {
+            to.clear();
+            to.extend(all.iter().map(|of| {
+                let signal = &of.signal;
+                let mut sum = signal.steady(&self.set) + signal.ramp * modes.s;
+                for ((a, b), (sin, cos)) in signal.harmonics.iter().zip(&turned) {
+                    sum += a * cos + b * sin;
+                }
+                for i in 0..modes.y.len() {
+                    sum += of.position[i] * modes.y[i] + of.velocity[i] * modes.v[i];
+                }
+                sum
+            }));
+        };
+        evaluate(&self.structure.x, x);
+        evaluate(&self.structure.v, v);
+    }
+}

@@ -1,0 +1,14 @@
+//! Arcs: the flight of a machine in one regime, and the first event that ends it.
+//!
+//! | idea | file |
+//! |---|---|
+//! | the modes from a state, at any time | `flight` |
+//! | first zeros of polynomials | `polynomial` |
+//! | the first zero of any guard, which misses none | `search` |
+
+mod flight;
+mod polynomial;
+mod search;
+
+pub(crate) use flight::{MachineFlight, Modes, Recovery};
+pub(crate) use search::{Buffers, Found, Touch, first_event};

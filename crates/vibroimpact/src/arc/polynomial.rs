@@ -1,0 +1,151 @@
+//! First zeros of polynomials on [0, 1], by their coefficients in Bernstein's form.
+//!
+//! A polynomial lies within the hull of its Bernstein coefficients: if all are positive, it has no zero. Halving the
+//! interval by de Casteljau's scheme brings them closer to the polynomial.
+
+/// Number of coefficients of a polynomial of the ninth degree.
+pub(super) const TERMS: usize = 10;
+
+/// $`\binom{j}{k} / \binom{9}{k}`$, row j.
+const TO_BERNSTEIN: [[f64; TERMS]; TERMS] = {
+    let mut table = [[0.0; TERMS]; TERMS];
+    let mut j = 0;
+    while j < TERMS {
+        let mut k = 0;
+        let mut value = 1.0;
+        let (mut top, mut bottom) = (j, TERMS - 1);
+        while k <= j {
+            table[j][k] = value;
+            if k < j {
+                #[allow(clippy::cast_precision_loss)]
+                {
+                    value = value * (top as f64) / (bottom as f64);
+                }
+                top -= 1;
+                bottom -= 1;
+            }
+            k += 1;
+        }
+        j += 1;
+    }
+    table
+};
+
+fn bernstein(p: &[f64; TERMS]) -> [f64; TERMS] {
+    let mut b = [0.0; TERMS];
+    for (value, row) in b.iter_mut().zip(&TO_BERNSTEIN) {
+        *value = p.iter().zip(row).map(|(p, factor)| p * factor).sum();
+    }
+    b
+}
+
+/// A point of [0, 1] before which `p`, given by its coefficients in powers, is positive and near which it is not; `None`
+/// if it is positive on the whole interval.
+pub(super) fn first_zero(p: &[f64; TERMS]) -> Option<f64> {
+    if p[0] <= 0.0 {
+        return Some(0.0);
+    }
+    // all falling terms together cannot reach zero
+    if p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0 {
+        return None;
+    }
+    search(&bernstein(p), 0.0, 1.0, 48)
+}
+
+/// The same between two points, from the Bernstein coefficients there.
+fn search(b: &[f64; TERMS], from: f64, width: f64, depth: u32) -> Option<f64> {
+    if b.iter().all(|value| *value > 0.0) {
+        return None;
+    }
+    if b[0] <= 0.0 || depth == 0 {
+        return Some(from);
+    }
+    let (left, right) = halves(b);
+    search(&left, from, 0.5 * width, depth - 1).or_else(|| search(&right, from + 0.5 * width, 0.5 * width, depth - 1))
+}
+
+/// The Bernstein coefficients on both halves.
+fn halves(b: &[f64; TERMS]) -> ([f64; TERMS], [f64; TERMS]) {
+    let (mut left, mut right) = (*b, *b);
+    for k in 1..TERMS {
+        for j in (k..TERMS).rev() {
+            left[j] = 0.5 * (left[j - 1] + left[j]);
+        }
+        for j in 0..TERMS - k {
+            right[j] = 0.5 * (right[j] + right[j + 1]);
+        }
+    }
+    (left, right)
+}
+
+/// The value and the derivative at `t`.
+pub(super) fn value(p: &[f64; TERMS], t: f64) -> (f64, f64) {
+    let (mut value, mut slope) = (0.0, 0.0);
+    for c in p.iter().rev() {
+        slope = slope * t + value;
+        value = value * t + c;
+    }
+    (value, slope)
+}
+
+/// Whether the derivative is negative between two points.
+pub(super) fn falls(p: &[f64; TERMS], from: f64, to: f64) -> bool {
+    // the coefficients of the derivative, shifted to `from` and scaled
+    let mut d = [0.0; TERMS];
+    let mut k = 1.0;
+    for j in 1..TERMS {
+        d[j - 1] = k * p[j];
+        k += 1.0;
+    }
+    for i in 0..TERMS {
+        for j in (i..TERMS - 1).rev() {
+            d[j] += from * d[j + 1];
+        }
+    }
+    let (width, mut power) = (to - from, 1.0);
+    for c in &mut d {
+        *c *= -power;
+        power *= width;
+    }
+    d[0] > 0.0 && first_zero(&d).is_none()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn polynomial(roots: &[f64]) -> [f64; TERMS] {
+        let mut p = [0.0; TERMS];
+        p[0] = 1.0;
+        for (n, root) in roots.iter().enumerate() {
+            for j in (0..=n + 1).rev() {
+                p[j] = (if j > 0 { p[j - 1] } else { 0.0 }) * -1.0 + root * p[j];
+            }
+        }
+        p
+    }
+
+    #[test]
+    fn the_first_zero_is_found_and_none_is_missed() {
+        for roots in [&[0.3, 0.7][..], &[0.9, 0.31, 0.32], &[0.5, 0.5000001, 3.0], &[1e-9, 0.4], &[0.999_999]] {
+            let p = polynomial(roots);
+            let first = roots.iter().copied().fold(1.0, f64::min);
+            let found = first_zero(&p).unwrap();
+            assert!(found <= first * (1.0 + 1e-9) && found > first - 1e-6, "{roots:?}: {found}");
+            assert!(value(&p, found).0 >= -1e-12);
+        }
+        assert_eq!(first_zero(&polynomial(&[1.5, 2.0])), None);
+        let mut near = polynomial(&[0.5, 0.5]);
+        near[0] += 1e-13;
+        assert_eq!(first_zero(&near), None);
+        near[0] -= 1e-12;
+        assert!(first_zero(&near).is_some());
+    }
+
+    #[test]
+    fn falling_polynomials() {
+        let p = polynomial(&[0.3, 0.9]);
+        assert!(falls(&p, 0.2, 0.5) && !falls(&p, 0.2, 0.7));
+        assert!((value(&p, 0.5).0 + 0.08).abs() < 1e-15 && (value(&p, 0.6).1).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,450 @@
+//! The first event of a flight: the first zero of any of its guards. None is missed.
+//!
+//! At a time $`s`$ the guards are expanded to the eighth order; the ninth derivative is bounded over a window by bounds
+//! of the modes. With $`E = \sqrt{\dot y^2 + ky^2}`$, which grows by at most the size $`P`$ of the forcing per unit of
+//! time, $`|\dot y| \le E + PH`$ over a window of length $`H`$, and from the equation of the mode
+//!
+//! $$`|y^{(k+2)}| \le 2d\,|y^{(k+1)}| + k\,|y^{(k)}| + |p^{(k)}|.`$$
+//!
+//! So each guard lies between two polynomials. Where the lower one is positive there is no event. A first zero is
+//! accepted if both polynomials have one and the guard falls between them; it is then refined with the closed form. The
+//! search begins anew at the first zero of the lower polynomial otherwise, with a shorter window: the distance of the two
+//! polynomials falls with the ninth power of its length. What remains are touches of a guard within rounding, which are
+//! told and have no effect.
+
+use super::flight::{MachineFlight, Modes};
+use super::polynomial::{TERMS, falls, first_zero, value};
+
+/// What ends a flight.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Found {
+    /// The guards (by place) that become zero a time after the beginning. If there are several, they are zero at the
+    /// same time within rounding.
+    Zero { s: f64, guards: Vec<usize> },
+    /// No zero before this time.
+    NoneBefore(f64),
+}
+
+/// A guard that touches zero within rounding and is positive again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Touch {
+    pub(crate) s: f64,
+    pub(crate) guard: usize,
+}
+
+/// The window in radians of the fastest rate: the bound of the remainder is about 1e-4 of the motion.
+const REACH: f64 = 1.6;
+const ORDER: usize = TERMS - 1;
+
+/// Buffers of a search, kept from flight to flight.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Buffers {
+    pub(crate) modes: Modes,
+    terms: Vec<f64>,
+    ninth: Vec<f64>,
+    tenth: Vec<f64>,
+    turned: Vec<(f64, f64)>,
+    polynomials: Vec<([f64; TERMS], f64, f64)>,
+}
+
+/// The first zero of a guard before the time `until`, in at most `steps` windows. `touches` receives what touches zero
+/// before.
+pub(crate) fn first_event(
+    flight: &MachineFlight,
+    until: f64,
+    steps: u32,
+    buffers: &mut Buffers,
+    touches: &mut Vec<Touch>,
+) -> Found {
+    let guards = flight.guards.len();
+    let structure = &flight.structure;
+    let fastest =
+        structure.modes.iter().map(|mode| mode.rate).fold(structure.rates.last().copied().unwrap_or(0.0), f64::max);
+    let mut known: Vec<usize> = flight.guards.iter().map(|guard| guard.known).collect();
+    let mut s = 0.0;
+    let mut reach = 1.0;
+    for _ in 0..steps {
+        if s >= until {
+            return Found::NoneBefore(until);
+        }
+        flight.at(s, &mut buffers.modes);
+        let surfaces = flight.guards.iter().filter_map(|guard| guard.recovery);
+        // a surface that has recovered does not shorten the window
+        let rate =
+            surfaces.filter(|surface| surface.rate * s < 40.0).fold(fastest, |rate, surface| rate.max(surface.rate));
+        let window =
+            (if rate > 0.0 { REACH / rate } else { f64::MAX.sqrt() } * reach).min((until - s) * 1.001 + 1e-300);
+        // without any rate and without end the guards are polynomials of low order; a window must still be finite
+        let window = if window.is_finite() { window } else { 1e150 };
+        expand(flight, window, s, buffers);
+        buffers.polynomials.clear();
+        for g in 0..guards {
+            let of = polynomial(flight, g, window, s, buffers, known[g]);
+            buffers.polynomials.push(of);
+        }
+        // contacts on which the flight begins are divided out
+        let mut first: Option<(f64, usize)> = None;
+        for g in 0..guards {
+            while known[g] > 0 && known[g] < 4 && s == 0.0 {
+                let p = &buffers.polynomials[g].0;
+                let size: f64 = buffers.polynomials[g].2;
+                // a derivative that is zero within rounding is zero: the next one decides
+                if p[known[g]] <= 0.0 && p[known[g]].abs() <= 64.0 * f64::EPSILON * size {
+                    known[g] += 1;
+                } else {
+                    break;
+                }
+            }
+            let (p, error, _) = &buffers.polynomials[g];
+            let lower = beside(p, -1.0, *error, known[g], s);
+            if let Some(t) = first_zero(&lower)
+                && first.is_none_or(|(least, _)| t < least)
+            {
+                first = Some((t, g));
+            }
+        }
+        let Some((near, g)) = first else {
+            s += window;
+            reach = (reach * 1.5).min(1.0);
+            continue;
+        };
+        if let Some(found) = certain(flight, &known, window, s, near, buffers) {
+            return found;
+        }
+        let (p, error, _) = buffers.polynomials[g];
+        let remainder = p[ORDER];
+        if remainder <= error || window * 0.01 <= f64::EPSILON * s {
+            // a touch within rounding, or a zero that cannot be told from one
+            let (touch, after) = lowest(&p, near);
+            let depth = value(&without_remainder(&p), touch).0;
+            if depth < -error - remainder {
+                let at = refine(flight, g, s + near * window, s + touch * window, &mut buffers.modes);
+                return Found::Zero { s: at, guards: vec![g] };
+            }
+            if touches.last().is_none_or(|last| last.guard != g || s + touch * window - last.s > 1e-6 * (1.0 + s)) {
+                touches.push(Touch { s: s + touch * window, guard: g });
+            }
+            let next = s + (touch + after).min(1.0) * window;
+            if known[g] > 0 {
+                known[g] = 0;
+            }
+            s = if next > s { next } else { s * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE };
+            reach = 1.0;
+        } else if near > 0.25 {
+            s += near * window * (1.0 - 1e-3);
+            reach = (0.7 * reach).max(1e-12);
+        } else {
+            // the window is too long for the bound
+            reach *= 0.4;
+        }
+    }
+    Found::NoneBefore(s)
+}
+
+/// The zero, if it is proven that there is exactly one near `near` for each guard that may be the first.
+fn certain(
+    flight: &MachineFlight,
+    known: &[usize],
+    window: f64,
+    s: f64,
+    near: f64,
+    buffers: &mut Buffers,
+) -> Option<Found> {
+    let mut brackets: Vec<(usize, f64, f64)> = Vec::new();
+    let mut end = 1.0_f64;
+    for (g, (p, error, _)) in buffers.polynomials.iter().enumerate() {
+        let Some(from) = first_zero(&beside(p, -1.0, *error, known[g], s)) else { continue };
+        if from > end {
+            continue;
+        }
+        let upper = beside(p, 1.0, *error, known[g], s);
+        let to = first_zero(&upper);
+        match to {
+            Some(to) => {
+                // the guard itself falls from here to there
+                let mut steep = *p;
+                if known[g] > 0 && s == 0.0 {
+                    steep = beside(p, 1.0, 0.0, known[g], s);
+                }
+                if !falls(&steep, from, to.max(from)) {
+                    if from <= near {
+                        return None;
+                    }
+                    end = end.min(from);
+                    continue;
+                }
+                brackets.push((g, from, to));
+                end = end.min(to);
+            }
+            None if from <= near => return None,
+            None => end = end.min(from),
+        }
+    }
+    // a guard whose zero is not certain may come first
+    brackets.retain(|(_, from, _)| *from <= end);
+    let last = brackets.iter().map(|(_, _, to)| *to).fold(f64::INFINITY, f64::min);
+    if brackets.is_empty() || last > end {
+        return None;
+    }
+    let mut best = f64::INFINITY;
+    let mut zeros = Vec::with_capacity(brackets.len());
+    for (g, from, to) in brackets {
+        let at = if known[g] > 0 && s == 0.0 {
+            on_polynomial(
+                flight,
+                g,
+                &beside(&buffers.polynomials[g].0, 0.0, 0.0, known[g], s),
+                window,
+                (from, to),
+                &mut buffers.modes,
+            )
+        } else {
+            refine(flight, g, s + from * window, s + to * window, &mut buffers.modes)
+        };
+        best = best.min(at);
+        zeros.push((g, at));
+    }
+    // the same time within rounding
+    let guards = zeros.iter().filter(|(_, at)| *at <= best * (1.0 + 4.0 * f64::EPSILON)).map(|(g, _)| *g).collect();
+    Some(Found::Zero { s: best, guards })
+}
+
+/// The polynomial with its bound of the remainder added or subtracted, and known zeros divided out.
+fn beside(p: &[f64; TERMS], sign: f64, error: f64, known: usize, s: f64) -> [f64; TERMS] {
+    let mut q = *p;
+    q[ORDER] *= sign;
+    if known > 0 && s == 0.0 {
+        q.rotate_left(known);
+        for c in &mut q[TERMS - known..] {
+            *c = 0.0;
+        }
+    } else {
+        q[0] += sign * error;
+    }
+    q
+}
+
+fn without_remainder(p: &[f64; TERMS]) -> [f64; TERMS] {
+    let mut q = *p;
+    q[ORDER] = 0.0;
+    q
+}
+
+/// The lowest point of a polynomial after `from`, and how far behind it the polynomial has risen above rounding.
+fn lowest(p: &[f64; TERMS], from: f64) -> (f64, f64) {
+    let q = without_remainder(p);
+    let (mut low, mut high) = (from, 1.0);
+    // the slope is negative before and positive after; without a change of sign the end is the lowest point
+    let mut step = 1e-6;
+    while low + step < 1.0 && value(&q, low + step).1 < 0.0 {
+        step *= 2.0;
+    }
+    if low + step < 1.0 {
+        high = low + step;
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if value(&q, middle).1 < 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+    let touch = 0.5 * (low + high);
+    (touch, (touch - from).max(1e-9) * 2.0)
+}
+
+/// The zero of a guard in a bracket in time, by Newton's method on the closed form.
+fn refine(flight: &MachineFlight, g: usize, from: f64, to: f64, modes: &mut Modes) -> f64 {
+    let (mut low, mut high) = (from, to.max(from));
+    let mut s = 0.5 * (low + high);
+    let width = (high - low).max(4.0 * f64::EPSILON * high);
+    // the bracket has the zero within rounding of its ends
+    (low, high) = ((low - 1e-3 * width).max(0.0), high + 1e-3 * width);
+    for _ in 0..100 {
+        flight.at(s, modes);
+        let (value, rate, _) = flight.guard(g, modes);
+        if value > 0.0 {
+            low = low.max(s);
+        } else {
+            high = high.min(s);
+        }
+        let mut next = s - value / rate;
+        if !(next >= low && next <= high) {
+            next = 0.5 * (low + high);
+        }
+        let moved = (next - s).abs();
+        s = next;
+        if moved <= f64::EPSILON * s || value == 0.0 || high - low <= f64::EPSILON * high {
+            break;
+        }
+    }
+    s
+}
+
+/// The zero of a guard on which the flight began. Over a short time it is that of the polynomial itself, whose remainder
+/// is below rounding; else it is refined with the closed form.
+fn on_polynomial(
+    flight: &MachineFlight,
+    g: usize,
+    q: &[f64; TERMS],
+    window: f64,
+    (from, to): (f64, f64),
+    modes: &mut Modes,
+) -> f64 {
+    let (mut low, mut high) = (from, to);
+    let mut t = 0.5 * (from + to);
+    for _ in 0..100 {
+        let (height, slope) = value(q, t);
+        if height > 0.0 {
+            low = t;
+        } else {
+            high = t;
+        }
+        let mut next = t - height / slope;
+        if !(next >= low && next <= high) {
+            next = 0.5 * (low + high);
+        }
+        let moved = (next - t).abs();
+        t = next;
+        if moved <= 0.25 * f64::EPSILON * t {
+            break;
+        }
+    }
+    // the remainder is of the ninth order
+    if t < 0.01 { t * window } else { refine(flight, g, from * window, to * window, modes) }
+}
+
+/// Expands all modes at the current time, with bounds of their ninth and tenth derivatives over the window.
+fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
+    let structure = &flight.structure;
+    let rates = &structure.rates;
+    let count = structure.modes.len();
+    let Buffers { modes, terms, ninth, tenth, turned, .. } = buffers;
+    terms.clear();
+    terms.resize(count * (TERMS + 1), 0.0);
+    ninth.clear();
+    tenth.clear();
+    for (i, mode) in structure.modes.iter().enumerate() {
+        turned.clear();
+        let harmonics = flight.mode_harmonics(i).iter().zip(&modes.turned);
+        turned.extend(
+            harmonics.map(|((a, b), turned)| (a * turned.cos + b * turned.sin, b * turned.cos - a * turned.sin)),
+        );
+        let (y, v) = (modes.y[i], modes.v[i]);
+        let c = &mut terms[i * (TERMS + 1)..(i + 1) * (TERMS + 1)];
+        flight.coefficients(i, y, v, s, turned, c);
+        // bounds: w_k of |y^(k)| window^k / k!
+        let ramp = flight.ramp[i].abs();
+        let mut push = ramp * (s + window);
+        let mut shifted = y;
+        if mode.k > 0.0 {
+            shifted -= flight.steady[i] / mode.k;
+        } else {
+            push += flight.steady[i].abs();
+        }
+        let mut swing = 0.0;
+        for (a, b) in turned.iter() {
+            swing += a.abs() + b.abs();
+        }
+        push += swing;
+        let speed = (v * v + mode.k * shifted * shifted).sqrt() + push * window;
+        let square = window * window;
+        let mut two = speed * window;
+        let mut three = 0.5 * square * (2.0 * mode.d * speed + mode.omega * speed + push);
+        let mut one;
+        // p_k of |p^(k)| window^k / k!
+        let mut drive: [f64; ORDER] = [0.0; ORDER];
+        for ((a, b), w) in turned.iter().zip(rates) {
+            let mut size = a.abs() + b.abs();
+            let mut k = 1.0;
+            for place in &mut drive {
+                *place += size;
+                size *= w * window / k;
+                k += 1.0;
+            }
+        }
+        drive[1] += ramp * window;
+        let mut k = 1.0;
+        for place in &drive[1..] {
+            // from w_k, w_{k+1} to w_{k+2}
+            (one, two) = (two, three);
+            three = (2.0 * mode.d * window * (k + 1.0) * two + mode.k * square * one + square * place)
+                / ((k + 1.0) * (k + 2.0));
+            k += 1.0;
+        }
+        // now k = ORDER: three bounds the derivative of order ORDER + 1
+        ninth.push(two);
+        tenth.push(three);
+    }
+}
+
+/// The polynomial of a guard over the window, with the bound of its remainder as the last coefficient; its rounding
+/// error, and the size of its terms.
+fn polynomial(
+    flight: &MachineFlight,
+    g: usize,
+    window: f64,
+    s: f64,
+    buffers: &Buffers,
+    known: usize,
+) -> ([f64; TERMS], f64, f64) {
+    let (function, start) = (&flight.structure.guards[g].function, &flight.guards[g]);
+    let mut p = [0.0; TERMS];
+    let mut remainder = 0.0;
+    let mut size = 0.0;
+    let real = |k: usize| f64::from(u32::try_from(k).unwrap_or(0));
+    for i in 0..buffers.ninth.len() {
+        let c = &buffers.terms[i * (TERMS + 1)..(i + 1) * (TERMS + 1)];
+        let (a, b) = (function.position[i], function.velocity[i]);
+        if a != 0.0 {
+            for (sum, c) in p.iter_mut().zip(c) {
+                *sum += a * c;
+            }
+            remainder += a.abs() * buffers.ninth[i];
+            size += a.abs() * (c[1] * window).abs().max((c[2] * window * window).abs());
+        }
+        if b != 0.0 {
+            for k in 0..ORDER {
+                p[k] += b * real(k + 1) * c[k + 1];
+            }
+            remainder += b.abs() * buffers.tenth[i] * real(ORDER + 1) / window;
+            size += b.abs() * c[1].abs().max((c[2] * window).abs());
+        }
+    }
+    p[1] += function.signal.ramp;
+    for ((a, b), (turned, w)) in start.harmonics.iter().zip(buffers.modes.turned.iter().zip(&flight.structure.rates)) {
+        if *a == 0.0 && *b == 0.0 {
+            continue;
+        }
+        let (mut now, mut next) = (a * turned.cos + b * turned.sin, w * (b * turned.cos - a * turned.sin));
+        let mut bound = a.abs() + b.abs();
+        size += bound;
+        for (k, sum) in p.iter_mut().enumerate().take(ORDER) {
+            *sum += now;
+            (now, next) = (next, -w * w * now / (real(k + 1) * real(k + 2)));
+            bound *= w * window / real(k + 1);
+        }
+        remainder += bound;
+    }
+    if let Some(surface) = start.recovery {
+        let mut term = surface.size * crate::system::decay(surface.rate * s).0;
+        size += term;
+        let mut bound = term;
+        for (k, sum) in p.iter_mut().enumerate().take(ORDER) {
+            *sum += term;
+            term *= -surface.rate / real(k + 1);
+            bound *= surface.rate * window / real(k + 1);
+        }
+        remainder += bound;
+    }
+    let (value, _, error) = flight.guard(g, &buffers.modes);
+    p[0] = if known > 0 && s == 0.0 { 0.0 } else { value };
+    let mut power = 1.0;
+    for c in p.iter_mut().take(ORDER) {
+        *c *= power;
+        power *= window;
+    }
+    p[ORDER] = remainder;
+    (p, error, size + p[0].abs())
+}

@@ -1,0 +1,102 @@
+//! An event of a machine, and the start of a motion.
+
+/// What happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MachineEventKind {
+    /// A rigid stop is struck.
+    Impact,
+    /// A compliant stop closes.
+    Close,
+    /// A compliant stop opens.
+    Open,
+    /// The structure comes to rest on a stop.
+    Stick,
+    /// It leaves a stop on which it rested.
+    Release,
+    /// A friction joint begins to slide, or reverses.
+    Slip,
+    /// A friction joint holds.
+    Hold,
+    /// A stop is touched within rounding, without effect.
+    Graze,
+}
+
+impl MachineEventKind {
+    /// Its name in JSON and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Impact => "impact",
+            Self::Close => "close",
+            Self::Open => "open",
+            Self::Stick => "stick",
+            Self::Release => "release",
+            Self::Slip => "slip",
+            Self::Hold => "hold",
+            Self::Graze => "graze",
+        }
+    }
+}
+
+/// An event.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineEvent {
+    /// What happens.
+    pub kind: MachineEventKind,
+    /// The stop, or the joint, which are counted after the stops. [`Machine::name_of`](crate::machine::Machine::name_of)
+    /// has its name.
+    pub place: usize,
+    /// Time since the start.
+    pub time: f64,
+    /// Phase of the forcing, in $`[0, 2\pi)`$.
+    pub phase: f64,
+    /// Speed of closing before the event, $`-\dot g \ge 0`$; of a slip the direction, 1 or -1.
+    pub speed: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Velocities after the event.
+    pub qdot: Vec<f64>,
+    /// Other stops that take part at the same time: struck too, or at rest and pushed through.
+    pub with: Vec<usize>,
+}
+
+/// The state from which a motion starts, at time 0.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MachineStart {
+    /// Coordinates; all 0 if empty.
+    pub q: Vec<f64>,
+    /// Velocities; all 0 if empty.
+    pub qdot: Vec<f64>,
+    /// Phase of the forcing in radians.
+    pub phase: f64,
+}
+
+/// Why a motion has no further event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MachineEnd {
+    /// None within the longest flight that is searched ([`MachineLimits::time`]).
+    NoEventWithin,
+    /// The search has used all its steps.
+    SearchLimit,
+    /// Damping couples modes that are so nearly defective that the closed form would lose its digits.
+    Defective,
+    /// No state of the stops and joints is consistent.
+    Inconsistent,
+    /// Too many events at one time.
+    Collapse,
+}
+
+/// The limits of a search for the next event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MachineLimits {
+    /// The longest flight.
+    pub time: f64,
+    /// The largest number of windows in one flight.
+    pub steps: u32,
+}
+
+impl Default for MachineLimits {
+    fn default() -> Self {
+        Self { time: 1e4, steps: 200_000 }
+    }
+}

@@ -1,0 +1,507 @@
+//! The motion of a machine as an iterator over its events.
+
+use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
+use super::impulses::impulses;
+use super::place::{Place, Structures};
+use super::resolve::{Candidate, resolve};
+use crate::arc::{Buffers, Found, MachineFlight, Recovery, Touch, first_event};
+use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
+use crate::math::{Sum, add_scaled, dot};
+use crate::regime::{ContactState, GuardKind, NoStructure, Normal, Structure, compliant};
+use crate::system::phase;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// The events of a machine from a start, in order.
+///
+/// ```
+/// use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+/// use vibroimpact::machine::{Machine, MachineParts};
+/// // a ball of mass 1 under gravity 1, dropped from height 1/2 on a floor: impacts at 1, 2, 2.5, ...
+/// let parts = MachineParts::new(["height"]).with_mass(0, 1.0).with_constant(0, -1.0);
+/// let ball = Machine::new(parts.with_rigid_stop("floor", &[-1.0], 0.0, 0.5))?;
+/// let start = MachineStart { q: vec![0.5], ..MachineStart::default() };
+/// let times: Vec<f64> = MachineMotion::new(&ball, &start, MachineLimits::default())?.take(3).map(|event| event.time).collect();
+/// assert!((times[0] - 1.0).abs() < 1e-15 && (times[1] - 2.0).abs() < 1e-15 && (times[2] - 2.5).abs() < 1e-15);
+/// let rest = MachineMotion::new(&ball, &start, MachineLimits::default())?.last().unwrap();
+/// assert_eq!(rest.kind, MachineEventKind::Stick);
+/// assert!((rest.time - 3.0).abs() < 1e-14); // infinitely many impacts are summed
+/// # Ok::<(), vibroimpact::machine::MachineError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct MachineMotion<'a> {
+    machine: &'a Machine,
+    normal: Normal,
+    structures: Structures,
+    place: Place,
+    time: Sum,
+    limits: MachineLimits,
+    pending: VecDeque<MachineEvent>,
+    end: Option<MachineEnd>,
+    buffers: Buffers,
+    touches: Vec<Touch>,
+    /// Events since the time last advanced.
+    crowd: u32,
+}
+
+/// More events than this at one time are a collapse.
+const CROWD: u32 = 10_000;
+/// A chatter is summed if its first correction is below this part of the sum.
+const SMALL: f64 = 1e-6;
+
+impl<'a> MachineMotion<'a> {
+    /// The motion from a start.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the start has another number of coordinates, a number that is not finite, or lies beyond a
+    /// rigid stop.
+    pub fn new(machine: &'a Machine, start: &MachineStart, limits: MachineLimits) -> Result<Self, MachineError> {
+        let normal = Normal::new(machine);
+        let n = machine.n();
+        let vector = |path: &str, values: &[f64]| -> Result<Vec<f64>, MachineError> {
+            if values.is_empty() {
+                return Ok(vec![0.0; n]);
+            }
+            if values.len() != n {
+                let given = format!("{} numbers", values.len());
+                return Err(MachineError::new(path, MachineFault::Size { given, n }));
+            }
+            match values.iter().find(|value| !value.is_finite()) {
+                Some(value) => Err(MachineError::new(path, MachineFault::NotFinite(*value))),
+                None => Ok(normal.from_machine(values)),
+            }
+        };
+        let (x, v) = (vector("q", &start.q)?, vector("qdot", &start.qdot)?);
+        if !(start.phase.is_finite() && start.phase.abs() <= phase::LARGEST) {
+            return Err(MachineError::new("phase", MachineFault::NotFinite(start.phase)));
+        }
+        let (stops, joints) = (machine.stops().len(), machine.joints().len());
+        let place = Place {
+            x,
+            v,
+            phase: phase::wrap(start.phase),
+            states: vec![ContactState::Open; stops + joints],
+            set: vec![0.0; joints],
+            surfaces: vec![None; stops],
+            known: Vec::new(),
+        };
+        let mut motion = Self {
+            machine,
+            normal,
+            structures: Structures::default(),
+            place,
+            time: Sum::default(),
+            limits,
+            pending: VecDeque::new(),
+            end: None,
+            buffers: Buffers::default(),
+            touches: Vec::new(),
+            crowd: 0,
+        };
+        motion.begin()?;
+        Ok(motion)
+    }
+
+    /// Why there is no further event; `None` while there may be one.
+    #[must_use]
+    pub fn end(&self) -> Option<MachineEnd> {
+        if self.pending.is_empty() { self.end } else { None }
+    }
+
+    /// Finds out what the stops and joints do at the start.
+    fn begin(&mut self) -> Result<(), MachineError> {
+        let (mut closing, mut candidates) = (Vec::new(), Vec::new());
+        for (j, stop) in self.machine.stops().iter().enumerate() {
+            let (gap, rate, size, rate_size) = self.place.gap(&self.normal, j);
+            let on = gap.abs() <= 4.0 * f64::EPSILON * size;
+            let approaching = rate < -4.0 * f64::EPSILON * rate_size;
+            let still = rate.abs() <= 4.0 * f64::EPSILON * rate_size;
+            match stop.law {
+                StopLaw::Rigid { .. } if gap < 0.0 && !on => {
+                    return Err(MachineError::new(format!("stop.{}", stop.name), MachineFault::Beyond(-gap)));
+                }
+                StopLaw::Compliant { stiffness, damping, preload, opening } if gap < 0.0 && !on => {
+                    let force = preload - stiffness * gap - damping * rate;
+                    if opening == Opening::Position || force > 0.0 {
+                        self.place.states[j] = ContactState::Closed;
+                    } else {
+                        self.place.surfaces[j] = Some(recovery(stiffness, damping, preload, -gap));
+                    }
+                }
+                _ if on && approaching => closing.push(j),
+                _ if on && still => candidates.push(Candidate { place: j }),
+                _ if on => self.place.known.push((GuardKind::Gap(j), 1)),
+                _ => {}
+            }
+        }
+        for joint in 0..self.machine.joints().len() {
+            let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
+            let at = self.machine.stops().len() + joint;
+            if speed.abs() <= 4.0 * f64::EPSILON * size {
+                candidates.push(Candidate { place: at });
+                self.place.states[at] = ContactState::Holding;
+            } else {
+                self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
+            }
+        }
+        // a joint that holds from the start is announced
+        let before: Vec<ContactState> = self
+            .place
+            .states
+            .iter()
+            .map(|state| if *state == ContactState::Holding { ContactState::Open } else { *state })
+            .collect();
+        let outcome = self.change(&before, &closing, candidates, &[]);
+        self.settle(outcome);
+        Ok(())
+    }
+
+    /// The event, if something goes on; sets the end otherwise.
+    fn settle(&mut self, outcome: Result<bool, NoStructure>) {
+        match outcome {
+            Ok(true) => {}
+            Ok(false) => self.end = Some(MachineEnd::Inconsistent),
+            Err(NoStructure::Defective) => self.end = Some(MachineEnd::Defective),
+            Err(NoStructure::Redundant) => self.end = Some(MachineEnd::Inconsistent),
+        }
+    }
+
+    /// Changes the contacts at this time: impacts on the stops `closing`, then the states of the candidates. `fixed` are
+    /// contacts whose new state is known.
+    fn change(
+        &mut self,
+        before: &[ContactState],
+        closing: &[usize],
+        mut candidates: Vec<Candidate>,
+        fixed: &[usize],
+    ) -> Result<bool, NoStructure> {
+        let stops = self.machine.stops().len();
+        let mut events: Vec<(MachineEventKind, usize, f64, Vec<usize>)> = Vec::new();
+        let speeds: Vec<f64> = (0..stops).map(|j| -self.place.gap(&self.normal, j).1).collect();
+        let rigid: Vec<usize> =
+            closing.iter().copied().filter(|j| compliant(&self.machine.stops()[*j].law).is_none()).collect();
+        let mut struck = Vec::new();
+        if !rigid.is_empty() {
+            let mut set = rigid.clone();
+            set.extend((0..stops).filter(|j| {
+                before[*j] == ContactState::Resting
+                    && !fixed.contains(j)
+                    && compliant(&self.machine.stops()[*j].law).is_none()
+            }));
+            let rates: Vec<f64> = set.iter().map(|j| if rigid.contains(j) { -speeds[*j] } else { 0.0 }).collect();
+            let restitutions: Vec<f64> = set
+                .iter()
+                .map(|j| match self.machine.stops()[*j].law {
+                    StopLaw::Rigid { restitution } => restitution,
+                    StopLaw::Compliant { .. } => 0.0,
+                })
+                .collect();
+            let directions: Vec<&[f64]> = set.iter().map(|j| self.normal.directions[*j].as_slice()).collect();
+            let Some(found) = impulses(&directions, &rates, &restitutions) else { return Ok(false) };
+            let mut after = self.place.v.clone();
+            for (direction, impulse) in directions.iter().zip(&found) {
+                add_scaled(&mut after, -impulse, direction);
+            }
+            let pushed: Vec<usize> =
+                set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0).map(|(j, _)| *j).collect();
+            for (place, j) in set.iter().enumerate() {
+                let change = dot(directions[place], &after) - dot(directions[place], &self.place.v);
+                let rate = rates[place] - change;
+                let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+                if rigid.contains(j) {
+                    let with = pushed.iter().copied().filter(|other| other != j).collect();
+                    events.push((MachineEventKind::Impact, *j, speeds[*j], with));
+                    struck.push(*j);
+                }
+                candidates.retain(|candidate| candidate.place != *j);
+                if rate > 16.0 * f64::EPSILON * size {
+                    self.place.states[*j] = ContactState::Open;
+                    self.place.known.push((GuardKind::Gap(*j), 1));
+                } else {
+                    // exactly no velocity, so that the stop does not open by rounding
+                    add_scaled(&mut after, rate / dot(directions[place], directions[place]), directions[place]);
+                    candidates.push(Candidate { place: *j });
+                }
+            }
+            self.place.v = after;
+            // an impulse changes the velocities of the joints
+            for joint in 0..self.machine.joints().len() {
+                let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
+                let at = stops + joint;
+                candidates.retain(|candidate| candidate.place != at);
+                if speed.abs() > 64.0 * f64::EPSILON * size {
+                    self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
+                } else {
+                    candidates.push(Candidate { place: at });
+                }
+            }
+        }
+        for j in closing.iter().copied().filter(|j| !rigid.contains(j)) {
+            self.place.states[j] = ContactState::Closed;
+            self.place.surfaces[j] = None;
+            self.place.known.push((GuardKind::Depth(j), 1));
+            if let StopLaw::Compliant { damping, preload, .. } = self.machine.stops()[j].law
+                && damping == 0.0
+                && preload == 0.0
+            {
+                self.place.known.push((GuardKind::Force(j), 1));
+            }
+        }
+        if !candidates.is_empty() {
+            let known = core::mem::take(&mut self.place.known);
+            let consistent = resolve(self.machine, &self.normal, &mut self.structures, &mut self.place, &candidates)?;
+            if !consistent {
+                return Ok(false);
+            }
+            self.place.known = known;
+            for Candidate { place } in &candidates {
+                let joint = place.wrapping_sub(stops);
+                let kind = match self.place.states[*place] {
+                    ContactState::Open => Some((GuardKind::Gap(*place), 2)),
+                    ContactState::Closed => Some((GuardKind::Depth(*place), 2)),
+                    ContactState::Forward | ContactState::Backward => Some((GuardKind::Sliding(joint), 1)),
+                    _ => None,
+                };
+                self.place.known.extend(kind);
+            }
+        }
+        for (at, was) in before.iter().enumerate() {
+            let now = self.place.states[at];
+            if now == *was || struck.contains(&at) && now == ContactState::Open {
+                continue;
+            }
+            let speed = speeds.get(at).copied().unwrap_or(0.0).max(0.0);
+            let kind = match (was, now) {
+                (_, ContactState::Resting) => Some((MachineEventKind::Stick, 0.0)),
+                (ContactState::Resting, ContactState::Open) => Some((MachineEventKind::Release, 0.0)),
+                (_, ContactState::Closed) => Some((MachineEventKind::Close, speed)),
+                (ContactState::Closed, ContactState::Open) => Some((MachineEventKind::Open, 0.0)),
+                (_, ContactState::Holding) => Some((MachineEventKind::Hold, 0.0)),
+                // joints that slide at the start are not announced
+                (ContactState::Open, _) => None,
+                (_, ContactState::Forward) => Some((MachineEventKind::Slip, 1.0)),
+                (_, ContactState::Backward) => Some((MachineEventKind::Slip, -1.0)),
+                _ => None,
+            };
+            events.extend(kind.map(|(kind, speed)| (kind, at, speed, Vec::new())));
+        }
+        for (kind, at, speed, with) in events {
+            self.announce(kind, at, speed, with);
+        }
+        if let [j] = rigid[..]
+            && self.place.states[j] == ContactState::Open
+        {
+            self.complete(j)?;
+        }
+        Ok(true)
+    }
+
+    fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
+        self.pending.push_back(MachineEvent {
+            kind,
+            place,
+            time: self.time.value(),
+            phase: self.place.phase,
+            speed,
+            q: self.normal.to_machine(&self.place.x),
+            qdot: self.normal.to_machine(&self.place.v),
+            with,
+        });
+    }
+
+    /// Sums the chatter on a stop that has just been struck, if its impacts accumulate so soon that the first two terms
+    /// of the sum are exact to rounding (A. B. Nordmark and P. T. Piiroinen, doi:10.1007/s11071-008-9463-y).
+    fn complete(&mut self, j: usize) -> Result<(), NoStructure> {
+        let StopLaw::Rigid { restitution } = self.machine.stops()[j].law else { return Ok(()) };
+        let rebound = self.place.gap(&self.normal, j).1;
+        if restitution >= 1.0 || !(rebound > 0.0) {
+            return Ok(());
+        }
+        let mut states = self.place.states.clone();
+        states[j] = ContactState::Resting;
+        let structure = match self.structures.get(self.machine, &self.normal, &states) {
+            Ok(structure) => structure,
+            Err(NoStructure::Redundant) => return Ok(()),
+            Err(defective) => return Err(defective),
+        };
+        let Some(held) = structure.held.iter().position(|place| *place == j) else { return Ok(()) };
+        // the state at rest: the velocity of the gap taken away, the other constraints unchanged
+        let mut there = self.place.clone();
+        add_scaled(&mut there.v, rebound, &structure.across[held]);
+        there.states = states;
+        there.known.retain(|(kind, _)| *kind != GuardKind::Gap(j));
+        let flight = there.flight(&self.normal, structure.clone());
+        let (force, force_rate) = flight.first(&structure.reactions[held]);
+        let (mobility, drag) = structure.mobility[held];
+        let (a, jerk) = (force * mobility, force_rate * mobility);
+        if !(a > 0.0) {
+            return Ok(());
+        }
+        let k = rebound / a;
+        let r = 1.0 - restitution;
+        let fastest =
+            structure.modes.iter().map(|mode| mode.rate).fold(structure.rates.last().copied().unwrap_or(0.0), f64::max);
+        let first = 2.0 * k / r;
+        let second = -2.0 * (jerk / a * k + 0.5 * drag * k) / (3.0 * r);
+        if !(second.abs() <= SMALL && first * fastest.max(drag) <= 10.0 * SMALL) {
+            return Ok(());
+        }
+        let duration = first * (1.0 + second);
+        let mut touches = Vec::new();
+        let Found::NoneBefore(_) = first_event(&flight, duration, self.limits.steps, &mut self.buffers, &mut touches)
+        else {
+            return Ok(());
+        };
+        self.place = there;
+        self.move_to(&flight, duration);
+        self.announce(MachineEventKind::Stick, j, 0.0, Vec::new());
+        Ok(())
+    }
+
+    /// Moves the state to a time after the beginning of a flight.
+    fn move_to(&mut self, flight: &MachineFlight, s: f64) {
+        flight.at(s, &mut self.buffers.modes);
+        flight.state(&self.buffers.modes, &mut self.place.x, &mut self.place.v);
+        for surface in &mut self.place.surfaces {
+            if let Some(Recovery { size, rate, .. }) = surface {
+                *size *= crate::system::decay(*rate * s).0;
+            }
+            // a surface that has come back to rounding, or to its holder, is the stop itself
+            if surface.is_some_and(|surface| surface.size <= surface.offset || surface.size < 1e-300) {
+                *surface = None;
+            }
+        }
+        if let Some(frequency) = self.machine.parts().frequency {
+            self.place.phase = phase::advance(self.place.phase, frequency, s);
+        }
+        self.time.add(s);
+        if s > 0.0 {
+            self.crowd = 0;
+        }
+        self.place.known.clear();
+    }
+
+    /// Follows the motion to its next event.
+    fn advance(&mut self) {
+        let structure: Arc<Structure> = match self.structures.get(self.machine, &self.normal, &self.place.states) {
+            Ok(structure) => structure,
+            Err(NoStructure::Defective) => return self.end = Some(MachineEnd::Defective),
+            Err(NoStructure::Redundant) => return self.end = Some(MachineEnd::Inconsistent),
+        };
+        let flight = self.place.flight(&self.normal, structure.clone());
+        // the first surface that reaches its holder changes its guard without an event
+        let recovered = self
+            .place
+            .surfaces
+            .iter()
+            .flatten()
+            .filter(|surface| surface.offset > 0.0)
+            .map(|surface| crate::math::ln(surface.size / surface.offset) / surface.rate);
+        let recovered = recovered.fold(f64::INFINITY, f64::min);
+        let until = recovered.min(self.limits.time);
+        let mut touches = core::mem::take(&mut self.touches);
+        touches.clear();
+        let found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut touches);
+        for touch in &touches {
+            if let GuardKind::Gap(j) = structure.guards[touch.guard].kind {
+                let (place, time, phase, known) =
+                    (self.place.clone(), self.time, self.place.phase, self.place.known.clone());
+                self.move_to(&flight, touch.s);
+                self.announce(MachineEventKind::Graze, j, 0.0, Vec::new());
+                self.place = place;
+                (self.time, self.place.phase, self.place.known) = (time, phase, known);
+            }
+        }
+        self.touches = touches;
+        match found {
+            Found::NoneBefore(s) if s >= until && recovered <= self.limits.time => {
+                self.move_to(&flight, recovered);
+            }
+            Found::NoneBefore(s) => {
+                self.move_to(&flight, s);
+                self.end = Some(if s >= until { MachineEnd::NoEventWithin } else { MachineEnd::SearchLimit });
+            }
+            Found::Zero { s, guards } => {
+                self.move_to(&flight, s);
+                self.crowd += 1;
+                if self.crowd > CROWD {
+                    return self.end = Some(MachineEnd::Collapse);
+                }
+                let kinds: Vec<GuardKind> = guards.iter().map(|g| structure.guards[*g].kind).collect();
+                let outcome = self.happen(&kinds);
+                self.settle(outcome);
+            }
+        }
+    }
+
+    /// What follows when these guards are zero.
+    fn happen(&mut self, kinds: &[GuardKind]) -> Result<bool, NoStructure> {
+        let stops = self.machine.stops().len();
+        let before = self.place.states.clone();
+        let (mut closing, mut candidates, mut fixed) = (Vec::new(), Vec::new(), Vec::new());
+        for kind in kinds {
+            match *kind {
+                GuardKind::Gap(j) => closing.push(j),
+                GuardKind::Depth(j) | GuardKind::Force(j) => {
+                    if self.place.states[j] != ContactState::Closed {
+                        continue;
+                    }
+                    self.place.states[j] = ContactState::Open;
+                    self.place.known.push((GuardKind::Gap(j), 1));
+                    let depth = -self.place.gap(&self.normal, j).0;
+                    if let (GuardKind::Force(_), StopLaw::Compliant { stiffness, damping, preload, .. }) =
+                        (*kind, &self.machine.stops()[j].law)
+                        && depth > 0.0
+                    {
+                        self.place.surfaces[j] = Some(recovery(*stiffness, *damping, *preload, depth));
+                        // the surface leaves the body with the velocity of the body
+                        self.place.known.retain(|(of, _)| *of != GuardKind::Gap(j));
+                        self.place.known.push((GuardKind::Gap(j), 2));
+                    }
+                    fixed.push(j);
+                }
+                GuardKind::Reaction(j) => {
+                    self.place.states[j] = ContactState::Open;
+                    self.place.known.push((GuardKind::Gap(j), 3));
+                    fixed.push(j);
+                }
+                GuardKind::Preload(j) => {
+                    self.place.states[j] = ContactState::Closed;
+                    self.place.known.push((GuardKind::Depth(j), 3));
+                    fixed.push(j);
+                }
+                GuardKind::Sliding(joint) => candidates.push(Candidate { place: stops + joint }),
+                GuardKind::LimitForward(joint) | GuardKind::LimitBackward(joint) => {
+                    let forward = matches!(kind, GuardKind::LimitForward(_));
+                    self.place.states[stops + joint] =
+                        if forward { ContactState::Forward } else { ContactState::Backward };
+                    let equal = self.machine.joints()[joint].limit == self.machine.joints()[joint].sliding;
+                    self.place.known.push((GuardKind::Sliding(joint), if equal { 2 } else { 1 }));
+                    fixed.push(stops + joint);
+                }
+            }
+        }
+        self.change(&before, &closing, candidates, &fixed)
+    }
+}
+
+fn recovery(stiffness: f64, damping: f64, preload: f64, depth: f64) -> Recovery {
+    let offset = preload / stiffness;
+    Recovery { size: depth + offset, rate: stiffness / damping, offset }
+}
+
+impl Iterator for MachineMotion<'_> {
+    type Item = MachineEvent;
+
+    fn next(&mut self) -> Option<MachineEvent> {
+        loop {
+            if let Some(event) = self.pending.pop_front() {
+                return Some(event);
+            }
+            if self.end.is_some() {
+                return None;
+            }
+            self.advance();
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! Regimes: what a machine is while no stop or joint changes its state.
+//!
+//! | idea | file |
+//! |---|---|
+//! | a machine in mass-normalised coordinates | `normal` |
+//! | what a stop or joint does | [`ContactState`] |
+//! | prescribed functions of time, linear functions of the state | `signal` |
+//! | one mode in closed form | `mode` |
+//! | the modes of a structure with any damping | `basis` |
+//! | the structure in one regime, its guards | `structure` |
+
+mod basis;
+mod contact_state;
+mod mode;
+mod normal;
+mod signal;
+mod structure;
+
+pub use contact_state::ContactState;
+pub(crate) use mode::{FreeMode, Mode, Turned};
+pub(crate) use normal::{Normal, compliant};
+pub(crate) use signal::{Observable, Signal};
+pub(crate) use structure::{Guard, GuardKind, NoStructure, Structure};

@@ -1,0 +1,111 @@
+//! A machine in mass-normalised coordinates $`x = L^Tq`$, $`M = LL^T`$, in which kinetic energy is $`|\dot x|^2/2`$.
+
+use super::signal::Signal;
+use crate::machine::{HarmonicMotion, Machine, StopLaw};
+use crate::math::Matrix;
+
+/// A machine in mass-normalised coordinates.
+#[derive(Clone, Debug)]
+pub(crate) struct Normal {
+    /// Number of coordinates.
+    pub(crate) n: usize,
+    /// $`L^{-1}KL^{-T}`$.
+    pub(crate) stiffness: Matrix,
+    /// $`L^{-1}CL^{-T}`$.
+    pub(crate) damping: Matrix,
+    /// The force on each coordinate.
+    pub(crate) force: Vec<Signal>,
+    /// The directions $`L^{-1}w`$ of stops and, after them, of joints.
+    pub(crate) directions: Vec<Vec<f64>>,
+    /// The position of each stop, $`d - r(t)`$: it is open while $`w\cdot x`$ is below.
+    pub(crate) walls: Vec<Signal>,
+    /// Angular frequencies of the harmonics.
+    pub(crate) rates: Vec<f64>,
+    /// Orders of the harmonics.
+    pub(crate) orders: Vec<f64>,
+    factor: Matrix,
+}
+
+impl Normal {
+    pub(crate) fn new(machine: &Machine) -> Self {
+        let parts = machine.parts();
+        let (n, factor) = (machine.n(), machine.factor().clone());
+        let joints = parts.joints.len();
+        let mut orders: Vec<u32> = parts.forces.iter().map(|force| force.order).collect();
+        orders.extend(parts.stops.iter().flat_map(|stop| stop.motion.iter().map(|motion| motion.order)));
+        orders.sort_unstable();
+        orders.dedup();
+        let place = |order: u32| orders.iter().position(|known| *known == order).unwrap_or(0);
+        let zero = || Signal::zero(joints, orders.len());
+
+        // L^{-1} A L^{-T}: the columns of A, then the rows of the result
+        let congruent = |a: &Matrix| {
+            let solved = |m: &Matrix| {
+                let columns: Vec<Vec<f64>> = (0..n).map(|j| factor.solve_lower(&m.column(j))).collect();
+                Matrix::from_rows(&columns).unwrap_or_default()
+            };
+            let both = solved(&solved(a));
+            // exactly symmetric, so that the eigenvectors are orthogonal
+            let mut even = both.clone();
+            for i in 0..n {
+                for j in 0..n {
+                    even[(i, j)] = 0.5 * (both[(i, j)] + both[(j, i)]);
+                }
+            }
+            even
+        };
+        let mut force: Vec<Signal> = (0..n).map(|_| zero()).collect();
+        for (signal, value) in force.iter_mut().zip(factor.solve_lower(&parts.constant)) {
+            signal.constant = value;
+        }
+        for harmonic in &parts.forces {
+            let h = place(harmonic.order);
+            let (cos, sin) = (factor.solve_lower(&harmonic.cos), factor.solve_lower(&harmonic.sin));
+            for (signal, (cos, sin)) in force.iter_mut().zip(cos.into_iter().zip(sin)) {
+                signal.harmonics[h].0 += cos;
+                signal.harmonics[h].1 += sin;
+            }
+        }
+        let walls = parts.stops.iter().map(|stop| {
+            let mut wall = zero();
+            wall.constant = stop.gap;
+            for HarmonicMotion { order, cos, sin } in &stop.motion {
+                let h = place(*order);
+                wall.harmonics[h].0 -= cos;
+                wall.harmonics[h].1 -= sin;
+            }
+            wall
+        });
+        let of_stops = parts.stops.iter().map(|stop| &stop.direction);
+        let of_joints = parts.joints.iter().map(|joint| &joint.direction);
+        Self {
+            n,
+            stiffness: congruent(&parts.stiffness),
+            damping: congruent(&parts.damping),
+            force,
+            directions: of_stops.chain(of_joints).map(|direction| factor.solve_lower(direction)).collect(),
+            walls: walls.collect(),
+            rates: orders.iter().map(|order| f64::from(*order) * parts.frequency.unwrap_or(0.0)).collect(),
+            orders: orders.iter().map(|order| f64::from(*order)).collect(),
+            factor,
+        }
+    }
+
+    /// Coordinates, or velocities, from the mass-normalised ones.
+    pub(crate) fn to_machine(&self, x: &[f64]) -> Vec<f64> {
+        self.factor.solve_lower_transposed(x)
+    }
+
+    /// The mass-normalised ones from coordinates or velocities.
+    pub(crate) fn from_machine(&self, q: &[f64]) -> Vec<f64> {
+        self.factor.apply_transposed(q)
+    }
+}
+
+/// Stiffness, damping and preload of a compliant stop.
+pub(crate) const fn compliant(law: &StopLaw) -> Option<(f64, f64, f64)> {
+    match *law {
+        StopLaw::Compliant { stiffness, damping, preload, .. } => Some((stiffness, damping, preload)),
+        StopLaw::Rigid { .. } => None,
+    }
+}
