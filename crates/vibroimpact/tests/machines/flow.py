@@ -157,6 +157,7 @@ def first_root(coefficients, zeros):
 
 def refine(poly, a, b):
     """The single root of `poly` in (a, b), where it falls: Newton's method kept inside the bracket by bisection."""
+    a, b = arb(a).mid(), arb(b).mid()
     slope = poly.derivative()
     tiny = arb(2) ** (12 - ctx.prec)
     x = ((a + b) / 2).mid()

@@ -1,5 +1,6 @@
 """Random machines with starts, from a fixed seed. `KINDS` names the functions; each returns (machine, start)."""
 
+import math
 import random
 
 NAMES = ["a", "b", "c", "d"]
@@ -97,8 +98,6 @@ def start(r, n, size=1.0):
 
 def motion_at(machine, stop, begin):
     """Motion of a stop at the start (roughly: for gaps only)."""
-    import math
-
     return sum(
         m["cos"] * math.cos(m["order"] * begin["phase"]) + m["sin"] * math.sin(m["order"] * begin["phase"])
         for m in stop.get("motion", [])
@@ -119,7 +118,10 @@ def restitution(r):
 
 def moving(r, machine):
     machine.setdefault("frequency", decimal(r, 0.4, 2.5))
-    return [{"order": h, "cos": decimal(r, -0.3, 0.3, 2), "sin": decimal(r, -0.3, 0.3, 2)} for h in r.choice([[1], [1], [2], [1, 2]])]
+    return [
+        {"order": h, "cos": decimal(r, -0.3, 0.3, 2), "sin": decimal(r, -0.3, 0.3, 2)}
+        for h in r.choice([[1], [1], [2], [1, 2]])
+    ]
 
 
 def compliant(r, opening=None, damped=None, preload=None, k=None):
@@ -128,9 +130,8 @@ def compliant(r, opening=None, damped=None, preload=None, k=None):
         s["damping"] = float(f"{2 * r.uniform(0.02, 0.6) * s['stiffness'] ** 0.5:.2g}")
     if r.random() < 0.3 if preload is None else preload:
         s["preload"] = decimal(r, 0.05, 1.5, 2)
-    if s.get("damping") or s.get("preload"):
-        if opening or r.random() < 0.5:
-            s["opening"] = opening or "position"
+    if (s.get("damping") or s.get("preload")) and (opening or r.random() < 0.5):
+        s["opening"] = opening or "position"
     return s
 
 

@@ -14,6 +14,7 @@ from flow import Flow, Undecided, dot, first_root, guard_coefficients, leading, 
 
 CHATTER = arb("1e-30")  # relative to the largest speed so far: impacts slower than this end a chatter
 STEPS = 1500  # of one simulation at most
+NOTHING = arb(0)
 FLOOR = arb("1e-20")  # of the scale of coordinates and velocities
 DIGIT = arb("1e-60")  # roots closer than this, in steps, are one time
 
@@ -279,7 +280,7 @@ class Simulation:
             self.regimes[modes] = Regime(self.machine, modes)
         return self.regimes[modes]
 
-    def emit(self, kind, element, speed=arb(0)):
+    def emit(self, kind, element, speed=NOTHING):
         n, z = self.machine.n, self.z.entries()
         name = self.machine.elements[element].name
         self.events.append({"kind": kind, "stop": name, "time": self.time, "speed": speed, "q": z[:n], "v": z[n : 2 * n]})

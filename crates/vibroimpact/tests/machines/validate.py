@@ -2,11 +2,10 @@
 
 import sys
 
-from flint import arb
+from flint import arb, arb_poly
 
 from flow import guard_coefficients, refine
 from oracle import Simulation, exactly
-from flint import arb_poly
 
 FAILED = []
 
@@ -101,7 +100,6 @@ def damped_stop():
         }
         s, _ = simulate(machine, [0.0], [1.0], 2, 100)
         compare(f"damped stop, speed after it opens by {opening}", -s.events[1]["v"][0], expected, 1e-12)
-    z = arb("0.2")
     machine["stop"][0]["opening"] = "position"
     simulated, _ = simulate(machine, [0.0], [1.0], 2, 100)
     closed_form = (-arb(0.4) / 2 * arb.pi() / (1 - arb(0.4) ** 2 / 4).sqrt()).exp()
