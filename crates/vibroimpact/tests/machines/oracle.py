@@ -248,9 +248,10 @@ def impact_velocities(machine, closed, rates, restitution):
     if not solutions:
         raise Undecided("no solution of an impact")
     change = [-1 * machine.inverse_mass * w.transpose() * arb_mat(len(closed), 1, load) for load in solutions]
+    size = sum((abs(x) for x in change[0].entries()), arb(0))
     for other in change[1:]:
         for x, y in zip(change[0].entries(), other.entries()):
-            if abs(x - y) > 1e-50 * (abs(x) + abs(y)):
+            if abs(x - y) > 1e-50 * size:
                 raise Undecided("several solutions of an impact")
     return change[0]
 

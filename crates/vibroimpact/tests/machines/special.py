@@ -167,5 +167,51 @@ def grazing(r):
             return machine, begin
 
 
-for kind in (resonant, defective, stiff, grazing):
+def free(r):
+    """Bodies that nothing ties to the ground but a stop or a joint; constant forces push them."""
+    n = r.choice([1, 1, 2, 2, 3, 4])
+    machine = pushes(r, structure(r, n=n, free=True), forced=r.random() < 0.4, constant=False)
+    side = r.choice([1.0, -1.0])
+    machine["constant"] = [side * decimal(r, 0.1, 1, 2) for _ in range(n)]
+    begin, at = start(r, n, 0.5), r.randrange(n)
+    w = [side if i == at else 0.0 for i in range(n)]
+    choice = r.random()
+    if choice < 0.5:
+        place(r, machine, begin, {"direction": w, "restitution": restitution(r)})
+    else:
+        place(r, machine, begin, {"direction": w, **compliant(r)})
+    if choice > 0.75 or n > 1 and r.random() < 0.3:
+        joint(r, machine)
+    if n > 1 and r.random() < 0.3:
+        place(r, machine, begin, {"direction": direction(r, n), "restitution": restitution(r)})
+    return machine, begin
+
+
+def stack(r):
+    """Bodies one above the other on the ground: those below rest while those above strike, chatter and rest."""
+    n = r.choice([2, 2, 3])
+    machine = {"coordinates": NAMES[:n], "mass": [dyadic(r, 0.25, 3) for _ in range(n)]}
+    pushes(r, machine, forced=r.random() < 0.5, constant=False)
+    for f in machine.get("force", []):
+        f["cos"], f["sin"] = [round(x / 2, 3) for x in f["cos"]], [round(x / 2, 3) for x in f["sin"]]
+    if r.random() < 0.3:
+        machine["damping"] = [dyadic(r, 0, 0.25, 64) for _ in range(n)]
+    machine["constant"] = [-m for m in machine["mass"]]
+    low = r.choice([0, 1, 1])  # bodies that rest at the start
+    begin = {"q": [0.0] * n, "qdot": [0.0] * n, "phase": decimal(r, 0, 6.28)}
+    for i in range(low, n):
+        begin["q"][i] = dyadic(r, 0.0625, 0.5) + (begin["q"][i - 1] if i else 0.0)
+        begin["qdot"][i] = decimal(r, -0.5, 0.5)
+    machine["stop"] = []
+    for i in range(n):
+        w = [0.0] * n
+        w[i] = -1.0
+        if i:
+            w[i - 1] = 1.0
+        s = {"name": f"s{i}", "direction": w, "gap": 0.0, "restitution": decimal(r, 0.0, 0.75, 2)}
+        machine["stop"].append(s)
+    return machine, begin
+
+
+for kind in (resonant, defective, stiff, grazing, free, stack):
     KINDS[kind.__name__] = kind

@@ -21,7 +21,6 @@ RAW, AFTER = 400, 8
 HORIZON = 100
 SMALL = arb("1e-25")  # relative change that gives the condition
 LARGE = 1e-14  # relative change under which a robust event stays
-ROUNDING = arb("1e-16")  # the condition is for this change
 
 
 def chattering(events):
@@ -118,13 +117,13 @@ def change(a, b):
 
 
 def conditions(base, others):
-    """For each event that all versions share: its largest changes for a relative change ROUNDING of all numbers."""
+    """For each event that all versions share: its largest changes, per relative change of all numbers."""
     out = []
     for i, event in enumerate(base):
         if not all(i < len(o) and agree(event, o[i]) for o in others):
             break
         changes = [change(event, o[i]) for o in others]
-        out.append([max(c[k] for c in changes) / SMALL * ROUNDING for k in range(3)])
+        out.append([max(c[k] for c in changes) / SMALL for k in range(3)])
     return out
 
 
@@ -134,7 +133,7 @@ def robust(base, condition, others):
         for other in others:
             if i >= len(other) or not agree(event, other[i]):
                 return i
-            if abs(event["time"] - other[i]["time"]) > 20 * c[0] * LARGE / ROUNDING + 1e-12:
+            if abs(event["time"] - other[i]["time"]) > 20 * c[0] * LARGE + 1e-12:
                 return i
     return len(condition)
 
@@ -146,7 +145,7 @@ def clean(xs):
 
 def short(x):
     """Two digits; zero for the rounding of high precision."""
-    return 0.0 if abs(x) < 1e-40 else float(f"{float(x):.1e}")
+    return 0.0 if abs(x) < 1e-24 else float(f"{float(x):.1e}")
 
 
 def pack(events, condition):
