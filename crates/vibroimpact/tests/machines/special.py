@@ -5,8 +5,9 @@ Modes appear here only to choose numbers; the simulator does not know them. All 
 from flint import arb, arb_poly
 
 from flow import guard_coefficients, refine
-from machines import (
-    KINDS,
+from kinds import KINDS
+from model import exactly
+from parts import (
     NAMES,
     basis,
     compliant,
@@ -21,7 +22,7 @@ from machines import (
     start,
     structure,
 )
-from oracle import Simulation, exactly
+from simulation import Simulation
 
 
 def from_modes(n, values):

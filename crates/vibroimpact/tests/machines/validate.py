@@ -5,7 +5,8 @@ import sys
 from flint import arb, arb_poly
 
 from flow import guard_coefficients, refine
-from oracle import Simulation, exactly
+from model import exactly
+from simulation import Simulation
 
 FAILED = []
 

@@ -14,8 +14,9 @@ from itertools import pairwise
 from flint import arb, arb_mat
 
 import special  # noqa: F401  (adds kinds)
-from machines import KINDS, draw
-from oracle import Simulation, exactly
+from kinds import KINDS, draw
+from model import exactly
+from simulation import Simulation
 
 RAW, AFTER = 400, 8
 HORIZON = 100
@@ -234,7 +235,7 @@ def main():
             tasks = [(kind, args.seed, i) for i in range(args.first, args.first + args.count)]
             ends, kinds, kept, chatters = Counter(), Counter(), 0, 0
             with open(os.path.join(args.out, f"{kind}.json"), "w") as file:
-                for name, out, end in pool.imap(case, tasks):
+                for _, out, end in pool.imap(case, tasks):
                     ends[end if not end.startswith("a value") else "a value near zero"] += 1
                     if out is None:
                         continue
