@@ -11,7 +11,7 @@ import sys
 
 import numpy as np
 
-STEP, UNTIL, ALLOWED = 2e-4, 8, 5e-3
+STEP, UNTIL, ALLOWED = 2e-4, 8, 1e-2
 
 
 class Stepper:
