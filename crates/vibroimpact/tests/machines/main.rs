@@ -1,0 +1,98 @@
+//! The events of machines against an independent simulation in high precision (see README.md here).
+
+mod case;
+
+use case::{Case, cases};
+use std::fmt::Write as _;
+use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion};
+
+/// Roundings of the time and of its condition that are allowed.
+const ROUNDINGS: f64 = 50.0;
+
+/// What differs first, with its event.
+fn difference(case: &Case) -> Option<String> {
+    let limits = MachineLimits { time: 1e3, ..MachineLimits::default() };
+    let motion = match MachineMotion::new(&case.machine, &case.start, limits) {
+        Ok(motion) => motion,
+        Err(error) => return Some(format!("refused: {error}")),
+    };
+    let mut motion = motion.filter(|event| event.kind != MachineEventKind::Graze);
+    for (k, want) in case.events.iter().take(case.robust).enumerate() {
+        let Some(event) = motion.next() else { return Some(format!("event {k}: none, {want:?} wanted")) };
+        // what follows the sum of a chatter is compared in `after_chatter`
+        if event.kind == MachineEventKind::Stick && want.kind == "impact" {
+            return None;
+        }
+        let name = case.machine.name_of(event.place);
+        if (event.kind.name(), name) != (want.kind.as_str(), want.stop.as_str()) {
+            return Some(format!("event {k}: {} {name} at {:e}, {want:?} wanted", event.kind.name(), event.time));
+        }
+        let allowed = ROUNDINGS * f64::EPSILON * (want.condition + want.time);
+        if (event.time - want.time).abs() > allowed {
+            let error = (event.time - want.time) / (f64::EPSILON * (want.condition + want.time));
+            return Some(format!(
+                "event {k}: {} {name} at {:e}, {want:?} wanted: {error:e} roundings",
+                event.kind.name(),
+                event.time
+            ));
+        }
+        if let Some(wrong) =
+            case.states.iter().find(|state| state.event == k).and_then(|state| state.differs(&event, ROUNDINGS))
+        {
+            return Some(format!("event {k}: {wrong}"));
+        }
+    }
+    None
+}
+
+/// The events after a chatter, by the time of its end.
+fn after_chatter(case: &Case) -> Option<String> {
+    let after = case.after_chatter.as_ref()?;
+    let limits = MachineLimits { time: 1e3, ..MachineLimits::default() };
+    let motion = MachineMotion::new(&case.machine, &case.start, limits).ok()?;
+    let first = after.events.first()?;
+    let near = |event: &MachineEvent| {
+        event.kind == MachineEventKind::Stick && (event.time - first.time).abs() < 1e-3 * (1.0 + first.time)
+    };
+    let mut motion =
+        motion.filter(|event| event.kind != MachineEventKind::Graze).take(3000).skip_while(|event| !near(event));
+    for (k, want) in after.events.iter().take(after.robust).enumerate() {
+        let Some(event) = motion.next() else {
+            return Some(format!("after chatter, event {k}: none, {want:?} wanted"));
+        };
+        let name = case.machine.name_of(event.place);
+        // the sum has an error of 1e-11 of what is summed
+        let allowed = 1e-10 * (1.0 + want.condition) + ROUNDINGS * f64::EPSILON * (want.condition + want.time);
+        if (event.kind.name(), name) != (want.kind.as_str(), want.stop.as_str())
+            || (event.time - want.time).abs() > allowed
+        {
+            return Some(format!(
+                "after chatter, event {k}: {} {name} at {:e}, {want:?} wanted",
+                event.kind.name(),
+                event.time
+            ));
+        }
+    }
+    None
+}
+
+#[test]
+fn events_in_high_precision() {
+    let mut faults = String::new();
+    let (mut events, mut all) = (0, 0);
+    for (kind, cases) in cases() {
+        let mut wrong = 0;
+        for case in &cases {
+            all += 1;
+            events += case.robust;
+            if let Some(difference) = difference(case).or_else(|| after_chatter(case)) {
+                wrong += 1;
+                writeln!(faults, "{}: {difference}", case.name).unwrap();
+            }
+        }
+        if wrong > 0 {
+            writeln!(faults, "== {kind}: {wrong} of {} differ", cases.len()).unwrap();
+        }
+    }
+    assert!(faults.is_empty(), "{all} machines, {events} events\n{faults}");
+}
