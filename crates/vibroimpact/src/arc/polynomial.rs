@@ -6,6 +6,12 @@
 /// Number of coefficients of a polynomial of the ninth degree.
 pub(super) const TERMS: usize = 10;
 
+/// The interval is halved this many times at most.
+const DEPTH: u32 = 48;
+/// The length of the last interval.
+#[allow(clippy::cast_precision_loss)] // a power of two
+pub(super) const RESOLUTION: f64 = 1.0 / (1_u64 << DEPTH) as f64;
+
 /// $`\binom{j}{k} / \binom{9}{k}`$, row j.
 const TO_BERNSTEIN: [[f64; TERMS]; TERMS] = {
     let mut table = [[0.0; TERMS]; TERMS];
@@ -49,7 +55,7 @@ pub(super) fn first_zero(p: &[f64; TERMS]) -> Option<f64> {
     if p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0 {
         return None;
     }
-    search(&bernstein(p), 0.0, 1.0, 48)
+    search(&bernstein(p), 0.0, 1.0, DEPTH)
 }
 
 /// The same between two points, from the Bernstein coefficients there.

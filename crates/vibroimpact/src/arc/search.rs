@@ -35,6 +35,8 @@ pub(crate) struct Touch {
 /// The window in radians of the fastest rate: the bound of the remainder is about 1e-4 of the motion.
 const REACH: f64 = 1.6;
 const ORDER: usize = TERMS - 1;
+/// How exactly a first zero of a polynomial on [0, 1] is found.
+const RESOLUTION: f64 = super::polynomial::RESOLUTION;
 
 /// Buffers of a search, kept from flight to flight.
 #[derive(Clone, Debug, Default)]
@@ -118,7 +120,8 @@ pub(crate) fn first_event(
             let (touch, after) = lowest(&p, near);
             let depth = value(&without_remainder(&p), touch).0;
             if depth < -error - remainder {
-                let at = refine(flight, g, s + near * window, s + touch * window, &mut buffers.modes);
+                let at =
+                    refine(flight, g, s + near * window, s + touch * window, RESOLUTION * window, &mut buffers.modes);
                 return Found::Zero { s: at, guards: vec![g] };
             }
             if touches.last().is_none_or(|last| last.guard != g || s + touch * window - last.s > 1e-6 * (1.0 + s)) {
@@ -199,7 +202,7 @@ fn certain(
                 &mut buffers.modes,
             )
         } else {
-            refine(flight, g, s + from * window, s + to * window, &mut buffers.modes)
+            refine(flight, g, s + from * window, s + to * window, RESOLUTION * window, &mut buffers.modes)
         };
         best = best.min(at);
         zeros.push((g, at));
@@ -255,12 +258,12 @@ fn lowest(p: &[f64; TERMS], from: f64) -> (f64, f64) {
 }
 
 /// The zero of a guard in a bracket in time, by Newton's method on the closed form.
-fn refine(flight: &MachineFlight, g: usize, from: f64, to: f64, modes: &mut Modes) -> f64 {
+fn refine(flight: &MachineFlight, g: usize, from: f64, to: f64, resolution: f64, modes: &mut Modes) -> f64 {
     let (mut low, mut high) = (from, to.max(from));
     let mut s = 0.5 * (low + high);
-    let width = (high - low).max(4.0 * f64::EPSILON * high);
-    // the bracket has the zero within rounding of its ends
-    (low, high) = ((low - 1e-3 * width).max(0.0), high + 1e-3 * width);
+    // the ends are known to the resolution of the search on the polynomial
+    let beside = 4.0 * resolution + 8.0 * f64::EPSILON * high;
+    (low, high) = ((low - beside).max(0.0), high + beside);
     for _ in 0..100 {
         flight.at(s, modes);
         let (value, rate, _) = flight.guard(g, modes);
@@ -292,8 +295,8 @@ fn on_polynomial(
     (from, to): (f64, f64),
     modes: &mut Modes,
 ) -> f64 {
-    let (mut low, mut high) = (from, to);
-    let mut t = 0.5 * (from + to);
+    let (mut low, mut high) = ((from - 4.0 * RESOLUTION).max(0.0), to + 4.0 * RESOLUTION);
+    let mut t = 0.5 * (low + high);
     for _ in 0..100 {
         let (height, slope) = value(q, t);
         if height > 0.0 {
@@ -312,7 +315,7 @@ fn on_polynomial(
         }
     }
     // the remainder is of the ninth order
-    if t < 0.01 { t * window } else { refine(flight, g, from * window, to * window, modes) }
+    if t < 0.01 { t * window } else { refine(flight, g, from * window, to * window, RESOLUTION * window, modes) }
 }
 
 /// Expands all modes at the current time, with bounds of their ninth and tenth derivatives over the window.

@@ -441,7 +441,15 @@ impl<'a> MachineMotion<'a> {
         let (mut closing, mut candidates, mut fixed) = (Vec::new(), Vec::new(), Vec::new());
         for kind in kinds {
             match *kind {
-                GuardKind::Gap(j) => closing.push(j),
+                GuardKind::Gap(j) => {
+                    // on the stop exactly, without the rounding error of the time
+                    if self.place.surfaces[j].is_none() {
+                        let (gap, ..) = self.place.gap(&self.normal, j);
+                        let w = &self.normal.directions[j];
+                        add_scaled(&mut self.place.x, gap / dot(w, w), w);
+                    }
+                    closing.push(j);
+                }
                 GuardKind::Depth(j) | GuardKind::Force(j) => {
                     if self.place.states[j] != ContactState::Closed {
                         continue;
@@ -470,7 +478,12 @@ impl<'a> MachineMotion<'a> {
                     self.place.known.push((GuardKind::Depth(j), 3));
                     fixed.push(j);
                 }
-                GuardKind::Sliding(joint) => candidates.push(Candidate { place: stops + joint }),
+                GuardKind::Sliding(joint) => {
+                    let (speed, _) = self.place.sliding(self.machine, &self.normal, joint);
+                    let w = &self.normal.directions[stops + joint];
+                    add_scaled(&mut self.place.v, -speed / dot(w, w), w);
+                    candidates.push(Candidate { place: stops + joint });
+                }
                 GuardKind::LimitForward(joint) | GuardKind::LimitBackward(joint) => {
                     let forward = matches!(kind, GuardKind::LimitForward(_));
                     self.place.states[stops + joint] =

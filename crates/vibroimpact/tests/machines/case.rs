@@ -42,7 +42,7 @@ impl State {
         for (name, got, want, condition) in
             [("q", &event.q, &self.q, self.condition[0]), ("qdot", &event.qdot, &self.qdot, self.condition[1])]
         {
-            let size = want.iter().fold(condition, |most, value| most.max(value.abs()));
+            let size = want.iter().fold(condition.max(0.1), |most, value| most.max(value.abs()));
             let error = got.iter().zip(want).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             // not "<=", so that NaN differs
             if !(error <= roundings * f64::EPSILON * size) {
