@@ -1,6 +1,6 @@
 //! The flight of a machine in one regime: its modes from a state, at any time.
 
-use crate::math::sin_cos;
+use crate::math::{dot, sin_cos};
 use crate::regime::{GuardKind, Mode, Signal, Structure, Turned};
 use std::sync::Arc;
 
@@ -60,6 +60,7 @@ pub(crate) struct Modes {
     pub(super) error: Vec<f64>,
     pub(super) turned: Vec<Turned>,
     pub(super) s: f64,
+    pub(super) steps: super::dense::Steps,
 }
 
 const HALF_ULP: f64 = 0.5 * f64::EPSILON;
@@ -128,6 +129,9 @@ impl MachineFlight {
         modes.turned.extend(self.structure.rates.iter().map(|rate| Turned::of(rate * s)));
         for all in [&mut modes.moved, &mut modes.y, &mut modes.v, &mut modes.error] {
             all.clear();
+        }
+        if self.structure.dense.is_some() {
+            return super::dense::at(self, s, modes);
         }
         let fastest = self.structure.rates.last().copied().unwrap_or(0.0);
         for (i, mode) in self.structure.modes.iter().enumerate() {
@@ -199,13 +203,9 @@ impl MachineFlight {
         (y * s, v, HALF_ULP * 4.0 * size * s)
     }
 
-    /// The Taylor coefficients $`y^{(k)}/k!`$ of a mode at a state a time `s` after the beginning; `harmonics` are turned to
-    /// this time.
-    pub(super) fn coefficients(&self, i: usize, y: f64, v: f64, s: f64, harmonics: &[(f64, f64)], c: &mut [f64]) {
-        let mode = &self.structure.modes[i];
+    /// The Taylor coefficients of what drives a mode, in the places of `c` that they determine.
+    pub(super) fn driven(&self, i: usize, s: f64, harmonics: &[(f64, f64)], c: &mut [f64]) {
         let terms = c.len();
-        (c[0], c[1]) = (y, v);
-        // first the coefficients of what drives the mode, in the places that they determine
         c[2..].fill(0.0);
         c[2] += self.steady[i] + self.ramp[i] * s;
         if terms > 3 {
@@ -223,10 +223,30 @@ impl MachineFlight {
                 k += 1.0;
             }
         }
+    }
+
+    /// The Taylor coefficients $`y^{(k)}/k!`$ of a mode at a state a time `s` after the beginning; `harmonics` are turned to
+    /// this time.
+    pub(super) fn coefficients(&self, i: usize, y: f64, v: f64, s: f64, harmonics: &[(f64, f64)], c: &mut [f64]) {
+        let mode = &self.structure.modes[i];
+        let terms = c.len();
+        (c[0], c[1]) = (y, v);
+        self.driven(i, s, harmonics, c);
         let mut k = 0.0;
         for j in 2..terms {
             c[j] = (c[j] - 2.0 * mode.d * (k + 1.0) * c[j - 1] - mode.k * c[j - 2]) / ((k + 1.0) * (k + 2.0));
             k += 1.0;
+        }
+    }
+
+    /// The acceleration of a mode that is pushed with `push`.
+    fn acceleration(&self, i: usize, push: f64, y: &[f64], v: &[f64]) -> f64 {
+        match &self.structure.dense {
+            Some((stiffness, damping)) => push - dot(damping.row(i), v) - dot(stiffness.row(i), y),
+            None => {
+                let mode = &self.structure.modes[i];
+                push - 2.0 * mode.d * v[i] - mode.k * y[i]
+            }
         }
     }
 
@@ -252,7 +272,7 @@ impl MachineFlight {
                 for ((a, b), turned) in self.mode_harmonics(i).iter().zip(&modes.turned) {
                     push += a * turned.cos + b * turned.sin;
                 }
-                rate += b * (push - 2.0 * mode.d * modes.v[i] - mode.k * modes.y[i]);
+                rate += b * self.acceleration(i, push, &modes.y, &modes.v);
                 error +=
                     b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i] * mode.rate.max(1e-300) / HALF_ULP);
             }
@@ -279,9 +299,9 @@ impl MachineFlight {
             value += a * cos + b * sin;
             rate += w * (b * cos - a * sin);
         }
-        for (i, mode) in self.structure.modes.iter().enumerate() {
+        for i in 0..self.structure.modes.len() {
             let push = self.mode_harmonics(i).iter().fold(self.steady[i], |sum, (a, _)| sum + a);
-            let a = push - 2.0 * mode.d * self.v[i] - mode.k * self.y[i];
+            let a = self.acceleration(i, push, &self.y, &self.v);
             value += of.position[i] * self.y[i] + of.velocity[i] * self.v[i];
             rate += of.position[i] * self.v[i] + of.velocity[i] * a;
         }

@@ -14,6 +14,7 @@
 
 use super::flight::{MachineFlight, Modes};
 use super::polynomial::{TERMS, falls, first_zero, value};
+use crate::math::dot;
 
 /// What ends a flight.
 #[derive(Clone, Debug, PartialEq)]
@@ -328,6 +329,11 @@ fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
     terms.resize(count * (TERMS + 1), 0.0);
     ninth.clear();
     tenth.clear();
+    // without modes: the energy of all directions together bounds each
+    let energy = structure.dense.as_ref().map(|(stiffness, _)| {
+        super::dense::coefficients(flight, &modes.y, &modes.v, s, TERMS + 1, terms);
+        (dot(&modes.v, &modes.v) + dot(&modes.y, &stiffness.apply(&modes.y))).max(0.0).sqrt()
+    });
     for (i, mode) in structure.modes.iter().enumerate() {
         turned.clear();
         let harmonics = flight.mode_harmonics(i).iter().zip(&modes.turned);
@@ -335,23 +341,35 @@ fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
             harmonics.map(|((a, b), turned)| (a * turned.cos + b * turned.sin, b * turned.cos - a * turned.sin)),
         );
         let (y, v) = (modes.y[i], modes.v[i]);
-        let c = &mut terms[i * (TERMS + 1)..(i + 1) * (TERMS + 1)];
-        flight.coefficients(i, y, v, s, turned, c);
+        if energy.is_none() {
+            let c = &mut terms[i * (TERMS + 1)..(i + 1) * (TERMS + 1)];
+            flight.coefficients(i, y, v, s, turned, c);
+        }
         // bounds: w_k of |y^(k)| window^k / k!
-        let ramp = flight.ramp[i].abs();
+        let (mut ramp, mut steady) = (flight.ramp[i].abs(), flight.steady[i].abs());
+        if energy.is_some() {
+            // the forces on all directions together
+            ramp = flight.ramp.iter().map(|ramp| ramp.abs()).sum();
+            steady = flight.steady.iter().map(|steady| steady.abs()).sum();
+            for (h, own) in turned.iter_mut().enumerate() {
+                let of = flight.harmonics.iter().skip(h).step_by(rates.len());
+                *own = (of.map(|(a, b)| a.abs() + b.abs()).sum(), 0.0);
+            }
+        }
         let mut push = ramp * (s + window);
         let mut shifted = y;
-        if mode.k > 0.0 {
+        if mode.k > 0.0 && energy.is_none() {
             shifted -= flight.steady[i] / mode.k;
         } else {
-            push += flight.steady[i].abs();
+            push += steady;
         }
         let mut swing = 0.0;
         for (a, b) in turned.iter() {
             swing += a.abs() + b.abs();
         }
         push += swing;
-        let speed = (v * v + mode.k * shifted * shifted).sqrt() + push * window;
+        let energy = energy.unwrap_or_else(|| (v * v + mode.k * shifted * shifted).sqrt());
+        let speed = energy + push * window;
         let square = window * window;
         let mut two = speed * window;
         let mut three = 0.5 * square * (2.0 * mode.d * speed + mode.omega * speed + push);

@@ -78,8 +78,6 @@ pub enum MachineEnd {
     NoEventWithin,
     /// The search has used all its steps.
     SearchLimit,
-    /// Damping couples modes that are so nearly defective that the closed form would lose its digits.
-    Defective,
     /// No state of the stops and joints is consistent.
     Inconsistent,
     /// Too many events at one time.

@@ -161,7 +161,6 @@ impl<'a> MachineMotion<'a> {
         match outcome {
             Ok(true) => {}
             Ok(false) => self.end = Some(MachineEnd::Inconsistent),
-            Err(NoStructure::Defective) => self.end = Some(MachineEnd::Defective),
             Err(NoStructure::Redundant) => self.end = Some(MachineEnd::Inconsistent),
         }
     }
@@ -322,7 +321,6 @@ impl<'a> MachineMotion<'a> {
         let structure = match self.structures.get(self.machine, &self.normal, &states) {
             Ok(structure) => structure,
             Err(NoStructure::Redundant) => return Ok(()),
-            Err(defective) => return Err(defective),
         };
         let Some(held) = structure.held.iter().position(|place| *place == j) else { return Ok(()) };
         // the state at rest: the velocity of the gap taken away, the other constraints unchanged
@@ -385,7 +383,6 @@ impl<'a> MachineMotion<'a> {
     fn advance(&mut self) {
         let structure: Arc<Structure> = match self.structures.get(self.machine, &self.normal, &self.place.states) {
             Ok(structure) => structure,
-            Err(NoStructure::Defective) => return self.end = Some(MachineEnd::Defective),
             Err(NoStructure::Redundant) => return self.end = Some(MachineEnd::Inconsistent),
         };
         let flight = self.place.flight(&self.normal, structure.clone());

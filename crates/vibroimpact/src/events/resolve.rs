@@ -48,7 +48,6 @@ pub(super) fn resolve(
         let structure = match structures.get(machine, normal, &there.states) {
             Ok(structure) => structure,
             Err(NoStructure::Redundant) => continue,
-            Err(defective) => return Err(defective),
         };
         let flight = there.flight(normal, structure.clone());
         let mut worst = 0.0_f64;

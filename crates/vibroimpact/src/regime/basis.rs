@@ -26,7 +26,7 @@ pub(crate) struct Basis {
 /// Coupling below this part of the whole damping is rounding.
 const NEGLIGIBLE: f64 = 8.0 * f64::EPSILON;
 /// Eigenvectors that amplify rounding errors by more than this are not used.
-const CONDITION: f64 = 1e7;
+const CONDITION: f64 = 30.0;
 
 impl Basis {
     /// `None` if the modes that damping couples are too nearly defective.
@@ -81,6 +81,22 @@ impl Basis {
             }
         }
         Some(basis)
+    }
+
+    /// The directions themselves, with bounds of the rates of all motions in the place of the rates of modes.
+    pub(crate) fn identity(stiffness: &Matrix, damping: &Matrix) -> Self {
+        let m = stiffness.rows();
+        let largest = |matrix: &Matrix| symmetric_eigen(matrix).0.last().copied().unwrap_or(0.0).max(0.0);
+        let (k, d) = (largest(stiffness), 0.5 * largest(damping));
+        let (one, zero) = (Matrix::identity(m), Matrix::zeros(m, m));
+        Self {
+            modes: vec![(k, d); m],
+            e: [one.clone(), zero.clone()],
+            v: [zero.clone(), one.clone()],
+            a: [one.clone(), zero.clone()],
+            b: [zero, one],
+            coupled: true,
+        }
     }
 
     /// The modes of a group that damping couples.

@@ -17,7 +17,7 @@ mod signal;
 mod structure;
 
 pub use contact_state::ContactState;
-pub(crate) use mode::{FreeMode, Mode, Turned};
+pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
 pub(crate) use signal::{Observable, Signal};
-pub(crate) use structure::{Guard, GuardKind, NoStructure, Structure};
+pub(crate) use structure::{GuardKind, NoStructure, Structure};

@@ -40,6 +40,9 @@ pub(crate) struct Guard {
 pub(crate) struct Structure {
     pub(crate) states: Vec<ContactState>,
     pub(crate) modes: Vec<Mode>,
+    /// Stiffness and damping of free directions that have no modes, because damping couples nearly defective ones. Then
+    /// `modes` holds bounds, and the directions themselves stand in the place of modal displacements.
+    pub(crate) dense: Option<(Matrix, Matrix)>,
     /// What drives each mode.
     pub(crate) drive: Vec<Signal>,
     /// $`z = \dot y - `$ this.
@@ -69,8 +72,6 @@ pub(crate) struct Structure {
 pub(crate) enum NoStructure {
     /// The constraints depend on each other.
     Redundant,
-    /// Damping couples modes that are nearly defective.
-    Defective,
 }
 
 impl Structure {
@@ -80,24 +81,9 @@ impl Structure {
         let zero = || Signal::zero(joints, harmonics);
         let rates = &normal.rates;
 
-        // forces of closed stops and of joints that slide
-        let (mut stiffness, mut damping, mut force) =
-            (normal.stiffness.clone(), normal.damping.clone(), normal.force.clone());
-        for (j, stop) in machine.stops().iter().enumerate() {
-            if let (ContactState::Closed, Some((k, c, p))) = (states[j], compliant(&stop.law)) {
-                let w = &normal.directions[j];
-                stiffness.add_outer(k, w, w);
-                damping.add_outer(c, w, w);
-                // -lambda = k (wall - w.x) + c (wall' - w.x') - p
-                let mut pushed = zero();
-                pushed.add(k, &normal.walls[j]);
-                pushed.add(c, &normal.walls[j].derivative(rates));
-                pushed.constant -= p;
-                for (signal, factor) in force.iter_mut().zip(w) {
-                    signal.add(*factor, &pushed);
-                }
-            }
-        }
+        // forces of joints that slide
+        let (stiffness, damping) = (&normal.stiffness, &normal.damping);
+        let mut force = normal.force.clone();
         for (j, joint) in machine.joints().iter().enumerate() {
             let size = match states[stops + j] {
                 ContactState::Forward => joint.sliding,
@@ -108,11 +94,28 @@ impl Structure {
                 signal.constant -= size * factor;
             }
         }
+        // closed stops, the stiffest first: their directions become the first free ones, so that a large stiffness is
+        // added to few elements and hides no digits of the others
+        let mut closed: Vec<Contact<'_>> = (0..stops)
+            .filter(|j| states[*j] == ContactState::Closed)
+            .filter_map(|j| {
+                let (k, c, p) = compliant(&machine.stops()[j].law)?;
+                // -lambda = k (wall - w.x) + c (wall' - w.x') - p
+                let mut pushed = zero();
+                pushed.add(k, &normal.walls[j]);
+                pushed.add(c, &normal.walls[j].derivative(rates));
+                pushed.constant -= p;
+                Some(Contact { k, c, pushed, direction: &normal.directions[j] })
+            })
+            .collect();
+        let weight = |contact: &Contact<'_>| contact.k * dot(contact.direction, contact.direction);
+        closed.sort_by(|one, other| weight(other).total_cmp(&weight(one)));
 
         // constraints w.x = wall(t), or the set point and the way of the belt: x = x_c(t) + N eta
         let held: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
         let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
-        let free = complement(&directions, n).ok_or(NoStructure::Redundant)?;
+        let along: Vec<&[f64]> = closed.iter().map(|contact| contact.direction).collect();
+        let (free, shares) = complement(&directions, &along, n).ok_or(NoStructure::Redundant)?;
         let mut gram = Matrix::zeros(held.len(), held.len());
         for (i, one) in directions.iter().enumerate() {
             for (j, other) in directions.iter().enumerate() {
@@ -152,8 +155,17 @@ impl Structure {
 
         // the motion in the directions that are free
         let m = free.columns();
-        let turned = |a: &Matrix| free.transposed().times(&a.times(&free));
-        let basis = Basis::new(&turned(&stiffness), &turned(&damping)).ok_or(NoStructure::Defective)?;
+        let turned = |a: &Matrix| {
+            let both = free.transposed().times(&a.times(&free));
+            let mut even = both.clone();
+            for i in 0..m {
+                for j in 0..m {
+                    even[(i, j)] = 0.5 * (both[(i, j)] + both[(j, i)]);
+                }
+            }
+            even
+        };
+        let (mut own_stiffness, mut own_damping) = (turned(stiffness), turned(damping));
         let mut pull = force.clone();
         for i in 0..n {
             for j in 0..n {
@@ -167,6 +179,22 @@ impl Structure {
                 signal.add(free[(i, k)], pulled);
             }
         }
+        for (contact, share) in closed.iter().zip(&shares) {
+            own_stiffness.add_outer(contact.k, share, share);
+            own_damping.add_outer(contact.c, share, share);
+            // without what the constraints carry along already
+            let mut pushed = contact.pushed.clone();
+            for (i, factor) in contact.direction.iter().enumerate() {
+                pushed.add(-contact.k * factor, &carried[i]);
+                pushed.add(-contact.c * factor, &carried_rate[i]);
+            }
+            for (signal, factor) in on_free.iter_mut().zip(share) {
+                signal.add(*factor, &pushed);
+            }
+        }
+        let basis = Basis::new(&own_stiffness, &own_damping);
+        let dense = basis.is_none().then(|| (own_stiffness.clone(), own_damping.clone()));
+        let basis = basis.unwrap_or_else(|| Basis::identity(&own_stiffness, &own_damping));
         let applied = |matrix: &Matrix, signals: &[Signal]| -> Vec<Signal> {
             (0..matrix.rows())
                 .map(|i| {
@@ -220,6 +248,20 @@ impl Structure {
             .map(|(j, column)| {
                 let mut sum = Observable::zero(m, joints, harmonics);
                 let (by_x, by_v) = (stiffness.apply(column), damping.apply(column));
+                for contact in &closed {
+                    // the force of a closed stop, k (wall - w.x) + ..., along the column
+                    let share = dot(contact.direction, column);
+                    if share.abs()
+                        <= 1e-15 * dot(contact.direction, contact.direction).sqrt() * dot(column, column).sqrt()
+                    {
+                        continue;
+                    }
+                    sum.signal.add(share, &contact.pushed);
+                    for (i, factor) in contact.direction.iter().enumerate() {
+                        sum.add(-share * contact.k * factor, &x[i]);
+                        sum.add(-share * contact.c * factor, &v[i]);
+                    }
+                }
                 for i in 0..n {
                     sum.signal.add(column[i], &force[i]);
                     sum.add(-by_x[i], &x[i]);
@@ -236,6 +278,7 @@ impl Structure {
         let mut structure = Self {
             states: states.to_vec(),
             modes,
+            dense,
             drive,
             slip,
             x,
@@ -250,7 +293,14 @@ impl Structure {
             mobility: across
                 .iter()
                 .enumerate()
-                .map(|(j, column)| (1.0 / gram[(j, j)], dot(column, &damping.apply(column)) / dot(column, column)))
+                .map(|(j, column)| {
+                    let contacts = closed.iter().map(|contact| {
+                        let share = dot(contact.direction, column);
+                        contact.c * share * share
+                    });
+                    let drag = dot(column, &damping.apply(column)) + contacts.sum::<f64>();
+                    (1.0 / gram[(j, j)], drag / dot(column, column))
+                })
                 .collect(),
             across,
             rates: rates.clone(),
@@ -374,12 +424,19 @@ impl Structure {
     }
 }
 
-/// An orthonormal basis of what is orthogonal to all directions, as columns; `None` if the directions depend on each
-/// other.
-fn complement(directions: &[Vec<f64>], n: usize) -> Option<Matrix> {
-    if directions.is_empty() {
-        return Some(Matrix::identity(n));
-    }
+/// A closed stop.
+struct Contact<'a> {
+    k: f64,
+    c: f64,
+    /// Its force on the direction at x = 0.
+    pushed: Signal,
+    direction: &'a [f64],
+}
+
+/// An orthonormal basis of what is orthogonal to all directions `held`, as columns, the first of them along the
+/// directions `along`; and the components of these directions in it, with exact zeros. `None` if the directions `held`
+/// depend on each other.
+fn complement(held: &[Vec<f64>], along: &[&[f64]], n: usize) -> Option<(Matrix, Vec<Vec<f64>>)> {
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(n);
     // twice, so that the result is orthogonal to rounding
     let project = |basis: &[Vec<f64>], vector: &mut Vec<f64>| {
@@ -391,16 +448,26 @@ fn complement(directions: &[Vec<f64>], n: usize) -> Option<Matrix> {
         }
         dot(vector, vector).sqrt()
     };
-    for direction in directions {
-        let size = dot(direction, direction).sqrt();
-        let mut vector: Vec<f64> = direction.iter().map(|x| x / size).collect();
+    let unit = |vector: &[f64], size: f64| -> Vec<f64> { vector.iter().map(|x| x / size).collect() };
+    for direction in held {
+        let mut vector = unit(direction, dot(direction, direction).sqrt());
         let rest = project(&basis, &mut vector);
         if rest < 1e-9 {
             return None;
         }
-        basis.push(vector.iter().map(|x| x / rest).collect());
+        basis.push(unit(&vector, rest));
     }
     let first = basis.len();
+    let mut reached = Vec::with_capacity(along.len());
+    for direction in along {
+        let size = dot(direction, direction).sqrt();
+        let mut vector = unit(direction, size);
+        let rest = project(&basis, &mut vector);
+        if rest > 1e-12 && basis.len() < n {
+            basis.push(unit(&vector, rest));
+        }
+        reached.push(basis.len());
+    }
     let mut left: Vec<usize> = (0..n).collect();
     while basis.len() < n {
         // the unit vector that is farthest from what is spanned already
@@ -414,7 +481,7 @@ fn complement(directions: &[Vec<f64>], n: usize) -> Option<Matrix> {
             }
         }
         left.remove(best.1);
-        basis.push(best.2.iter().map(|x| x / best.0).collect());
+        basis.push(unit(&best.2, best.0));
     }
     let mut columns = Matrix::zeros(n, n - first);
     for (j, vector) in basis[first..].iter().enumerate() {
@@ -422,5 +489,13 @@ fn complement(directions: &[Vec<f64>], n: usize) -> Option<Matrix> {
             columns[(i, j)] = *x;
         }
     }
-    Some(columns)
+    let share = |direction: &[f64], end: usize| {
+        let mut share = vec![0.0; n - first];
+        for (value, vector) in share.iter_mut().zip(&basis[first..end]) {
+            *value = dot(direction, vector);
+        }
+        share
+    };
+    let shares = along.iter().zip(reached).map(|(direction, end)| share(direction, end)).collect();
+    Some((columns, shares))
 }
