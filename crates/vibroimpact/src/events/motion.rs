@@ -81,7 +81,6 @@ impl<'a> MachineMotion<'a> {
             v,
             phase: phase::wrap(start.phase),
             states: vec![ContactState::Open; stops + joints],
-            set: vec![0.0; joints],
             surfaces: vec![None; stops],
             known: Vec::new(),
         };
@@ -223,7 +222,24 @@ impl<'a> MachineMotion<'a> {
                 }
             }
             self.place.v = after;
-            // an impulse changes the velocities of the joints
+            // an impulse takes a compliant stop at rest off its surface, or into it
+            for j in (0..stops).filter(|j| compliant(&self.machine.stops()[*j].law).is_some()) {
+                if self.place.states[j] != ContactState::Resting || fixed.contains(&j) {
+                    continue;
+                }
+                let (_, rate, _, size) = self.place.gap(&self.normal, j);
+                candidates.retain(|candidate| candidate.place != j);
+                if rate.abs() <= 64.0 * f64::EPSILON * size {
+                    candidates.push(Candidate { place: j });
+                } else if rate > 0.0 {
+                    self.place.states[j] = ContactState::Open;
+                    self.place.known.push((GuardKind::Gap(j), 1));
+                } else {
+                    self.place.states[j] = ContactState::Closed;
+                    self.place.known.push((GuardKind::Depth(j), 1));
+                }
+            }
+            // and changes the velocities of the joints
             for joint in 0..self.machine.joints().len() {
                 let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
                 let at = stops + joint;
@@ -237,8 +253,10 @@ impl<'a> MachineMotion<'a> {
         }
         for j in closing.iter().copied().filter(|j| !rigid.contains(j)) {
             self.place.states[j] = ContactState::Closed;
-            self.place.surfaces[j] = None;
-            self.place.known.push((GuardKind::Depth(j), 1));
+            // on a surface that has not come back the stop is deep already
+            if self.place.surfaces[j].take().is_none() {
+                self.place.known.push((GuardKind::Depth(j), 1));
+            }
             if let StopLaw::Compliant { damping, preload, .. } = self.machine.stops()[j].law
                 && damping == 0.0
                 && preload == 0.0
@@ -246,6 +264,14 @@ impl<'a> MachineMotion<'a> {
                 self.place.known.push((GuardKind::Force(j), 1));
             }
         }
+        // a force that jumps can end any rest
+        for (at, state) in self.place.states.iter().enumerate() {
+            let listed = candidates.iter().any(|candidate| candidate.place == at);
+            if state.constrains() && !listed && !fixed.contains(&at) {
+                candidates.push(Candidate { place: at });
+            }
+        }
+        candidates.sort_by_key(|candidate| candidate.place);
         if !candidates.is_empty() {
             let known = core::mem::take(&mut self.place.known);
             let consistent = resolve(self.machine, &self.normal, &mut self.structures, &mut self.place, &candidates)?;
@@ -346,6 +372,14 @@ impl<'a> MachineMotion<'a> {
         }
         let duration = first * (1.0 + second);
         let mut touches = Vec::new();
+        // the rebound ends on this stop again, so all later ones, which are smaller, do
+        let free = self.structures.get(self.machine, &self.normal, &self.place.states)?;
+        let rebound = self.place.flight(&self.normal, free.clone());
+        let next = first_event(&rebound, duration, self.limits.steps, &mut self.buffers, &mut touches);
+        let again = |guards: &[usize]| matches!(guards, [g] if free.guards[*g].kind == GuardKind::Gap(j));
+        if !matches!(next, Found::Zero { ref guards, .. } if again(guards)) {
+            return Ok(());
+        }
         let Found::NoneBefore(_) = first_event(&flight, duration, self.limits.steps, &mut self.buffers, &mut touches)
         else {
             return Ok(());

@@ -36,8 +36,6 @@ pub(super) struct Place {
     pub(super) v: Vec<f64>,
     pub(super) phase: f64,
     pub(super) states: Vec<ContactState>,
-    /// The value of $`w\cdot q`$ at which each joint holds.
-    pub(super) set: Vec<f64>,
     /// The surfaces of stops that have opened by force.
     pub(super) surfaces: Vec<Option<Recovery>>,
     /// How many derivatives of a guard are zero now.
@@ -56,7 +54,14 @@ impl Place {
 
     /// The flight from here in the regime of `structure`.
     pub(super) fn flight(&self, normal: &Normal, structure: Arc<Structure>) -> MachineFlight {
-        MachineFlight::new(structure, &self.x, &self.v, self.set.clone(), &self.phases(normal), |kind| {
+        // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
+        let stops = self.surfaces.len();
+        let joints = 0..self.states.len() - stops;
+        let set = joints.map(|joint| match self.states[stops + joint] {
+            ContactState::Holding => dot(&normal.directions[stops + joint], &self.x),
+            _ => 0.0,
+        });
+        MachineFlight::new(structure, &self.x, &self.v, set.collect(), &self.phases(normal), |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);
             let surface = if let GuardKind::Gap(stop) = kind { self.surfaces[stop] } else { None };
             (known, surface)

@@ -43,7 +43,6 @@ pub(super) fn resolve(
         for (candidate, state) in candidates.iter().zip(&combination) {
             there.states[candidate.place] = *state;
         }
-        set_points(machine, normal, place, &mut there);
         there.known.clear();
         let structure = match structures.get(machine, normal, &there.states) {
             Ok(structure) => structure,
@@ -98,8 +97,6 @@ pub(super) fn resolve(
     for (candidate, state) in candidates.iter().zip(&combination) {
         place.states[candidate.place] = *state;
     }
-    let before = place.clone();
-    set_points(machine, normal, &before, place);
     Ok(worst < 1e-6)
 }
 
@@ -112,15 +109,5 @@ fn states_of(machine: &Machine, place: usize) -> Vec<ContactState> {
         None => vec![ContactState::Resting, ContactState::Open],
         Some((_, _, preload)) if preload > 0.0 => vec![ContactState::Resting, ContactState::Open, ContactState::Closed],
         Some(_) => vec![ContactState::Open, ContactState::Closed],
-    }
-}
-
-/// Joints that begin to hold do so where they are.
-fn set_points(machine: &Machine, normal: &Normal, before: &Place, after: &mut Place) {
-    let stops = machine.stops().len();
-    for joint in 0..machine.joints().len() {
-        if after.states[stops + joint] == ContactState::Holding {
-            after.set[joint] = crate::math::dot(&normal.directions[stops + joint], &before.x);
-        }
     }
 }

@@ -1,6 +1,7 @@
 //! The events of machines against an independent simulation in high precision (see README.md here).
 
 mod case;
+mod debug;
 
 use case::{Case, cases};
 use std::fmt::Write as _;
