@@ -91,10 +91,8 @@ pub(super) fn at(flight: &MachineFlight, s: f64, modes: &mut Modes) {
     let begin = if whole > 0.0 { whole * step } else { 0.0 };
     go(&mut moved, &mut v, begin, s - begin, &mut c);
     let size = dot(&moved, &moved).sqrt() + dot(&v, &v).sqrt() / rate.max(f64::MIN_POSITIVE).max(1.0 / s.max(1e-300));
-    for i in 0..count {
-        modes.y.push(flight.y[i] + moved[i]);
-        modes.error.push(0.5 * f64::EPSILON * size * (4.0 + whole));
-    }
+    modes.y.extend(flight.y.iter().zip(&moved).map(|(y, moved)| y + moved));
+    modes.error.resize(count, 0.5 * f64::EPSILON * size * (4.0 + whole));
     modes.moved.extend(moved);
     modes.v.extend(v);
 }

@@ -87,19 +87,19 @@ pub(crate) fn first_event(
         }
         // contacts on which the flight begins are divided out
         let mut first: Option<(f64, usize)> = None;
-        for g in 0..guards {
-            while known[g] > 0 && known[g] < 4 && s == 0.0 {
+        for (g, known) in known.iter_mut().enumerate() {
+            while *known > 0 && *known < 4 && s == 0.0 {
                 let p = &buffers.polynomials[g].0;
                 let size: f64 = buffers.polynomials[g].2;
                 // a derivative that is zero within rounding is zero: the next one decides
-                if p[known[g]] <= 0.0 && p[known[g]].abs() <= 64.0 * f64::EPSILON * size {
-                    known[g] += 1;
+                if p[*known] <= 0.0 && p[*known].abs() <= 64.0 * f64::EPSILON * size {
+                    *known += 1;
                 } else {
                     break;
                 }
             }
             let (p, error, _) = &buffers.polynomials[g];
-            let lower = beside(p, -1.0, *error, known[g], s);
+            let lower = beside(p, -1.0, *error, *known, s);
             if let Some(t) = first_zero(&lower)
                 && first.is_none_or(|(least, _)| t < least)
             {

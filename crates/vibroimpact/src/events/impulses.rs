@@ -30,9 +30,9 @@ pub(super) fn impulses(directions: &[&[f64]], rates: &[f64], restitutions: &[f64
                 return values[*j] < 0.0;
             }
             let (mut left, mut size) = (b[*j], b[*j].abs());
-            for i in 0..count {
-                left += gram(*j, i) * values[i];
-                size += (gram(*j, i) * values[i]).abs();
+            for (i, value) in values.iter().enumerate() {
+                left += gram(*j, i) * value;
+                size += (gram(*j, i) * value).abs();
             }
             left < -16.0 * f64::EPSILON * size
         });

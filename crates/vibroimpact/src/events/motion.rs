@@ -68,7 +68,7 @@ impl<'a> MachineMotion<'a> {
             }
             match values.iter().find(|value| !value.is_finite()) {
                 Some(value) => Err(MachineError::new(path, MachineFault::NotFinite(*value))),
-                None => Ok(normal.from_machine(values)),
+                None => Ok(normal.to_normal(values)),
             }
         };
         let (x, v) = (vector("q", &start.q)?, vector("qdot", &start.qdot)?);
@@ -339,7 +339,7 @@ impl<'a> MachineMotion<'a> {
     fn complete(&mut self, j: usize) -> Result<(), NoStructure> {
         let StopLaw::Rigid { restitution } = self.machine.stops()[j].law else { return Ok(()) };
         let rebound = self.place.gap(&self.normal, j).1;
-        if restitution >= 1.0 || !(rebound > 0.0) {
+        if restitution >= 1.0 || rebound <= 0.0 {
             return Ok(());
         }
         let mut states = self.place.states.clone();
@@ -358,22 +358,23 @@ impl<'a> MachineMotion<'a> {
         let (force, force_rate) = flight.first(&structure.reactions[held]);
         let (mobility, drag) = structure.mobility[held];
         let (a, jerk) = (force * mobility, force_rate * mobility);
-        if !(a > 0.0) {
+        if a <= 0.0 {
             return Ok(());
         }
         let k = rebound / a;
         let r = 1.0 - restitution;
-        let fastest =
-            structure.modes.iter().map(|mode| mode.rate).fold(structure.rates.last().copied().unwrap_or(0.0), f64::max);
+        // the fastest rate of the free motion: the terms that are left out are of its square
+        let free = self.structures.get(self.machine, &self.normal, &self.place.states)?;
+        let rates = free.modes.iter().map(|mode| mode.rate);
+        let fastest = rates.fold(free.rates.last().copied().unwrap_or(0.0), f64::max);
         let first = 2.0 * k / r;
         let second = -2.0 * (jerk / a * k + 0.5 * drag * k) / (3.0 * r);
-        if !(second.abs() <= SMALL && first * fastest.max(drag) <= 10.0 * SMALL) {
+        if second.abs() > SMALL || first * fastest.max(drag) > 10.0 * SMALL {
             return Ok(());
         }
         let duration = first * (1.0 + second);
         let mut touches = Vec::new();
         // the rebound ends on this stop again, so all later ones, which are smaller, do
-        let free = self.structures.get(self.machine, &self.normal, &self.place.states)?;
         let rebound = self.place.flight(&self.normal, free.clone());
         let next = first_event(&rebound, duration, self.limits.steps, &mut self.buffers, &mut touches);
         let again = |guards: &[usize]| matches!(guards, [g] if free.guards[*g].kind == GuardKind::Gap(j));

@@ -61,6 +61,7 @@ fn wilkinson(a: Complex, b: Complex, c: Complex, d: Complex) -> Complex {
     if sum.modulus() == 0.0 { d } else { d - b * c / sum }
 }
 
+#[allow(clippy::needless_range_loop)] // two rows at a time
 /// One QR step on the block from `begin` to `last`, by Givens rotations.
 fn qr_step(h: &mut [Vec<Complex>], begin: usize, last: usize, shift: Complex) {
     for (i, row) in h.iter_mut().enumerate().take(last + 1).skip(begin) {

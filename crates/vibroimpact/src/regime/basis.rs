@@ -121,7 +121,7 @@ impl Basis {
         let inverse = inverse(&columns)?;
         for k in 0..2 * p {
             let sum: f64 = (0..2 * p).map(|j| (columns[(k, j)] * inverse[(j, k)]).abs()).sum();
-            if !(sum < CONDITION) {
+            if sum > CONDITION || sum.is_nan() {
                 return None;
             }
         }
@@ -302,6 +302,7 @@ fn eigenpair(stiffness: &[f64], damping: &Matrix, mut lambda: Complex) -> Option
     Some((lambda, v))
 }
 
+#[allow(clippy::needless_range_loop)] // two rows at a time
 /// The solution of a complex linear system, by elimination with partial pivoting.
 fn solve(mut rows: Vec<Vec<Complex>>, mut right: Vec<Complex>) -> Option<Vec<Complex>> {
     let p = right.len();

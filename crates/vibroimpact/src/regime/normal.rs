@@ -97,7 +97,7 @@ impl Normal {
     }
 
     /// The mass-normalised ones from coordinates or velocities.
-    pub(crate) fn from_machine(&self, q: &[f64]) -> Vec<f64> {
+    pub(crate) fn to_normal(&self, q: &[f64]) -> Vec<f64> {
         self.factor.apply_transposed(q)
     }
 }

@@ -1,14 +1,17 @@
 //! The events of machines against an independent simulation in high precision (see README.md here).
 
 mod case;
-mod debug;
 
 use case::{Case, cases};
 use std::fmt::Write as _;
 use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion};
 
-/// Roundings of the time and of its condition that are allowed.
-const ROUNDINGS: f64 = 50.0;
+/// Roundings of the time and of its condition that are allowed. Conditions are the largest of three random changes, so
+/// they are low by a factor of two or three at times. Stops that are 1e4 to 1e8 times stiffer than the structure lose up
+/// to three digits.
+fn roundings(case: &Case) -> f64 {
+    if case.name.starts_with("stiff") { 1000.0 } else { 130.0 }
+}
 
 /// What differs first, with its event.
 fn difference(case: &Case) -> Option<String> {
@@ -28,7 +31,7 @@ fn difference(case: &Case) -> Option<String> {
         if (event.kind.name(), name) != (want.kind.as_str(), want.stop.as_str()) {
             return Some(format!("event {k}: {} {name} at {:e}, {want:?} wanted", event.kind.name(), event.time));
         }
-        let allowed = ROUNDINGS * f64::EPSILON * (want.condition + want.time);
+        let allowed = roundings(case) * f64::EPSILON * (want.condition + want.time);
         if (event.time - want.time).abs() > allowed {
             let error = (event.time - want.time) / (f64::EPSILON * (want.condition + want.time));
             return Some(format!(
@@ -38,7 +41,7 @@ fn difference(case: &Case) -> Option<String> {
             ));
         }
         if let Some(wrong) =
-            case.states.iter().find(|state| state.event == k).and_then(|state| state.differs(&event, ROUNDINGS))
+            case.states.iter().find(|state| state.event == k).and_then(|state| state.differs(&event, roundings(case)))
         {
             return Some(format!("event {k}: {wrong}"));
         }
@@ -66,7 +69,7 @@ fn after_chatter(case: &Case) -> Option<String> {
         }
         let name = case.machine.name_of(event.place);
         // the sum has an error of 1e-11 of what is summed
-        let allowed = 1e-10 * (1.0 + want.condition) + ROUNDINGS * f64::EPSILON * (want.condition + want.time);
+        let allowed = 1e-10 * (1.0 + want.condition) + roundings(case) * f64::EPSILON * (want.condition + want.time);
         if (event.kind.name(), name) != (want.kind.as_str(), want.stop.as_str())
             || (event.time - want.time).abs() > allowed
         {
