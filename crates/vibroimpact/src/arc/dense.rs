@@ -54,22 +54,22 @@ pub(super) fn coefficients(flight: &MachineFlight, y: &[f64], v: &[f64], s: f64,
 
 /// The displacements after a time, by steps from the beginning.
 pub(super) fn at(flight: &MachineFlight, s: f64, modes: &mut Modes) {
-    let count = flight.y.len();
+    let count = flight.v.len();
     let rate = flight.structure.modes.first().map_or(0.0, |mode| mode.rate);
     let rate = rate.max(flight.structure.rates.last().copied().unwrap_or(0.0));
     let step = if rate > 0.0 { STEP / rate } else { f64::INFINITY };
     let whole = (s / step).floor();
     let steps = &mut modes.steps;
-    if steps.count > whole || steps.begin.0 != flight.y || steps.begin.1 != flight.v || steps.moved.len() != count {
+    if steps.count > whole || steps.begin.0 != flight.steady || steps.begin.1 != flight.v || steps.moved.len() != count
+    {
         steps.count = 0.0;
-        steps.begin = (flight.y.clone(), flight.v.clone());
+        steps.begin = (flight.steady.clone(), flight.v.clone());
         steps.moved = vec![0.0; count];
         steps.v = flight.v.clone();
     }
     let mut c = Vec::new();
     let go = |moved: &mut Vec<f64>, v: &mut Vec<f64>, from: f64, h: f64, c: &mut Vec<f64>| {
-        let y: Vec<f64> = moved.iter().zip(&flight.y).map(|(moved, y)| moved + y).collect();
-        coefficients(flight, &y, v, from, TERMS, c);
+        coefficients(flight, moved, v, from, TERMS, c);
         for i in 0..count {
             let row = &c[i * TERMS..(i + 1) * TERMS];
             let (mut value, mut slope) = (0.0, 0.0);
@@ -91,7 +91,6 @@ pub(super) fn at(flight: &MachineFlight, s: f64, modes: &mut Modes) {
     let begin = if whole > 0.0 { whole * step } else { 0.0 };
     go(&mut moved, &mut v, begin, s - begin, &mut c);
     let size = dot(&moved, &moved).sqrt() + dot(&v, &v).sqrt() / rate.max(f64::MIN_POSITIVE).max(1.0 / s.max(1e-300));
-    modes.y.extend(flight.y.iter().zip(&moved).map(|(y, moved)| y + moved));
     modes.error.resize(count, 0.5 * f64::EPSILON * size * (4.0 + whole));
     modes.moved.extend(moved);
     modes.v.extend(v);

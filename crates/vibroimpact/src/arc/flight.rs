@@ -34,9 +34,13 @@ pub(super) struct GuardStart {
 #[derive(Clone, Debug)]
 pub(crate) struct MachineFlight {
     pub(crate) structure: Arc<Structure>,
-    /// Modal displacements and velocities at the beginning.
-    pub(super) y: Vec<f64>,
+    /// Modal displacements at the beginning. All others are counted from there, so that no digits cancel.
+    origin: Vec<f64>,
+    /// Modal velocities at the beginning.
     pub(super) v: Vec<f64>,
+    /// Mass-normalised coordinates and velocities at the beginning.
+    x: Vec<f64>,
+    rate: Vec<f64>,
     /// Constant part and ramp of what drives each mode, and its harmonics, turned to the phase of the beginning.
     pub(super) steady: Vec<f64>,
     pub(super) ramp: Vec<f64>,
@@ -51,10 +55,8 @@ pub(crate) struct MachineFlight {
 /// The modes at one time.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Modes {
-    /// Displacements since the beginning.
+    /// Displacements since the beginning, and velocities.
     pub(super) moved: Vec<f64>,
-    /// Displacements and velocities.
-    pub(super) y: Vec<f64>,
     pub(super) v: Vec<f64>,
     /// Bounds of the rounding errors of the displacements.
     pub(super) error: Vec<f64>,
@@ -72,13 +74,15 @@ const SHORT_REACH: f64 = 0.25;
 
 impl MachineFlight {
     /// The flight from a mass-normalised state. `turns` are sine and cosine of each harmonic there, `set` the set points
-    /// of joints, and `known` tells how many derivatives of a guard are zero, and how its surface recovers.
+    /// of joints, `gap` the gap of a closed stop with its wall at its mean place,
+    /// and `known` tells how many derivatives of a guard are zero, and how its surface recovers.
     pub(crate) fn new(
         structure: Arc<Structure>,
         x: &[f64],
         rate: &[f64],
         set: Vec<f64>,
         phases: &[f64],
+        gap: impl Fn(usize) -> f64,
         mut known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
     ) -> Self {
         let turns: Vec<(f64, f64)> = phases.iter().map(|phase| sin_cos(*phase)).collect();
@@ -111,10 +115,22 @@ impl MachineFlight {
                 GuardStart { value: if known > 0 { 0.0 } else { sum }, size, known, harmonics, recovery }
             })
             .collect();
-        let steady = structure.drive.iter().map(|signal| signal.steady(&set)).collect();
+        let steady = structure.rest_force(x, rate, gap);
         let ramp = structure.drive.iter().map(|signal| signal.ramp).collect();
         let harmonics = structure.drive.iter().flat_map(turn).collect();
-        Self { structure, y, v, steady, ramp, harmonics, guards, set, turns }
+        Self {
+            structure,
+            origin: y,
+            v,
+            x: x.to_vec(),
+            rate: rate.to_vec(),
+            steady,
+            ramp,
+            harmonics,
+            guards,
+            set,
+            turns,
+        }
     }
 
     pub(super) fn mode_harmonics(&self, i: usize) -> &[(f64, f64)] {
@@ -127,7 +143,7 @@ impl MachineFlight {
         modes.s = s;
         modes.turned.clear();
         modes.turned.extend(self.structure.rates.iter().map(|rate| Turned::of(rate * s)));
-        for all in [&mut modes.moved, &mut modes.y, &mut modes.v, &mut modes.error] {
+        for all in [&mut modes.moved, &mut modes.v, &mut modes.error] {
             all.clear();
         }
         if self.structure.dense.is_some() {
@@ -144,7 +160,6 @@ impl MachineFlight {
                 self.by_response(i, mode, s, &modes.turned)
             };
             modes.moved.push(moved);
-            modes.y.push(self.y[i] + moved);
             modes.v.push(v);
             modes.error.push(error);
         }
@@ -155,17 +170,17 @@ impl MachineFlight {
         let push: f64 =
             self.mode_harmonics(i).iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>() + self.steady[i].abs();
         let mode = &self.structure.modes[i];
-        self.v[i].abs() * mode.rate < 0.125 * (push + mode.k * self.y[i].abs())
+        self.v[i].abs() * mode.rate < 0.125 * push
     }
 
     fn by_response(&self, i: usize, mode: &Mode, s: f64, turned: &[Turned]) -> (f64, f64, f64) {
         let free = mode.free(s);
-        let (y, v) = (self.y[i], self.v[i]);
+        let v = self.v[i];
         let (p0, p1) = (self.steady[i], self.ramp[i]);
-        let mut moved = v * free.s - y * free.one_minus_c;
-        let mut rate = v * free.s_rate - y * mode.k * free.s + p0 * free.s;
-        let mut size = (v * free.s).abs() + y.abs() * free.size;
-        let mut angle = free.angle * (y.abs() * mode.omega * free.s.abs() + v.abs() * free.s.abs().max(1e-300).min(s));
+        let mut moved = v * free.s;
+        let mut rate = v * free.s_rate + p0 * free.s;
+        let mut size = (v * free.s).abs();
+        let mut angle = free.angle * (v.abs() + p0.abs() * s.min(1.0 / mode.rate.max(1e-300))) * free.s.abs().min(s);
         moved += p0 * free.step;
         size += p0.abs() * free.step.abs();
         if p1 != 0.0 {
@@ -191,7 +206,7 @@ impl MachineFlight {
 
     fn by_series(&self, i: usize, s: f64, terms: usize) -> (f64, f64, f64) {
         let mut c = [0.0; LONG_TERMS + 2];
-        self.coefficients(i, self.y[i], self.v[i], 0.0, self.mode_harmonics(i), &mut c[..terms + 2]);
+        self.coefficients(i, 0.0, self.v[i], 0.0, self.mode_harmonics(i), &mut c[..terms + 2]);
         let (mut y, mut v, mut size) = (0.0, 0.0, 0.0);
         let mut real = f64::from(u32::try_from(terms + 1).unwrap_or(0));
         for k in (1..terms + 2).rev() {
@@ -257,7 +272,7 @@ impl MachineFlight {
         let mut rate = function.signal.ramp;
         value += function.signal.ramp * modes.s;
         let mut error = if start.known > 0 { 0.0 } else { start.size };
-        for i in 0..modes.y.len() {
+        for i in 0..modes.moved.len() {
             let (a, b) = (function.position[i], function.velocity[i]);
             if a != 0.0 {
                 let moved = a * modes.moved[i];
@@ -272,7 +287,7 @@ impl MachineFlight {
                 for ((a, b), turned) in self.mode_harmonics(i).iter().zip(&modes.turned) {
                     push += a * turned.cos + b * turned.sin;
                 }
-                rate += b * self.acceleration(i, push, &modes.y, &modes.v);
+                rate += b * self.acceleration(i, push, &modes.moved, &modes.v);
                 error +=
                     b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i] * mode.rate.max(1e-300) / HALF_ULP);
             }
@@ -301,8 +316,8 @@ impl MachineFlight {
         }
         for i in 0..self.structure.modes.len() {
             let push = self.mode_harmonics(i).iter().fold(self.steady[i], |sum, (a, _)| sum + a);
-            let a = self.acceleration(i, push, &self.y, &self.v);
-            value += of.position[i] * self.y[i] + of.velocity[i] * self.v[i];
+            let a = self.acceleration(i, push, &vec![0.0; self.v.len()], &self.v);
+            value += of.position[i] * self.origin[i] + of.velocity[i] * self.v[i];
             rate += of.position[i] * self.v[i] + of.velocity[i] * a;
         }
         (value, rate)
@@ -311,7 +326,8 @@ impl MachineFlight {
     /// The size of the terms of a linear function of the state at the beginning.
     pub(crate) fn size(&self, of: &crate::regime::Observable) -> f64 {
         let signal = of.signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
-        let modes = (0..self.y.len()).map(|i| (of.position[i] * self.y[i]).abs() + (of.velocity[i] * self.v[i]).abs());
+        let modes =
+            (0..self.v.len()).map(|i| (of.position[i] * self.origin[i]).abs() + (of.velocity[i] * self.v[i]).abs());
         of.signal.steady(&self.set).abs() + signal + modes.sum::<f64>()
     }
 
@@ -319,10 +335,10 @@ impl MachineFlight {
     pub(crate) fn size_of_rate(&self, of: &crate::regime::Observable) -> f64 {
         let harmonics = of.signal.harmonics.iter().zip(&self.structure.rates);
         let signal = harmonics.map(|((a, b), w)| (a.abs() + b.abs()) * w).sum::<f64>();
-        let modes = (0..self.y.len()).map(|i| {
+        let modes = (0..self.v.len()).map(|i| {
             let mode = &self.structure.modes[i];
             let push = self.mode_harmonics(i).iter().map(|(a, _)| a.abs()).sum::<f64>() + self.steady[i].abs();
-            let a = push + (2.0 * mode.d * self.v[i]).abs() + (mode.k * self.y[i]).abs();
+            let a = push + (2.0 * mode.d * self.v[i]).abs() + (mode.k * self.origin[i]).abs();
             (of.position[i] * self.v[i]).abs() + of.velocity[i].abs() * a
         });
         of.signal.ramp.abs() + signal + modes.sum::<f64>()
@@ -330,27 +346,22 @@ impl MachineFlight {
 
     /// Mass-normalised coordinates and velocities at a time, from the modes there.
     pub(crate) fn state(&self, modes: &Modes, x: &mut Vec<f64>, v: &mut Vec<f64>) {
-        let turned: Vec<(f64, f64)> = self
-            .turns
-            .iter()
-            .zip(&modes.turned)
-            .map(|((sin, cos), turned)| (sin * turned.cos + cos * turned.sin, cos * turned.cos - sin * turned.sin))
-            .collect();
-        let evaluate = |all: &[crate::regime::Observable], to: &mut Vec<f64>| {
+        let evaluate = |all: &[crate::regime::Observable], begin: &[f64], to: &mut Vec<f64>| {
             to.clear();
-            to.extend(all.iter().map(|of| {
-                let signal = &of.signal;
-                let mut sum = signal.steady(&self.set) + signal.ramp * modes.s;
-                for ((a, b), (sin, cos)) in signal.harmonics.iter().zip(&turned) {
-                    sum += a * cos + b * sin;
+            to.extend(all.iter().zip(begin).map(|(of, begin)| {
+                let mut moved = of.signal.ramp * modes.s;
+                for ((a, b), ((sin, cos), turned)) in
+                    of.signal.harmonics.iter().zip(self.turns.iter().zip(&modes.turned))
+                {
+                    moved += (b * cos - a * sin) * turned.sin - (a * cos + b * sin) * turned.versine;
                 }
-                for i in 0..modes.y.len() {
-                    sum += of.position[i] * modes.y[i] + of.velocity[i] * modes.v[i];
+                for i in 0..modes.moved.len() {
+                    moved += of.position[i] * modes.moved[i] + of.velocity[i] * (modes.v[i] - self.v[i]);
                 }
-                sum
+                begin + moved
             }));
         };
-        evaluate(&self.structure.x, x);
-        evaluate(&self.structure.v, v);
+        evaluate(&self.structure.x, &self.x, x);
+        evaluate(&self.structure.v, &self.rate, v);
     }
 }

@@ -125,7 +125,7 @@ mod tests {
         p[0] = 1.0;
         for (n, root) in roots.iter().enumerate() {
             for j in (0..=n + 1).rev() {
-                p[j] = (if j > 0 { p[j - 1] } else { 0.0 }) * -1.0 + root * p[j];
+                p[j] = root * p[j] - if j > 0 { p[j - 1] } else { 0.0 };
             }
         }
         p

@@ -59,7 +59,6 @@ pub(crate) fn first_event(
     buffers: &mut Buffers,
     touches: &mut Vec<Touch>,
 ) -> Found {
-    let guards = flight.guards.len();
     let structure = &flight.structure;
     let fastest =
         structure.modes.iter().map(|mode| mode.rate).fold(structure.rates.last().copied().unwrap_or(0.0), f64::max);
@@ -81,8 +80,8 @@ pub(crate) fn first_event(
         let window = if window.is_finite() { window } else { 1e150 };
         expand(flight, window, s, buffers);
         buffers.polynomials.clear();
-        for g in 0..guards {
-            let of = polynomial(flight, g, window, s, buffers, known[g]);
+        for (g, known) in known.iter().enumerate() {
+            let of = polynomial(flight, g, window, s, buffers, *known);
             buffers.polynomials.push(of);
         }
         // contacts on which the flight begins are divided out
@@ -331,8 +330,8 @@ fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
     tenth.clear();
     // without modes: the energy of all directions together bounds each
     let energy = structure.dense.as_ref().map(|(stiffness, _)| {
-        super::dense::coefficients(flight, &modes.y, &modes.v, s, TERMS + 1, terms);
-        (dot(&modes.v, &modes.v) + dot(&modes.y, &stiffness.apply(&modes.y))).max(0.0).sqrt()
+        super::dense::coefficients(flight, &modes.moved, &modes.v, s, TERMS + 1, terms);
+        (dot(&modes.v, &modes.v) + dot(&modes.moved, &stiffness.apply(&modes.moved))).max(0.0).sqrt()
     });
     for (i, mode) in structure.modes.iter().enumerate() {
         turned.clear();
@@ -340,7 +339,7 @@ fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
         turned.extend(
             harmonics.map(|((a, b), turned)| (a * turned.cos + b * turned.sin, b * turned.cos - a * turned.sin)),
         );
-        let (y, v) = (modes.y[i], modes.v[i]);
+        let (y, v) = (modes.moved[i], modes.v[i]);
         if energy.is_none() {
             let c = &mut terms[i * (TERMS + 1)..(i + 1) * (TERMS + 1)];
             flight.coefficients(i, y, v, s, turned, c);

@@ -61,7 +61,17 @@ impl Place {
             ContactState::Holding => dot(&normal.directions[stops + joint], &self.x),
             _ => 0.0,
         });
-        MachineFlight::new(structure, &self.x, &self.v, set.collect(), &self.phases(normal), |kind| {
+        let phases = self.phases(normal);
+        let gap = |stop: usize| {
+            let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
+            let gap = if at_zero { 0.0 } else { self.gap(normal, stop).0 };
+            let harmonics = normal.walls[stop].harmonics.iter().zip(&phases);
+            harmonics.fold(gap, |gap, ((a, b), phase)| {
+                let (sin, cos) = crate::math::sin_cos(*phase);
+                gap - (a * cos + b * sin)
+            })
+        };
+        MachineFlight::new(structure, &self.x, &self.v, set.collect(), &phases, gap, |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);
             let surface = if let GuardKind::Gap(stop) = kind { self.surfaces[stop] } else { None };
             (known, surface)

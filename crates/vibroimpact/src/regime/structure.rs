@@ -65,6 +65,22 @@ pub(crate) struct Structure {
     /// Acceleration per unit of reaction, and rate of the damping, along each of these.
     pub(crate) mobility: Vec<(f64, f64)>,
     pub(crate) rates: Vec<f64>,
+    /// What is needed for the constant force on the modes at a given position.
+    rest: RestForce,
+}
+
+/// The constant force on the modes at a position, from the force on the coordinates there.
+#[derive(Clone, Debug)]
+struct RestForce {
+    stiffness: Matrix,
+    /// Constant force on each coordinate, without contacts.
+    force: Vec<f64>,
+    free: Matrix,
+    /// Of each closed stop: its place, stiffness, constant force at gap 0, direction in the free directions.
+    contacts: Vec<(usize, f64, f64, Vec<f64>)>,
+    /// $`B_2 + 2dA_2`$ and $`A_2`$.
+    push: Matrix,
+    drift: Matrix,
 }
 
 /// Why a regime has no modes.
@@ -105,7 +121,7 @@ impl Structure {
                 pushed.add(k, &normal.walls[j]);
                 pushed.add(c, &normal.walls[j].derivative(rates));
                 pushed.constant -= p;
-                Some(Contact { k, c, pushed, direction: &normal.directions[j] })
+                Some(Contact { place: j, k, c, p, pushed, direction: &normal.directions[j] })
             })
             .collect();
         let weight = |contact: &Contact<'_>| contact.k * dot(contact.direction, contact.direction);
@@ -239,6 +255,29 @@ impl Structure {
             }
             sum
         };
+        let mut push = basis.b[1].clone();
+        for (i, (_, d)) in basis.modes.iter().enumerate() {
+            for j in 0..m {
+                push[(i, j)] += 2.0 * d * basis.a[1][(i, j)];
+            }
+        }
+        let rest = RestForce {
+            stiffness: stiffness.clone(),
+            force: (0..n)
+                .map(|i| (0..n).fold(force[i].constant, |sum, j| sum - damping[(i, j)] * carried_rate[j].constant))
+                .collect(),
+            free: free.clone(),
+            contacts: closed
+                .iter()
+                .zip(&shares)
+                .map(|(contact, share)| {
+                    let along = contact.direction.iter().zip(&carried_rate).map(|(w, rate)| w * rate.constant);
+                    (contact.place, contact.k, -contact.p - contact.c * along.sum::<f64>(), share.clone())
+                })
+                .collect(),
+            push,
+            drift: basis.a[1].clone(),
+        };
         let (to_y_signal, to_z_signal) = (offset(&to_y), offset(&to_z));
 
         // reactions: G^-1 (W' (F - K x - C x') - wanted'')
@@ -304,6 +343,7 @@ impl Structure {
                 .collect(),
             across,
             rates: rates.clone(),
+            rest,
         };
         structure.guards = structure.all_guards(machine, normal);
         Ok(structure)
@@ -398,7 +438,7 @@ impl Structure {
             match self.states[place] {
                 ContactState::Forward => add(GuardKind::Sliding(j), self.sliding(machine, normal, j)),
                 ContactState::Backward => {
-                    add(GuardKind::Sliding(j), turned(&self.sliding(machine, normal, j), -1.0, 0.0))
+                    add(GuardKind::Sliding(j), turned(&self.sliding(machine, normal, j), -1.0, 0.0));
                 }
                 _ => {
                     if let Some(reaction) = self.reaction(place) {
@@ -410,6 +450,27 @@ impl Structure {
             }
         }
         guards
+    }
+
+    /// The constant force on each mode at the position `x`, less that of its own stiffness there: the force that remains if
+    /// modal displacements are counted from there. `gap` is the gap of a closed stop with its wall at its mean place. The
+    /// difference is formed in the coordinates, where nothing cancels: a stiff stop at gap 0 pushes with exactly nothing.
+    pub(crate) fn rest_force(&self, x: &[f64], v: &[f64], gap: impl Fn(usize) -> f64) -> Vec<f64> {
+        let rest = &self.rest;
+        let pulled = rest.stiffness.apply(x);
+        let left: Vec<f64> = rest.force.iter().zip(&pulled).map(|(force, pulled)| force - pulled).collect();
+        let mut on_free = rest.free.apply_transposed(&left);
+        for (stop, k, constant, share) in &rest.contacts {
+            add_scaled(&mut on_free, k * gap(*stop) + constant, share);
+        }
+        let mut push = rest.push.apply(&on_free);
+        if self.dense.is_none() {
+            let drift = rest.drift.apply(&rest.free.apply_transposed(v));
+            for ((push, drift), mode) in push.iter_mut().zip(&drift).zip(&self.modes) {
+                *push -= mode.k * drift;
+            }
+        }
+        push
     }
 
     /// The modal state from the mass-normalised one at the beginning of a flight; `at` is the value of a signal there.
@@ -426,8 +487,10 @@ impl Structure {
 
 /// A closed stop.
 struct Contact<'a> {
+    place: usize,
     k: f64,
     c: f64,
+    p: f64,
     /// Its force on the direction at x = 0.
     pushed: Signal,
     direction: &'a [f64],
