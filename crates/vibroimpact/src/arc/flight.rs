@@ -115,7 +115,7 @@ impl MachineFlight {
                 GuardStart { value: if known > 0 { 0.0 } else { sum }, size, known, harmonics, recovery }
             })
             .collect();
-        let steady = structure.rest_force(x, rate, gap);
+        let steady = structure.rest_force(x, rate, &turns, gap);
         let ramp = structure.drive.iter().map(|signal| signal.ramp).collect();
         let harmonics = structure.drive.iter().flat_map(turn).collect();
         Self {

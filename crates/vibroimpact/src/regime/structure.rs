@@ -76,11 +76,23 @@ struct RestForce {
     /// Constant force on each coordinate, without contacts.
     force: Vec<f64>,
     free: Matrix,
-    /// Of each closed stop: its place, stiffness, constant force at gap 0, direction in the free directions.
-    contacts: Vec<(usize, f64, f64, Vec<f64>)>,
+    /// What the constraints carry along.
+    carried: Vec<Signal>,
+    /// The closed stops.
+    contacts: Vec<RestContact>,
     /// $`B_2 + 2dA_2`$ and $`A_2`$.
     push: Matrix,
     drift: Matrix,
+}
+
+/// A closed stop: its place, stiffness, constant force at gap 0, direction, and direction in the free directions.
+#[derive(Clone, Debug)]
+struct RestContact {
+    place: usize,
+    stiffness: f64,
+    force: f64,
+    direction: Vec<f64>,
+    share: Vec<f64>,
 }
 
 /// Why a regime has no modes.
@@ -272,9 +284,16 @@ impl Structure {
                 .zip(&shares)
                 .map(|(contact, share)| {
                     let along = contact.direction.iter().zip(&carried_rate).map(|(w, rate)| w * rate.constant);
-                    (contact.place, contact.k, -contact.p - contact.c * along.sum::<f64>(), share.clone())
+                    RestContact {
+                        place: contact.place,
+                        stiffness: contact.k,
+                        force: -contact.p - contact.c * along.sum::<f64>(),
+                        direction: contact.direction.to_vec(),
+                        share: share.clone(),
+                    }
                 })
                 .collect(),
+            carried: carried.clone(),
             push,
             drift: basis.a[1].clone(),
         };
@@ -455,19 +474,35 @@ impl Structure {
     /// The constant force on each mode at the position `x`, less that of its own stiffness there: the force that remains if
     /// modal displacements are counted from there. `gap` is the gap of a closed stop with its wall at its mean place. The
     /// difference is formed in the coordinates, where nothing cancels: a stiff stop at gap 0 pushes with exactly nothing.
-    pub(crate) fn rest_force(&self, x: &[f64], v: &[f64], gap: impl Fn(usize) -> f64) -> Vec<f64> {
+    ///
+    /// `turns` are sine and cosine of the harmonics there. Harmonics of walls and of what they carry along are counted from
+    /// their mean, as they are in what drives the modes.
+    pub(crate) fn rest_force(
+        &self,
+        x: &[f64],
+        v: &[f64],
+        turns: &[(f64, f64)],
+        gap: impl Fn(usize) -> f64,
+    ) -> Vec<f64> {
         let rest = &self.rest;
-        let pulled = rest.stiffness.apply(x);
+        let swing = |signal: &Signal| {
+            signal.harmonics.iter().zip(turns).map(|((a, b), (sin, cos))| a * cos + b * sin).sum::<f64>()
+        };
+        let swung: Vec<f64> = rest.carried.iter().map(swing).collect();
+        let mean: Vec<f64> = x.iter().zip(&swung).map(|(x, swung)| x - swung).collect();
+        let pulled = rest.stiffness.apply(&mean);
         let left: Vec<f64> = rest.force.iter().zip(&pulled).map(|(force, pulled)| force - pulled).collect();
         let mut on_free = rest.free.apply_transposed(&left);
-        for (stop, k, constant, share) in &rest.contacts {
-            add_scaled(&mut on_free, k * gap(*stop) + constant, share);
+        for contact in &rest.contacts {
+            let gap = gap(contact.place) + dot(&contact.direction, &swung);
+            add_scaled(&mut on_free, contact.stiffness * gap + contact.force, &contact.share);
         }
         let mut push = rest.push.apply(&on_free);
         if self.dense.is_none() {
             let drift = rest.drift.apply(&rest.free.apply_transposed(v));
-            for ((push, drift), mode) in push.iter_mut().zip(&drift).zip(&self.modes) {
-                *push -= mode.k * drift;
+            for (i, mode) in self.modes.iter().enumerate() {
+                // and the rate of a ramp in $`P_1`$
+                push[i] += self.slip[i].ramp - mode.k * drift[i];
             }
         }
         push

@@ -6,46 +6,45 @@ use vibroimpact::events::{MachineEvent, MachineStart};
 use vibroimpact::machine::{HarmonicMotion, Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::math::Matrix;
 
-pub struct Case {
-    pub name: String,
-    pub machine: Machine,
-    pub start: MachineStart,
-    pub events: Vec<Wanted>,
-    pub states: Vec<State>,
-    pub robust: usize,
-    pub after_chatter: Option<After>,
+pub(crate) struct Case {
+    pub(crate) name: String,
+    pub(crate) machine: Machine,
+    pub(crate) start: MachineStart,
+    pub(crate) events: Vec<Wanted>,
+    pub(crate) states: Vec<State>,
+    pub(crate) robust: usize,
+    pub(crate) after_chatter: Option<After>,
 }
 
 #[derive(Debug)]
-pub struct Wanted {
-    pub kind: String,
-    pub stop: String,
-    pub time: f64,
-    pub speed: f64,
-    pub condition: f64,
+pub(crate) struct Wanted {
+    pub(crate) kind: String,
+    pub(crate) stop: String,
+    pub(crate) time: f64,
+    pub(crate) speed: f64,
+    pub(crate) condition: f64,
 }
 
-pub struct State {
-    pub event: usize,
+pub(crate) struct State {
+    pub(crate) event: usize,
     q: Vec<f64>,
     qdot: Vec<f64>,
     condition: [f64; 2],
 }
 
-pub struct After {
-    pub events: Vec<Wanted>,
-    pub robust: usize,
+pub(crate) struct After {
+    pub(crate) events: Vec<Wanted>,
+    pub(crate) robust: usize,
 }
 
 impl State {
-    pub fn differs(&self, event: &MachineEvent, roundings: f64) -> Option<String> {
+    pub(crate) fn differs(&self, event: &MachineEvent, roundings: f64) -> Option<String> {
         for (name, got, want, condition) in
             [("q", &event.q, &self.q, self.condition[0]), ("qdot", &event.qdot, &self.qdot, self.condition[1])]
         {
             let size = want.iter().fold(condition.max(0.1), |most, value| most.max(value.abs()));
             let error = got.iter().zip(want).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            // not "<=", so that NaN differs
-            if !(error <= roundings * f64::EPSILON * size) {
+            if error > roundings * f64::EPSILON * size || error.is_nan() {
                 return Some(format!("{name} {got:?}, {want:?} wanted: {:e} roundings", error / (f64::EPSILON * size)));
             }
         }
@@ -53,7 +52,7 @@ impl State {
     }
 }
 
-pub fn cases() -> Vec<(String, Vec<Case>)> {
+pub(crate) fn cases() -> Vec<(String, Vec<Case>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/machines/vectors");
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.sort();
