@@ -3,7 +3,7 @@
 use super::number::Number;
 use super::shapes::{MatrixText, VectorText};
 use super::text::{ForceText, FrictionText, MachineText, MotionText, OpeningText, StopText};
-use vibroimpact::Matrix;
+use vibroimpact::math::Matrix;
 use vibroimpact::machine::{FrictionJoint, HarmonicForce, MachineParts, MachineStop, Opening, StopLaw};
 
 /// A positive zero, which is what an absent number stands for.

@@ -109,7 +109,7 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
     };
     let motion = |motion: &MotionText| {
         let order = motion.order.unwrap_or(1);
-        Ok(HarmonicMotion {
+        Ok::<_, MachineTextError>(HarmonicMotion {
             order,
             cos: or_zero(&format!("motion.{order}.cos"), motion.cos.as_ref())?,
             sin: or_zero(&format!("motion.{order}.sin"), motion.sin.as_ref())?,

@@ -7,7 +7,7 @@ use super::places::{Places, check_name, name_of_mode};
 use super::shapes::MatrixText;
 use super::text::{LinkText, MachineText, ModeText};
 use core::f64::consts::TAU;
-use vibroimpact::Matrix;
+use vibroimpact::math::Matrix;
 use vibroimpact::machine::{MachineParts, modal_damping};
 
 /// The names, and what they stand for.
