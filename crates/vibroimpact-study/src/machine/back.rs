@@ -3,8 +3,8 @@
 use super::number::Number;
 use super::shapes::{MatrixText, VectorText};
 use super::text::{ForceText, FrictionText, MachineText, MotionText, OpeningText, StopText};
-use vibroimpact::math::Matrix;
 use vibroimpact::machine::{FrictionJoint, HarmonicForce, MachineParts, MachineStop, Opening, StopLaw};
+use vibroimpact::math::Matrix;
 
 /// A positive zero, which is what an absent number stands for.
 const fn zero(value: f64) -> bool {

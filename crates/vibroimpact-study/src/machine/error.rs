@@ -48,10 +48,14 @@ pub enum MachineProblem {
         known: String,
     },
     /// A name that cannot be a part of a path, or that has a meaning of its own.
-    #[error("`{0}` cannot be used as a name\nhint: letters, digits, _ and -, at least one; `ground` stands for the ground")]
+    #[error(
+        "`{0}` cannot be used as a name\nhint: letters, digits, _ and -, at least one; `ground` stands for the ground"
+    )]
     Name(String),
     /// A name of a parameter that an expression cannot use.
-    #[error("`{0}` cannot be the name of a parameter\nhint: a letter, then letters, digits and _; pi, frequency and functions have a meaning of their own")]
+    #[error(
+        "`{0}` cannot be the name of a parameter\nhint: a letter, then letters, digits and _; pi, frequency and functions have a meaning of their own"
+    )]
     ParameterName(String),
     /// Two parts of one kind with one name.
     #[error("the name is used twice")]
@@ -74,6 +78,9 @@ pub enum MachineProblem {
         /// Why.
         why: String,
     },
+    /// A changed number that the expansion does not have.
+    #[error(transparent)]
+    Set(MachineError),
     /// No machine of this name.
     #[error("no such machine in the catalogue\nhint: {0}")]
     NoMachine(String),

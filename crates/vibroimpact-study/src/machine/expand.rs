@@ -3,7 +3,7 @@
 use super::error::{MachineProblem, MachineTextError};
 use super::named::Named;
 use super::number::Number;
-use super::places::Places;
+use super::places::{Places, check_name};
 use super::shapes::VectorText;
 use super::structure::{frequency, places, structure};
 use super::text::{ForceText, FrictionText, MachineText, MotionText, OpeningText, StopText};
@@ -32,9 +32,9 @@ fn forces(all: &mut Vec<HarmonicForce>, texts: &[ForceText], places: &Places<'_>
             match (amplitude, &text.at) {
                 (None, _) => Ok(vec![0.0; places.n()]),
                 (Some(VectorText::One(number)), Some(at)) => {
-                    let path = format!("{path}.{at}");
-                    let size = places.value(&path, number)?;
-                    Ok(places.direction(&path, at)?.iter().map(|value| size * value).collect())
+                    let direction = places.direction(&format!("force.{order}.at"), at)?;
+                    let size = places.value(&format!("{path}.{at}"), number)?;
+                    Ok(direction.iter().map(|value| size * value).collect())
                 }
                 (Some(_), Some(_)) => {
                     Err(MachineTextError::new(path, MachineProblem::Foreign("with `at` it is one number")))
@@ -73,6 +73,7 @@ fn direction(
 }
 
 fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, MachineTextError> {
+    check_name("stop", &text.name)?;
     let path = format!("stop.{}", text.name);
     let direction = direction(&path, (text.direction.as_ref(), text.between.as_ref(), text.at.as_ref()), places)?;
     let number = |field: &str, number: &Number| places.value(&format!("{path}.{field}"), number);
@@ -85,7 +86,8 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
                 ("opening", text.opening.is_some()),
             ];
             if let Some((field, _)) = compliant.iter().find(|(_, given)| *given) {
-                let problem = MachineProblem::Foreign("a stop with restitution is rigid; a compliant one has stiffness");
+                let problem =
+                    MachineProblem::Foreign("a stop with restitution is rigid; a compliant one has stiffness");
                 return Err(MachineTextError::new(format!("{path}.{field}"), problem));
             }
             StopLaw::Rigid { restitution: number("restitution", restitution)? }
@@ -100,7 +102,8 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
             },
         },
         (None, None) => {
-            let problem = MachineProblem::Missing { needed: "restitution of a rigid stop, or stiffness of a compliant one," };
+            let problem =
+                MachineProblem::Missing { needed: "restitution of a rigid stop, or stiffness of a compliant one," };
             return Err(MachineTextError::new(path, problem));
         }
         (Some(_), Some(_)) => {
@@ -130,6 +133,7 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
 }
 
 fn expand_joint(text: &FrictionText, places: &Places<'_>) -> Result<FrictionJoint, MachineTextError> {
+    check_name("friction", &text.name)?;
     let path = format!("friction.{}", text.name);
     let sliding = places.value(&format!("{path}.sliding"), &text.sliding)?;
     Ok(FrictionJoint {

@@ -55,8 +55,14 @@ const DEPTH: u32 = 64;
 
 /// The functions, by name.
 type Function = fn(f64) -> f64;
-const FUNCTIONS: [(&str, Function); 6] =
-    [("sqrt", libm::sqrt), ("sin", libm::sin), ("cos", libm::cos), ("tan", libm::tan), ("exp", libm::exp), ("abs", libm::fabs)];
+const FUNCTIONS: [(&str, Function); 6] = [
+    ("sqrt", libm::sqrt),
+    ("sin", libm::sin),
+    ("cos", libm::cos),
+    ("tan", libm::tan),
+    ("exp", libm::exp),
+    ("abs", libm::fabs),
+];
 
 /// Whether a name has a meaning in expressions, so that no parameter can have it.
 pub(super) fn reserved(name: &str) -> bool {
@@ -149,10 +155,9 @@ impl Reader<'_> {
             if count > 0 { rest.len() - unsigned.len() + count } else { 0 }
         });
         let length = mantissa.len() + exponent;
-        let value = self.rest[..length].parse().map_err(|_| ExpressionError::Expected {
-            text: self.text.to_owned(),
-            found: self.found(),
-        })?;
+        let value = self.rest[..length]
+            .parse()
+            .map_err(|_| ExpressionError::Expected { text: self.text.to_owned(), found: self.found() })?;
         self.rest = &self.rest[length..];
         Ok(value)
     }

@@ -24,7 +24,12 @@ pub(super) fn from_csv(table: &str) -> Result<Vec<ModeText>, String> {
         let mut mode = ModeText::default();
         for (column, cell) in columns.iter().zip(cells) {
             let value = cell.parse().map_err(|_| {
-                format!("has `{}` in line {}, column `{}`, which is no number", shortened(cell), number + 1, shortened(column))
+                format!(
+                    "has `{}` in line {}, column `{}`, which is no number",
+                    shortened(cell),
+                    number + 1,
+                    shortened(column)
+                )
             })?;
             let value = Number::Value(value);
             match *column {
@@ -65,7 +70,10 @@ mod tests {
 
     #[test]
     fn a_table_of_modes() {
-        let modes = from_csv("# of a beam\nfrequency_hz, damping_ratio, \"tip\", middle\n\n10,0.01,1.2,-0.3\n62.5,2e-2,-1.2,0.8\n").unwrap();
+        let modes = from_csv(
+            "# of a beam\nfrequency_hz, damping_ratio, \"tip\", middle\n\n10,0.01,1.2,-0.3\n62.5,2e-2,-1.2,0.8\n",
+        )
+        .unwrap();
         assert_eq!(modes.len(), 2);
         assert_eq!(modes[1].frequency_hz, Some(Number::Value(62.5)));
         assert_eq!(modes[1].damping_ratio, Some(Number::Value(0.02)));

@@ -16,10 +16,18 @@ pub(super) fn name_of_mode(number: usize) -> String {
 /// Checks a name that is a part of paths.
 pub(super) fn check_name(path: &str, name: &str) -> Result<(), MachineTextError> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if name.is_empty() || name == GROUND || !name.chars().all(plain) {
+    if name.is_empty() || !name.chars().all(plain) {
         return Err(MachineTextError::new(path, MachineProblem::Name(name.to_owned())));
     }
     Ok(())
+}
+
+/// Checks the name of a coordinate, a body or a point.
+pub(super) fn check_place(path: &str, name: &str) -> Result<(), MachineTextError> {
+    if name == GROUND {
+        return Err(MachineTextError::new(path, MachineProblem::Name(name.to_owned())));
+    }
+    check_name(path, name)
 }
 
 /// Directions by name.
@@ -62,9 +70,9 @@ impl Places<'_> {
         }
         let place = self.coordinates.iter().position(|known| known == name).ok_or_else(|| {
             let mut known: Vec<&str> = self.others.iter().map(|(name, _)| name.as_str()).collect();
-            known.extend(self.coordinates.iter().map(String::as_str).filter(|name| !name.is_empty()));
+            let more = self.coordinates.iter().map(String::as_str).filter(|name| !known.contains(name));
+            known.extend(more.collect::<Vec<_>>());
             known.push(GROUND);
-            known.dedup();
             let problem = MachineProblem::Unknown { name: name.to_owned(), known: known.join(", ") };
             MachineTextError::new(path, problem)
         })?;
@@ -92,8 +100,8 @@ impl Places<'_> {
             VectorText::Named(table) => {
                 let mut sum = vec![0.0; self.n()];
                 for (name, number) in &table.0 {
-                    let path = format!("{path}.{name}");
-                    add(&mut sum, self.value(&path, number)?, &self.direction(&path, name)?);
+                    let direction = self.direction(path, name)?;
+                    add(&mut sum, self.value(&format!("{path}.{name}"), number)?, &direction);
                 }
                 Ok(sum)
             }

@@ -22,10 +22,7 @@ impl MachineSource {
     /// # Errors
     /// [`MachineTextError`] with the path of the part, or the line and the column, and what is expected there. What the
     /// numbers mean is checked by [`MachineSource::machine`].
-    pub fn from_text(
-        text: &str,
-        files: impl FnOnce(&str) -> Result<String, String>,
-    ) -> Result<Self, MachineTextError> {
+    pub fn from_text(text: &str, files: impl FnOnce(&str) -> Result<String, String>) -> Result<Self, MachineTextError> {
         let mut source = if text.trim_start().starts_with('{') { from_json(text)? } else { from_toml(text)? };
         if let Some(name) = source.machine.modes.take() {
             if !source.machine.mode.is_empty() {
@@ -60,7 +57,9 @@ fn from_json(text: &str) -> Result<MachineSource, MachineTextError> {
         let said = said.rsplit_once(" at line ").map_or(said.as_str(), |(said, _)| said);
         wrong(path, Some((inner.line(), inner.column())), said)
     })?;
-    parsed.end().map_err(|error| wrong(String::new(), Some((error.line(), error.column())), "the text does not end here"))?;
+    parsed
+        .end()
+        .map_err(|error| wrong(String::new(), Some((error.line(), error.column())), "the text does not end here"))?;
     Ok(read)
 }
 

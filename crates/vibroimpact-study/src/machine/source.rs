@@ -9,7 +9,7 @@ use super::text::MachineText;
 use super::written::{listed_path, numbers};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::machine::{Machine, MachineError, MachineParts};
 
 /// A machine file: the table `[machine]`, and optionally a title, the source, parameters and changed numbers.
 ///
@@ -65,12 +65,16 @@ impl MachineSource {
                 return Err(MachineTextError::new("parameters", MachineProblem::ParameterName(name.clone())));
             }
             if !value.is_finite() {
-                return Err(MachineTextError::new(path, MachineProblem::Text(format!("{value} is not a finite number"))));
+                return Err(MachineTextError::new(
+                    path,
+                    MachineProblem::Text(format!("{value} is not a finite number")),
+                ));
             }
         }
         let mut parts = expand(&self.machine, &self.parameters)?;
         for (path, value) in &self.set.0 {
-            parts.set(path, *value)?;
+            let wrong = |error: MachineError| MachineTextError::new("set", MachineProblem::Set(error));
+            parts.set(path, *value).map_err(wrong)?;
         }
         Ok(parts)
     }
@@ -172,7 +176,11 @@ impl MachineSource {
         let first = error.path.split('.').next().unwrap_or_default();
         let own = ["body", "link", "mode", "modal_damping"].contains(&first);
         let like: Vec<String> = if own {
-            numbers(&mut copy).into_iter().map(|(path, _)| path).filter(|path| path.split('.').next() == Some(first)).collect()
+            numbers(&mut copy)
+                .into_iter()
+                .map(|(path, _)| path)
+                .filter(|path| path.split('.').next() == Some(first))
+                .collect()
         } else if !error.path.contains('.') && !self.parameters.is_empty() {
             self.parameters.names().into_iter().map(str::to_owned).collect()
         } else {

@@ -3,12 +3,12 @@
 use super::error::{MachineProblem, MachineTextError};
 use super::named::Named;
 use super::number::Number;
-use super::places::{Places, check_name, name_of_mode};
+use super::places::{Places, check_name, check_place, name_of_mode};
 use super::shapes::MatrixText;
 use super::text::{LinkText, MachineText, ModeText};
 use core::f64::consts::TAU;
-use vibroimpact::math::Matrix;
 use vibroimpact::machine::{MachineParts, modal_damping};
+use vibroimpact::math::Matrix;
 
 /// The names, and what they stand for.
 pub(super) fn places<'a>(text: &MachineText, parameters: &'a Named<f64>) -> Result<Places<'a>, MachineTextError> {
@@ -17,7 +17,8 @@ pub(super) fn places<'a>(text: &MachineText, parameters: &'a Named<f64>) -> Resu
         return Err(MachineTextError::new("modes", MachineProblem::File { name: name.clone(), why }));
     }
     let modes = text.mode.len();
-    let own: Vec<String> = (1..=modes).map(name_of_mode).chain(text.bodies.0.iter().map(|body| body.0.clone())).collect();
+    let own: Vec<String> =
+        (1..=modes).map(name_of_mode).chain(text.bodies.0.iter().map(|body| body.0.clone())).collect();
     let coordinates = match &text.coordinates {
         Some(names) if own.is_empty() || names.len() == own.len() => names.clone(),
         Some(names) => {
@@ -27,18 +28,19 @@ pub(super) fn places<'a>(text: &MachineText, parameters: &'a Named<f64>) -> Resu
             return Err(MachineTextError::new("coordinates", problem));
         }
         None if own.is_empty() => {
-            let problem = MachineProblem::Missing { needed: "a list of coordinates, a table of bodies or a list of modes" };
+            let problem =
+                MachineProblem::Missing { needed: "a list of coordinates, a table of bodies or a list of modes" };
             return Err(MachineTextError::new("coordinates", problem));
         }
         None => own,
     };
     for name in &coordinates {
-        check_name("coordinates", name)?;
+        check_place("coordinates", name)?;
     }
     let mut places = Places { parameters, coordinates, others: Vec::new() };
     points(&mut places, &text.mode)?;
     for (k, (name, _)) in text.bodies.0.iter().enumerate() {
-        check_name("bodies", name)?;
+        check_place("bodies", name)?;
         let mut direction = vec![0.0; places.n()];
         direction[modes + k] = 1.0;
         define(&mut places, &format!("bodies.{name}"), name, direction)?;
@@ -59,7 +61,7 @@ fn points(places: &mut Places<'_>, modes: &[ModeText]) -> Result<(), MachineText
         }
     }
     for name in names {
-        check_name("mode.1.shape", name)?;
+        check_place("mode.1.shape", name)?;
         let mut direction = vec![0.0; places.n()];
         for (k, mode) in modes.iter().enumerate() {
             let path = format!("mode.{}.shape.{name}", k + 1);
@@ -72,10 +74,11 @@ fn points(places: &mut Places<'_>, modes: &[ModeText]) -> Result<(), MachineText
 
 /// A name stands for one direction only.
 fn define(places: &mut Places<'_>, path: &str, name: &str, direction: Vec<f64>) -> Result<(), MachineTextError> {
-    let other = places.others.iter().any(|(known, _)| known == name)
-        || places.coordinates.iter().position(|known| known == name).is_some_and(|k| {
-            direction.iter().enumerate().any(|(j, value)| *value != if j == k { 1.0 } else { 0.0 })
-        });
+    let other =
+        places.others.iter().any(|(known, _)| known == name)
+            || places.coordinates.iter().position(|known| known == name).is_some_and(|k| {
+                direction.iter().enumerate().any(|(j, value)| *value != if j == k { 1.0 } else { 0.0 })
+            });
     if other {
         return Err(MachineTextError::new(path, MachineProblem::Twice));
     }
@@ -140,8 +143,14 @@ pub(super) fn structure(text: &MachineText, places: &Places<'_>) -> Result<Machi
 
 fn add_mode(parts: &mut MachineParts, k: usize, mode: &ModeText, places: &Places<'_>) -> Result<(), MachineTextError> {
     let path = |field: &str| format!("mode.{}.{field}", k + 1);
-    let frequency = frequency(&format!("mode.{}.", k + 1), mode.frequency.as_ref(), mode.frequency_hz.as_ref(), places)?
-        .ok_or_else(|| MachineTextError::new(format!("mode.{}", k + 1), MachineProblem::Missing { needed: "frequency or frequency_hz" }))?;
+    let frequency =
+        frequency(&format!("mode.{}.", k + 1), mode.frequency.as_ref(), mode.frequency_hz.as_ref(), places)?
+            .ok_or_else(|| {
+                MachineTextError::new(
+                    format!("mode.{}", k + 1),
+                    MachineProblem::Missing { needed: "frequency or frequency_hz" },
+                )
+            })?;
     let ratio = places.value_or(&path("damping_ratio"), mode.damping_ratio.as_ref(), 0.0)?;
     for (field, value) in [("frequency", frequency), ("damping_ratio", ratio)] {
         if !(value >= 0.0 && value.is_finite()) {
@@ -188,13 +197,15 @@ pub(super) fn name_of_link(link: &LinkText) -> String {
 fn links(text: &MachineText, places: &Places<'_>) -> Result<Vec<Link>, MachineTextError> {
     let mut seen: Vec<String> = Vec::new();
     let mut all = Vec::new();
-    for link in &text.link {
-        let name = name_of_link(link);
-        let path = format!("link.{name}");
+    for (k, link) in text.link.iter().enumerate() {
         if let Some(name) = &link.name {
             check_name("link", name)?;
         }
-        let direction = places.between(&format!("{path}.between"), &link.between)?;
+        // the name may come from what the link joins
+        let place = link.name.clone().unwrap_or_else(|| (k + 1).to_string());
+        let direction = places.between(&format!("link.{place}.between"), &link.between)?;
+        let name = name_of_link(link);
+        let path = format!("link.{name}");
         if direction.iter().all(|value| *value == 0.0) {
             let problem = MachineProblem::Text("the link joins nothing that moves".to_owned());
             return Err(MachineTextError::new(format!("{path}.between"), problem));

@@ -34,8 +34,7 @@ pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut Number)> {
         let shape = mode.shape.0.iter_mut();
         all.extend(shape.map(|(point, value)| (format!("mode.{}.shape.{point}", k + 1), value)));
     }
-    for (kind, matrix) in
-        [("mass", &mut text.mass), ("damping", &mut text.damping), ("stiffness", &mut text.stiffness)]
+    for (kind, matrix) in [("mass", &mut text.mass), ("damping", &mut text.damping), ("stiffness", &mut text.stiffness)]
     {
         of_matrix(&mut all, kind, matrix.as_mut(), &coordinates);
     }

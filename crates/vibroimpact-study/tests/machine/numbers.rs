@@ -74,7 +74,8 @@ fn other_numbers_change_in_the_expansion() {
 fn every_path_leads_to_a_number_that_can_be_set() {
     let source = source();
     let paths = source.paths().unwrap();
-    for wanted in ["mu", "body.body.mass", "link.leg.damping", "stiffness.body.shoe", "stop.wall.preload", "frequency"] {
+    for wanted in ["mu", "body.body.mass", "link.leg.damping", "stiffness.body.shoe", "stop.wall.preload", "frequency"]
+    {
         assert!(paths.iter().any(|path| path == wanted), "{wanted}: {paths:?}");
     }
     assert!(!paths.iter().any(|path| path == "mass.body.shoe"), "{paths:?}");
@@ -90,7 +91,10 @@ fn every_path_leads_to_a_number_that_can_be_set() {
 fn unknown_paths_are_explained() {
     let source = source();
     for (path, said) in [
-        ("link.leg.gap", "link.leg.gap: no such number in this machine\nhint: there are link.body-shoe.stiffness, link.leg.stiffness, link.leg.damping"),
+        (
+            "link.leg.gap",
+            "link.leg.gap: no such number in this machine\nhint: there are link.body-shoe.stiffness, link.leg.stiffness, link.leg.damping",
+        ),
         ("nu", "nu: no such number in this machine\nhint: there are mu, d"),
         ("stop.wal.gap", "hint: the stops are wall"),
         ("stop.wall.restitution", "hint: the numbers of wall are gap, stiffness, damping, preload"),

@@ -61,7 +61,8 @@ mod tests {
     /// C M^-1 C = 4 zeta^2 K for equal ratios, an identity without eigenvectors.
     #[test]
     fn equal_ratios() {
-        let rows = |rows: &[[f64; 3]]| Matrix::from_rows(&rows.iter().map(|row| row.to_vec()).collect::<Vec<_>>()).unwrap();
+        let rows =
+            |rows: &[[f64; 3]]| Matrix::from_rows(&rows.iter().map(|row| row.to_vec()).collect::<Vec<_>>()).unwrap();
         let mass = rows(&[[2.0, 0.3, 0.0], [0.3, 1.0, 0.1], [0.0, 0.1, 0.5]]);
         let stiffness = rows(&[[5.0, -2.0, 0.0], [-2.0, 4.0, -1.0], [0.0, -1.0, 3.0]]);
         let damping = modal_damping(&mass, &stiffness, &[0.05; 3]).unwrap();
