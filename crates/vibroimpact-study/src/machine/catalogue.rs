@@ -23,6 +23,22 @@ macro_rules! catalogue {
 
 catalogue! {
     "soft-stop"
+    "bouncing-ball"
+    "impact-pair"
+    "impact-damper"
+    "vi-nes"
+    "two-mass-hammer"
+    "gear-rattle"
+    "chain"
+    "cantilever"
+    "pounding-buildings"
+    "capsule"
+    "den-hartog"
+    "fukaya-irie-1971"
+    "sdnd101"
+    "sdnd102"
+    "sdnd106"
+    "sdnd122"
 }
 
 impl CatalogueEntry {

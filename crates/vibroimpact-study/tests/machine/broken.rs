@@ -78,7 +78,7 @@ fn is_explained(told: &str) -> bool {
         && (counted || !path.contains(char::is_whitespace))
         && first.chars().count() < 600
         && lines.all(|line| line.starts_with("hint: "))
-        && !["f64", "u32", "struct", "variant", "MachineText", "Option<"].iter().any(|inside| told.contains(inside))
+        && !["f64", "u32", "struct ", "variant", "MachineText", "Option<"].iter().any(|inside| told.contains(inside))
 }
 
 proptest! {
