@@ -5,7 +5,7 @@ use super::model::{Item, Kind, Model, Place};
 use crate::number::short;
 use vibroimpact_plot::{Anchor, Colour};
 
-/// Distance of the points.
+/// Distance of the points, and of what stands at one point on one side.
 const STEP: f64 = 3.6;
 /// Half of the height of the beam.
 const HALF: f64 = 0.13;
@@ -14,25 +14,21 @@ const LONG: f64 = 2.2;
 
 pub(super) fn draw(model: &Model) -> Sketch {
     let mut sketch = Sketch::default();
-    let length = STEP * model.points.len() as f64;
-    let at = |point: usize| STEP * (point as f64 + 1.0) - 0.15;
+    let most = (0..model.points.len()).map(|point| side_by_side(model, point)).max().unwrap_or(1).max(1) as f64;
+    let length = most * STEP * model.points.len() as f64;
+    let at = |point: usize| most * STEP * (point as f64 + 1.0) - 0.15;
     if model.held {
         sketch.ground(Way { from: (0.3, 0.0), to: (0.0, 0.0) }, 0.9);
     }
     sketch.line(&[(0.0, HALF), (length, HALF), (length, -HALF), (0.0, -HALF), (0.0, HALF)], Colour::BLACK, 2.5);
-    sketch.text((0.25, HALF + 0.32), &model.modes, Anchor::Start);
     // what stands at each point, above and below it
     let mut taken = vec![[0.0_f64; 2]; model.points.len()];
     let mut bodies: Vec<Option<(f64, f64)>> = vec![None; model.bodies.len()];
     for item in &model.items {
-        let (point, far, above) = match item.ends {
-            [Place::Point(point), far] => (point, far, item.kind != Kind::Slider && !link_to_ground(item)),
-            [far, Place::Point(point)] => (point, far, false),
-            _ => continue,
-        };
+        let Some((point, far, above)) = stands(item) else { continue };
         let side = usize::from(!above);
         let x = at(point) - taken[point][side];
-        taken[point][side] += 1.6;
+        taken[point][side] += STEP;
         let up = if above { 1.0 } else { -1.0 };
         let way = Way { from: (x, up * HALF), to: (x, up * (HALF + LONG)) };
         sketch.item(way, item);
@@ -48,8 +44,9 @@ pub(super) fn draw(model: &Model) -> Sketch {
             }
             _ => sketch.ground(way, 0.5),
         }
-        sketch.text((x + 0.4, up * (HALF + 0.62 * LONG) + 0.17), &item.label[0], Anchor::Start);
-        sketch.text((x + 0.4, up * (HALF + 0.62 * LONG) - 0.17), &item.label[1], Anchor::Start);
+        let middle = up * (HALF + 0.62 * LONG);
+        sketch.text((x + 0.5, middle + 0.17), &item.label[0], Anchor::Start);
+        sketch.text((x + 0.5, middle - 0.17), &item.label[1], Anchor::Start);
     }
     for (k, name) in model.points.iter().enumerate() {
         let used = |place: &Place| *place == Place::Point(k);
@@ -69,12 +66,29 @@ pub(super) fn draw(model: &Model) -> Sketch {
         sketch.body((right, 0.0), (2.0, 1.2), name, &format!("m {}", short(*mass)));
         right += 2.6;
     }
+    let below = taken.iter().any(|[_, below]| *below > 0.0);
+    sketch.text((0.25, -HALF - if below { LONG + 0.7 } else { 0.8 }), &model.modes, Anchor::Start);
     loose(&mut sketch, model);
     sketch
 }
 
-fn link_to_ground(item: &Item) -> bool {
-    matches!(item.kind, Kind::Link { .. }) && item.ends[1] == Place::Ground
+/// The point at which an item stands, what is at its other end, and whether it stands above.
+fn stands(item: &Item) -> Option<(usize, Place, bool)> {
+    let to_ground = matches!(item.kind, Kind::Link { .. }) && item.ends[1] == Place::Ground;
+    match item.ends {
+        [Place::Point(point), far] => Some((point, far, item.kind != Kind::Slider && !to_ground)),
+        [far, Place::Point(point)] => Some((point, far, false)),
+        _ => None,
+    }
+}
+
+/// The largest number of items at a point on one side.
+fn side_by_side(model: &Model, point: usize) -> usize {
+    let count = |above: bool| {
+        let here = |found: &(usize, Place, bool)| found.0 == point && found.2 == above;
+        model.items.iter().filter_map(stands).filter(here).count()
+    };
+    count(true).max(count(false))
 }
 
 /// Items that no point has are listed below.

@@ -6,8 +6,9 @@ use crate::number::short;
 use vibroimpact_plot::{Anchor, Colour};
 
 const BODY: f64 = 2.0;
+/// The smallest width of a space with items; long labels widen it.
 const SLOT: f64 = 3.0;
-const LANE: f64 = 1.5;
+const LANE: f64 = 1.75;
 
 /// An item in the space on one side of a body.
 struct Placed<'a> {
@@ -60,9 +61,12 @@ pub(super) fn draw(model: &Model) -> Sketch {
         slot.sort_by_key(|one| one.far);
     }
     let lanes = slots.iter().map(Vec::len).max().unwrap_or(0).max(1) as f64;
-    let high = 1.3 + (lanes - 1.0) * LANE;
+    let high = 1.5 + (lanes - 1.0) * LANE;
     // left ends of the slots and of the bodies
-    let wide = |slot: &Vec<Placed<'_>>| if slot.is_empty() { 0.8 } else { SLOT };
+    let wide = |slot: &Vec<Placed<'_>>| {
+        let letters = slot.iter().flat_map(|one| &one.item.label).map(|text| text.chars().count()).max();
+        letters.map_or(0.8, |letters| SLOT.max(0.19 * letters as f64 + 1.0))
+    };
     let (mut x, mut starts, mut bodies) = (0.0, Vec::new(), Vec::new());
     for (k, slot) in slots.iter().enumerate() {
         starts.push(x);
@@ -82,7 +86,7 @@ pub(super) fn draw(model: &Model) -> Sketch {
     for (slot, start) in slots.iter().zip(&starts) {
         let end = start + wide(slot);
         for (lane, one) in slot.iter().enumerate() {
-            let y = ((slot.len() as f64 - 1.0) / 2.0 - lane as f64) * LANE + 0.2;
+            let y = ((slot.len() as f64 - 1.0) / 2.0 - lane as f64) * LANE + 0.25;
             let (near, far) = if one.right { (*start, end) } else { (end, *start) };
             let inside = near + (far - near) * 0.86;
             let way = Way { from: (near, y), to: (if one.far == Far::Neighbour { far } else { inside }, y) };
@@ -98,9 +102,13 @@ pub(super) fn draw(model: &Model) -> Sketch {
                 }
             }
             let middle = (start + end) / 2.0;
-            sketch.text((middle, y - 0.52), &one.item.label[0], Anchor::Middle);
-            let below = if one.item.label[0].is_empty() { 0.52 } else { 0.84 };
-            sketch.text((middle, y - below), &one.item.label[1], Anchor::Middle);
+            let both =
+                matches!(one.item.kind, Kind::Link { spring: true, damper: true } | Kind::Compliant { damper: true });
+            let mut line = y - if both { 0.73 } else { 0.5 };
+            for label in one.item.label.iter().filter(|label| !label.is_empty()) {
+                sketch.text((middle, line), label, Anchor::Middle);
+                line -= 0.31;
+            }
         }
     }
     arrows(&mut sketch, model, &bodies, high);
