@@ -127,12 +127,12 @@ fn list(args: List, session: &Session) -> Result<(), Failure> {
 
 /// All numbers of a machine, in the order of their paths.
 fn numbers(source: &MachineSource) -> Result<Named<f64>, Failure> {
-    let paths = source.paths()?;
-    Ok(paths
-        .iter()
-        .map(|path| Ok((path.clone(), source.number(path)?)))
-        .collect::<Result<Vec<_>, Failure>>()
-        .map(Named)?)
+    let mut numbers = Named::default();
+    for path in source.paths()? {
+        let value = source.number(&path)?;
+        numbers.0.push((path, value));
+    }
+    Ok(numbers)
 }
 
 fn show(args: &Show, session: &Session) -> Result<(), Failure> {

@@ -5,15 +5,15 @@ use std::fs;
 use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
 
 fn printed(line: &str) -> String {
-    let output = vibro(line).output().unwrap();
+    let output = vibro(line).output().expect("vibro runs");
     assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+    String::from_utf8(output.stdout).expect("text")
 }
 
 fn refused(line: &str) -> String {
-    let output = vibro(line).output().unwrap();
+    let output = vibro(line).output().expect("vibro runs");
     assert_eq!((output.status.code(), output.stdout.is_empty()), (Some(2), true), "{line}");
-    String::from_utf8(output.stderr).unwrap()
+    String::from_utf8(output.stderr).expect("text")
 }
 
 #[test]

@@ -142,9 +142,9 @@ impl MachineSource {
         let mut copy = self.machine.clone();
         for (path, number) in numbers(&mut copy) {
             // the zeros of a matrix that is written as rows are not listed
-            let inside = path.matches('.').count() == 2 && path.starts_with(['m', 'd', 's']);
-            let inside = inside && ["mass.", "damping.", "stiffness."].iter().any(|kind| path.starts_with(kind));
-            if !paths.contains(&path) && !(inside && *number == Number::Value(0.0)) {
+            let inside = ["mass.", "damping.", "stiffness."].iter().any(|kind| path.starts_with(kind));
+            let hidden = inside && path.matches('.').count() == 2 && *number == Number::Value(0.0);
+            if !hidden && !paths.contains(&path) {
                 paths.push(path);
             }
         }

@@ -36,7 +36,7 @@ pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut Number)> {
     }
     for (kind, matrix) in [("mass", &mut text.mass), ("damping", &mut text.damping), ("stiffness", &mut text.stiffness)]
     {
-        of_matrix(&mut all, kind, matrix.as_mut(), &coordinates);
+        of_matrix(&mut all, kind, matrix, &coordinates);
     }
     for (k, ratio) in text.modal_damping.iter_mut().flatten().enumerate() {
         all.push((format!("modal_damping.{}", k + 1), ratio));
@@ -45,15 +45,19 @@ pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut Number)> {
         let path = format!("link.{}", name_of_link(link));
         given(&mut all, &path, [("stiffness", &mut link.stiffness), ("damping", &mut link.damping)]);
     }
-    of_vector(&mut all, "constant", text.constant.as_mut(), &coordinates);
+    of_vector(&mut all, "constant", &mut text.constant, &coordinates);
     let frequencies = [("frequency", &mut text.frequency), ("frequency_hz", &mut text.frequency_hz)];
     all.extend(frequencies.into_iter().filter_map(|(name, number)| Some((name.to_owned(), number.as_mut()?))));
     for force in &mut text.force {
         for (side, amplitude) in [("cos", &mut force.cos), ("sin", &mut force.sin)] {
             let path = format!("force.{}.{side}", force.order.unwrap_or(1));
-            match (amplitude, &force.at) {
-                (Some(VectorText::One(number)), Some(at)) => all.push((format!("{path}.{at}"), number)),
-                (amplitude, _) => of_vector(&mut all, &path, amplitude.as_mut(), &coordinates),
+            match &force.at {
+                Some(at) => {
+                    if let Some(VectorText::One(number)) = amplitude {
+                        all.push((format!("{path}.{at}"), number));
+                    }
+                }
+                None => of_vector(&mut all, &path, amplitude, &coordinates),
             }
         }
     }
@@ -67,7 +71,7 @@ pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut Number)> {
             ("preload", &mut stop.preload),
         ];
         given(&mut all, &path, fields);
-        of_vector(&mut all, &format!("{path}.direction"), stop.direction.as_mut(), &coordinates);
+        of_vector(&mut all, &format!("{path}.direction"), &mut stop.direction, &coordinates);
         for motion in &mut stop.motion {
             let path = format!("{path}.motion.{}", motion.order.unwrap_or(1));
             given(&mut all, &path, [("cos", &mut motion.cos), ("sin", &mut motion.sin)]);
@@ -77,7 +81,7 @@ pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut Number)> {
         let path = format!("friction.{}", joint.name);
         all.push((format!("{path}.sliding"), &mut joint.sliding));
         given(&mut all, &path, [("static", &mut joint.limit), ("belt", &mut joint.belt)]);
-        of_vector(&mut all, &format!("{path}.direction"), joint.direction.as_mut(), &coordinates);
+        of_vector(&mut all, &format!("{path}.direction"), &mut joint.direction, &coordinates);
     }
     all
 }
@@ -97,7 +101,7 @@ fn given<'a, const N: usize>(all: &mut Found<'a>, path: &str, fields: [(&str, &'
     all.extend(fields.filter_map(|(name, number)| Some((format!("{path}.{name}"), number.as_mut()?))));
 }
 
-fn of_vector<'a>(all: &mut Found<'a>, path: &str, vector: Option<&'a mut VectorText>, names: &[String]) {
+fn of_vector<'a>(all: &mut Found<'a>, path: &str, vector: &'a mut Option<VectorText>, names: &[String]) {
     match vector {
         Some(VectorText::List(list)) => {
             all.extend(names.iter().zip(list).map(|(name, number)| (format!("{path}.{name}"), number)));
@@ -109,7 +113,7 @@ fn of_vector<'a>(all: &mut Found<'a>, path: &str, vector: Option<&'a mut VectorT
     }
 }
 
-fn of_matrix<'a>(all: &mut Found<'a>, path: &str, matrix: Option<&'a mut MatrixText>, names: &[String]) {
+fn of_matrix<'a>(all: &mut Found<'a>, path: &str, matrix: &'a mut Option<MatrixText>, names: &[String]) {
     match matrix {
         Some(MatrixText::Diagonal(list)) => {
             all.extend(names.iter().zip(list).map(|(name, number)| (format!("{path}.{name}"), number)));

@@ -54,8 +54,8 @@ fn each_sentence() {
         ),
         (
             "at = \"body\"",
-            "at = \"boddy\"",
-            "stop.wall.at: `boddy` is the name of nothing in this machine\nhint: known names are body, shoe, ground",
+            "at = \"torso\"",
+            "stop.wall.at: `torso` is the name of nothing in this machine\nhint: known names are body, shoe, ground",
         ),
         (
             "at = \"body\"",
