@@ -6,6 +6,7 @@ use std::io;
 use vibroimpact_plot::PlotError;
 use vibroimpact_report::{AnswerError, ReportError};
 use vibroimpact_store::StoreError;
+use vibroimpact_study::machine::MachineTextError;
 use vibroimpact_study::{PlanError, RunError, Stopped};
 
 /// The reason why a command did not finish. The text may have a second line, `hint: ...`.
@@ -43,6 +44,12 @@ impl Failure {
 impl From<PlanError> for Failure {
     fn from(error: PlanError) -> Self {
         Self::bad(hints::worded(&error, hints::plan(&error)))
+    }
+}
+
+impl From<MachineTextError> for Failure {
+    fn from(error: MachineTextError) -> Self {
+        Self::bad(error)
     }
 }
 

@@ -11,6 +11,7 @@ mod exit;
 mod failure;
 mod files;
 mod hints;
+mod machine_file;
 mod measure;
 mod picture;
 mod progress;

@@ -94,3 +94,42 @@ fn the_page_on_studies_runs() {
     let plan = vibroimpact_study::Plan::from_text(&example).unwrap();
     assert_eq!(vibroimpact_study::Study::new(&plan).unwrap().grid().points(), 3201 * 4001);
 }
+
+/// Writes the files of the page on machines, whose first line is their name, and runs its command lines.
+#[test]
+fn the_page_on_machines_runs() {
+    let text = page("docs/machines.md");
+    let folder = tempfile::tempdir().unwrap();
+    let files = ["csv", "toml"].map(|language| blocks(&text, language)).concat();
+    for block in &files {
+        let name = block.lines().next().and_then(|line| line.strip_prefix("# ")).expect("the first line is the name");
+        fs::write(folder.path().join(name), block).unwrap();
+        if name.ends_with(".toml") {
+            let output = vibro(&format!("vibro machine show {name}"), folder.path());
+            assert!(output.status.success(), "{name}\n{}", String::from_utf8_lossy(&output.stderr));
+        }
+    }
+    let mut ran = files.len();
+    for block in blocks(&text, "console") {
+        let (command, expected) = block.split_once('\n').unwrap();
+        let output = vibro(command.trim_start_matches("$ "), folder.path());
+        let out = String::from_utf8(output.stdout).unwrap();
+        let mut lines = out.lines();
+        for want in expected.lines() {
+            assert!(
+                lines.any(|line| line == want),
+                "{command}\nshould print, in this order\n{want}\nbut prints\n{out}"
+            );
+        }
+        ran += 1;
+    }
+    for line in blocks(&text, "sh").iter().flat_map(|block| block.lines()) {
+        let output = vibro(line, folder.path());
+        assert!(output.status.success(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
+        ran += 1;
+    }
+    assert!(ran >= 12, "{ran}");
+    let expansion = |name: &str| vibro(&format!("vibro machine show {name} --toml"), folder.path()).stdout;
+    assert_eq!(expansion("beam.toml"), expansion("table.toml"));
+    assert!(folder.path().join("hammer.png").exists());
+}

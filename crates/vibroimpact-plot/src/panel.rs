@@ -21,19 +21,27 @@ pub struct Panel {
     pub caption: Option<String>,
     /// The marks; the first one is lowest.
     pub marks: Vec<Mark>,
+    /// Whether frame, ticks, numbers and labels are left out: a drawing, whose axes only say how large it is.
+    pub bare: bool,
 }
 
 impl Panel {
     /// An empty panel.
     #[must_use]
     pub fn new(x: FigureAxis, y: FigureAxis) -> Self {
-        Self { x, y, caption: None, marks: Vec::new() }
+        Self { x, y, caption: None, marks: Vec::new(), bare: false }
     }
 
     /// Sets the caption.
     #[must_use]
     pub fn caption(self, markup: impl Into<String>) -> Self {
         Self { caption: Some(markup.into()), ..self }
+    }
+
+    /// Leaves out frame, ticks, numbers and labels.
+    #[must_use]
+    pub fn bare(self) -> Self {
+        Self { bare: true, ..self }
     }
 
     /// Adds a mark on top of the others.
@@ -75,6 +83,12 @@ impl Panel {
 
     /// The room that numbers, labels and caption need around the frame.
     pub(crate) fn margins(&self, prepared: &Prepared) -> Margins {
+        if self.bare {
+            return Margins {
+                top: if self.caption.is_some() { 1.5 * theme::CAPTION_TEXT } else { 0.0 },
+                ..Margins::default()
+            };
+        }
         let width = |t: &Tick| markup::width(&t.label, theme::TICK_TEXT);
         let numbers = prepared.y_ticks.iter().map(width).fold(0.0, f64::max);
         let label = |axis: &FigureAxis| {
@@ -94,9 +108,15 @@ impl Panel {
     pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame, prepared: &Prepared) {
         canvas.define_clip(frame);
         canvas.push("<g>\n");
-        self.draw_grid(canvas, frame, prepared);
+        if !self.bare {
+            self.draw_grid(canvas, frame, prepared);
+        }
         for mark in &self.marks {
             mark.draw(canvas, frame);
+        }
+        if self.bare {
+            canvas.push("</g>\n");
+            return;
         }
         canvas.push(
             &frame.rect(&format!(" fill=\"none\"{}", Stroke::new(Colour::BLACK).width(theme::FRAME).attributes())),
@@ -153,6 +173,15 @@ mod tests {
                 assert!(shown <= 2 || !crowded(&prepared.x_ticks, &mapping), "{width} {lo} {hi}");
             }
         }
+    }
+
+    #[test]
+    fn a_drawing_has_marks_only() {
+        let panel = || Panel::new(FigureAxis::new("x").range(0.0, 1.0), FigureAxis::new("y").range(0.0, 1.0));
+        let svg = |panel| crate::Figure::new(panel).to_svg();
+        let (framed, bare) =
+            (svg(panel()), svg(panel().bare().with(crate::Line::new([0.0, 1.0], [0.0, 1.0], Colour::BLACK))));
+        assert!(framed.contains("<text") && !bare.contains("<text") && bare.contains("stroke-linejoin"), "{bare}");
     }
 
     #[test]

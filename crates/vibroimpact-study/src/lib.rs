@@ -28,7 +28,8 @@
 //! | the distances of a motion from its nearest events | [`MarginsPlan`], [`MotionMargins`] |
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
-//! | a machine in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
+//! | machines as they are written, and their catalogue | [`machine`] |
+//! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
 pub mod axis;
@@ -47,6 +48,7 @@ mod grid;
 mod in_memory;
 mod limits;
 mod lyapunov;
+pub mod machine;
 mod map;
 mod margins;
 mod parameter;

@@ -135,7 +135,7 @@ impl Plan {
 }
 
 /// The message of a parser, without names of types of this program and with long lines of the text cut.
-fn plain(why: &str) -> String {
+pub(crate) fn plain(why: &str) -> String {
     const WORDS: [(&str, &str); 12] = [
         ("floating point `", "number `"),
         ("expected f64", "expected a number"),

@@ -1,6 +1,7 @@
 //! Groups of arguments that several commands share. Arguments of one command are in the file of that command.
 
 mod axes;
+mod changed;
 mod colour;
 mod fields;
 mod figure;
@@ -18,6 +19,7 @@ mod unit_text;
 mod vary;
 
 pub(crate) use axes::AxesArgs;
+pub(crate) use changed::SetArgs;
 pub(crate) use colour::ColourArgs;
 pub(crate) use fields::{FieldsArgs, quantity};
 pub(crate) use figure::FigureArgs;

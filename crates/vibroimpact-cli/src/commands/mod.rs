@@ -10,6 +10,7 @@ mod diagram;
 mod explore;
 mod export;
 mod lyapunov;
+mod machine;
 mod man;
 mod map;
 mod margins;
@@ -71,6 +72,7 @@ enum Command {
     Region(region::Region),
     Response(response::Response),
     Margins(margins::Margins),
+    Machine(machine::MachineCommand),
     Basin(basin::Basin),
     Map(map::Map),
     Diagram(diagram::Diagram),
@@ -102,6 +104,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Region(args) => region::run(args, session),
         Command::Response(args) => response::run(args, session),
         Command::Margins(args) => margins::run(args, session),
+        Command::Machine(args) => machine::run(args, session),
         Command::Basin(args) => basin::run(args, session),
         Command::Map(args) => map::run(args, session),
         Command::Diagram(args) => diagram::run(args, session),
@@ -114,7 +117,7 @@ pub(crate) fn run(line: &CommandLine, session: &Session) -> Result<(), Failure> 
         Command::Export(args) => export::run(args, session),
         Command::Plot(args) => plot::run(args, session),
         Command::Slurm(args) => slurm::run(args, session),
-        Command::Schema(_) => schema::run(session),
+        Command::Schema(args) => schema::run(*args, session),
         Command::Bench(args) => bench::run(args, session),
         #[cfg(feature = "reproduce")]
         Command::Reproduce(args) => reproduce::run(args, session),

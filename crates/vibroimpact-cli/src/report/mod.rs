@@ -7,6 +7,7 @@ mod curve;
 mod diagram;
 mod leading;
 mod lyapunov;
+pub(crate) mod machine;
 mod map;
 mod margins;
 mod orbit;

@@ -5,6 +5,7 @@ pub mod branch;
 pub mod coloured;
 pub mod curve;
 pub mod diagram;
+pub mod machine;
 pub mod map;
 pub mod plane;
 pub mod point_motion;

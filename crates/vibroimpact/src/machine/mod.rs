@@ -4,14 +4,17 @@
 //! |---|---|
 //! | the numbers of a machine, before they are checked | [`MachineParts`] |
 //! | the checks, and their errors | `checks`, [`MachineError`] |
+//! | damping by the ratios of the modes | [`modal_damping`] |
 //! | a checked machine, its numbers by path | [`Machine`], `path` |
 
 mod checks;
 mod error;
+mod modal;
 mod parts;
 mod path;
 mod value;
 
 pub use error::{MachineError, MachineFault};
+pub use modal::modal_damping;
 pub use parts::{FrictionJoint, HarmonicForce, HarmonicMotion, MachineParts, MachineStop, Opening, StopLaw};
 pub use value::Machine;

@@ -33,6 +33,24 @@ pub(super) fn set(parts: &mut MachineParts, path: &str, value: f64) -> Result<()
     Ok(())
 }
 
+impl MachineParts {
+    /// The number at a path, as `stop.wall.gap`. Vectors and matrices must have the sizes of the coordinates.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the path leads to no number.
+    pub fn number(&self, path: &str) -> Result<f64, MachineError> {
+        get(self, path)
+    }
+
+    /// Sets the number at a path. A number of a symmetric matrix changes in both places.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the path leads to no number.
+    pub fn set(&mut self, path: &str, value: f64) -> Result<(), MachineError> {
+        set(self, path, value)
+    }
+}
+
 /// Where a number stands.
 enum Places<'a> {
     One(&'a mut f64),

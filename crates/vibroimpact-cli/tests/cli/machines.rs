@@ -1,0 +1,107 @@
+//! Machines: the catalogue, files, changed numbers, schematics, refusals.
+
+use super::{json, vibro};
+use std::fs;
+use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
+
+fn printed(line: &str) -> String {
+    let output = vibro(line).output().expect("vibro runs");
+    assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+fn refused(line: &str) -> String {
+    let output = vibro(line).output().expect("vibro runs");
+    assert_eq!((output.status.code(), output.stdout.is_empty()), (Some(2), true), "{line}");
+    String::from_utf8(output.stderr).expect("text")
+}
+
+#[test]
+fn the_catalogue_is_listed_and_shown() {
+    let list = printed("machine list");
+    let listed = json("machine list");
+    assert_eq!(list.lines().count(), CATALOGUE.len());
+    for (k, entry) in CATALOGUE.iter().enumerate() {
+        assert!(list.contains(entry.name) && listed["machines"][k]["name"] == entry.name);
+    }
+    assert_eq!(listed["machines"][7]["coordinates"], serde_json::json!(["first", "second"]));
+    let shown = json("machine show chain --set kn=50 --set frequency=0.7 --set damping.first=0.04");
+    assert_eq!(shown["parameters"]["kn"], 50.0);
+    assert_eq!(shown["numbers"]["stop.stop.stiffness"], 50.0);
+    assert_eq!(shown["numbers"]["frequency"], 0.7);
+    assert_eq!(shown["machine"]["damping"], serde_json::json!([[0.04, -0.03], [-0.03, 0.06]]));
+}
+
+/// What is printed as a file reads as the same machine.
+#[test]
+fn printed_machines_are_files() {
+    let line = "machine show capsule --set beta=20 --set stop.plate.preload=0.5";
+    let machine = |text: &str| MachineSource::from_text(text, no_files).unwrap().machine().unwrap();
+    let (expansion, written) = (printed(&format!("{line} --toml")), printed(&format!("{line} --written")));
+    assert_eq!(machine(&expansion), machine(&written));
+    assert_eq!(machine(&written).number("stop.plate.preload"), Ok(0.5));
+    assert!(written.contains("beta = 20.0") && written.contains("[set]\n\"stop.plate.preload\" = 0.5\n"), "{written}");
+    let text = printed(line);
+    assert!(text.contains(expansion.split("[machine]").nth(1).unwrap()), "{text}");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("mine.toml");
+    fs::write(&file, written).unwrap();
+    assert_eq!(printed(&format!("machine show {} --toml", file.display())), expansion);
+}
+
+#[test]
+fn schematics() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    printed(&format!("machine show vi-nes --figure {}", file("a.svg").display()));
+    printed(&format!("machine show cantilever --figure {} --dpi 100 --title beam", file("a.png").display()));
+    let svg = fs::read_to_string(file("a.svg")).unwrap();
+    assert!(svg.contains("oscillator") && svg.contains("gap 1, e 0.6"), "{svg}");
+    assert!(fs::read(file("a.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(refused("machine show vi-nes --title none").contains("hint: --figure FILE.svg"));
+    assert!(refused(&format!("machine show vi-nes --figure {}", file("a.svg").display())).contains("exists already"));
+}
+
+#[test]
+fn refusals() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        fs::write(folder.path().join(name), text).unwrap();
+        folder.path().join(name).display().to_string()
+    };
+    let bad = file(
+        "bad.toml",
+        "[machine]\nbodies = { a = 1 }\nstop = [{ name = \"s\", at = \"a\", gap = 1, restitution = 2 }]\n",
+    );
+    let none = file("none.toml", "[machine]\nmodes = \"none.csv\"\n");
+    for (line, said) in [
+        (
+            "machine show soft",
+            "error: `soft` is neither a machine of the catalogue nor a file\nhint: `vibro machine list`".to_owned(),
+        ),
+        ("machine show a/b.toml", "error: the machine `a/b.toml` cannot be read: ".to_owned()),
+        (
+            "machine show chain --set stop.stop.gapp=1",
+            "error: stop.stop.gapp: no such number in this machine\nhint: the numbers of stop are gap".to_owned(),
+        ),
+        ("machine show chain --set kn", "a path and a value are needed, such as stop.wall.gap=0.5".to_owned()),
+        ("machine show chain --set kn=0", "error: stop.stop.stiffness: 0 lies outside stiffness > 0".to_owned()),
+        (&format!("machine show {bad}"), "error: stop.s.restitution: 2 lies outside 0 <= restitution <= 1".to_owned()),
+        (
+            &format!("machine show {none}"),
+            format!("error: {none}: modes: the file `none.csv` cannot be read: No such file"),
+        ),
+    ] {
+        let told = refused(line);
+        assert!(told.contains(&said), "{line}: {told}");
+    }
+}
+
+#[test]
+fn the_schema_of_machine_files() {
+    let schema: serde_json::Value = serde_json::from_str(&printed("schema --machine")).unwrap();
+    assert_eq!(schema["additionalProperties"], false);
+    assert_eq!(schema["required"], serde_json::json!(["machine"]));
+    let stop = &schema["$defs"]["StopText"]["properties"];
+    assert!(stop["gap"]["description"].as_str().is_some_and(|text| text.contains("coordinates are 0")), "{stop}");
+}

@@ -1,0 +1,46 @@
+//! Machines as they are written: TOML files, short forms, a catalogue, and the numbers in them by path.
+//!
+//! A description expands to the matrices of [`vibroimpact::machine::Machine`]. All short forms are translated in one
+//! place, `expand`; what follows knows matrices and directions only.
+//!
+//! | idea | file |
+//! |---|---|
+//! | a machine file: parameters, a machine, changed numbers | [`MachineSource`], `source` |
+//! | from text to a source, with errors that name a path | `read` |
+//! | the table `[machine]` | [`MachineText`], `text` |
+//! | a number or an expression of the parameters | [`Number`], `number`, `expression` |
+//! | vectors, matrices, and tables that keep their order | [`VectorText`], [`MatrixText`], [`Named`] |
+//! | what names stand for: coordinates, bodies, points, the ground | `places` |
+//! | the matrices | `expand`, `structure` |
+//! | from the matrices back to a table | `back` |
+//! | the numbers of a table by path | `written` |
+//! | modes from a table of numbers | `modes` |
+//! | named machines of the literature | [`CATALOGUE`], `catalogue` |
+//! | errors | [`MachineTextError`], [`MachineProblem`] |
+
+mod back;
+mod catalogue;
+mod error;
+mod expand;
+mod expression;
+mod modes;
+mod named;
+mod number;
+mod places;
+mod read;
+mod shapes;
+mod source;
+mod structure;
+mod text;
+mod write;
+mod written;
+
+pub use catalogue::{CATALOGUE, CatalogueEntry};
+pub use error::{MachineProblem, MachineTextError};
+pub use expression::ExpressionError;
+pub use named::Named;
+pub use number::Number;
+pub use read::no_files;
+pub use shapes::{MatrixText, VectorText};
+pub use source::MachineSource;
+pub use text::{ForceText, FrictionText, LinkText, MachineText, ModeText, MotionText, OpeningText, StopText};

@@ -1,0 +1,201 @@
+//! A machine file: a machine with its title, its parameters and the numbers that were changed in it.
+
+use super::error::{MachineProblem, MachineTextError};
+use super::expand::expand;
+use super::expression::reserved;
+use super::named::Named;
+use super::number::Number;
+use super::text::MachineText;
+use super::written::{listed_path, numbers};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vibroimpact::machine::{Machine, MachineError, MachineParts};
+
+/// A machine file: the table `[machine]`, and optionally a title, the source, parameters and changed numbers.
+///
+/// ```
+/// use vibroimpact_study::machine::{MachineSource, no_files};
+/// let source = MachineSource::from_text(r#"
+///     [parameters]
+///     mu = 0.25
+///     [machine]
+///     bodies = { body = 1, shoe = "mu" }
+///     link = [{ between = ["body", "shoe"], stiffness = "1/(1+mu)" }, { between = ["shoe", "ground"], stiffness = 1 }]
+///     stop = [{ name = "wall", at = "body", gap = 1, restitution = 0.8 }]
+/// "#, no_files)?;
+/// assert_eq!(source.number("link.body-shoe.stiffness")?, 0.8);
+/// assert_eq!(source.number("stiffness.shoe")?, 1.8);
+/// let heavier = source.with("mu", 1.0)?;
+/// assert_eq!(heavier.machine()?.number("mass.shoe")?, 1.0);
+/// # Ok::<(), vibroimpact_study::machine::MachineTextError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineSource {
+    /// A title in a few words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Where the machine comes from: authors, title, year, DOI.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+    /// What it is, and what was chosen where the source says nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub summary: Option<String>,
+    /// Numbers that expressions use, in the notation of the source.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub parameters: Named<f64>,
+    /// Numbers of the expansion that are changed after it, by path, such as `"stiffness.body" = 2`.
+    #[serde(default, skip_serializing_if = "Named::is_empty")]
+    pub set: Named<f64>,
+    /// The machine.
+    pub machine: MachineText,
+}
+
+impl MachineSource {
+    /// The expansion: matrices, vectors and directions, which are not checked yet.
+    ///
+    /// # Errors
+    /// [`MachineTextError`] with the path of the first part that has no meaning.
+    pub fn parts(&self) -> Result<MachineParts, MachineTextError> {
+        for (name, value) in &self.parameters.0 {
+            let path = format!("parameters.{name}");
+            let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
+            let plain = name.starts_with(letter) && name.chars().all(|c| letter(c) || c.is_ascii_digit());
+            if !plain || reserved(name) || matches!(name.as_str(), "frequency" | "frequency_hz") {
+                return Err(MachineTextError::new("parameters", MachineProblem::ParameterName(name.clone())));
+            }
+            if !value.is_finite() {
+                return Err(MachineTextError::new(
+                    path,
+                    MachineProblem::Text(format!("{value} is not a finite number")),
+                ));
+            }
+        }
+        let mut parts = expand(&self.machine, &self.parameters)?;
+        for (path, value) in &self.set.0 {
+            let wrong = |error: MachineError| MachineTextError::new("set", MachineProblem::Set(error));
+            parts.set(path, *value).map_err(wrong)?;
+        }
+        Ok(parts)
+    }
+
+    /// The machine.
+    ///
+    /// # Errors
+    /// [`MachineTextError`] with the path of the first number or part that is not allowed.
+    pub fn machine(&self) -> Result<Machine, MachineTextError> {
+        Ok(Machine::new(self.parts()?)?)
+    }
+
+    /// The number at a path: of a parameter, of the file, or else of its expansion.
+    ///
+    /// # Errors
+    /// [`MachineTextError`] if the path leads to no number, or if the file describes no machine.
+    pub fn number(&self, path: &str) -> Result<f64, MachineTextError> {
+        if let Some(value) = self.parameters.get(path) {
+            return Ok(*value);
+        }
+        let mut copy = self.machine.clone();
+        let listed = listed_path(&copy, path);
+        if self.set.get(&listed).is_none()
+            && let Some((_, number)) = numbers(&mut copy).into_iter().find(|(known, _)| *known == listed)
+        {
+            return number.value(&self.parameters).map_err(|error| MachineTextError::new(path, error));
+        }
+        self.parts()?.number(path).map_err(|error| self.explained(error.into()))
+    }
+
+    /// The same machine with another number at a path. A parameter or a number that the file has is changed there, and
+    /// the machine expands anew; another number is changed in the expansion. The result is not checked, so that
+    /// several numbers can change one after the other.
+    ///
+    /// # Errors
+    /// [`MachineTextError`] if the path leads to no number, or if the file describes no machine.
+    pub fn with(&self, path: &str, value: f64) -> Result<Self, MachineTextError> {
+        let mut changed = self.clone();
+        if let Some(place) = changed.parameters.get_mut(path) {
+            *place = value;
+            return Ok(changed);
+        }
+        let listed = listed_path(&changed.machine, path);
+        let mut found = false;
+        for (_, number) in numbers(&mut changed.machine).into_iter().filter(|(known, _)| *known == listed) {
+            *number = Number::Value(value);
+            found = true;
+        }
+        if found {
+            changed.set.0.retain(|(known, _)| *known != listed);
+            return Ok(changed);
+        }
+        self.parts()?.set(path, value).map_err(|error| self.explained(error.into()))?;
+        changed.set.set(&listed, value);
+        Ok(changed)
+    }
+
+    /// The paths of all numbers: parameters, those of the file, and those of its expansion that are not zero.
+    ///
+    /// # Errors
+    /// [`MachineTextError`] if the file describes no machine.
+    pub fn paths(&self) -> Result<Vec<String>, MachineTextError> {
+        let expansion = self.machine()?.paths();
+        let mut paths: Vec<String> = self.parameters.names().into_iter().map(str::to_owned).collect();
+        let mut copy = self.machine.clone();
+        for (path, number) in numbers(&mut copy) {
+            // the zeros of a matrix that is written as rows are not listed
+            let inside = ["mass.", "damping.", "stiffness."].iter().any(|kind| path.starts_with(kind));
+            let hidden = inside && path.matches('.').count() == 2 && *number == Number::Value(0.0);
+            if !hidden && !paths.contains(&path) {
+                paths.push(path);
+            }
+        }
+        paths.extend(expansion.into_iter().filter(|path| !paths.contains(path)).collect::<Vec<_>>());
+        Ok(paths)
+    }
+
+    /// The expansion as a source: it has matrices and directions only, and no parameters.
+    ///
+    /// # Errors
+    /// As [`Self::machine`].
+    pub fn expansion(&self) -> Result<Self, MachineTextError> {
+        let machine = MachineText::from(self.machine()?.parts());
+        let (title, source, summary) = (self.title.clone(), self.source.clone(), self.summary.clone());
+        Ok(Self { title, source, summary, machine, ..Self::default() })
+    }
+
+    /// The JSON schema of machine files, for editors and other programs.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        let mut schema = schemars::schema_for!(Self).to_value();
+        schema["title"] = "a machine of vibroimpact".into();
+        schema
+    }
+
+    /// The error with what the file has at paths that begin alike.
+    fn explained(&self, error: MachineTextError) -> MachineTextError {
+        let mut copy = self.machine.clone();
+        let first = error.path.split('.').next().unwrap_or_default();
+        let own = ["body", "link", "mode", "modal_damping"].contains(&first);
+        let like: Vec<String> = if own {
+            numbers(&mut copy)
+                .into_iter()
+                .map(|(path, _)| path)
+                .filter(|path| path.split('.').next() == Some(first))
+                .collect()
+        } else if !error.path.contains('.') && !self.parameters.is_empty() {
+            self.parameters.names().into_iter().map(str::to_owned).collect()
+        } else {
+            return error;
+        };
+        if like.is_empty() {
+            return error;
+        }
+        let problem = format!("no such number in this machine\nhint: there are {}", like.join(", "));
+        MachineTextError::new(error.path, MachineProblem::Text(problem))
+    }
+}
+
+impl From<&Machine> for MachineSource {
+    fn from(machine: &Machine) -> Self {
+        Self { machine: MachineText::from(machine.parts()), ..Self::default() }
+    }
+}

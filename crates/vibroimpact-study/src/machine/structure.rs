@@ -1,0 +1,260 @@
+//! The structure of a machine: its coordinates and matrices, from matrices, bodies, links and modes.
+
+use super::error::{MachineProblem, MachineTextError};
+use super::named::Named;
+use super::number::Number;
+use super::places::{Places, check_name, check_place, name_of_mode};
+use super::shapes::MatrixText;
+use super::text::{LinkText, MachineText, ModeText};
+use core::f64::consts::TAU;
+use vibroimpact::machine::{MachineParts, modal_damping};
+use vibroimpact::math::Matrix;
+
+/// The names, and what they stand for.
+pub(super) fn places<'a>(text: &MachineText, parameters: &'a Named<f64>) -> Result<Places<'a>, MachineTextError> {
+    if let Some(name) = &text.modes {
+        let why = "was not read".to_owned();
+        return Err(MachineTextError::new("modes", MachineProblem::File { name: name.clone(), why }));
+    }
+    let modes = text.mode.len();
+    let own: Vec<String> =
+        (1..=modes).map(name_of_mode).chain(text.bodies.0.iter().map(|body| body.0.clone())).collect();
+    let coordinates = match &text.coordinates {
+        Some(names) if own.is_empty() || names.len() == own.len() => names.clone(),
+        Some(names) => {
+            let given = format!("{} names", names.len());
+            let of = format!("the modes and bodies {}", own.join(", "));
+            let problem = MachineProblem::Size { given, wanted: own.len(), of };
+            return Err(MachineTextError::new("coordinates", problem));
+        }
+        None if own.is_empty() => {
+            let problem =
+                MachineProblem::Missing { needed: "a list of coordinates, a table of bodies or a list of modes" };
+            return Err(MachineTextError::new("coordinates", problem));
+        }
+        None => own,
+    };
+    for name in &coordinates {
+        check_place("coordinates", name)?;
+    }
+    let mut places = Places { parameters, coordinates, others: Vec::new() };
+    points(&mut places, &text.mode)?;
+    for (k, (name, _)) in text.bodies.0.iter().enumerate() {
+        check_place("bodies", name)?;
+        let mut direction = vec![0.0; places.n()];
+        direction[modes + k] = 1.0;
+        define(&mut places, &format!("bodies.{name}"), name, direction)?;
+    }
+    Ok(places)
+}
+
+/// The points of the modes: those of the first mode, in each.
+fn points(places: &mut Places<'_>, modes: &[ModeText]) -> Result<(), MachineTextError> {
+    let Some(first) = modes.first() else { return Ok(()) };
+    let names = first.shape.names();
+    for (k, mode) in modes.iter().enumerate() {
+        if mode.shape.names().iter().any(|name| !names.contains(name)) || mode.shape.0.len() != names.len() {
+            let given = format!("the points {}", mode.shape.names().join(", "));
+            let of = format!("the points {} of the first mode", names.join(", "));
+            let problem = MachineProblem::Size { given, wanted: names.len(), of };
+            return Err(MachineTextError::new(format!("mode.{}.shape", k + 1), problem));
+        }
+    }
+    for name in names {
+        check_place("mode.1.shape", name)?;
+        let mut direction = vec![0.0; places.n()];
+        for (k, mode) in modes.iter().enumerate() {
+            let path = format!("mode.{}.shape.{name}", k + 1);
+            direction[k] = places.value_or(&path, mode.shape.get(name), 0.0)?;
+        }
+        define(places, &format!("mode.1.shape.{name}"), name, direction)?;
+    }
+    Ok(())
+}
+
+/// A name stands for one direction only.
+fn define(places: &mut Places<'_>, path: &str, name: &str, direction: Vec<f64>) -> Result<(), MachineTextError> {
+    let other =
+        places.others.iter().any(|(known, _)| known == name)
+            || places.coordinates.iter().position(|known| known == name).is_some_and(|k| {
+                direction.iter().enumerate().any(|(j, value)| *value != if j == k { 1.0 } else { 0.0 })
+            });
+    if other {
+        return Err(MachineTextError::new(path, MachineProblem::Twice));
+    }
+    places.others.push((name.to_owned(), direction));
+    Ok(())
+}
+
+/// The matrices.
+pub(super) fn structure(text: &MachineText, places: &Places<'_>) -> Result<MachineParts, MachineTextError> {
+    let mut parts = MachineParts::new(places.coordinates.clone());
+    let own = !text.mode.is_empty() || !text.bodies.is_empty();
+    parts.mass = match &text.mass {
+        Some(_) if own => {
+            let problem = MachineProblem::Foreign("bodies and modes have masses of their own");
+            return Err(MachineTextError::new("mass", problem));
+        }
+        Some(mass) => matrix("mass", mass, places)?,
+        None if own => parts.mass,
+        None => return Err(MachineTextError::new("mass", MachineProblem::Missing { needed: "the mass matrix" })),
+    };
+    if let Some(stiffness) = &text.stiffness {
+        parts.stiffness = matrix("stiffness", stiffness, places)?;
+    }
+    if let Some(damping) = &text.damping {
+        parts.damping = matrix("damping", damping, places)?;
+    }
+    for (k, mode) in text.mode.iter().enumerate() {
+        add_mode(&mut parts, k, mode, places)?;
+    }
+    for (k, (name, mass)) in text.bodies.0.iter().enumerate() {
+        let place = text.mode.len() + k;
+        parts.mass[(place, place)] = places.value(&format!("body.{name}.mass"), mass)?;
+    }
+    let links = links(text, places)?;
+    for link in &links {
+        add_outer(&mut parts.stiffness, link.stiffness, &link.direction);
+    }
+    if let Some(ratios) = &text.modal_damping {
+        if text.damping.is_some() {
+            return Err(MachineTextError::new("modal_damping", MachineProblem::Several("damping and modal_damping")));
+        }
+        places.check_size("modal_damping", ratios.len())?;
+        let ratios = places.values("modal_damping", ratios)?;
+        if let Some(k) = ratios.iter().position(|ratio| !(*ratio >= 0.0 && ratio.is_finite())) {
+            let problem = MachineProblem::Text(format!("{} lies outside damping ratio >= 0", ratios[k]));
+            return Err(MachineTextError::new(format!("modal_damping.{}", k + 1), problem));
+        }
+        // without a positive definite mass matrix there are no modes, and the checks of the machine say so
+        if let Some(damping) = modal_damping(&parts.mass, &parts.stiffness, &ratios) {
+            for i in 0..places.n() {
+                for j in 0..places.n() {
+                    parts.damping[(i, j)] += damping[(i, j)];
+                }
+            }
+        }
+    }
+    for link in &links {
+        add_outer(&mut parts.damping, link.damping, &link.direction);
+    }
+    Ok(parts)
+}
+
+fn add_mode(parts: &mut MachineParts, k: usize, mode: &ModeText, places: &Places<'_>) -> Result<(), MachineTextError> {
+    let path = |field: &str| format!("mode.{}.{field}", k + 1);
+    let frequency =
+        frequency(&format!("mode.{}.", k + 1), mode.frequency.as_ref(), mode.frequency_hz.as_ref(), places)?
+            .ok_or_else(|| {
+                MachineTextError::new(
+                    format!("mode.{}", k + 1),
+                    MachineProblem::Missing { needed: "frequency or frequency_hz" },
+                )
+            })?;
+    let ratio = places.value_or(&path("damping_ratio"), mode.damping_ratio.as_ref(), 0.0)?;
+    for (field, value) in [("frequency", frequency), ("damping_ratio", ratio)] {
+        if !(value >= 0.0 && value.is_finite()) {
+            let problem = MachineProblem::Text(format!("{value} lies outside {field} >= 0"));
+            return Err(MachineTextError::new(path(field), problem));
+        }
+    }
+    let mass = places.value_or(&path("modal_mass"), mode.modal_mass.as_ref(), 1.0)?;
+    parts.mass[(k, k)] = mass;
+    parts.damping[(k, k)] += 2.0 * ratio * frequency * mass;
+    parts.stiffness[(k, k)] += frequency * frequency * mass;
+    Ok(())
+}
+
+/// An angular frequency that is written in one of two forms; `before` is the path of the part, with its dot.
+pub(super) fn frequency(
+    before: &str,
+    angular: Option<&Number>,
+    hertz: Option<&Number>,
+    places: &Places<'_>,
+) -> Result<Option<f64>, MachineTextError> {
+    match (angular, hertz) {
+        (Some(_), Some(_)) => Err(MachineTextError::new(
+            format!("{before}frequency_hz"),
+            MachineProblem::Several("frequency and frequency_hz"),
+        )),
+        (Some(angular), None) => places.value(&format!("{before}frequency"), angular).map(Some),
+        (None, Some(hertz)) => Ok(Some(TAU * places.value(&format!("{before}frequency_hz"), hertz)?)),
+        (None, None) => Ok(None),
+    }
+}
+
+struct Link {
+    direction: Vec<f64>,
+    stiffness: f64,
+    damping: f64,
+}
+
+/// The name of a link, as written or from what it joins.
+pub(super) fn name_of_link(link: &LinkText) -> String {
+    link.name.clone().unwrap_or_else(|| link.between.join("-"))
+}
+
+fn links(text: &MachineText, places: &Places<'_>) -> Result<Vec<Link>, MachineTextError> {
+    let mut seen: Vec<String> = Vec::new();
+    let mut all = Vec::new();
+    for (k, link) in text.link.iter().enumerate() {
+        if let Some(name) = &link.name {
+            check_name("link", name)?;
+        }
+        // the name may come from what the link joins
+        let place = link.name.clone().unwrap_or_else(|| (k + 1).to_string());
+        let direction = places.between(&format!("link.{place}.between"), &link.between)?;
+        let name = name_of_link(link);
+        let path = format!("link.{name}");
+        if direction.iter().all(|value| *value == 0.0) {
+            let problem = MachineProblem::Text("the link joins nothing that moves".to_owned());
+            return Err(MachineTextError::new(format!("{path}.between"), problem));
+        }
+        if seen.contains(&name) {
+            return Err(MachineTextError::new(path, MachineProblem::Twice));
+        }
+        let stiffness = places.value_or(&format!("{path}.stiffness"), link.stiffness.as_ref(), 0.0)?;
+        let damping = places.value_or(&format!("{path}.damping"), link.damping.as_ref(), 0.0)?;
+        for (field, value) in [("stiffness", stiffness), ("damping", damping)] {
+            if !(value >= 0.0 && value.is_finite()) {
+                let problem = MachineProblem::Text(format!("{value} lies outside {field} >= 0"));
+                return Err(MachineTextError::new(format!("{path}.{field}"), problem));
+            }
+        }
+        seen.push(name);
+        all.push(Link { direction, stiffness, damping });
+    }
+    Ok(all)
+}
+
+/// Adds `factor * direction * direction^T`, symmetric to the last bit.
+fn add_outer(matrix: &mut Matrix, factor: f64, direction: &[f64]) {
+    for (i, one) in direction.iter().enumerate() {
+        for (j, other) in direction.iter().enumerate() {
+            matrix[(i, j)] += factor * (one * other);
+        }
+    }
+}
+
+fn matrix(path: &str, text: &MatrixText, places: &Places<'_>) -> Result<Matrix, MachineTextError> {
+    match text {
+        MatrixText::Diagonal(diagonal) => {
+            places.check_size(path, diagonal.len())?;
+            Ok(Matrix::diagonal(&places.values(path, diagonal)?))
+        }
+        MatrixText::Rows(rows) => {
+            if rows.len() != places.n() {
+                let given = format!("{} rows", rows.len());
+                let of = format!("the coordinates {}", places.coordinates.join(", "));
+                return Err(MachineTextError::new(path, MachineProblem::Size { given, wanted: places.n(), of }));
+            }
+            let mut matrix = Matrix::zeros(places.n(), places.n());
+            for (i, (row, name)) in rows.iter().zip(&places.coordinates).enumerate() {
+                let path = format!("{path}.{name}");
+                places.check_size(&path, row.len())?;
+                matrix.row_mut(i).copy_from_slice(&places.values(&path, row)?);
+            }
+            Ok(matrix)
+        }
+    }
+}
