@@ -17,6 +17,7 @@ mod progress;
 mod report;
 mod session;
 mod signal;
+mod unit_table;
 mod units_typed;
 
 use clap::Parser;
