@@ -18,6 +18,7 @@ mod progress;
 mod report;
 mod session;
 mod signal;
+mod unit_table;
 mod units_typed;
 
 use clap::Parser;

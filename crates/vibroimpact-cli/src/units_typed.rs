@@ -1,55 +1,21 @@
 //! Numbers typed with a unit, such as `1.5 mm`: the flag that takes them, and the number that it takes.
 
+use crate::unit_table::{Factor, UnitKind, plain};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use core::f64::consts::PI;
-use vibroimpact_study::typed::{decimal, meant, shifted};
+use vibroimpact_study::typed::{decimal, meant};
 
-/// What a unit measures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Length,
-    Velocity,
-    Time,
-    Frequency,
-    AngularFrequency,
-    Mass,
-    Force,
-    Stiffness,
-    Damping,
-    Angle,
-}
-
-/// The units: what they measure, the power of ten of the SI unit, and a factor beside it.
-const UNITS: [(&str, Kind, i32, f64); 29] = [
-    ("m", Kind::Length, 0, 1.0),
-    ("cm", Kind::Length, -2, 1.0),
-    ("mm", Kind::Length, -3, 1.0),
-    ("um", Kind::Length, -6, 1.0),
-    ("\u{b5}m", Kind::Length, -6, 1.0),
-    ("\u{3bc}m", Kind::Length, -6, 1.0),
-    ("m/s", Kind::Velocity, 0, 1.0),
-    ("cm/s", Kind::Velocity, -2, 1.0),
-    ("mm/s", Kind::Velocity, -3, 1.0),
-    ("s", Kind::Time, 0, 1.0),
-    ("ms", Kind::Time, -3, 1.0),
-    ("Hz", Kind::Frequency, 0, 1.0),
-    ("kHz", Kind::Frequency, 3, 1.0),
-    ("rpm", Kind::Frequency, 0, 1.0 / 60.0),
-    ("rad/s", Kind::AngularFrequency, 0, 1.0),
-    ("kg", Kind::Mass, 0, 1.0),
-    ("g", Kind::Mass, -3, 1.0),
-    ("t", Kind::Mass, 3, 1.0),
-    ("N", Kind::Force, 0, 1.0),
-    ("mN", Kind::Force, -3, 1.0),
-    ("kN", Kind::Force, 3, 1.0),
-    ("N/m", Kind::Stiffness, 0, 1.0),
-    ("N/mm", Kind::Stiffness, 3, 1.0),
-    ("kN/m", Kind::Stiffness, 3, 1.0),
-    ("Ns/m", Kind::Damping, 0, 1.0),
-    ("rad", Kind::Angle, 0, 1.0),
-    ("deg", Kind::Angle, 0, PI / 180.0),
-    ("\u{b0}", Kind::Angle, 0, PI / 180.0),
-    ("kg/s", Kind::Damping, 0, 1.0),
+/// What is measured by the units that are explained. The mass comes before the acceleration, so that `g` is a gram.
+const KINDS: [UnitKind; 10] = [
+    UnitKind::Length,
+    UnitKind::Velocity,
+    UnitKind::Time,
+    UnitKind::Frequency,
+    UnitKind::AngularFrequency,
+    UnitKind::Mass,
+    UnitKind::Force,
+    UnitKind::Stiffness,
+    UnitKind::DampingCoefficient,
+    UnitKind::Angle,
 ];
 
 /// The message for a value with a unit; `None` for other errors.
@@ -72,21 +38,21 @@ const SUFFIXES: [&str; 8] = ["-m", "-kg", "-n", "-hz", "-n-per-m", "-ns-per-m", 
 
 /// What to type instead of a value with a unit.
 fn hint(flag: &str, value: &str) -> Option<String> {
-    let (kind, number) = plain(value)?;
+    let (kind, number) = in_si(value)?;
     let (suffix, unit) = si(kind);
     let own = suffix.is_some_and(|suffix| {
         flag.ends_with(suffix) && !(suffix == "-m" && (flag.ends_with("-per-m") || flag.ends_with("-kg-m")))
     });
-    if own || (kind, flag) == (Kind::Angle, "--phase") {
+    if own || (kind, flag) == (UnitKind::Angle, "--phase") {
         return Some(format!("{flag} takes {unit}: {number}"));
     }
     let twin = match (flag, kind) {
-        ("--gap", Kind::Length) => "--gap-m",
-        ("--second-gap", Kind::Length) => "--second-gap-m",
-        ("--beta" | "--inverse-beta" | "--omega-rad-per-s", Kind::Frequency) => "--frequency-hz",
-        ("--beta" | "--inverse-beta" | "--frequency-hz", Kind::AngularFrequency) => "--omega-rad-per-s",
-        ("--damping" | "--damping-ratio", Kind::Damping) => "--damping-ns-per-m",
-        ("--x", Kind::Length) | ("--v", Kind::Velocity) => {
+        ("--gap", UnitKind::Length) => "--gap-m",
+        ("--second-gap", UnitKind::Length) => "--second-gap-m",
+        ("--beta" | "--inverse-beta" | "--omega-rad-per-s", UnitKind::Frequency) => "--frequency-hz",
+        ("--beta" | "--inverse-beta" | "--frequency-hz", UnitKind::AngularFrequency) => "--omega-rad-per-s",
+        ("--damping" | "--damping-ratio", UnitKind::DampingCoefficient) => "--damping-ns-per-m",
+        ("--x", UnitKind::Length) | ("--v", UnitKind::Velocity) => {
             return Some(format!("with --units si, {flag} takes {unit}: {number}"));
         }
         _ if SUFFIXES.iter().any(|suffix| flag.ends_with(suffix)) => return None,
@@ -100,60 +66,62 @@ fn hint(flag: &str, value: &str) -> Option<String> {
 }
 
 /// The end of the flags that take an SI unit, and the unit in words.
-const fn si(kind: Kind) -> (Option<&'static str>, &'static str) {
+const fn si(kind: UnitKind) -> (Option<&'static str>, &'static str) {
     match kind {
-        Kind::Length => (Some("-m"), "metres"),
-        Kind::Velocity => (Some("-m-per-s"), "metres per second"),
-        Kind::Time => (Some("-s"), "seconds"),
-        Kind::Frequency => (Some("-hz"), "hertz"),
-        Kind::AngularFrequency => (Some("-rad-per-s"), "radians per second"),
-        Kind::Mass => (Some("-kg"), "kilograms"),
-        Kind::Force => (Some("-n"), "newtons"),
-        Kind::Stiffness => (Some("-n-per-m"), "newtons per metre"),
-        Kind::Damping => (Some("-ns-per-m"), "newton seconds per metre"),
-        Kind::Angle => (None, "radians"),
+        UnitKind::Length => (Some("-m"), "metres"),
+        UnitKind::Velocity => (Some("-m-per-s"), "metres per second"),
+        UnitKind::Time => (Some("-s"), "seconds"),
+        UnitKind::Frequency => (Some("-hz"), "hertz"),
+        UnitKind::AngularFrequency => (Some("-rad-per-s"), "radians per second"),
+        UnitKind::Mass => (Some("-kg"), "kilograms"),
+        UnitKind::Force => (Some("-n"), "newtons"),
+        UnitKind::Stiffness => (Some("-n-per-m"), "newtons per metre"),
+        UnitKind::DampingCoefficient => (Some("-ns-per-m"), "newton seconds per metre"),
+        UnitKind::Acceleration => (Some("-m-per-s2"), "metres per second squared"),
+        UnitKind::Unbalance => (Some("-kg-m"), "kilogram metres"),
+        UnitKind::Angle => (None, "radians"),
+        UnitKind::Ratio => (None, "a pure number"),
     }
 }
 
 /// What the unit of a value, a list or a range measures, and the same text in SI units without unit. The first two numbers
 /// of a range have one unit, which may be written once.
-fn plain(value: &str) -> Option<(Kind, String)> {
+fn in_si(value: &str) -> Option<(UnitKind, String)> {
     let separator = if value.contains(':') { ':' } else { ',' };
     let listed = separator == ',' && value.matches(',').count() > 0 && split(value).is_none();
     let parts: Vec<&str> = if separator == ':' || listed { value.split(separator).collect() } else { vec![value] };
-    let (_, unit) = parts.iter().find_map(|part| split(part))?;
+    let (_, kind, factor) = parts.iter().find_map(|part| split(part))?;
     let scaled = |(k, part): (usize, &&str)| match split(part) {
         // the number of values has no unit, even where the unit of the ends is written behind it
         found if separator == ':' && k >= 2 => {
-            Some(found.map_or_else(|| part.trim().to_owned(), |(n, _)| n.to_string()))
+            Some(found.map_or_else(|| part.trim().to_owned(), |(number, ..)| number.to_string()))
         }
-        Some((number, other)) => (other.1 == unit.1).then(|| in_si(number, other).to_string()),
-        None => Some(in_si(number(part)?, unit).to_string()),
+        Some((number, other, factor)) => (other == kind).then(|| factor.convert(number).to_string()),
+        None => Some(factor.convert(number(part)?).to_string()),
     };
     let parts: Option<Vec<String>> = parts.iter().enumerate().map(scaled).collect();
-    Some((unit.1, parts?.join(&separator.to_string())))
-}
-
-type Unit = (&'static str, Kind, i32, f64);
-
-fn in_si(number: f64, (.., places, factor): Unit) -> f64 {
-    let number = shifted(number, places);
-    if factor == 1.0 { number } else { number * factor }
+    Some((kind, parts?.join(&separator.to_string())))
 }
 
 fn number(text: &str) -> Option<f64> {
     decimal(text).or_else(|| meant(text)?.parse().ok()).filter(|number| number.is_finite())
 }
 
-/// A number and its unit.
-fn split(text: &str) -> Option<(f64, Unit)> {
+/// A number, what its unit measures, and the factor of the unit.
+fn split(text: &str) -> Option<(f64, UnitKind, Factor)> {
     let text = text.trim();
-    let units = UNITS.into_iter().filter_map(|unit| {
-        let before = text.strip_suffix(unit.0).or_else(|| text.strip_suffix("N s/m").filter(|_| unit.0 == "Ns/m"))?;
-        Some((number(before)?, unit))
-    });
-    // `mm` ends in `m` too, but then what is before it is no number
-    units.into_iter().next()
+    // the longest beginning that is a number
+    let ends = (1..text.len()).rev().filter(|at| text.is_char_boundary(*at));
+    let (number, at) = ends.into_iter().find_map(|at| Some((number(&text[..at])?, at)))?;
+    let (kind, factor) = measured(&plain(&text[at..]))?;
+    Some((number, kind, factor))
+}
+
+/// What a unit measures, and its factor: the kind of which it is the SI unit, or the first that has it.
+fn measured(unit: &str) -> Option<(UnitKind, Factor)> {
+    let of = |kind: UnitKind| Some((kind, kind.factor(unit)?));
+    let si = KINDS.into_iter().find(|kind| kind.units().first().is_some_and(|(name, _)| *name == unit));
+    si.and_then(of).or_else(|| KINDS.into_iter().find_map(of))
 }
 
 #[cfg(test)]

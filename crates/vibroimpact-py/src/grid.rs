@@ -19,6 +19,7 @@ pub(crate) struct Variable<'py> {
     values: Bound<'py, PyAny>,
     long_name: &'static str,
     units: &'static str,
+    scale: &'static str,
     comment: &'static str,
     flags: Vec<(i32, String)>,
 }
@@ -53,7 +54,8 @@ fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
         name: along.name,
         values: along.values.into_pyarray(py).into_any(),
         long_name: along.long_name,
-        units: along.units,
+        units: along.unit.name,
+        scale: along.unit.scale,
         comment: "",
         flags: Vec::new(),
     });
@@ -67,7 +69,8 @@ fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
         flags: flags(&field, &values),
         values: array(py, values),
         long_name: field.long_name,
-        units: field.units,
+        units: field.unit.name,
+        scale: field.unit.scale,
         comment: field.comment,
     });
     let mut all: Vec<Variable<'_>> = fields.collect();
@@ -86,7 +89,8 @@ fn of_table(py: Python<'_>, table: StudyTable) -> PyResult<Variable<'_>> {
             Cells::Text(words) => words.into_pyobject(py)?.into_any(),
         },
         long_name: table.long_name,
-        units: table.units,
+        units: table.unit.name,
+        scale: table.unit.scale,
         comment: "",
         flags: Vec::new(),
     })

@@ -7,7 +7,7 @@ use vibroimpact::Oscillator;
 use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::orbit::Cycle;
-use vibroimpact::quantities::of_verdict;
+use vibroimpact::quantities::{errors_of_verdict, of_verdict};
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
 use vibroimpact_study::ImpactsByStop;
 
@@ -37,6 +37,8 @@ pub(crate) struct Fields<'py> {
     side: Option<&'static str>,
     tried: Option<Tried>,
     quantities: Option<Vec<(&'static str, f64)>>,
+    /// Three standard errors of the means of a chaotic motion.
+    quantities_error: Option<Vec<(&'static str, f64)>>,
 }
 
 /// One phase of sticking.
@@ -118,6 +120,10 @@ impl<'py> Fields<'py> {
             tried: None,
             quantities: of_verdict(osc, verdict)
                 .map(|of| of.iter().map(|(quantity, value)| (quantity.name(), value)).collect()),
+            quantities_error: errors_of_verdict(osc, verdict).map(|of| {
+                let known = of.iter().filter(|(_, error)| error.is_finite());
+                known.map(|(quantity, error)| (quantity.name(), error)).collect()
+            }),
         };
         let tried = |impacts, periods, lyapunov| Some(Tried { impacts, periods, lyapunov });
         match verdict {

@@ -81,8 +81,8 @@ pub(crate) fn machine_parameters() -> HashMap<&'static str, String> {
     PhysicalParameter::ALL.into_iter().map(|parameter| (parameter.name(), text(parameter))).collect()
 }
 
-/// Name, value, long name and unit of a coordinate.
-type Fixed = (&'static str, f64, &'static str, &'static str);
+/// Name, value, long name, unit and scale of a coordinate.
+type Fixed = (&'static str, f64, &'static str, &'static str, &'static str);
 
 /// The parameters, and the coordinates of a start, that do not vary in a plan. The names are always the same, so that
 /// Datasets of several plans can be joined. The parameters of an absent second stop, and the position of a start at
@@ -107,5 +107,9 @@ pub(crate) fn fixed_coordinates(text: &str) -> Result<Vec<Fixed>, Trouble> {
         [(Coordinate::X, x.unwrap_or(f64::NAN)), (Coordinate::V, v), (Coordinate::Phase, phase)]
     };
     let all = parameters.chain(start.map(of_start).into_iter().flatten());
-    Ok(all.filter(|(of, _)| !varies(*of)).map(|(of, value)| (of.name(), value, of.long_name(), of.units())).collect())
+    let described = |(of, value): (Coordinate, f64)| {
+        let unit = of.unit();
+        (of.name(), value, of.long_name(), unit.name, unit.scale)
+    };
+    Ok(all.filter(|(of, _)| !varies(*of)).map(described).collect())
 }

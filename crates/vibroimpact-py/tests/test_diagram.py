@@ -25,7 +25,7 @@ def test_points_are_the_impacts_of_the_motion(ds: xr.Dataset, s: vi.Oscillator) 
 
 
 def test_it_says_what_it_holds(ds: xr.Dataset) -> None:
-    assert ds["gap"].attrs["units"] == "F/k" and ds["velocity"].attrs["long_name"] == "speed of arrival of an impact"
+    assert (ds["gap"].attrs["units"], ds["gap"].attrs["scale"]) == ("1", "F/k") and ds["velocity"].attrs["long_name"] == "speed of arrival of an impact"
     plan = json.loads(ds.attrs["plan"])
     assert plan["task"]["diagram"]["over"] == "0.5:1:11" and plan["system"]["inverse_beta"] == 1.3
     assert ds.vibro.labels().values.tolist() == [["impacts"] * 11] * 2

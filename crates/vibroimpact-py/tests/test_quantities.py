@@ -31,7 +31,7 @@ def test_against_a_waveform() -> None:
 def test_fields_of_maps_and_basins() -> None:
     osc = vi.Oscillator(inverse_beta=1.3, gap=0.75, restitution=0.5)
     ds = vi.region_map(osc, {"gap": [0.5, 0.75]}, starts=8, fields=["impact_speed_max", "power"])
-    assert ds["power"].attrs["units"] == "omega_n F^2/k"
+    assert ds["power"].attrs["scale"] == "omega_n F^2/k"
     here = ds.sel(gap=0.75)
     assert np.allclose(here["impact_speed_max"].values[:2], here["speed"].values[:2])
     basin = vi.basin(osc, x="-4:0.75:20", v="-4:4:20", fields=["impact_speed_max"])

@@ -305,8 +305,10 @@ mod tests {
         };
         let x = r#"{"vary":"x","over":"0:0.7:2"}"#;
         let line = ask(&basin(x)).unwrap();
-        let undrawn = line.figure(&Shown::default(), &Control::default());
-        assert!(matches!(undrawn, Err(AnswerError::Report(ReportError::Axes(1)))), "{undrawn:?}");
+        assert!(line.figure(&Shown::default(), &Control::default()).is_ok());
+        let others = r#"{"vary":"v","over":"0:1:2"},{"vary":"phase","over":"0:1:2"}"#;
+        let undrawn = ask(&basin(&format!("{x},{others}"))).unwrap().figure(&Shown::default(), &Control::default());
+        assert!(matches!(undrawn, Err(AnswerError::Report(ReportError::Axes(3)))), "{undrawn:?}");
         let mut text = Vec::new();
         line.table(&Shown::default()).unwrap().unwrap().write(&mut text).unwrap();
         assert!(text.starts_with(b"x,label\n0,"));

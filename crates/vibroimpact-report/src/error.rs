@@ -12,8 +12,8 @@ pub enum ReportError {
     /// The values of an axis neither rise nor fall.
     #[error("a figure needs values in rising or falling order\nhint: a table takes any order")]
     Order,
-    /// The number of axes is not two.
-    #[error("a figure needs two axes, not {0}\nhint: a table takes any number, and xarray opens a store")]
+    /// The number of axes is neither one nor two.
+    #[error("a figure needs one or two axes, not {0}\nhint: a table takes any number, and xarray opens a store")]
     Axes(usize),
     /// An axis has more values than a figure can show.
     #[error("a figure shows at most {most} values on an axis, not {given}")]

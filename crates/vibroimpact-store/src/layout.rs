@@ -4,7 +4,7 @@ use crate::chunk::{Chunked, Defect, Description, Holds};
 use serde_json::{Map, Value, json};
 use vibroimpact_study::Grid;
 use vibroimpact_study::study::{Cells, Study, StudyTable};
-use vibroimpact_study::{Column, Field, NumberType};
+use vibroimpact_study::{Column, Field, NumberType, Unit};
 
 /// The field that is written last. A tile is complete if its chunk of this field exists.
 pub(crate) const STATUS: &str = "status";
@@ -25,11 +25,15 @@ fn text(value: &str) -> Value {
     Value::String(value.to_owned())
 }
 
-/// The attributes of a variable according to the CF conventions: long name, units, flags.
-fn attributes(long_name: &str, units: &str, comment: &str, flags: &[(i32, String)]) -> Map<String, Value> {
+/// The attributes of a variable according to the CF conventions: long name, units, flags; and the scale of nondimensional
+/// numbers.
+fn attributes(long_name: &str, unit: Unit, comment: &str, flags: &[(i32, String)]) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("long_name".into(), text(long_name));
-    map.insert("units".into(), text(units));
+    map.insert("units".into(), text(unit.name));
+    if !unit.scale.is_empty() {
+        map.insert("scale".into(), text(unit.scale));
+    }
     if !comment.is_empty() {
         map.insert("comment".into(), text(comment));
     }
@@ -52,7 +56,7 @@ pub(crate) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Re
         kind: Holds::Numbers(field.kind),
         fill: field.fill,
         dimensions,
-        attributes: attributes(field.long_name, field.units, field.comment, &flags),
+        attributes: attributes(field.long_name, field.unit, field.comment, &flags),
     })
 }
 
@@ -69,7 +73,7 @@ pub(crate) fn array_of_table(table: &StudyTable) -> Result<Chunked, Defect> {
         kind,
         fill: i32::MIN,
         dimensions: table.dimensions.iter().map(|(name, count)| ((*name).to_owned(), *count, *count)).collect(),
-        attributes: attributes(table.long_name, table.units, "", &[]),
+        attributes: attributes(table.long_name, table.unit, "", &[]),
     })
 }
 
@@ -84,7 +88,7 @@ impl Layout {
             kind: Holds::Numbers(NumberType::I8),
             fill: 0,
             dimensions: tiles.map(|(d, count)| (format!("tile_{}", d.name), count, 1)).collect(),
-            attributes: attributes("whether the tile is computed", "1", "", &flags),
+            attributes: attributes("whether the tile is computed", Unit::NUMBER, "", &flags),
         })?;
         let coordinate = |along: vibroimpact_study::study::Along| {
             let count = along.values.len();
@@ -93,7 +97,7 @@ impl Layout {
                 kind: Holds::Numbers(NumberType::F64),
                 fill: 0,
                 dimensions: vec![(along.dimension.clone(), count, count)],
-                attributes: attributes(along.long_name, along.units, "", &[]),
+                attributes: attributes(along.long_name, along.unit, "", &[]),
             })?;
             Ok((array, Cells::Numbers(Column::F64(along.values))))
         };

@@ -1,7 +1,7 @@
 //! An axis of a grid: the quantity that varies and the values that it takes.
 
 use crate::limits::MOST_CELLS;
-use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan};
+use crate::{Block, Parameter, PlanError, Span, StartPlan, SystemPlan, Unit};
 use core::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -58,13 +58,13 @@ impl Coordinate {
 
     /// Its unit.
     #[must_use]
-    pub const fn units(self) -> &'static str {
+    pub const fn unit(self) -> Unit {
         match self {
-            Self::Parameter(Parameter::Gap | Parameter::SecondGap) | Self::X => "F/k",
-            Self::V => "omega_n F/k",
-            Self::Phase => "radian",
-            Self::Parameter(Parameter::Physical(parameter)) if !parameter.unit().is_empty() => parameter.unit(),
-            Self::Parameter(_) => "1",
+            Self::Parameter(Parameter::Gap | Parameter::SecondGap) | Self::X => Unit::LENGTH,
+            Self::V => Unit::VELOCITY,
+            Self::Phase => Unit::ANGLE,
+            Self::Parameter(Parameter::Physical(parameter)) => Unit::of_machine(parameter),
+            Self::Parameter(_) => Unit::NUMBER,
         }
     }
 

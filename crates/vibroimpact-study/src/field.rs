@@ -1,5 +1,7 @@
 //! The arrays of a study over its grid, with their types, descriptions and units.
 
+use crate::unit::Unit;
+
 /// The type of the numbers of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NumberType {
@@ -27,8 +29,8 @@ pub struct Field {
     pub name: &'static str,
     /// One line of text that describes it.
     pub long_name: &'static str,
-    /// Its unit; `"1"` for pure numbers.
-    pub units: &'static str,
+    /// Its unit.
+    pub unit: Unit,
     /// The type of its numbers.
     pub kind: NumberType,
     /// The value at points where nothing was computed; real numbers always use not-a-number. No result equals this
@@ -142,7 +144,7 @@ mod tests {
         let field = Field {
             name: "label",
             long_name: "",
-            units: "1",
+            unit: Unit::NUMBER,
             kind: NumberType::I32,
             fill: -9,
             extra: vec![Extra { name: "motion", count: 3 }],

@@ -65,6 +65,7 @@ mod stretch;
 pub mod study;
 mod system;
 pub mod typed;
+mod unit;
 mod units;
 mod words;
 
@@ -100,6 +101,7 @@ pub use span::Span;
 pub use stretch::Stretch;
 pub use study::Study;
 pub use system::{SecondStop, StartPlan, SystemPlan};
+pub use unit::Unit;
 pub use units::{FramePlan, UnitsPlan, natural_hertz};
 pub use words::counted;
 

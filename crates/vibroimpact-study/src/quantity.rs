@@ -1,6 +1,7 @@
 //! Lists of quantities, as they are written in plans.
 
 use crate::field::{Extra, Field, NumberType};
+use crate::unit::Unit;
 use serde::{Deserialize, Deserializer, Serializer};
 pub use vibroimpact::quantities::{Quantities, Quantity};
 
@@ -70,7 +71,7 @@ pub(crate) fn field(quantity: Quantity, extra: Vec<Extra>) -> Field {
     Field {
         name: quantity.name(),
         long_name: quantity.description(),
-        units: quantity.kind().nondimensional(),
+        unit: Unit::nondimensional(quantity.kind()),
         kind: NumberType::F64,
         fill: 0,
         extra,

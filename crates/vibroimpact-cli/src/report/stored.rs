@@ -145,7 +145,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
         })
     });
     let along = along.collect::<Result<Vec<Option<Vec<f64>>>, PlanError>>().map_err(io::Error::other)?;
-    let kinds: Vec<QuantityKind> = all.iter().map(kind).collect();
+    let kinds: Vec<QuantityKind> = all.iter().map(|field| field.unit.kind()).collect();
     let extra = all.iter().find_map(|field| field.extra.first());
     let name = |d: &Dimension| column_of(d, store.plan());
     let mut head: Vec<String> = study.grid().dimensions.iter().rev().map(name).collect();
@@ -182,11 +182,6 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
         }
         Ok(())
     })
-}
-
-/// The kind of the numbers of a field, from its nondimensional unit.
-fn kind(field: &Field) -> QuantityKind {
-    QuantityKind::ALL.into_iter().find(|kind| kind.nondimensional() == field.units).unwrap_or(QuantityKind::Number)
 }
 
 /// The axes of a plan.

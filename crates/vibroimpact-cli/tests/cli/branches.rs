@@ -68,6 +68,31 @@ fn other_parameters_and_the_other_way() {
     }
 }
 
+/// The numbers of a machine vary themselves, so both ends of a branch are printed as they were typed.
+#[test]
+fn typed_ends_come_back() {
+    let machine = "branch --mass-kg 0.8 --stiffness-n-per-m 12000 --force-n 30 --damping-ratio 0.02 --restitution 0.65 \
+                   --label 1/1";
+    let ends = |line: &str| {
+        let answer = json(&format!("{machine} {line}"));
+        let point = |k: usize| answer["points"][k]["parameter"].to_string();
+        let last = answer["points"].as_array().unwrap().len() - 1;
+        let table = String::from_utf8(vibro(&format!("{machine} {line} --csv -")).output().unwrap().stdout).unwrap();
+        let rows: Vec<&str> = table.lines().filter(|row| row.starts_with("1,")).collect();
+        let cell = |row: &str| row.split(',').nth(1).unwrap().parse::<f64>().unwrap().to_string();
+        let table = [cell(rows[0]), cell(rows[last])];
+        ([answer["from"].to_string(), answer["to"].to_string()], [point(0), point(last)], table)
+    };
+    for hertz in ["20.0", "20.1", "19.37", "18.3"] {
+        let line = format!("--gap-m 0.0015 --frequency-hz {hertz} --vary frequency-hz --to 23.7");
+        let (typed, points, table) = ends(&line);
+        assert_eq!((&typed[0], &typed[1]), (&hertz.to_owned(), &"23.7".to_owned()));
+        assert_eq!((&points, table.map(|cell| format!("{:?}", cell.parse::<f64>().unwrap()))), (&typed, typed.clone()));
+    }
+    let (typed, points, _) = ends("--frequency-hz 20 --gap-m 0.0015 --vary gap-m --to 0.0016");
+    assert_eq!((&typed, &points), (&["0.0015".to_owned(), "0.0016".to_owned()], &typed));
+}
+
 /// The fast one of two orbits is stable; the slow one, selected by its number, is not.
 #[test]
 fn one_of_several_orbits() {

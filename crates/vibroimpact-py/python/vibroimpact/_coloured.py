@@ -13,6 +13,7 @@ from vibroimpact._core import QuestionError
 from vibroimpact._figure import legend, new_axes
 from vibroimpact._palette import CLASSES, LEGEND, legend_group
 from vibroimpact._stated import named, title
+from vibroimpact._unit_names import unit_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -116,13 +117,8 @@ def _chosen(
 def _quantity(ds: "xr.Dataset", name: str) -> str:
     """The name of a variable with its unit."""
     attributes = ds[name].attrs
-    unit = str(attributes.get("units", "1"))
-    text = str(attributes.get("long_name", name))
-    if unit in ("", "1"):
-        return text
-    if ds.attrs.get("units") != "si":
-        unit = "$" + unit.replace("omega_n", r"\omega_n") + "$"
-    return f"{text} ({unit})"
+    text, unit = str(attributes.get("long_name", name)), unit_of(attributes)
+    return f"{text} ({unit})" if unit else text
 
 
 def _plane(

@@ -127,7 +127,7 @@ def _parquet(ds: "xr.Dataset", path: Path) -> None:
     fields = []
     for field in whole.schema:
         attributes = ds[shown[field.name]].attrs if field.name in shown else {}
-        said = {name: str(attributes[name]) for name in ("long_name", "units") if name in attributes}
+        said = {name: str(attributes[name]) for name in ("long_name", "units", "scale") if name in attributes}
         fields.append(field.with_metadata(said))
     schema = pa.schema(fields, metadata={**(whole.schema.metadata or {}), **told})
     pq.write_table(whole.cast(schema), path)

@@ -55,9 +55,10 @@ def _dataset(
 
     from vibroimpact import _accessor, _si  # the import of _accessor registers ds.vibro
     from vibroimpact._stated import with_fixed
+    from vibroimpact._unit_names import described
 
     def variable(of: dict[str, Any]) -> tuple[list[str], Any, dict[str, Any]]:
-        attributes: dict[str, Any] = {"long_name": of["long_name"], "units": of["units"]}
+        attributes = described(of["long_name"], of["units"], of["scale"])
         if of["comment"]:
             attributes["comment"] = of["comment"]
         if of["flags"]:

@@ -64,6 +64,9 @@ class Motion:
     quantities : dict or None
         Quantities of the motion by name, nondimensional, from the closed form of its flights: "impact_speed_max",
         "work_per_period", "displacement_rms" and others; nan where one is not defined. None for an undecided motion.
+    quantities_error : dict or None
+        For a chaotic motion: three standard errors of those of its quantities that are means, by name. They come from blocks
+        of the impacts over which the quantities are measured. None for other motions, whose quantities are exact to rounding.
 
     Examples
     --------
@@ -96,6 +99,7 @@ class Motion:
     side: str | None
     tried: dict[str, Any] | None
     quantities: dict[str, float] | None
+    quantities_error: dict[str, float] | None
 
     def __repr__(self) -> str:
         words = {True: ", stable", False: ", unstable", None: ""}
@@ -150,6 +154,8 @@ class Motion:
             fields["tried"] = tried
         quantities = self.quantities
         fields["quantities"] = None if quantities is None else {name: finite(value) for name, value in quantities.items()}
+        if self.quantities_error is not None:
+            fields["quantities_error"] = dict(self.quantities_error)
         return fields
 
     def start(self) -> tuple[float, float, float]:
@@ -209,6 +215,5 @@ def horizon_object(horizon: dict[str, Any]) -> dict[str, Any]:
 
 def fields_of(osc: Oscillator, fields: dict[str, Any]) -> dict[str, Any]:
     """The keyword arguments of a Motion, from the fields returned by the compiled module."""
-    quantities = fields["quantities"]
-    named = None if quantities is None else dict(quantities)
-    return {**fields, "osc": osc, "cycle": Cycle(**fields["cycle"]), "quantities": named}
+    named = {name: None if fields[name] is None else dict(fields[name]) for name in ("quantities", "quantities_error")}
+    return {**fields, "osc": osc, "cycle": Cycle(**fields["cycle"]), **named}

@@ -13,8 +13,11 @@ if TYPE_CHECKING:
 #: The attributes of a Dataset that contain its physical units.
 _LENGTH, _TIME, _MASS = _KEYS = ("unit_length_m", "unit_time_s", "unit_mass_kg")
 
-#: The factor for each nondimensional unit, and the SI unit.
+#: The factor for each scale of nondimensional numbers, and the SI unit in the notation of UDUNITS.
 _Factors: TypeAlias = dict[str, tuple[Any, str]]
+
+#: Units of numbers that have no scale.
+_PLAIN = ("1", "rad")
 
 
 def attributes(units: Units | None) -> dict[str, float]:
@@ -41,16 +44,16 @@ def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
     here = _factors(*_scales(ds, units))
     changed: dict[str, xr.DataArray] = {}
     for name, of in ds.variables.items():
-        unit = of.attrs.get("units") or "1"
+        scale, unit = of.attrs.get("scale"), of.attrs.get("units") or "1"
         if name in _core.machine_parameters():
             continue
-        if unit not in fixed:
-            raise QuestionError(f"`{name}` is in units of `{unit}`, which are none of vibroimpact")
-        factor, named = (fixed if name in ds.coords else here)[unit]
-        if named != unit:
+        if scale not in fixed if scale else unit not in _PLAIN:
+            raise QuestionError(f"`{name}` is in units of `{scale or unit}`, which are none of vibroimpact")
+        if scale:
+            factor, named = (fixed if name in ds.coords else here)[scale]
             array = ds[name]
-            scaled = (array * factor).transpose(*array.dims, ...)
-            changed[str(name)] = scaled.assign_attrs({**array.attrs, "units": named})
+            kept = {key: value for key, value in array.attrs.items() if key != "scale"}
+            changed[str(name)] = (array * factor).transpose(*array.dims, ...).assign_attrs({**kept, "units": named})
     coordinates = {name: changed.pop(name) for name in list(changed) if name in ds.coords}
     moved = ds.assign_coords({name: (of.dims, of.values, of.attrs) for name, of in coordinates.items()})
     told = {name: value for name, value in ds.attrs.items() if name not in _KEYS}
@@ -62,13 +65,11 @@ def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
 def _factors(length: Any, time: Any, mass: Any) -> _Factors:
     speed = length / time
     return {
-        "1": (1.0, "1"),
-        "radian": (1.0, "radian"),
         "F/k": (length, "m"),
-        "omega_n F/k": (speed, "m/s"),
+        "omega_n F/k": (speed, "m s-1"),
         "1/omega_n": (time, "s"),
-        "omega_n": (1 / time, "1/s"),
-        "omega_n^2 F/k": (speed / time, "m/s2"),
+        "omega_n": (1 / time, "s-1"),
+        "omega_n^2 F/k": (speed / time, "m s-2"),
         "m omega_n F/k": (mass * speed, "N s"),
         "F^2/k": (mass * speed * speed, "J"),
         "omega_n F^2/k": (mass * speed * speed / time, "W"),

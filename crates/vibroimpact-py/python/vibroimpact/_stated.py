@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact import _core
 from vibroimpact._core import QuestionError
 from vibroimpact._figure import SYMBOLS, equal, span
+from vibroimpact._unit_names import described, unit_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,8 +32,8 @@ def with_fixed(ds: "xr.Dataset") -> "xr.Dataset":
     import xarray as xr
 
     fixed = {
-        name: xr.Variable((), value, {"long_name": long_name, "units": units})
-        for name, value, long_name, units in _core.fixed_coordinates(ds.attrs["plan"])
+        name: xr.Variable((), value, described(long_name, units, scale))
+        for name, value, long_name, units, scale in _core.fixed_coordinates(ds.attrs["plan"])
         if name not in ds.variables
     }
     whole: xr.Dataset = ds.assign_coords(fixed)
@@ -58,8 +59,7 @@ def _sign(ds: "xr.Dataset", name: str) -> str:
 
 def _unit(ds: "xr.Dataset", name: str) -> str:
     """The SI unit of a coordinate; empty for a number, an angle, and in nondimensional Datasets."""
-    unit = str(ds[name].attrs.get("units", "1")) if name in ds.coords else "1"
-    return unit if ds.attrs.get("units") == "si" and unit not in ("1", "radian") else ""
+    return unit_of(ds[name].attrs) if ds.attrs.get("units") == "si" and name in ds.coords else ""
 
 
 def along(ds: "xr.Dataset", name: str) -> NDArray[np.float64]:

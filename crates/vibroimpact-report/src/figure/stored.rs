@@ -38,12 +38,16 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             })
         }
         (Task::Basin(plan), Some(colour)) => {
-            let plane = Plane::of(&plan.axes, &asked.units)?;
             let points = points::<A, E>(store, &plan.axes, Some(colour.quantity))?;
+            let title = title_without(&asked, &varied(&plan.axes));
+            if let [axis] = plan.axes.as_slice() {
+                return Ok(coloured::draw_dots(axis, &points, colour.quantity, &asked.units, title)?);
+            }
+            let plane = Plane::of(&plan.axes, &asked.units)?;
             let cells = points.iter().map(|motions| colour.of.among(motions.iter().map(|motion| motion.value)));
             let cells: Vec<Value> = cells.collect();
             let figure = coloured::draw_plane(&plane, &cells, colour.quantity, &asked.units, None)?;
-            Ok(figure.title(title_without(&asked, &varied(&plan.axes))))
+            Ok(figure.title(title))
         }
         (_, Some(_)) => Err(ReportError::NoColours.into()),
         (task, None) => of_task(store, task, &asked),
@@ -152,7 +156,7 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     axes: &[Along],
     title: String,
 ) -> Result<Figure, E> {
-    let plane = Plane::of(axes, &Units::of_plan(store.plan()))?;
+    let units = Units::of_plan(store.plan());
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let labels = store.array(label)?;
     let cycles = store.field_number("cycle").map(|cycle| store.array(cycle)).transpose()?;
@@ -176,7 +180,7 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         label: label_of(code).unwrap_or_default(),
         share: count as f64 / total,
     };
-    Ok(basin::draw(&plane, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
+    Ok(basin::draw(axes, &units, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
 }
 
 /// Both exponents over one axis, with the line of zero.

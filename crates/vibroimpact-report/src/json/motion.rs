@@ -1,13 +1,13 @@
 //! A motion: its label, its impacts and phases of sticking, its stability, and the grounds of the verdict.
 
-use super::quantities::QuantityFields;
+use super::quantities::{QuantityErrors, QuantityFields};
 use crate::Units;
 use serde::Serialize;
 use vibroimpact::chaos::Measured;
 use vibroimpact::flight::Horizon;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::Cycle;
-use vibroimpact::quantities::of_verdict;
+use vibroimpact::quantities::{errors_of_verdict, of_verdict};
 use vibroimpact::verdict::{Chaos, Count, NoImpact, Undecided, Verdict};
 use vibroimpact::{Oscillator, Side};
 use vibroimpact_study::ImpactsByStop;
@@ -60,6 +60,9 @@ pub struct MotionFields {
     #[serde(skip_serializing_if = "Option::is_none")]
     tried: Option<Tried>,
     quantities: Option<QuantityFields>,
+    /// Three standard errors of the means among the quantities of a chaotic motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    quantities_error: Option<QuantityErrors>,
 }
 
 /// An impact of a cycle.
@@ -169,6 +172,7 @@ impl MotionFields {
             side: None,
             tried: None,
             quantities: of_verdict(osc, verdict).map(|values| QuantityFields::new(values, units)),
+            quantities_error: errors_of_verdict(osc, verdict).map(|errors| QuantityErrors::new(errors, units)),
         };
         match verdict {
             Verdict::Periodic(cycle) => Self::periodic(cycle, bare, units),

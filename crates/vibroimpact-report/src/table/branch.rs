@@ -6,7 +6,7 @@ use crate::json::motion::pairs;
 use crate::number::Number;
 use vibroimpact::QuantityKind;
 use vibroimpact::orbit::Cycle;
-use vibroimpact_study::{Branches, Cut, Parameter};
+use vibroimpact_study::{Branches, Cut};
 
 /// The table of `vibro branch`.
 #[must_use]
@@ -39,21 +39,10 @@ fn rows<'a>(found: &'a Branches, cut: Cut, units: &'a Units) -> impl Iterator<It
     })
 }
 
-/// The parameters at a point of a line, in the units of the results; at its ends as they were given: 20 Hz where 20 was
-/// typed, and not 20.000000000000004.
-pub(super) fn values(cut: &Cut, value: f64, units: &Units) -> String {
-    let end = value == cut.ends.0 || value == cut.ends.1;
-    let cell = |(parameter, value): (Parameter, f64)| {
-        let unit = units.of(parameter);
-        Number(if end { typed(value, unit) } else { value * unit }).to_string()
-    };
-    cut.values(value).map(cell).collect::<Vec<_>>().join(",")
-}
-
-/// A value that was typed in another unit, to fifteen digits: the conversion there and back is not exact to more.
-fn typed(value: f64, unit: f64) -> f64 {
-    let product = value * unit;
-    if unit == 1.0 { value } else { format!("{product:.14e}").parse().unwrap_or(product) }
+/// The parameters at a point of a line, in the units of the results.
+fn values(cut: &Cut, value: f64, units: &Units) -> String {
+    let cells = cut.values(value).map(|(parameter, value)| Number(value * units.of(parameter)).to_string());
+    cells.collect::<Vec<_>>().join(",")
 }
 
 /// The text of a number; empty for a number that is not finite.
@@ -77,18 +66,4 @@ pub(super) fn cells(cycle: &Cycle, units: &Units) -> String {
         list(&|point| point.state.phase),
         list(&|point| point.state.velocity * units.velocity())
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_typed_frequency_comes_back() {
-        // beta of 20 Hz for a mass of 0.8 kg on 12000 N/m, and the natural frequency in Hz
-        let natural = (12_000.0_f64 / 0.8).sqrt();
-        let beta = core::f64::consts::TAU * 20.0 / natural;
-        assert_eq!(typed(beta, natural / core::f64::consts::TAU), 20.0);
-        assert_eq!(typed(0.1 + 0.2, 1.0), 0.1 + 0.2);
-    }
 }

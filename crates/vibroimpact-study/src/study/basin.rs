@@ -11,7 +11,7 @@ use crate::field::{Column, Field, NumberType};
 use crate::grid::{Block, Dimension, Grid};
 use crate::limits::MOST_STARTS;
 use crate::quantity::{self, Quantities, Quantity};
-use crate::{BasinPlan, PlanError, SystemPlan};
+use crate::{BasinPlan, PlanError, SystemPlan, Unit};
 use core::cell::RefCell;
 use std::sync::OnceLock;
 use vibroimpact::lanes::Width;
@@ -275,7 +275,7 @@ impl Fill for BasinFill {
         let label = Field {
             name: "label",
             long_name: "motion m/n that the start leads to",
-            units: "1",
+            unit: Unit::NUMBER,
             kind: NumberType::I32,
             fill: super::NOT_COMPUTED,
             extra: Vec::new(),
@@ -295,18 +295,18 @@ impl Fill for BasinFill {
         }
         fields.extend(self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new())));
         if let Starts::Scattered { .. } = self.starts {
-            let coordinate = |name, long_name, units| Field {
+            let coordinate = |name, long_name, unit| Field {
                 name,
                 long_name,
-                units,
+                unit,
                 kind: NumberType::F64,
                 flags: Vec::new(),
                 comment: "",
                 ..label.clone()
             };
-            fields.push(coordinate("x", "position of the start", "F/k"));
-            fields.push(coordinate("v", "velocity of the start", "omega_n F/k"));
-            fields.push(coordinate("phase", "phase of the force at the start", "radian"));
+            fields.push(coordinate("x", "position of the start", Unit::LENGTH));
+            fields.push(coordinate("v", "velocity of the start", Unit::VELOCITY));
+            fields.push(coordinate("phase", "phase of the force at the start", Unit::ANGLE));
         }
         if self.refine.is_some() {
             fields.push(computed());

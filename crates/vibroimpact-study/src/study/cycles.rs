@@ -6,6 +6,7 @@
 //! the tiles.
 
 use super::tables::{Cells, StudyTable, Tiles};
+use crate::Unit;
 use crate::field::Column;
 use crate::grid::Grid;
 use vibroimpact::verdict::{Census, CountedMotion, Verdict};
@@ -94,10 +95,10 @@ impl Numbering<'_> {
         let list: Vec<_> = cycles.iter().filter_map(cycle).collect();
         let longest = list.iter().map(|cycle| cycle.points.len()).max().unwrap_or(0);
         let count = list.len();
-        let table = |name, long_name, units, values| StudyTable {
+        let table = |name, long_name, unit, values| StudyTable {
             name,
             long_name,
-            units,
+            unit,
             dimensions: vec![("cycles", count)],
             values,
         };
@@ -106,13 +107,13 @@ impl Numbering<'_> {
             table(
                 "cycle_label",
                 "motion m/n",
-                "1",
+                Unit::NUMBER,
                 Cells::Text(list.iter().map(|cycle| cycle.label.to_string()).collect()),
             ),
             table(
                 "cycle_share",
                 "share of the starts that lead to the cycle",
-                "1",
+                Unit::NUMBER,
                 real(starts.iter().map(|n| *n as f64 / total as f64).collect()),
             ),
         ];
@@ -121,19 +122,19 @@ impl Numbering<'_> {
             a.modulus().max(b.modulus())
         };
         let largest = real(list.iter().map(moduli).collect());
-        tables.push(table("cycle_multiplier", "largest modulus of the Floquet multipliers", "1", largest));
+        tables.push(table("cycle_multiplier", "largest modulus of the Floquet multipliers", Unit::NUMBER, largest));
         if longest > 0 {
-            let each = |name, long_name, units, of: &dyn Fn(&vibroimpact::orbit::CyclePoint) -> f64| {
+            let each = |name, long_name, unit, of: &dyn Fn(&vibroimpact::orbit::CyclePoint) -> f64| {
                 let padded = list.iter().flat_map(|cycle| {
                     let impacts = cycle.points.iter().map(of);
                     impacts.chain(core::iter::repeat(f64::NAN)).take(longest).collect::<Vec<_>>()
                 });
                 let dimensions = vec![("cycles", count), ("impact", longest)];
-                StudyTable { name, long_name, units, dimensions, values: real(padded.collect()) }
+                StudyTable { name, long_name, unit, dimensions, values: real(padded.collect()) }
             };
-            tables.push(each("cycle_phase", "phase of the force at the impact", "radian", &|p| p.state.phase));
-            tables.push(each("cycle_velocity", "speed of arrival", "omega_n F/k", &|p| p.state.velocity));
-            tables.push(each("cycle_interval", "time to the next impact", "1/omega_n", &|p| p.interval));
+            tables.push(each("cycle_phase", "phase of the force at the impact", Unit::ANGLE, &|p| p.state.phase));
+            tables.push(each("cycle_velocity", "speed of arrival", Unit::VELOCITY, &|p| p.state.velocity));
+            tables.push(each("cycle_interval", "time to the next impact", Unit::TIME, &|p| p.interval));
         }
         if count == 0 { Vec::new() } else { tables }
     }

@@ -5,7 +5,7 @@ use crate::axis::Coordinate;
 use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep, SweepDirection, carried, step};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::grid::{Block, Dimension, Grid};
-use crate::{DiagramPlan, PlanError, SystemPlan};
+use crate::{DiagramPlan, PlanError, SystemPlan, Unit};
 use vibroimpact::Side;
 
 /// Number of starts and of values in a tile of scattered starts.
@@ -56,7 +56,7 @@ impl Fill for DiagramFill {
                 dimension: cut.vary.name().to_owned(),
                 values: (0..self.plan.over.count()).map(value).collect(),
                 long_name: parameter.long_name(),
-                units: parameter.units(),
+                unit: parameter.unit(),
             }
         });
         let sweep = |values: &[f64]| Along {
@@ -64,7 +64,7 @@ impl Fill for DiagramFill {
             dimension: "sweep".to_owned(),
             values: values.to_vec(),
             long_name: "direction of the sweep: 1 with rising values, -1 with falling ones",
-            units: "1",
+            unit: Unit::NUMBER,
         };
         let rows = match self.plan.direction {
             SweepDirection::Scatter { .. } => None,
@@ -77,10 +77,10 @@ impl Fill for DiagramFill {
 
     fn fields(&self) -> Vec<Field> {
         let point = vec![Extra { name: "point", count: self.keep }];
-        let field = |name, long_name, units, kind, fill, extra, flags| Field {
+        let field = |name, long_name, unit, kind, fill, extra, flags| Field {
             name,
             long_name,
-            units,
+            unit,
             kind,
             fill,
             extra,
@@ -95,19 +95,25 @@ impl Fill for DiagramFill {
             (2, "end_of_a_chatter"),
             (-2, "end_of_a_chatter_on_the_second_stop"),
         ];
-        let real =
-            |name, long_name, units| field(name, long_name, units, NumberType::F64, 0, point.clone(), Vec::new());
-        let mut fields =
-            vec![field("kind", "what the motion is after the transient", "1", NumberType::I8, -1, Vec::new(), motions)];
+        let real = |name, long_name, unit| field(name, long_name, unit, NumberType::F64, 0, point.clone(), Vec::new());
+        let mut fields = vec![field(
+            "kind",
+            "what the motion is after the transient",
+            Unit::NUMBER,
+            NumberType::I8,
+            -1,
+            Vec::new(),
+            motions,
+        )];
         match self.plan.show {
             Show::Velocity => {
-                fields.push(real("velocity", "speed of arrival of an impact", "omega_n F/k"));
-                fields.push(real("impact_phase", "phase of the force at the impact", "radian"));
-                fields.push(field("side", "what the point is", "1", NumberType::I8, 0, point.clone(), sides));
+                fields.push(real("velocity", "speed of arrival of an impact", Unit::VELOCITY));
+                fields.push(real("impact_phase", "phase of the force at the impact", Unit::ANGLE));
+                fields.push(field("side", "what the point is", Unit::NUMBER, NumberType::I8, 0, point.clone(), sides));
             }
             Show::Strobe => {
-                fields.push(real("x", "position at phase 0 of the force", "F/k"));
-                fields.push(real("v", "velocity at phase 0 of the force", "omega_n F/k"));
+                fields.push(real("x", "position at phase 0 of the force", Unit::LENGTH));
+                fields.push(real("v", "velocity at phase 0 of the force", Unit::VELOCITY));
             }
             // `Study::new` refuses it
             Show::Quantity(_) => {}

@@ -2,7 +2,7 @@
 
 use super::cycles;
 use crate::grid::Dimension;
-use crate::{Axis, Block, Column, Field, Grid};
+use crate::{Axis, Block, Column, Field, Grid, Unit};
 
 /// The coordinate values along a dimension of the grid.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Along {
     /// One line of text that describes the coordinate.
     pub long_name: &'static str,
     /// Its unit.
-    pub units: &'static str,
+    pub unit: Unit,
 }
 
 /// A task over a grid: how a tile is computed and stored.
@@ -99,7 +99,7 @@ pub(super) fn along(axes: &[Axis]) -> Vec<Along> {
         dimension: axis.vary.name().to_owned(),
         values: axis.over.all(),
         long_name: axis.vary.long_name(),
-        units: axis.vary.units(),
+        unit: axis.vary.unit(),
     };
     axes.iter().rev().map(one).collect()
 }

@@ -4,7 +4,7 @@ use super::fill::{Along, Fill, along, grid_of, on_axis};
 use super::map::side;
 use crate::axis;
 use crate::field::{Column, Extra, Field, NumberType};
-use crate::{Block, Grid, LyapunovPlan, SystemPlan};
+use crate::{Block, Grid, LyapunovPlan, SystemPlan, Unit};
 use vibroimpact::chaos::{Grounds, Measured, exponents};
 
 /// Default number of points of a tile along each of two axes; a tile takes some seconds.
@@ -56,10 +56,10 @@ impl Fill for LyapunovFill {
     }
 
     fn fields(&self) -> Vec<Field> {
-        let real = |name, long_name, units, extra: &[Extra]| Field {
+        let real = |name, long_name, unit, extra: &[Extra]| Field {
             name,
             long_name,
-            units,
+            unit,
             kind: NumberType::F64,
             fill: 0,
             extra: extra.to_vec(),
@@ -68,17 +68,17 @@ impl Fill for LyapunovFill {
         };
         let both = [Extra { name: "direction", count: 2 }];
         let mut fields = vec![
-            real("exponent", "Lyapunov exponents per unit time, the larger first", "omega_n", &both),
-            real("exponent_error", "three standard errors of the exponents", "omega_n", &both),
-            real("impacts_per_period", "impacts per forcing period", "1", &[]),
-            real("impacts_per_period_error", "three standard errors of the impacts per period", "1", &[]),
-            real("dimension", "Kaplan-Yorke dimension of the stroboscopic section", "1", &[]),
+            real("exponent", "Lyapunov exponents per unit time, the larger first", Unit::RATE, &both),
+            real("exponent_error", "three standard errors of the exponents", Unit::RATE, &both),
+            real("impacts_per_period", "impacts per forcing period", Unit::NUMBER, &[]),
+            real("impacts_per_period_error", "three standard errors of the impacts per period", Unit::NUMBER, &[]),
+            real("dimension", "Kaplan-Yorke dimension of the stroboscopic section", Unit::NUMBER, &[]),
         ];
         fields.push(Field {
             kind: NumberType::I8,
             fill: -1,
             flags: GROUNDS.to_vec(),
-            ..real("grounds", "where the exponents come from", "1", &[])
+            ..real("grounds", "where the exponents come from", Unit::NUMBER, &[])
         });
         fields
     }

@@ -6,7 +6,7 @@ use super::refine::{self, Cell};
 use crate::field::{Column, Extra, Field, NumberType};
 use crate::map::motions;
 use crate::quantity;
-use crate::{Block, Grid, MapPlan, PlanError, Share, SystemPlan};
+use crate::{Block, Grid, MapPlan, PlanError, Share, SystemPlan, Unit};
 use vibroimpact::Oscillator;
 use vibroimpact::verdict::{SettleOptions, Verdict};
 
@@ -94,7 +94,7 @@ impl Fill for MapFill {
         let real = Field {
             name: "share",
             long_name: "share of the starts that lead to the motion",
-            units: "1",
+            unit: Unit::NUMBER,
             kind: NumberType::F64,
             fill: 0,
             extra: motion.clone(),
@@ -115,7 +115,7 @@ impl Fill for MapFill {
             Field {
                 name: "speed",
                 long_name: "largest speed of arrival in a period",
-                units: "omega_n F/k",
+                unit: Unit::VELOCITY,
                 ..real.clone()
             },
             Field { name: "multiplier", long_name: "largest modulus of the Floquet multipliers", ..real },
@@ -179,7 +179,7 @@ pub(super) fn computed() -> Field {
     Field {
         name: "computed",
         long_name: "whether the point was computed itself",
-        units: "1",
+        unit: Unit::NUMBER,
         kind: NumberType::I8,
         fill: 0,
         extra: Vec::new(),

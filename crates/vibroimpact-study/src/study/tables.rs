@@ -1,6 +1,6 @@
 //! The final tables of a study, computed from the complete tiles.
 
-use crate::Column;
+use crate::{Column, Unit};
 
 /// A small array about the whole study, with dimensions of its own.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,7 +10,7 @@ pub struct StudyTable {
     /// One line of text that describes it.
     pub long_name: &'static str,
     /// Its unit.
-    pub units: &'static str,
+    pub unit: Unit,
     /// Its dimensions and their lengths, the slowest first.
     pub dimensions: Vec<(&'static str, usize)>,
     /// Its values, in row-major order.

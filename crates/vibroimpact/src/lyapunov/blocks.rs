@@ -52,13 +52,8 @@ impl Block {
 
 /// The quotient of two sums, with three standard errors. The error of the upper sum is at least `least`. An infinite
 /// quotient has no error.
-pub(crate) fn quotient(
-    blocks: &[Block],
-    least: f64,
-    above: impl Fn(&Block) -> f64,
-    below: impl Fn(&Block) -> f64,
-) -> Measured {
-    let sum = |of: &dyn Fn(&Block) -> f64| blocks.iter().map(of).sum::<f64>();
+pub(crate) fn quotient<B>(blocks: &[B], least: f64, above: impl Fn(&B) -> f64, below: impl Fn(&B) -> f64) -> Measured {
+    let sum = |of: &dyn Fn(&B) -> f64| blocks.iter().map(of).sum::<f64>();
     let (a, b) = (sum(&above), sum(&below));
     let value = a / b;
     if !value.is_finite() || !b.is_finite() {

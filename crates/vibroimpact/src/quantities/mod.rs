@@ -11,10 +11,13 @@
 //! | the sums over the parts of a motion, and the quantities from them | [`Tally`], [`Quantities`] |
 //! | the parts of a cycle, and its quantities | [`of_cycle`], [`cycle_segments`] |
 //! | the quantities of a verdict, and of the way from a start | [`of_verdict`], [`of_transient`] |
+//! | error bars of the means of a chaotic motion | [`errors_of_verdict`] |
 //! | amplitudes and phases of the harmonics of a cycle | [`harmonics`] |
 
 mod cycle;
+mod errors;
 mod harmonic;
+mod mean;
 mod quantity;
 mod segment;
 mod tally;
@@ -22,6 +25,7 @@ mod verdict;
 
 pub use crate::lyapunov::MEASURED_IMPACTS;
 pub use cycle::{cycle_segments, of_cycle};
+pub use errors::errors_of_verdict;
 pub use harmonic::{Harmonic, harmonics};
 pub use quantity::Quantity;
 pub use segment::Segment;

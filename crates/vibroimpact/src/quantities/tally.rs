@@ -46,16 +46,16 @@ pub struct Tally<'a> {
     /// Whether a flight was left out of the integrals and extremes.
     skipped: bool,
     /// `None` if no quantity needs them.
-    integrals: Option<FlightIntegrals>,
+    pub(super) integrals: Option<FlightIntegrals>,
     extremes: Extremes,
-    time: f64,
-    sticking: f64,
-    impacts: f64,
-    speeds: f64,
+    pub(super) time: f64,
+    pub(super) sticking: f64,
+    pub(super) impacts: f64,
+    pub(super) speeds: f64,
     fastest: f64,
-    impulse: f64,
+    pub(super) impulse: f64,
     hardest: f64,
-    lost: f64,
+    pub(super) lost: f64,
 }
 
 impl<'a> Tally<'a> {
@@ -210,8 +210,12 @@ impl<'a> Tally<'a> {
             Quantity::AccelerationMax => self.extremes.acceleration,
             Quantity::StickingFraction => self.sticking / time,
         };
-        let known = |quantity: Quantity| self.asked[quantity as usize] && (!self.skipped || quantity.of_impacts());
-        Quantities::from_fn(|quantity| if known(quantity) { value(quantity) } else { f64::NAN })
+        Quantities::from_fn(|quantity| if self.knows(quantity) { value(quantity) } else { f64::NAN })
+    }
+
+    /// Whether a quantity was asked for and no flight was left out of it.
+    pub(super) fn knows(&self, quantity: Quantity) -> bool {
+        self.asked[quantity as usize] && (!self.skipped || quantity.of_impacts())
     }
 
     /// The same over the time of all parts.

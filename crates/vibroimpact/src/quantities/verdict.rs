@@ -12,7 +12,7 @@ use crate::verdict::{NoImpact, Verdict};
 
 /// Events for each impact, at most: impacts, grazing contacts, beginnings and ends of sticking. And impacts that are
 /// always granted.
-const EVENTS: u64 = 4;
+pub(super) const EVENTS: u64 = 4;
 const LEAST: u64 = 100;
 /// The number of forcing periods of a last flight without end that count as part of the way.
 const LAST_PERIODS: f64 = 100.0;

@@ -202,6 +202,23 @@ impl PhysicalParameter {
         }
     }
 
+    /// Its unit in the notation of UDUNITS; `1` for a number.
+    #[must_use]
+    pub const fn udunits(self) -> &'static str {
+        match self {
+            Self::Mass => "kg",
+            Self::Stiffness => "N m-1",
+            Self::DampingCoefficient => "N s m-1",
+            Self::Force | Self::ConstantForce => "N",
+            Self::Frequency => "Hz",
+            Self::Gap | Self::SecondGap | Self::Gaps | Self::BaseDisplacement | Self::StopDisplacement => "m",
+            Self::BaseVelocity => "m s-1",
+            Self::BaseAcceleration => "m s-2",
+            Self::Unbalance => "kg m",
+            Self::DampingRatio | Self::Restitutions => "1",
+        }
+    }
+
     /// Whether two parameters determine the same number, so that only one of them can vary.
     #[must_use]
     pub fn same_number(self, other: Self) -> bool {

@@ -9,7 +9,7 @@ pub use plane::draw as draw_plane;
 pub use value::{Coloured, Of, Value};
 
 use crate::figure::plane::{Plane, varied};
-use crate::figure::point_motion::{PointMotion, points};
+use crate::figure::point_motion::{PointMotion, group, points};
 use crate::figure::{title, title_without};
 use crate::{Asked, ReportError, Units};
 use vibroimpact::Oscillator;
@@ -49,19 +49,28 @@ pub fn of_points(
     Ok(figure.title(title))
 }
 
-/// The figure of `vibro basin --colour`: each start in the colour of the quantity of the motion to which it leads.
+/// The figure of `vibro basin --colour`: each start in the colour of the quantity of the motion to which it leads, or dots
+/// over one axis.
 ///
 /// # Errors
 /// As [`of_map`].
 pub fn of_basin(found: &Basin, quantity: Quantity, osc: &Oscillator, asked: &Asked) -> Result<Figure, ReportError> {
     has_field(&found.plan.fields, quantity)?;
-    let plane = Plane::of(&found.plan.axes, &asked.units)?;
     let value = |motion: &vibroimpact::verdict::CountedMotion| {
         let of = of_verdict_only(osc, &motion.verdict, &[quantity]);
         let number = of.map(|of| asked.units.value_of(&of, quantity));
         Value::of(&motion.verdict.label(), number)
     };
     let values: Vec<Value> = found.motions.iter().map(value).collect();
+    if let [axis] = found.plan.axes.as_slice() {
+        let motion = |cell: &u16| {
+            let (verdict, value) = (&found.motions[usize::from(*cell)].verdict, values[usize::from(*cell)]);
+            vec![PointMotion { group: group(&verdict.label()), share: 1.0, value }]
+        };
+        let points: Vec<_> = found.cells.iter().map(motion).collect();
+        return draw_dots(axis, &points, quantity, &asked.units, title(asked));
+    }
+    let plane = Plane::of(&found.plan.axes, &asked.units)?;
     let cells: Vec<Value> =
         found.cells.iter().map(|cell| values.get(usize::from(*cell)).copied().unwrap_or(Value::NotComputed)).collect();
     Ok(draw_plane(&plane, &cells, quantity, &asked.units, None)?.title(title(asked)))
