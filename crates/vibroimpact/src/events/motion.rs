@@ -302,7 +302,12 @@ impl<'a> MachineMotion<'a> {
             if now == *was || struck.contains(&at) && now == ContactState::Open {
                 continue;
             }
-            let speed = speeds.get(at).copied().unwrap_or(0.0).max(0.0);
+            // a stop that was not about to close is pushed shut by an impact elsewhere
+            let speed = match speeds.get(at) {
+                Some(speed) if closing.contains(&at) => *speed,
+                Some(_) => (-self.place.gap(&self.normal, at).1).max(0.0),
+                None => 0.0,
+            };
             let kind = match (was, now) {
                 (_, ContactState::Resting) => Some((MachineEventKind::Stick, 0.0)),
                 (ContactState::Resting, ContactState::Open) => Some((MachineEventKind::Release, 0.0)),
