@@ -18,7 +18,7 @@ pub(crate) struct StartArgs {
 
     /// Phase of the force in radians
     #[arg(long, value_parser = number, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true)]
-    phase: f64,
+    pub(crate) phase: f64,
 }
 
 impl StartArgs {

@@ -27,6 +27,7 @@ mod run;
 mod schema;
 mod settle;
 mod simulate;
+mod simulate_machine;
 mod slurm;
 mod status;
 mod stored;

@@ -8,6 +8,7 @@ pub mod branch;
 pub mod curve;
 pub mod diagram;
 pub mod lyapunov;
+mod machine_events;
 pub mod map;
 pub mod margins;
 pub mod motion;
@@ -20,6 +21,7 @@ pub mod simulate;
 
 use crate::units::given;
 use crate::{Asked, PROGRAM, Units};
+pub use machine_events::{MachineEvents, end_name};
 use serde::Serialize;
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_study::{Cut, FramePlan, Plan, Span, Stretch, Values};

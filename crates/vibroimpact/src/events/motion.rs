@@ -107,6 +107,12 @@ impl<'a> MachineMotion<'a> {
         if self.pending.is_empty() { self.end } else { None }
     }
 
+    /// The time up to which the motion is known.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time.value()
+    }
+
     /// Finds out what the stops and joints do at the start.
     fn begin(&mut self) -> Result<(), MachineError> {
         let (mut closing, mut candidates) = (Vec::new(), Vec::new());
