@@ -46,7 +46,7 @@ export async function at_4k(given) {
 }
 
 export async function at_twice_the_density(given) {
-  await shown(given, "1280x800-2x", { width: 1280, height: 800 }, { deviceScaleFactor: 2 });
+  await shown(given, "900x600-2x", { width: 900, height: 600 }, { deviceScaleFactor: 2 });
 }
 
 export async function touch_pans_pinches_and_taps({ open }) {

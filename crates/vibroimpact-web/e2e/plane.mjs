@@ -50,7 +50,7 @@ export async function zooms_ten_levels({ open }) {
 }
 
 export async function one_axis_is_zoomed_alone({ open, folder }) {
-  const { page } = await open("", { viewport: { width: 900, height: 700 } });
+  const { page } = await open("", { viewport: { width: 640, height: 500 } });
   await sharp(page);
   // creates an entry in the history to go back to
   await page.mouse.click(...await place(page, 1.3, 1.5));
@@ -256,7 +256,7 @@ export async function axes_change_and_budget_and_starts({ open }) {
 }
 
 export async function looking_longer_decides_more_and_keeps_what_is_decided({ open, folder }) {
-  const { page } = await open("#view=1,1.3,1.8,2.8", { viewport: { width: 800, height: 600 } });
+  const { page } = await open("#view=1,1.3,1.8,2.8", { viewport: { width: 560, height: 440 } });
   await sharp(page);
   const settled = async () => (await page.locator("#legend .note").textContent()) === "";
   const share = (impacts) => async () => (await settled()) && (await legend(page)).get(`not settled in ${impacts} impacts`);
@@ -303,7 +303,7 @@ export async function a_link_brings_everything_back({ open }) {
 }
 
 export async function layers_are_drawn({ open, folder }) {
-  const { page } = await open("#view=0.9,1.6,1,3", { viewport: { width: 900, height: 700 } });
+  const { page } = await open("#view=0.9,1.6,1,3", { viewport: { width: 640, height: 500 } });
   await drawn(page);
   for (const [kind, name] of [["regions", "regions of stability"], ["amplitude", "free amplitude"]]) {
     const [response] = await Promise.all([
@@ -319,7 +319,7 @@ export async function layers_are_drawn({ open, folder }) {
 }
 
 export async function a_motion_of_the_legend_alone_keeps_its_colour({ open }) {
-  const { page } = await open("", { viewport: { width: 1280, height: 800 } });
+  const { page } = await open("", { viewport: { width: 800, height: 600 } });
   await sharp(page);
   const at = await place(page, 1.3, 1.5);
   const pixel = () => page.evaluate(([x, y]) => {

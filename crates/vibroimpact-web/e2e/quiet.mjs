@@ -1,4 +1,4 @@
-/** After half a minute of random zooming and clicking the server must become idle, with bounded memory. */
+/** After random zooming and clicking the server must become idle, with bounded memory. */
 
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -7,6 +7,8 @@ import { readFile } from "node:fs/promises";
 const PID = process.env.VIBRO_PID;
 /** Clock ticks of /proc in a second, on Linux. */
 const TICKS = 100;
+/** Seconds of zooming and clicking; more in the long run. */
+const SECONDS = process.env.VIBROIMPACT_LONG === "1" ? 60 : 10;
 
 /** Processor time that the server has used, in seconds. */
 async function used() {
@@ -43,7 +45,7 @@ async function untilIdle(patience) {
   return Infinity;
 }
 
-export async function is_quiet_after_half_a_minute_of_zooming_and_clicking({ open }) {
+export async function is_quiet_after_zooming_and_clicking({ open }) {
   if (!PID) {
     console.log("        skipped: VIBRO_PID does not say which process the server is");
     return;
@@ -64,13 +66,13 @@ export async function is_quiet_after_half_a_minute_of_zooming_and_clicking({ ope
     }
     await pause(40 + 120 * roll());
   };
-  const end = Date.now() + 30_000;
+  const end = Date.now() + 1000 * SECONDS;
   let acts = 0;
   while (Date.now() < end) {
     await act();
     acts++;
   }
-  assert.ok(acts > 50, `${acts} acts`);
+  assert.ok(acts > SECONDS, `${acts} acts`);
   // the only remaining work is for the current view, which is drawn in full resolution
   const sharp = await untilIdle(60);
   assert.ok(Number.isFinite(sharp), "the server is busy a minute after the last act");

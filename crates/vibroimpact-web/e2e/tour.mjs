@@ -19,7 +19,7 @@ export async function the_tour_goes_through_all_steps({ open, folder }) {
       await until(`figure ${step + 3} shows ${VERDICTS[step - 1]}`, async () =>
         (await page.locator(".verdict .label").count()) === 1 && (await verdict(page)) === VERDICTS[step - 1]);
     }
-    await page.waitForTimeout(2500);
+    await page.waitForTimeout(1000);
     await page.screenshot({ path: `${folder}/tour-${step}.png` });
     assert.ok(await page.locator("#strip").isHidden(), await page.locator("#strip").textContent());
     if (step < 8) await next.click();

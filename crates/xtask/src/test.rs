@@ -41,6 +41,9 @@ impl Options {
 /// The variable that allows tests to run long.
 const LONG: (&str, &str) = ("VIBROIMPACT_LONG", "1");
 
+/// The step that nextest needs beside it, because it runs no doc tests.
+const DOC_TESTS: &str = "doc tests";
+
 enum Work {
     /// A command that succeeds or fails.
     Command,
@@ -80,11 +83,13 @@ impl Step {
 /// of output must be known to [`totals`].
 fn steps(nextest: bool, python: bool) -> Vec<Step> {
     // All steps use all features, because with others the derive macros and all dependent crates would be built again.
-    // The library of the Python package has no tests in Rust, and `--lib` would build some.
+    // For the same reason no package is excluded: without the Python package, other crates would have fewer features.
     let tests = if nextest {
         "cargo nextest run --workspace --all-features --no-fail-fast"
     } else {
-        "cargo test --workspace --exclude vibroimpact-py --all-features --lib --bins --tests --examples --no-fail-fast"
+        // with the doc tests, which cannot be left out without a list of targets; such a list would build tests of the
+        // library of the Python package, which has none
+        "cargo test --workspace --all-features --no-fail-fast"
     };
     let mut steps = vec![
         Step::check("tools", "rustup component add rustfmt clippy", tools::ensure).fast(),
@@ -93,7 +98,7 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::check("words", "cargo xtask words", words::check),
         Step::command("lints", "cargo clippy --workspace --all-targets --all-features -- -D warnings").fast(),
         Step::tests("tests", tests).fast(),
-        Step::tests("doc tests", "cargo test --workspace --all-features --doc --no-fail-fast"),
+        Step::tests(DOC_TESTS, "cargo test --workspace --all-features --doc --no-fail-fast"),
         Step::check("examples", "cargo xtask examples", examples::run),
         // the same cases in every run, so that a failure is caused by a change of the code
         Step::tests("fuzz", "cargo xtask fuzz --seconds 20 --seed 1"),
@@ -103,6 +108,9 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::check("Python package", "cargo xtask python", python::install),
         Step::tests("buckets", "cargo xtask s3"),
     ];
+    if !nextest {
+        steps.retain(|step| step.name != DOC_TESTS);
+    }
     if python {
         steps.push(Step::tests("Python tests", python::TESTS));
     }
@@ -222,6 +230,7 @@ mod tests {
         for nextest in [true, false] {
             let fast: Vec<_> = steps(nextest, true).iter().filter(|step| step.fast).map(|step| step.name).collect();
             assert_eq!(fast, ["tools", "format", "lints", "tests"]);
+            assert_eq!(steps(nextest, true).iter().any(|step| step.name == DOC_TESTS), nextest);
         }
     }
 

@@ -24,12 +24,17 @@ const RUN: u64 = 20_000;
 /// Relative to the time of a short flight, or absolute.
 const AGREE: f64 = 1e-9;
 
+/// Whether long runs are asked for.
+pub(crate) fn is_long() -> bool {
+    std::env::var("VIBROIMPACT_LONG").is_ok_and(|on| on == "1")
+}
+
 fn questions() -> u64 {
     let asked = std::env::var("VIBROIMPACT_QUERIES").ok().and_then(|n| n.parse::<f64>().ok());
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // 1e8 is a number of questions
     match asked {
         Some(n) => n as u64,
-        None if std::env::var("VIBROIMPACT_LONG").is_ok_and(|on| on == "1") => LONG,
+        None if is_long() => LONG,
         None => EVERYDAY,
     }
 }
