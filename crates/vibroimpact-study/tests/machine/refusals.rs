@@ -16,7 +16,7 @@ restitution = 0.5
 
 fn told(text: &str) -> String {
     let source = MachineSource::from_text(text, no_files).and_then(|source| source.machine());
-    source.map(|_| String::new()).unwrap_or_else(|error| error.to_string())
+    source.map_or_else(|error| error.to_string(), |_| String::new())
 }
 
 #[test]
