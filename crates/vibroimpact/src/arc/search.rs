@@ -63,6 +63,8 @@ pub(crate) fn first_event(
     let fastest =
         structure.modes.iter().map(|mode| mode.rate).fold(structure.rates.last().copied().unwrap_or(0.0), f64::max);
     let mut known: Vec<usize> = flight.guards.iter().map(|guard| guard.known).collect();
+    // a contact on which the flight begins does not count as a touch
+    let mut touched: Vec<bool> = flight.guards.iter().map(|guard| guard.known > 0).collect();
     let mut s = 0.0;
     let mut reach = 1.0;
     for _ in 0..steps {
@@ -98,6 +100,9 @@ pub(crate) fn first_event(
                 }
             }
             let (p, error, _) = &buffers.polynomials[g];
+            if s > 0.0 && p[0] > 4.0 * error {
+                touched[g] = false;
+            }
             let lower = beside(p, -1.0, *error, *known, s);
             if let Some(t) = first_zero(&lower)
                 && first.is_none_or(|(least, _)| t < least)
@@ -124,9 +129,11 @@ pub(crate) fn first_event(
                     refine(flight, g, s + near * window, s + touch * window, RESOLUTION * window, &mut buffers.modes);
                 return Found::Zero { s: at, guards: vec![g] };
             }
-            if touches.last().is_none_or(|last| last.guard != g || s + touch * window - last.s > 1e-6 * (1.0 + s)) {
+            // one touch until the guard is clearly positive again
+            if !touched[g] {
                 touches.push(Touch { s: s + touch * window, guard: g });
             }
+            touched[g] = true;
             let next = s + (touch + after).min(1.0) * window;
             if known[g] > 0 {
                 known[g] = 0;
