@@ -19,7 +19,7 @@ use super::Measured;
 /// The number of blocks of a run.
 pub(crate) const BLOCKS: u64 = 128;
 /// The smallest number of blocks from which a standard error is computed.
-const FEWEST: usize = 32;
+pub(crate) const FEWEST: usize = 32;
 /// The rounding error of a sum, relative to the sum of the absolute values.
 const ROUNDING: f64 = 1e-13;
 /// The change of the logarithm of a stretch if another measure of length is used.

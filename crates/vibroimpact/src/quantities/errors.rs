@@ -6,7 +6,7 @@ use super::verdict::EVENTS;
 use super::{Quantities, Quantity, Tally};
 use crate::flight::SearchLimits;
 use crate::lyapunov::Tail;
-use crate::lyapunov::blocks::BLOCKS;
+use crate::lyapunov::blocks::FEWEST;
 use crate::motion::{EventKind, Motion};
 use crate::system::Oscillator;
 use crate::verdict::Verdict;
@@ -14,8 +14,8 @@ use crate::verdict::Verdict;
 /// Three standard errors of the means among the quantities of a chaotic motion ([`of_verdict`](super::of_verdict)): how
 /// much the means over its last impacts may differ from those over a longer run. They come from blocks of these impacts,
 /// so correlation over more than a 32nd of them is not detected. Impulses, losses and work of neighbouring blocks are
-/// anticorrelated, because momentum and energy balance, and their error bars are up to five times too wide. NaN for extremes,
-/// and for means that are not finite.
+/// anticorrelated, because momentum and energy balance, so few long blocks are used; the error bars of such quantities are
+/// still up to four times too wide. NaN for extremes, and for means that are not finite.
 ///
 /// `None` for all other motions, whose quantities are exact to rounding, and if the quantities are not known.
 ///
@@ -50,7 +50,7 @@ fn blocks_of<'a>(osc: &'a Oscillator, tail: &Tail) -> Option<(Tally<'a>, Vec<Sum
     let means: Vec<Quantity> = Quantity::ALL.into_iter().filter(|quantity| quantity.is_mean()).collect();
     let mut tally = Tally::of_only(osc, &means);
     let mut motion = Motion::after(osc, &tail.from, SearchLimits::default());
-    let wanted = tail.impacts.min(BLOCKS);
+    let wanted = tail.impacts.min(FEWEST as u64);
     let mut blocks: Vec<Sums> = Vec::new();
     // both closures below need the tally
     let parts = core::cell::RefCell::new(&mut tally);
@@ -105,7 +105,7 @@ mod tests {
         for (osc, chaos) in all {
             let values = of_verdict(&osc, &Verdict::Chaotic(chaos.clone())).unwrap();
             let (_, blocks) = blocks_of(&osc, &chaos.spectrum.tail).unwrap();
-            assert_eq!(blocks.len(), 128);
+            assert_eq!(blocks.len(), FEWEST);
             for quantity in Quantity::ALL {
                 let Some(mean) = Mean::of(quantity, osc.beta(), osc.damping()) else { continue };
                 let (mean, value) = (mean.over(&blocks).value, values.get(quantity));
@@ -153,7 +153,7 @@ mod tests {
                     | Quantity::WorkPerPeriod
                     | Quantity::Power
             );
-            let widest = if balanced { 6.0 } else { 1.8 };
+            let widest = if balanced { 4.0 } else { 1.8 };
             if spread > 1e-12 {
                 assert!((0.6..widest).contains(&(error / spread)), "{quantity:?}: {error} {spread}");
             }
