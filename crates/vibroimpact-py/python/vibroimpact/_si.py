@@ -47,7 +47,8 @@ def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
         scale, unit = of.attrs.get("scale"), of.attrs.get("units") or "1"
         if name in _core.machine_parameters():
             continue
-        if scale not in fixed if scale else unit not in _PLAIN:
+        known = scale in fixed if scale else unit in _PLAIN
+        if not known:
             raise QuestionError(f"`{name}` is in units of `{scale or unit}`, which are none of vibroimpact")
         if scale:
             factor, named = (fixed if name in ds.coords else here)[scale]
