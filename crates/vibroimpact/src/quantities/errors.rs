@@ -103,7 +103,7 @@ mod tests {
         let all = chaotic();
         assert!(!all.is_empty());
         for (osc, chaos) in all {
-            let values = of_verdict(&osc, &Verdict::Chaotic(chaos.clone())).unwrap();
+            let values = of_verdict(&osc, &Verdict::Chaotic(chaos)).unwrap();
             let (_, blocks) = blocks_of(&osc, &chaos.spectrum.tail).unwrap();
             assert_eq!(blocks.len(), FEWEST);
             for quantity in Quantity::ALL {

@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn errors_of_means_and_roots() {
         let block = |k: usize| {
-            let lost = if k % 2 == 0 { 2.0 } else { 4.0 };
+            let lost = if k.is_multiple_of(2) { 2.0 } else { 4.0 };
             let integrals = FlightIntegrals { x_squared: lost, ..FlightIntegrals::default() };
             Sums { time: 2.0, lost, integrals, ..Sums::default() }
         };
