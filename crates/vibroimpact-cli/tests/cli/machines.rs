@@ -109,13 +109,9 @@ fn the_schema_of_machine_files() {
 /// The contact of SDND101 has a closed form: half a period of the mass on both springs.
 #[test]
 fn a_machine_begins_where_its_file_says() {
-    let told = json("simulate --machine sdnd101 --impacts 1 --periods 1");
-    let events = told["events"].as_array().unwrap();
-    assert_eq!(
-        (&events[0]["kind"], &events[0]["time"], &events[0]["speed"]),
-        (&"close".into(), &0.0.into(), &1.0.into())
-    );
     let events = json("simulate --machine sdnd101 --impacts 2")["events"].clone();
+    let first = &events[0];
+    assert!(first["kind"] == "close" && first["time"] == 0.0 && first["speed"] == 1.0, "{events}");
     assert_eq!(events[1]["kind"], "open");
     let contact = core::f64::consts::PI / (1.01e6_f64 / 100.0).sqrt();
     assert!((events[1]["time"].as_f64().unwrap() - contact).abs() < 1e-14, "{events}");
