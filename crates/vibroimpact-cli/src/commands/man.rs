@@ -24,10 +24,7 @@ pub(super) fn run(args: &Man, mut command: Command, session: &Session) -> Result
         return session.to_stdout(|out| out.write_all(&page));
     };
     let mut pages = vec![("vibro.1".to_owned(), command.clone())];
-    for sub in command.get_subcommands().filter(|sub| sub.get_name() != "help") {
-        // `build()` has given each sub-command its full name
-        pages.push((format!("vibro-{}.1", sub.get_name()), sub.clone()));
-    }
+    collect(&command, "vibro", &mut pages);
     let mut reserved = Vec::new();
     for (file, command) in pages {
         let target = Target::reserve(&directory.join(file), session.force)?;
@@ -39,6 +36,16 @@ pub(super) fn run(args: &Man, mut command: Command, session: &Session) -> Result
     }
     session.note(&format!("wrote {} to {}", counted(count as u64, "page"), directory.display()));
     Ok(())
+}
+
+/// The pages of the sub-commands, and of theirs.
+fn collect(command: &Command, name: &str, pages: &mut Vec<(String, Command)>) {
+    for sub in command.get_subcommands().filter(|sub| sub.get_name() != "help") {
+        // `build()` has given each sub-command its full name
+        let name = format!("{name}-{}", sub.get_name());
+        pages.push((format!("{name}.1"), sub.clone()));
+        collect(sub, &name, pages);
+    }
 }
 
 fn rendered(command: Command) -> Result<Vec<u8>, Failure> {

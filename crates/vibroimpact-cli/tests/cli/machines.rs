@@ -105,3 +105,16 @@ fn the_schema_of_machine_files() {
     let stop = &schema["$defs"]["StopText"]["properties"];
     assert!(stop["gap"]["description"].as_str().is_some_and(|text| text.contains("coordinates are 0")), "{stop}");
 }
+
+/// The contact of SDND101 has a closed form: half a period of the mass on both springs.
+#[test]
+fn a_machine_begins_where_its_file_says() {
+    let events = json("simulate --machine sdnd101 --impacts 2")["events"].clone();
+    let first = &events[0];
+    assert!(first["kind"] == "close" && first["time"] == 0.0 && first["speed"] == 1.0, "{events}");
+    assert_eq!(events[1]["kind"], "open");
+    let contact = core::f64::consts::PI / (1.01e6_f64 / 100.0).sqrt();
+    assert!((events[1]["time"].as_f64().unwrap() - contact).abs() < 1e-14, "{events}");
+    let still = json("simulate --machine sdnd101 --impacts 2 --qdot 0");
+    assert_ne!(still["events"], events);
+}

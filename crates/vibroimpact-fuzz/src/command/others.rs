@@ -4,14 +4,18 @@ use super::parts::{Words, all, flag, line, switch, system, word};
 use crate::values::{count, number, odd};
 use proptest::prelude::*;
 
-/// The files in the folder of every case: a valid plan, an invalid one, and a file that is no store.
-pub(super) const FILES: [(&str, &str); 3] = [
+/// The files in the folder of every case: a valid plan, an invalid one, a file that is no store, and a machine.
+pub(super) const FILES: [(&str, &str); 4] = [
     (
         "plan.toml",
         "version = 1\nsystem = { inverse_beta = 1.3, gap = 0.75, restitution = 0.5 }\n[task.basin]\naxes = [{ vary = \"x\", over = \"-2:0.5:5\" }, { vary = \"v\", over = \"-1:1:4\" }]\n",
     ),
     ("bad.toml", "version = 1\n[task.map]\naxes = [{ vary = \"gap\", over = [0, NaN] }]\n"),
     ("thesis.zarr", "years of work"),
+    (
+        "machine.toml",
+        "parameters = { mu = 0.25 }\n[machine]\nbodies = { body = 1, shoe = \"mu\" }\nlink = [{ between = [\"body\", \"shoe\"], stiffness = \"1/mu\" }]\n[[machine.stop]]\nname = \"wall\"\nat = \"body\"\ngap = 1\nrestitution = 0.8\n",
+    ),
 ];
 
 fn words(choice: &'static [&'static str]) -> Words {
@@ -36,7 +40,8 @@ pub(super) fn lines() -> Words {
         1 => line("export", vec![place(), flag("csv", 0.6, word(&["-", "t.csv", ""])), flag("parquet", 0.1, word(&["t.parquet"])),
             flag("python", 0.5, word(&["no-such-program", "", "false"]))]),
         1 => line("plot", vec![place(), words(&["f.svg", "f.png", "f", "", "none/f.svg"])]),
-        1 => line("schema", vec![]),
+        2 => machine(),
+        1 => line("schema", vec![switch("machine", 0.5)]),
         1 => line("completions", vec![words(&["bash", "zsh", "fish", "elvish", "powershell", "tcsh"])]),
         1 => line("man", vec![words(&[".", "none", "plan.toml"])]),
         1 => line("bench", vec![flag("seconds", 1.0, prop_oneof![2 => word(&["0.01"]), 1 => word(&["0", "-1", "nan", "1e9"])].boxed()),
@@ -45,6 +50,34 @@ pub(super) fn lines() -> Words {
         1 => line("reproduce", vec![flag("out", 1.0, word(&["plan.toml", "thesis.zarr/x", ""])), switch("quick", 1.0)]),
         1 => line("explore", vec![flag("port", 1.0, word(&["-1", "65536", "x", ""])), switch("no-open", 1.0)]),
         1 => all(vec![words(&["help", "--help", "--version", "-h", "frobnicate", "settle", ""])]),
+    ]
+    .boxed()
+}
+
+/// Questions about machines and the numbers in them.
+fn machine() -> Words {
+    const MACHINES: &[&str] =
+        &["machine.toml", "chain", "sdnd101", "cantilever", "capsule", "plan.toml", "bad.toml", "none", "", "."];
+    const PATHS: &[&str] = &[
+        "mu",
+        "stop.wall.gap",
+        "stop.wall.restitution",
+        "mass.body",
+        "stiffness.body.shoe",
+        "link.body-shoe.stiffness",
+        "frequency",
+        "stop.wall",
+        "",
+    ];
+    let set = || {
+        let set = (prop_oneof![9 => word(PATHS), 1 => odd()], number());
+        let set = set.prop_map(|(path, value)| format!("{path}={value}"));
+        flag("set", 0.4, prop_oneof![19 => set, 1 => odd()].boxed())
+    };
+    prop_oneof![
+        9 => line("machine", vec![word(&["show"]).prop_map(|word| vec![word]).boxed(), words(MACHINES), set(), set(),
+            switch("toml", 0.3), switch("written", 0.3), switch("json", 0.4)]),
+        1 => line("machine", vec![words(&["list", "list", "show", "help"]), switch("json", 0.5)]),
     ]
     .boxed()
 }

@@ -1,6 +1,6 @@
 //! From the matrices of a machine back to the table `[machine]`, which reads as the same machine to the last bit.
 
-use super::number::Number;
+use super::number::NumberText;
 use super::shapes::{MatrixText, VectorText};
 use super::text::{ForceText, FrictionText, MachineText, MotionText, OpeningText, StopText};
 use vibroimpact::machine::{FrictionJoint, HarmonicForce, MachineParts, MachineStop, Opening, StopLaw};
@@ -11,23 +11,23 @@ const fn zero(value: f64) -> bool {
     value.to_bits() == 0
 }
 
-fn list(values: &[f64]) -> Vec<Number> {
-    values.iter().map(|value| Number::Value(*value)).collect()
+fn list(values: &[f64]) -> Vec<NumberText> {
+    values.iter().map(|value| NumberText::Value(*value)).collect()
 }
 
 fn vector(values: &[f64]) -> Option<VectorText> {
     (!values.iter().all(|value| zero(*value))).then(|| VectorText::List(list(values)))
 }
 
-fn unless_zero(value: f64) -> Option<Number> {
-    (!zero(value)).then_some(Number::Value(value))
+fn unless_zero(value: f64) -> Option<NumberText> {
+    (!zero(value)).then_some(NumberText::Value(value))
 }
 
 fn matrix(matrix: &Matrix) -> MatrixText {
     let n = matrix.rows();
     let inside = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).filter(|(i, j)| i != j);
     if inside.into_iter().all(|place| zero(matrix[place])) {
-        MatrixText::Diagonal((0..n).map(|i| Number::Value(matrix[(i, i)])).collect())
+        MatrixText::Diagonal((0..n).map(|i| NumberText::Value(matrix[(i, i)])).collect())
     } else {
         MatrixText::Rows((0..n).map(|i| list(matrix.row(i))).collect())
     }
@@ -42,7 +42,7 @@ impl From<&MachineParts> for MachineText {
             damping: unless_zero(&parts.damping),
             stiffness: unless_zero(&parts.stiffness),
             constant: vector(&parts.constant),
-            frequency: parts.frequency.map(Number::Value),
+            frequency: parts.frequency.map(NumberText::Value),
             force: parts.forces.iter().map(force).collect(),
             stop: parts.stops.iter().map(stop).collect(),
             friction: parts.joints.iter().map(friction).collect(),
@@ -59,7 +59,7 @@ fn stop(stop: &MachineStop) -> StopText {
     let text = StopText {
         name: stop.name.clone(),
         direction: Some(VectorText::List(list(&stop.direction))),
-        gap: Number::Value(stop.gap),
+        gap: NumberText::Value(stop.gap),
         motion: stop
             .motion
             .iter()
@@ -72,9 +72,9 @@ fn stop(stop: &MachineStop) -> StopText {
         ..StopText::default()
     };
     match stop.law {
-        StopLaw::Rigid { restitution } => StopText { restitution: Some(Number::Value(restitution)), ..text },
+        StopLaw::Rigid { restitution } => StopText { restitution: Some(NumberText::Value(restitution)), ..text },
         StopLaw::Compliant { stiffness, damping, preload, opening } => StopText {
-            stiffness: Some(Number::Value(stiffness)),
+            stiffness: Some(NumberText::Value(stiffness)),
             damping: unless_zero(damping),
             preload: unless_zero(preload),
             opening: (opening == Opening::Position).then_some(OpeningText::Position),
@@ -87,8 +87,8 @@ fn friction(joint: &FrictionJoint) -> FrictionText {
     FrictionText {
         name: joint.name.clone(),
         direction: Some(VectorText::List(list(&joint.direction))),
-        sliding: Number::Value(joint.sliding),
-        limit: (joint.limit.to_bits() != joint.sliding.to_bits()).then_some(Number::Value(joint.limit)),
+        sliding: NumberText::Value(joint.sliding),
+        limit: (joint.limit.to_bits() != joint.sliding.to_bits()).then_some(NumberText::Value(joint.limit)),
         belt: unless_zero(joint.belt),
         ..FrictionText::default()
     }

@@ -52,6 +52,20 @@ impl CatalogueEntry {
 }
 
 impl MachineSource {
+    /// The machine of the catalogue with this name; or the machine of this text, if it is not a single word.
+    ///
+    /// # Errors
+    /// As [`Self::of_catalogue`] and [`Self::from_text`]. Texts that name a file are refused.
+    pub fn open(name_or_text: &str) -> Result<Self, MachineTextError> {
+        let word = name_or_text.trim();
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if !word.is_empty() && word.chars().all(plain) {
+            Self::of_catalogue(word)
+        } else {
+            Self::from_text(name_or_text, no_files)
+        }
+    }
+
     /// The machine of the catalogue with this name.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::error::{MachineProblem, MachineTextError};
 use super::named::Named;
-use super::number::Number;
+use super::number::NumberText;
 use super::places::{Places, check_name};
 use super::shapes::VectorText;
 use super::structure::{frequency, places, structure};
@@ -76,8 +76,8 @@ fn expand_stop(text: &StopText, places: &Places<'_>) -> Result<MachineStop, Mach
     check_name("stop", &text.name)?;
     let path = format!("stop.{}", text.name);
     let direction = direction(&path, (text.direction.as_ref(), text.between.as_ref(), text.at.as_ref()), places)?;
-    let number = |field: &str, number: &Number| places.value(&format!("{path}.{field}"), number);
-    let or_zero = |field: &str, number: Option<&Number>| places.value_or(&format!("{path}.{field}"), number, 0.0);
+    let number = |field: &str, number: &NumberText| places.value(&format!("{path}.{field}"), number);
+    let or_zero = |field: &str, number: Option<&NumberText>| places.value_or(&format!("{path}.{field}"), number, 0.0);
     let law = match (&text.restitution, &text.stiffness) {
         (Some(restitution), None) => {
             let compliant = [

@@ -8,13 +8,14 @@
 //! | a machine file: parameters, a machine, changed numbers | [`MachineSource`], `source` |
 //! | from text to a source, with errors that name a path | `read` |
 //! | the table `[machine]` | [`MachineText`], `text` |
-//! | a number or an expression of the parameters | [`Number`], `number`, `expression` |
+//! | a number or an expression of the parameters | [`NumberText`], `number`, `expression` |
 //! | vectors, matrices, and tables that keep their order | [`VectorText`], [`MatrixText`], [`Named`] |
 //! | what names stand for: coordinates, bodies, points, the ground | `places` |
 //! | the matrices | `expand`, `structure` |
 //! | from the matrices back to a table | `back` |
 //! | the numbers of a table by path | `written` |
 //! | modes from a table of numbers | `modes` |
+//! | where a machine begins | [`StartText`], [`StartNumbers`], `start` |
 //! | named machines of the literature | [`CATALOGUE`], `catalogue` |
 //! | errors | [`MachineTextError`], [`MachineProblem`] |
 
@@ -30,6 +31,7 @@ mod places;
 mod read;
 mod shapes;
 mod source;
+mod start;
 mod structure;
 mod text;
 mod write;
@@ -39,8 +41,9 @@ pub use catalogue::{CATALOGUE, CatalogueEntry};
 pub use error::{MachineProblem, MachineTextError};
 pub use expression::ExpressionError;
 pub use named::Named;
-pub use number::Number;
+pub use number::NumberText;
 pub use read::no_files;
 pub use shapes::{MatrixText, VectorText};
 pub use source::MachineSource;
+pub use start::{StartNumbers, StartText};
 pub use text::{ForceText, FrictionText, LinkText, MachineText, ModeText, MotionText, OpeningText, StopText};

@@ -1,7 +1,7 @@
 //! Modes of vibration from a table of numbers: the result of a finite-element program as CSV.
 
 use super::named::Named;
-use super::number::Number;
+use super::number::NumberText;
 use super::text::ModeText;
 
 /// The modes of a CSV table. The columns `frequency_hz` or `frequency`, `damping_ratio` and `modal_mass` have the
@@ -31,7 +31,7 @@ pub(super) fn from_csv(table: &str) -> Result<Vec<ModeText>, String> {
                     shortened(column)
                 )
             })?;
-            let value = Number::Value(value);
+            let value = NumberText::Value(value);
             match *column {
                 "frequency" => mode.frequency = Some(value),
                 "frequency_hz" => mode.frequency_hz = Some(value),
@@ -75,9 +75,12 @@ mod tests {
         )
         .unwrap();
         assert_eq!(modes.len(), 2);
-        assert_eq!(modes[1].frequency_hz, Some(Number::Value(62.5)));
-        assert_eq!(modes[1].damping_ratio, Some(Number::Value(0.02)));
-        assert_eq!(modes[0].shape, Named::from_iter([("tip", Number::Value(1.2)), ("middle", Number::Value(-0.3))]));
+        assert_eq!(modes[1].frequency_hz, Some(NumberText::Value(62.5)));
+        assert_eq!(modes[1].damping_ratio, Some(NumberText::Value(0.02)));
+        assert_eq!(
+            modes[0].shape,
+            Named::from_iter([("tip", NumberText::Value(1.2)), ("middle", NumberText::Value(-0.3))])
+        );
     }
 
     #[test]

@@ -10,26 +10,26 @@ use std::borrow::Cow;
 
 /// A number, or an expression of the parameters of the file such as `"1/(1+mu)"`.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Number {
+pub enum NumberText {
     /// A value.
     Value(f64),
     /// An expression.
     Expression(String),
 }
 
-impl Default for Number {
+impl Default for NumberText {
     fn default() -> Self {
         Self::Value(0.0)
     }
 }
 
-impl From<f64> for Number {
+impl From<f64> for NumberText {
     fn from(value: f64) -> Self {
         Self::Value(value)
     }
 }
 
-impl Number {
+impl NumberText {
     /// The value.
     ///
     /// # Errors
@@ -42,7 +42,7 @@ impl Number {
     }
 }
 
-impl Serialize for Number {
+impl Serialize for NumberText {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
             Self::Value(value) => serializer.serialize_f64(*value),
@@ -51,7 +51,7 @@ impl Serialize for Number {
     }
 }
 
-impl<'de> Deserialize<'de> for Number {
+impl<'de> Deserialize<'de> for NumberText {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(Reader)
     }
@@ -61,30 +61,30 @@ impl<'de> Deserialize<'de> for Number {
 pub(super) struct Reader;
 
 impl Visitor<'_> for Reader {
-    type Value = Number;
+    type Value = NumberText;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str("a number or an expression")
     }
 
-    fn visit_f64<E: Error>(self, value: f64) -> Result<Number, E> {
-        Ok(Number::Value(value))
+    fn visit_f64<E: Error>(self, value: f64) -> Result<NumberText, E> {
+        Ok(NumberText::Value(value))
     }
 
-    fn visit_i64<E: Error>(self, value: i64) -> Result<Number, E> {
-        Ok(Number::Value(value as f64))
+    fn visit_i64<E: Error>(self, value: i64) -> Result<NumberText, E> {
+        Ok(NumberText::Value(value as f64))
     }
 
-    fn visit_u64<E: Error>(self, value: u64) -> Result<Number, E> {
-        Ok(Number::Value(value as f64))
+    fn visit_u64<E: Error>(self, value: u64) -> Result<NumberText, E> {
+        Ok(NumberText::Value(value as f64))
     }
 
-    fn visit_str<E: Error>(self, text: &str) -> Result<Number, E> {
-        Ok(Number::Expression(text.to_owned()))
+    fn visit_str<E: Error>(self, text: &str) -> Result<NumberText, E> {
+        Ok(NumberText::Expression(text.to_owned()))
     }
 }
 
-impl JsonSchema for Number {
+impl JsonSchema for NumberText {
     fn schema_name() -> Cow<'static, str> {
         "Number".into()
     }

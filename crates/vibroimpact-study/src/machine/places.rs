@@ -2,7 +2,7 @@
 
 use super::error::{MachineProblem, MachineTextError};
 use super::named::Named;
-use super::number::Number;
+use super::number::NumberText;
 use super::shapes::VectorText;
 
 /// The name of what does not move.
@@ -46,17 +46,22 @@ impl Places<'_> {
     }
 
     /// The value of a number.
-    pub(super) fn value(&self, path: &str, number: &Number) -> Result<f64, MachineTextError> {
+    pub(super) fn value(&self, path: &str, number: &NumberText) -> Result<f64, MachineTextError> {
         number.value(self.parameters).map_err(|error| MachineTextError::new(path, error))
     }
 
     /// The value of a number that may be absent.
-    pub(super) fn value_or(&self, path: &str, number: Option<&Number>, absent: f64) -> Result<f64, MachineTextError> {
+    pub(super) fn value_or(
+        &self,
+        path: &str,
+        number: Option<&NumberText>,
+        absent: f64,
+    ) -> Result<f64, MachineTextError> {
         number.map_or(Ok(absent), |number| self.value(path, number))
     }
 
     /// The values of a list.
-    pub(super) fn values(&self, path: &str, list: &[Number]) -> Result<Vec<f64>, MachineTextError> {
+    pub(super) fn values(&self, path: &str, list: &[NumberText]) -> Result<Vec<f64>, MachineTextError> {
         list.iter().map(|number| self.value(path, number)).collect()
     }
 

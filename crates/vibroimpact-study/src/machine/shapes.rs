@@ -1,7 +1,7 @@
 //! Vectors and matrices as they are written.
 
 use super::named::Named;
-use super::number::{Number, Reader};
+use super::number::{NumberText, Reader};
 use core::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
@@ -14,20 +14,20 @@ use std::borrow::Cow;
 #[derive(Clone, Debug, PartialEq)]
 pub enum VectorText {
     /// One number, for the place that another field names.
-    One(Number),
+    One(NumberText),
     /// A number for each coordinate.
-    List(Vec<Number>),
+    List(Vec<NumberText>),
     /// Numbers for names.
-    Named(Named<Number>),
+    Named(Named<NumberText>),
 }
 
 /// A matrix: its diagonal, or its rows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MatrixText {
     /// The numbers on the diagonal; all others are 0.
-    Diagonal(Vec<Number>),
+    Diagonal(Vec<NumberText>),
     /// The rows.
-    Rows(Vec<Vec<Number>>),
+    Rows(Vec<Vec<NumberText>>),
 }
 
 impl Serialize for VectorText {
@@ -89,8 +89,8 @@ impl<'de> Deserialize<'de> for VectorText {
 
 /// A number or a row of a matrix.
 enum Row {
-    Number(Number),
-    Row(Vec<Number>),
+    Number(NumberText),
+    Row(Vec<NumberText>),
 }
 
 impl<'de> Deserialize<'de> for Row {
@@ -137,7 +137,7 @@ impl JsonSchema for VectorText {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let number = generator.subschema_for::<Number>();
+        let number = generator.subschema_for::<NumberText>();
         json_schema!({
             "description": "A list with a number for each coordinate, or a table of numbers for names; a number alone where `at` names the place",
             "anyOf": [
@@ -155,7 +155,7 @@ impl JsonSchema for MatrixText {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let number = generator.subschema_for::<Number>();
+        let number = generator.subschema_for::<NumberText>();
         json_schema!({
             "description": "The rows of a matrix, or the numbers on its diagonal",
             "anyOf": [

@@ -4,7 +4,8 @@ use super::error::{MachineProblem, MachineTextError};
 use super::expand::expand;
 use super::expression::reserved;
 use super::named::Named;
-use super::number::Number;
+use super::number::NumberText;
+use super::start::{StartNumbers, StartText};
 use super::text::MachineText;
 use super::written::{listed_path, numbers};
 use schemars::JsonSchema;
@@ -47,6 +48,9 @@ pub struct MachineSource {
     /// Numbers of the expansion that are changed after it, by path, such as `"stiffness.body" = 2`.
     #[serde(default, skip_serializing_if = "Named::is_empty")]
     pub set: Named<f64>,
+    /// Where it begins if nothing else is asked; at rest at 0 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<StartText>,
     /// The machine.
     pub machine: MachineText,
 }
@@ -87,6 +91,15 @@ impl MachineSource {
         Ok(Machine::new(self.parts()?)?)
     }
 
+    /// The start of the table `[start]`, or else at rest at 0. Whether a stop is in the way is not checked.
+    ///
+    /// # Errors
+    /// [`MachineTextError`] with the path of the first number that has no meaning, or if the file describes no machine.
+    pub fn start(&self) -> Result<StartNumbers, MachineTextError> {
+        let parts = self.parts()?;
+        self.start.clone().unwrap_or_default().numbers(&parts.coordinates, &self.parameters)
+    }
+
     /// The number at a path: of a parameter, of the file, or else of its expansion.
     ///
     /// # Errors
@@ -120,7 +133,7 @@ impl MachineSource {
         let listed = listed_path(&changed.machine, path);
         let mut found = false;
         for (_, number) in numbers(&mut changed.machine).into_iter().filter(|(known, _)| *known == listed) {
-            *number = Number::Value(value);
+            *number = NumberText::Value(value);
             found = true;
         }
         if found {
@@ -142,9 +155,9 @@ impl MachineSource {
         let mut copy = self.machine.clone();
         for (path, number) in numbers(&mut copy) {
             // the zeros of a matrix that is written as rows are not listed
-            let inside = ["mass.", "damping.", "stiffness."].iter().any(|kind| path.starts_with(kind));
-            let hidden = inside && path.matches('.').count() == 2 && *number == Number::Value(0.0);
-            if !hidden && !paths.contains(&path) {
+            let inside = path.matches('.').count() == 2 && path.starts_with(['m', 'd', 's']);
+            let inside = inside && ["mass.", "damping.", "stiffness."].iter().any(|kind| path.starts_with(kind));
+            if !(paths.contains(&path) || inside && *number == NumberText::Value(0.0)) {
                 paths.push(path);
             }
         }
@@ -159,7 +172,9 @@ impl MachineSource {
     pub fn expansion(&self) -> Result<Self, MachineTextError> {
         let machine = MachineText::from(self.machine()?.parts());
         let (title, source, summary) = (self.title.clone(), self.source.clone(), self.summary.clone());
-        Ok(Self { title, source, summary, machine, ..Self::default() })
+        let start = self.start.is_some().then(|| self.start()).transpose()?;
+        let start = start.as_ref().map(StartText::from).filter(|start| *start != StartText::default());
+        Ok(Self { title, source, summary, start, machine, ..Self::default() })
     }
 
     /// The JSON schema of machine files, for editors and other programs.

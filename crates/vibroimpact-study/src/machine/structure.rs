@@ -2,7 +2,7 @@
 
 use super::error::{MachineProblem, MachineTextError};
 use super::named::Named;
-use super::number::Number;
+use super::number::NumberText;
 use super::places::{Places, check_name, check_place, name_of_mode};
 use super::shapes::MatrixText;
 use super::text::{LinkText, MachineText, ModeText};
@@ -168,8 +168,8 @@ fn add_mode(parts: &mut MachineParts, k: usize, mode: &ModeText, places: &Places
 /// An angular frequency that is written in one of two forms; `before` is the path of the part, with its dot.
 pub(super) fn frequency(
     before: &str,
-    angular: Option<&Number>,
-    hertz: Option<&Number>,
+    angular: Option<&NumberText>,
+    hertz: Option<&NumberText>,
     places: &Places<'_>,
 ) -> Result<Option<f64>, MachineTextError> {
     match (angular, hertz) {

@@ -1,7 +1,7 @@
 //! The table `[machine]` of a machine file.
 
 use super::named::Named;
-use super::number::Number;
+use super::number::NumberText;
 use super::shapes::{MatrixText, VectorText};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ pub struct MachineText {
     pub coordinates: Option<Vec<String>>,
     /// The bodies with their masses: `{ body = 1.0, shoe = 2.0 }`. Instead of `mass`.
     #[serde(skip_serializing_if = "Named::is_empty")]
-    pub bodies: Named<Number>,
+    pub bodies: Named<NumberText>,
     /// The file with the modes, a CSV table; instead of tables `mode`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes: Option<String>,
@@ -31,7 +31,7 @@ pub struct MachineText {
     /// Damping ratios of the modes of the mass and stiffness matrices, from the lowest frequency; instead of `damping`.
     /// Dampers of links are added.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub modal_damping: Option<Vec<Number>>,
+    pub modal_damping: Option<Vec<NumberText>>,
     /// Stiffness matrix, symmetric and positive semidefinite; 0 when absent. Springs of links are added.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<MatrixText>,
@@ -40,10 +40,10 @@ pub struct MachineText {
     pub constant: Option<VectorText>,
     /// Angular frequency of the forcing, in radians per unit of time; no forcing when absent.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency: Option<Number>,
+    pub frequency: Option<NumberText>,
     /// Frequency of the forcing in periods per unit of time; instead of `frequency`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_hz: Option<Number>,
+    pub frequency_hz: Option<NumberText>,
     /// Modes of vibration.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub mode: Vec<ModeText>,
@@ -67,19 +67,19 @@ pub struct MachineText {
 pub struct ModeText {
     /// Angular natural frequency; 0 for a rigid-body mode. This or `frequency_hz`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub frequency: Option<Number>,
+    pub frequency: Option<NumberText>,
     /// Natural frequency in periods per unit of time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub frequency_hz: Option<Number>,
+    pub frequency_hz: Option<NumberText>,
     /// Damping ratio; 0 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub damping_ratio: Option<Number>,
+    pub damping_ratio: Option<NumberText>,
     /// Modal mass: 1 when absent, for mass-normalised shapes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub modal_mass: Option<Number>,
+    pub modal_mass: Option<NumberText>,
     /// Displacements of named points in this mode: `{ tip = 1.2, middle = -0.3 }`; the same points in each mode.
     #[serde(default)]
-    pub shape: Named<Number>,
+    pub shape: Named<NumberText>,
 }
 
 /// A spring and a damper between two bodies, or between a body and the ground.
@@ -93,10 +93,10 @@ pub struct LinkText {
     pub between: [String; 2],
     /// Stiffness of the spring; 0 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stiffness: Option<Number>,
+    pub stiffness: Option<NumberText>,
     /// Damping coefficient; 0 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub damping: Option<Number>,
+    pub damping: Option<NumberText>,
 }
 
 /// A harmonic force, `cos * cos(order theta) + sin * sin(order theta)` with `theta = frequency t + phase`.
@@ -136,19 +136,19 @@ pub struct StopText {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<String>,
     /// The gap where all coordinates are 0.
-    pub gap: Number,
+    pub gap: NumberText,
     /// Restitution of a rigid stop, 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub restitution: Option<Number>,
+    pub restitution: Option<NumberText>,
     /// Stiffness of a compliant stop.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stiffness: Option<Number>,
+    pub stiffness: Option<NumberText>,
     /// Damping coefficient of a compliant stop; 0 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub damping: Option<Number>,
+    pub damping: Option<NumberText>,
     /// Force of a compliant stop at the moment of closing; 0 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub preload: Option<Number>,
+    pub preload: Option<NumberText>,
     /// When a compliant stop opens; `force` when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub opening: Option<OpeningText>,
@@ -178,10 +178,10 @@ pub struct MotionText {
     pub order: Option<u32>,
     /// Cosine amplitude; 0 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cos: Option<Number>,
+    pub cos: Option<NumberText>,
     /// Sine amplitude; 0 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sin: Option<Number>,
+    pub sin: Option<NumberText>,
 }
 
 /// A joint with Coulomb friction of a given normal force. It acts against `direction.qdot - belt`.
@@ -200,11 +200,11 @@ pub struct FrictionText {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<String>,
     /// The friction force while it slides.
-    pub sliding: Number,
+    pub sliding: NumberText,
     /// The largest force that holds it at rest, at least `sliding`; equal to it when absent.
     #[serde(default, rename = "static", skip_serializing_if = "Option::is_none")]
-    pub limit: Option<Number>,
+    pub limit: Option<NumberText>,
     /// The velocity of the belt under it; 0 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub belt: Option<Number>,
+    pub belt: Option<NumberText>,
 }

@@ -11,14 +11,14 @@
 //! | `stop.S.direction.P`, `friction.J.direction.P` | of a direction that is a table |
 //! | all paths of [`vibroimpact::machine`] | where the file has the number |
 
-use super::number::Number;
+use super::number::NumberText;
 use super::places::name_of_mode;
 use super::shapes::{MatrixText, VectorText};
 use super::structure::name_of_link;
 use super::text::MachineText;
 
 /// Each number that is written, with its path. A number in two places of a symmetric matrix is there twice.
-pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut Number)> {
+pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut NumberText)> {
     let coordinates = coordinates(text);
     let mut all = Vec::new();
     let bodies = text.bodies.0.iter_mut();
@@ -51,13 +51,9 @@ pub(super) fn numbers(text: &mut MachineText) -> Vec<(String, &mut Number)> {
     for force in &mut text.force {
         for (side, amplitude) in [("cos", &mut force.cos), ("sin", &mut force.sin)] {
             let path = format!("force.{}.{side}", force.order.unwrap_or(1));
-            match &force.at {
-                Some(at) => {
-                    if let Some(VectorText::One(number)) = amplitude {
-                        all.push((format!("{path}.{at}"), number));
-                    }
-                }
-                None => of_vector(&mut all, &path, amplitude, &coordinates),
+            match (amplitude, &force.at) {
+                (Some(VectorText::One(number)), Some(at)) => all.push((format!("{path}.{at}"), number)),
+                (amplitude, _) => of_vector(&mut all, &path, amplitude, &coordinates),
             }
         }
     }
@@ -94,9 +90,9 @@ fn coordinates(text: &MachineText) -> Vec<String> {
     })
 }
 
-type Found<'a> = Vec<(String, &'a mut Number)>;
+type Found<'a> = Vec<(String, &'a mut NumberText)>;
 
-fn given<'a, const N: usize>(all: &mut Found<'a>, path: &str, fields: [(&str, &'a mut Option<Number>); N]) {
+fn given<'a, const N: usize>(all: &mut Found<'a>, path: &str, fields: [(&str, &'a mut Option<NumberText>); N]) {
     let fields = fields.into_iter();
     all.extend(fields.filter_map(|(name, number)| Some((format!("{path}.{name}"), number.as_mut()?))));
 }

@@ -1,7 +1,7 @@
 //! The machines of the catalogue.
 
 use core::f64::consts::PI;
-use vibroimpact_study::machine::{CATALOGUE, MachineSource, Number};
+use vibroimpact_study::machine::{CATALOGUE, MachineSource, NumberText};
 
 fn source(name: &str) -> MachineSource {
     MachineSource::of_catalogue(name).unwrap()
@@ -80,7 +80,7 @@ fn the_modes_of_the_cantilever_are_those_of_a_beam() {
             (0..=n).map(at).sum::<f64>() / (3.0 * n as f64)
         };
         let norm = simpson(&|x| shape(x) * shape(x)).sqrt();
-        let number = |number: &Number| number.value(&source.parameters).unwrap();
+        let number = |number: &NumberText| number.value(&source.parameters).unwrap();
         let near = |value: f64, wanted: f64, what: &str| {
             assert!((value - wanted).abs() < 1e-9 * (1.0 + wanted.abs()), "mode {}: {what} {value} {wanted}", k + 1);
         };
@@ -111,4 +111,50 @@ fn numbers_of_the_sources() {
     assert_eq!(number("impact-pair", "constant.ball"), 0.0);
     let upright = source("impact-pair").with("alpha", PI / 2.0).unwrap();
     assert_eq!(upright.machine().unwrap().number("constant.ball").unwrap(), 1.0);
+}
+
+#[test]
+fn a_name_or_a_text_opens_a_machine() {
+    assert_eq!(MachineSource::open("chain"), Ok(source("chain")));
+    for entry in CATALOGUE {
+        assert_eq!(MachineSource::open(entry.text), entry.source(), "{}", entry.name);
+    }
+    assert!(MachineSource::open("chains").unwrap_err().to_string().starts_with("chains: no such machine"));
+    assert!(MachineSource::open("").unwrap_err().to_string().contains("missing field `machine`"));
+}
+
+#[test]
+fn a_start_belongs_to_the_machine() {
+    let start = source("sdnd101").start().unwrap();
+    assert_eq!((start.q, start.qdot, start.phase), (vec![0.0], vec![1.0], 0.0));
+    // SDND102: the velocity of the base
+    assert_eq!(source("sdnd102").start().unwrap().qdot, [-1.0 / (20.0 * PI)]);
+    assert_eq!(source("sdnd102").with("w", 2.0).unwrap().start().unwrap().qdot, [-0.5]);
+    assert_eq!(source("chain").start().unwrap().q, [0.0, 0.0]);
+    let text = |start: &str| {
+        let machine = "[machine]\nbodies = { body = 1, shoe = 2 }\nmode = [{ frequency = 1, shape = { tip = 2 } }]\n";
+        MachineSource::open(&format!("[parameters]\nv = 0.1\n[start]\n{start}\n{machine}"))
+    };
+    let written = text("q = { shoe = -0.25 }\nqdot = [1, 2, \"10*v\"]\nphase = \"pi/2\"").unwrap();
+    let start = written.start().unwrap();
+    assert_eq!((start.q.as_slice(), start.qdot.as_slice()), ([0.0, 0.0, -0.25].as_slice(), [1.0, 2.0, 1.0].as_slice()));
+    assert_eq!(start.phase, PI / 2.0);
+    // the expansion has the same start, also as text
+    let printed = MachineSource::open(&written.expansion().unwrap().to_toml()).unwrap();
+    assert_eq!(printed.start(), Ok(start));
+    assert_eq!(text("").unwrap().expansion().unwrap().start, None);
+    for (start, told) in [
+        (
+            "q = { tip = 1 }",
+            "start.q.tip: `tip` is the name of nothing in this machine\nhint: known names are mode1, body, shoe",
+        ),
+        ("q = [1, 2]", "start.q: has 2 numbers, and 3 are needed, one for each of the coordinates mode1, body, shoe"),
+        ("qdot = 1", "start.qdot: a number alone is given"),
+        ("phase = nan", "start.phase: NaN is not a finite number"),
+        ("phase = \"w\"", "start.phase: `w` is no parameter"),
+        ("v = [1]", "start.v: unknown field `v`"),
+    ] {
+        let error = text(start).and_then(|source| source.start()).unwrap_err().to_string();
+        assert!(error.starts_with(told), "{error}");
+    }
 }

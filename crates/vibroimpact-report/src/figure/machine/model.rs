@@ -3,7 +3,7 @@
 use crate::number::short;
 use vibroimpact::machine::{MachineParts, StopLaw};
 use vibroimpact::math::Matrix;
-use vibroimpact_study::machine::{MachineSource, MachineText, MachineTextError, Named, Number, VectorText};
+use vibroimpact_study::machine::{MachineSource, MachineText, MachineTextError, Named, NumberText, VectorText};
 
 /// Bodies, the points of a structure with modes, and what is between them.
 pub(super) struct Model {
@@ -95,7 +95,7 @@ impl Model {
                 let named: Vec<(&str, f64)> = match vector {
                     // values that are expressions count by their sign in the expansion only
                     Some(VectorText::Named(table)) => {
-                        let value = |number: &Number| number.value(&Named::default()).unwrap_or(1.0);
+                        let value = |number: &NumberText| number.value(&Named::default()).unwrap_or(1.0);
                         table.0.iter().map(|(name, number)| (name.as_str(), value(number))).collect()
                     }
                     _ => names.iter().map(String::as_str).zip(direction.iter().copied()).collect(),
