@@ -3,11 +3,9 @@
 //! | idea | file |
 //! |---|---|
 //! | the modes from a state, at any time | `flight` |
-//! | the same where there are no modes | `dense` |
 //! | first zeros of polynomials | `polynomial` |
 //! | the first zero of any guard, which misses none | `search` |
 
-mod dense;
 mod flight;
 mod polynomial;
 mod search;

@@ -337,7 +337,7 @@ fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
     tenth.clear();
     // without modes: the energy of all directions together bounds each
     let energy = structure.dense.as_ref().map(|(stiffness, _)| {
-        super::dense::coefficients(flight, &modes.moved, &modes.v, s, TERMS + 1, terms);
+        super::flight::dense::coefficients(flight, &modes.moved, &modes.v, s, TERMS + 1, terms);
         (dot(&modes.v, &modes.v) + dot(&modes.moved, &stiffness.apply(&modes.moved))).max(0.0).sqrt()
     });
     for (i, mode) in structure.modes.iter().enumerate() {
