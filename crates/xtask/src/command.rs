@@ -57,7 +57,7 @@ pub(crate) fn words(root: &Path, line: &str) -> Command {
 
 /// Whether the command exists and succeeds. Its output is discarded.
 pub(crate) fn succeeds(root: &Path, line: &str) -> bool {
-    words(root, line).stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok_and(|status| status.success())
+    run_quietly(&mut words(root, line)).is_ok()
 }
 
 /// Runs a command with its own output.
@@ -67,6 +67,15 @@ pub(crate) fn succeeds(root: &Path, line: &str) -> bool {
 pub(crate) fn run(mut command: Command) -> Result<(), String> {
     let outcome = command.status();
     verdict(&command, outcome)
+}
+
+/// Runs a command and discards its output.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn run_quietly(command: &mut Command) -> Result<(), String> {
+    let outcome = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
+    verdict(command, outcome)
 }
 
 /// Runs a command, copies every line to the terminal at once, and passes it to `read` without colours.

@@ -1,7 +1,8 @@
 //! Builds the Python package and installs it into its own environment under `target/`, ready for its tests.
 
 use std::path::{Path, PathBuf};
-use std::process::Stdio;
+use std::process::{Command, Stdio};
+use std::thread::JoinHandle;
 use std::{fs, io};
 
 use crate::command;
@@ -44,16 +45,35 @@ const FILES: &str = "crates/vibroimpact-py/python/vibroimpact";
 /// A message that names the step that failed; the program that failed has printed its own messages.
 pub(crate) fn install(root: &Path) -> Result<String, String> {
     let Some(python) = found(root) else { return Ok(SKIPPED.to_owned()) };
-    if !root.join(PYTHON).is_file() {
-        command::run(command::words(root, &format!("{python} -m venv {ENVIRONMENT}")))?;
-        command::run(command::words(root, &format!("{PYTHON} -m pip install --quiet --disable-pip-version-check uv")))?;
-    }
-    let mut packages = command::words(root, &format!("{PYTHON} {PACKAGES} --python"));
-    packages.arg(root.join(PYTHON));
-    command::run(packages)?;
+    environment(root, python, command::run)?;
     command::run(command::words(root, COMPILED))?;
     copy(root)?;
     Ok(format!("vibroimpact is installed in {ENVIRONMENT}"))
+}
+
+/// Begins to download the packages for the tests, which takes time but no processor, while other steps compute. A failure
+/// is not reported here: [`install`] does the same again, and finds what is there.
+pub(crate) fn begin(root: &Path) -> JoinHandle<()> {
+    let root = root.to_owned();
+    std::thread::spawn(move || {
+        if let Some(python) = found(&root) {
+            let _ = environment(&root, python, |mut command| command::run_quietly(&mut command));
+        }
+    })
+}
+
+/// Creates the environment if there is none, and installs the packages that it lacks.
+fn environment(root: &Path, python: &str, run: impl Fn(Command) -> Result<(), String>) -> Result<(), String> {
+    if !root.join(PYTHON).is_file() {
+        run(command::words(root, &format!("{python} -m venv {ENVIRONMENT}")))?;
+    }
+    // an environment whose creation was interrupted has no uv
+    if !command::succeeds(root, &format!("{PYTHON} -m uv --version")) {
+        run(command::words(root, &format!("{PYTHON} -m pip install --quiet --disable-pip-version-check uv")))?;
+    }
+    let mut packages = command::words(root, &format!("{PYTHON} {PACKAGES} --python"));
+    packages.arg(root.join(PYTHON));
+    run(packages)
 }
 
 /// Copies the files of the package and the compiled module into the environment.

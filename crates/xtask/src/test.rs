@@ -44,6 +44,9 @@ const LONG: (&str, &str) = ("VIBROIMPACT_LONG", "1");
 /// The step that nextest needs beside it, because it runs no doc tests.
 const DOC_TESTS: &str = "doc tests";
 
+/// The step that needs the packages of Python, which are downloaded before.
+const PYTHON_PACKAGE: &str = "Python package";
+
 enum Work {
     /// A command that succeeds or fails.
     Command,
@@ -105,7 +108,7 @@ fn steps(nextest: bool, python: bool) -> Vec<Step> {
         Step::tests("explorer", "cargo xtask explorer"),
         Step::check("documentation", "cargo xtask docs", docs::build),
         Step::check("WebAssembly", "cargo xtask wasm", wasm::check),
-        Step::check("Python package", "cargo xtask python", python::install),
+        Step::check(PYTHON_PACKAGE, "cargo xtask python", python::install),
         Step::tests("buckets", "cargo xtask s3"),
     ];
     if !nextest {
@@ -124,7 +127,14 @@ pub(crate) fn run(root: &Path, options: Options) -> ExitCode {
     let mut totals = Totals::default();
     let mut failed = Vec::new();
     let begin = Instant::now();
+    let mut packages = steps.iter().any(|step| step.name == PYTHON_PACKAGE).then(|| python::begin(root));
     for (index, step) in steps.iter().enumerate() {
+        if step.name == PYTHON_PACKAGE
+            && let Some(packages) = packages.take()
+        {
+            // a thread that failed is reported by the step, which does its work again
+            let _ = packages.join();
+        }
         println!("\n== {}/{} {}: {}", index + 1, steps.len(), step.name, typed(step, options));
         let begin = Instant::now();
         let (of_step, outcome) = take(step, root, options);
