@@ -36,6 +36,19 @@ def test_every_verdict_is_a_result(osc: vi.Oscillator, kind: str, label: str) ->
     assert again == motion and again.to_dict() == motion.to_dict() and motion != vi.settle(osc.replace(damping=0.3))
 
 
+def test_means_of_chaos_have_error_bars() -> None:
+    motion = vi.settle(vi.Oscillator(inverse_beta=1.11, gap=3, restitution=0.5))
+    assert motion.quantities is not None and motion.quantities_error is not None
+    errors = motion.quantities_error
+    assert {"power", "impact_speed_mean", "displacement_rms"} <= set(errors) < set(motion.quantities)
+    assert not {name for name in errors if name.endswith(("_max", "_min", "_amplitude"))}
+    # no sticking and no damping: these means are exactly 0
+    assert all((errors[name] == 0) == (motion.quantities[name] == 0) for name in errors)
+    assert motion.to_dict()["quantities_error"] == errors
+    other = vi.settle(vi.Oscillator(inverse_beta=1.11, gap=1, restitution=0.5))
+    assert other.quantities_error is None and "quantities_error" not in other.to_dict()
+
+
 def test_a_motion_closes_on_itself(n: vi.Oscillator) -> None:
     motion = vi.settle(n)
     x, v, phase = motion.start()

@@ -54,7 +54,10 @@ def converted(ds: "xr.Dataset", units: Units | None) -> "xr.Dataset":
             factor, named = (fixed if name in ds.coords else here)[scale]
             array = ds[name]
             kept = {key: value for key, value in array.attrs.items() if key != "scale"}
-            changed[str(name)] = (array * factor).transpose(*array.dims, ...).assign_attrs({**kept, "units": named})
+            scaled = (array * factor).transpose(*array.dims, ...)
+            # assign_attrs would keep the scale
+            scaled.attrs = {**kept, "units": named}
+            changed[str(name)] = scaled
     coordinates = {name: changed.pop(name) for name in list(changed) if name in ds.coords}
     moved = ds.assign_coords({name: (of.dims, of.values, of.attrs) for name, of in coordinates.items()})
     told = {name: value for name, value in ds.attrs.items() if name not in _KEYS}

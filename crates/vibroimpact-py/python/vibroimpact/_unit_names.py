@@ -23,7 +23,8 @@ def unit_of(attributes: Mapping[Any, Any]) -> str:
 
 def fraction(units: str) -> str:
     """A unit in the notation of UDUNITS as a fraction: `m s-2` is m/s\u00b2."""
-    above, below = [], []
+    above: list[str] = []
+    below: list[str] = []
     for factor in units.split():
         symbol, sign, power = factor.partition("-")
         (below if sign else above).append(symbol + _POWERS.get(power, ""))
