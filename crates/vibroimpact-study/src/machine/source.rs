@@ -83,12 +83,14 @@ impl MachineSource {
         Ok(parts)
     }
 
-    /// The machine.
+    /// The machine. A start that has no meaning is refused here too, so that a file is right as a whole.
     ///
     /// # Errors
     /// [`MachineTextError`] with the path of the first number or part that is not allowed.
     pub fn machine(&self) -> Result<Machine, MachineTextError> {
-        Ok(Machine::new(self.parts()?)?)
+        let parts = self.parts()?;
+        self.start_of(&parts)?;
+        Ok(Machine::new(parts)?)
     }
 
     /// The start of the table `[start]`, or else at rest at 0. Whether a stop is in the way is not checked.
@@ -96,7 +98,10 @@ impl MachineSource {
     /// # Errors
     /// [`MachineTextError`] with the path of the first number that has no meaning, or if the file describes no machine.
     pub fn start(&self) -> Result<StartNumbers, MachineTextError> {
-        let parts = self.parts()?;
+        self.start_of(&self.parts()?)
+    }
+
+    fn start_of(&self, parts: &MachineParts) -> Result<StartNumbers, MachineTextError> {
         self.start.clone().unwrap_or_default().numbers(&parts.coordinates, &self.parameters)
     }
 

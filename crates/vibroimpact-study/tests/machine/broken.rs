@@ -81,6 +81,16 @@ fn is_explained(told: &str) -> bool {
         && !["f64", "u32", "struct ", "variant", "MachineText", "Option<"].iter().any(|inside| told.contains(inside))
 }
 
+/// Found at random: the machine was accepted, and its expansion was not.
+#[test]
+fn a_start_of_a_coordinate_that_is_not_there_is_refused_with_the_machine() {
+    let text = "start.qdot.\"1e-320mass\" = 1\n[machine]\nbodies = { mass = 1 }\n";
+    let source = MachineSource::from_text(text, vibroimpact_study::machine::no_files).unwrap();
+    let told = source.machine().unwrap_err().to_string();
+    assert!(is_explained(&told) && told.starts_with("start.qdot.1e-320mass: "), "{told}");
+    assert_eq!(source.expansion().unwrap_err().to_string(), told);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, failure_persistence: None, ..ProptestConfig::default() })]
 
