@@ -1,7 +1,9 @@
 //! The flight of a machine in one regime: its modes from a state, at any time.
 
-use crate::math::{dot, sin_cos};
-use crate::regime::{GuardKind, Mode, Signal, Structure, Turned};
+use super::dense::{Dense, Steps};
+use super::drive::Drive;
+use crate::math::dot;
+use crate::regime::{GuardKind, Mode, Observable, Signal, Structure, Turned};
 use std::sync::Arc;
 
 /// How the surface of a damped stop comes back after it has opened by force: $`s = a\,e^{-\kappa t} - b`$.
@@ -41,10 +43,7 @@ pub(crate) struct MachineFlight {
     /// Mass-normalised coordinates and velocities at the beginning.
     x: Vec<f64>,
     rate: Vec<f64>,
-    /// Constant part and ramp of what drives each mode, and its harmonics, turned to the phase of the beginning.
-    pub(super) steady: Vec<f64>,
-    pub(super) ramp: Vec<f64>,
-    pub(super) harmonics: Vec<(f64, f64)>,
+    pub(super) drive: Drive,
     pub(super) guards: Vec<GuardStart>,
     /// The set points of joints that hold.
     set: Vec<f64>,
@@ -62,7 +61,7 @@ pub(crate) struct Modes {
     pub(super) error: Vec<f64>,
     pub(super) turned: Vec<Turned>,
     pub(super) s: f64,
-    pub(super) steps: dense::Steps,
+    steps: Steps,
 }
 
 const HALF_ULP: f64 = 0.5 * f64::EPSILON;
@@ -73,27 +72,18 @@ const SHORT_TERMS: usize = 13;
 const SHORT_REACH: f64 = 0.25;
 
 impl MachineFlight {
-    /// The flight from a mass-normalised state. `turns` are sine and cosine of each harmonic there, `set` the set points
-    /// of joints, `gap` the gap of a closed stop with its wall at its mean place,
-    /// and `known` tells how many derivatives of a guard are zero, and how its surface recovers.
+    /// The flight from a mass-normalised state. `set` are the set points of joints, `turns` sine and cosine of each
+    /// harmonic at the beginning, `gap` is the gap of a closed stop with its wall at its mean place, and `known` tells how many derivatives of a guard are zero, and how its surface recovers.
     pub(crate) fn new(
         structure: Arc<Structure>,
         x: &[f64],
         rate: &[f64],
         set: Vec<f64>,
-        phases: &[f64],
+        turns: &[(f64, f64)],
         gap: impl Fn(usize) -> f64,
         mut known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
     ) -> Self {
-        let turns: Vec<(f64, f64)> = phases.iter().map(|phase| sin_cos(*phase)).collect();
-        let value = |signal: &Signal| {
-            let harmonics = signal.harmonics.iter().zip(&turns);
-            harmonics.fold(signal.steady(&set), |sum, ((a, b), (sin, cos))| sum + a * cos + b * sin)
-        };
-        let turn = |signal: &Signal| -> Vec<(f64, f64)> {
-            let harmonics = signal.harmonics.iter().zip(&turns);
-            harmonics.map(|((a, b), (sin, cos))| (a * cos + b * sin, b * cos - a * sin)).collect()
-        };
+        let value = |signal: &Signal| signal.steady(&set) + signal.swing(turns);
         let (y, v) = structure.modal(x, rate, value);
         let guards = structure
             .guards
@@ -110,32 +100,25 @@ impl MachineFlight {
                 if let Some(surface) = recovery {
                     sum += surface.size - surface.offset;
                 }
-                let harmonics = turn(&function.signal);
+                let harmonics: Vec<(f64, f64)> = function.signal.turned(turns).collect();
                 size += harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
                 GuardStart { value: if known > 0 { 0.0 } else { sum }, size, known, harmonics, recovery }
             })
             .collect();
-        let steady = structure.rest_force(x, rate, &turns, gap);
-        let ramp = structure.drive.iter().map(|signal| signal.ramp).collect();
-        let harmonics = structure.drive.iter().flat_map(turn).collect();
-        Self {
-            structure,
-            origin: y,
-            v,
-            x: x.to_vec(),
-            rate: rate.to_vec(),
-            steady,
-            ramp,
-            harmonics,
-            guards,
-            set,
-            turns,
-        }
+        let drive = Drive {
+            steady: structure.rest_force(x, rate, turns, gap),
+            ramp: structure.drive.iter().map(|signal| signal.ramp).collect(),
+            harmonics: structure.drive.iter().flat_map(|signal| signal.turned(turns)).collect(),
+            rates: structure.rates.clone(),
+        };
+        let (x, rate, turns) = (x.to_vec(), rate.to_vec(), turns.to_vec());
+        Self { structure, origin: y, v, x, rate, drive, guards, set, turns }
     }
 
-    pub(super) fn mode_harmonics(&self, i: usize) -> &[(f64, f64)] {
-        let h = self.structure.rates.len();
-        &self.harmonics[i * h..(i + 1) * h]
+    /// The structure and what drives it, if it has no modes.
+    pub(super) fn dense(&self) -> Option<Dense<'_>> {
+        let (stiffness, damping) = self.structure.dense.as_ref()?;
+        Some(Dense { stiffness, damping, drive: &self.drive, rate: self.structure.fastest() })
     }
 
     /// The modes a time `s` after the beginning.
@@ -146,8 +129,11 @@ impl MachineFlight {
         for all in [&mut modes.moved, &mut modes.v, &mut modes.error] {
             all.clear();
         }
-        if self.structure.dense.is_some() {
-            return dense::at(self, s, modes);
+        if let Some(dense) = self.dense() {
+            let (moved, v, error) = dense.at(&self.v, s, &mut modes.steps);
+            modes.error.resize(v.len(), error);
+            (modes.moved, modes.v) = (moved, v);
+            return;
         }
         let fastest = self.structure.rates.last().copied().unwrap_or(0.0);
         for (i, mode) in self.structure.modes.iter().enumerate() {
@@ -168,7 +154,7 @@ impl MachineFlight {
     /// Whether a mode begins so slowly that the closed form would lose digits of its displacement.
     fn slow(&self, i: usize) -> bool {
         let push: f64 =
-            self.mode_harmonics(i).iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>() + self.steady[i].abs();
+            self.drive.of(i).iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>() + self.drive.steady[i].abs();
         let mode = &self.structure.modes[i];
         self.v[i].abs() * mode.rate < 0.125 * push
     }
@@ -176,7 +162,7 @@ impl MachineFlight {
     fn by_response(&self, i: usize, mode: &Mode, s: f64, turned: &[Turned]) -> (f64, f64, f64) {
         let free = mode.free(s);
         let v = self.v[i];
-        let (p0, p1) = (self.steady[i], self.ramp[i]);
+        let (p0, p1) = (self.drive.steady[i], self.drive.ramp[i]);
         let mut moved = v * free.s;
         let mut rate = v * free.s_rate + p0 * free.s;
         let mut size = (v * free.s).abs();
@@ -188,7 +174,7 @@ impl MachineFlight {
             rate += p1 * free.step;
             size += p1.abs() * free.ramp.abs() + (p1 / mode.k.max(1e-300)).abs().min(p1.abs() * s * s) * s;
         }
-        for (h, (a, b)) in self.mode_harmonics(i).iter().enumerate() {
+        for (h, (a, b)) in self.drive.of(i).iter().enumerate() {
             if *a == 0.0 && *b == 0.0 {
                 continue;
             }
@@ -206,7 +192,7 @@ impl MachineFlight {
 
     fn by_series(&self, i: usize, s: f64, terms: usize) -> (f64, f64, f64) {
         let mut c = [0.0; LONG_TERMS + 2];
-        self.coefficients(i, 0.0, self.v[i], 0.0, self.mode_harmonics(i), &mut c[..terms + 2]);
+        self.coefficients(i, 0.0, self.v[i], 0.0, self.drive.of(i), &mut c[..terms + 2]);
         let (mut y, mut v, mut size) = (0.0, 0.0, 0.0);
         let mut real = f64::from(u32::try_from(terms + 1).unwrap_or(0));
         for k in (1..terms + 2).rev() {
@@ -218,35 +204,13 @@ impl MachineFlight {
         (y * s, v, HALF_ULP * 4.0 * size * s)
     }
 
-    /// The Taylor coefficients of what drives a mode, in the places of `c` that they determine.
-    pub(super) fn driven(&self, i: usize, s: f64, harmonics: &[(f64, f64)], c: &mut [f64]) {
-        let terms = c.len();
-        c[2..].fill(0.0);
-        c[2] += self.steady[i] + self.ramp[i] * s;
-        if terms > 3 {
-            c[3] += self.ramp[i];
-        }
-        for ((a, b), w) in harmonics.iter().zip(&self.structure.rates) {
-            if *a == 0.0 && *b == 0.0 {
-                continue;
-            }
-            let (mut now, mut next, mut k) = (*a, w * b, 1.0);
-            for place in &mut c[2..] {
-                *place += now;
-                // coefficients of the harmonic: the one after next is -w^2 / (k (k + 1)) times this one
-                (now, next) = (next, -w * w * now / (k * (k + 1.0)));
-                k += 1.0;
-            }
-        }
-    }
-
     /// The Taylor coefficients $`y^{(k)}/k!`$ of a mode at a state a time `s` after the beginning; `harmonics` are turned to
     /// this time.
     pub(super) fn coefficients(&self, i: usize, y: f64, v: f64, s: f64, harmonics: &[(f64, f64)], c: &mut [f64]) {
         let mode = &self.structure.modes[i];
         let terms = c.len();
         (c[0], c[1]) = (y, v);
-        self.driven(i, s, harmonics, c);
+        self.drive.coefficients(i, s, harmonics, c);
         let mut k = 0.0;
         for j in 2..terms {
             c[j] = (c[j] - 2.0 * mode.d * (k + 1.0) * c[j - 1] - mode.k * c[j - 2]) / ((k + 1.0) * (k + 2.0));
@@ -283,8 +247,8 @@ impl MachineFlight {
             if b != 0.0 {
                 let mode = &self.structure.modes[i];
                 value += b * (modes.v[i] - self.v[i]);
-                let mut push = self.steady[i] + self.ramp[i] * modes.s;
-                for ((a, b), turned) in self.mode_harmonics(i).iter().zip(&modes.turned) {
+                let mut push = self.drive.steady[i] + self.drive.ramp[i] * modes.s;
+                for ((a, b), turned) in self.drive.of(i).iter().zip(&modes.turned) {
                     push += a * turned.cos + b * turned.sin;
                 }
                 rate += b * self.acceleration(i, push, &modes.moved, &modes.v);
@@ -307,16 +271,15 @@ impl MachineFlight {
     }
 
     /// The value and the rate of a linear function of the state at the beginning.
-    pub(crate) fn first(&self, of: &crate::regime::Observable) -> (f64, f64) {
+    pub(crate) fn first(&self, of: &Observable) -> (f64, f64) {
         let signal = &of.signal;
-        let (mut value, mut rate) = (signal.steady(&self.set), signal.ramp);
-        for ((a, b), ((sin, cos), w)) in signal.harmonics.iter().zip(self.turns.iter().zip(&self.structure.rates)) {
-            value += a * cos + b * sin;
-            rate += w * (b * cos - a * sin);
-        }
-        for i in 0..self.structure.modes.len() {
-            let push = self.mode_harmonics(i).iter().fold(self.steady[i], |sum, (a, _)| sum + a);
-            let a = self.acceleration(i, push, &vec![0.0; self.v.len()], &self.v);
+        let mut value = signal.steady(&self.set) + signal.swing(&self.turns);
+        let rates = signal.turned(&self.turns).zip(&self.structure.rates);
+        let mut rate = rates.fold(signal.ramp, |sum, ((_, b), w)| sum + w * b);
+        let unmoved = vec![0.0; self.v.len()];
+        for i in 0..self.v.len() {
+            let push = self.drive.of(i).iter().fold(self.drive.steady[i], |sum, (a, _)| sum + a);
+            let a = self.acceleration(i, push, &unmoved, &self.v);
             value += of.position[i] * self.origin[i] + of.velocity[i] * self.v[i];
             rate += of.position[i] * self.v[i] + of.velocity[i] * a;
         }
@@ -324,7 +287,7 @@ impl MachineFlight {
     }
 
     /// The size of the terms of a linear function of the state at the beginning.
-    pub(crate) fn size(&self, of: &crate::regime::Observable) -> f64 {
+    pub(crate) fn size(&self, of: &Observable) -> f64 {
         let signal = of.signal.harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
         let modes =
             (0..self.v.len()).map(|i| (of.position[i] * self.origin[i]).abs() + (of.velocity[i] * self.v[i]).abs());
@@ -332,12 +295,12 @@ impl MachineFlight {
     }
 
     /// The size of the terms of its rate.
-    pub(crate) fn size_of_rate(&self, of: &crate::regime::Observable) -> f64 {
+    pub(crate) fn size_of_rate(&self, of: &Observable) -> f64 {
         let harmonics = of.signal.harmonics.iter().zip(&self.structure.rates);
         let signal = harmonics.map(|((a, b), w)| (a.abs() + b.abs()) * w).sum::<f64>();
         let modes = (0..self.v.len()).map(|i| {
             let mode = &self.structure.modes[i];
-            let push = self.mode_harmonics(i).iter().map(|(a, _)| a.abs()).sum::<f64>() + self.steady[i].abs();
+            let push = self.drive.of(i).iter().map(|(a, _)| a.abs()).sum::<f64>() + self.drive.steady[i].abs();
             let a = push + (2.0 * mode.d * self.v[i]).abs() + (mode.k * self.origin[i]).abs();
             (of.position[i] * self.v[i]).abs() + of.velocity[i].abs() * a
         });
@@ -346,14 +309,12 @@ impl MachineFlight {
 
     /// Mass-normalised coordinates and velocities at a time, from the modes there.
     pub(crate) fn state(&self, modes: &Modes, x: &mut Vec<f64>, v: &mut Vec<f64>) {
-        let evaluate = |all: &[crate::regime::Observable], begin: &[f64], to: &mut Vec<f64>| {
+        let evaluate = |all: &[Observable], begin: &[f64], to: &mut Vec<f64>| {
             to.clear();
             to.extend(all.iter().zip(begin).map(|(of, begin)| {
                 let mut moved = of.signal.ramp * modes.s;
-                for ((a, b), ((sin, cos), turned)) in
-                    of.signal.harmonics.iter().zip(self.turns.iter().zip(&modes.turned))
-                {
-                    moved += (b * cos - a * sin) * turned.sin - (a * cos + b * sin) * turned.versine;
+                for ((a, b), turned) in of.signal.turned(&self.turns).zip(&modes.turned) {
+                    moved += b * turned.sin - a * turned.versine;
                 }
                 for i in 0..modes.moved.len() {
                     moved += of.position[i] * modes.moved[i] + of.velocity[i] * (modes.v[i] - self.v[i]);
@@ -363,116 +324,5 @@ impl MachineFlight {
         };
         evaluate(&self.structure.x, &self.x, x);
         evaluate(&self.structure.v, &self.rate, v);
-    }
-}
-
-pub(super) mod dense {
-    //! Structures without modes: damping couples modes that are so nearly defective that their eigenvectors would amplify
-    //! rounding errors. The flight is then summed as a Taylor series in steps of fixed length from its beginning, which needs
-    //! no eigenvectors. It is slower than the closed form and as exact.
-
-    use super::{MachineFlight, Modes};
-    use crate::math::dot;
-
-    /// The terms of a series, and the length of a step in radians of the fastest rate.
-    const TERMS: usize = 24;
-    const STEP: f64 = 1.0;
-
-    /// The state after a number of steps, kept for the next time.
-    #[derive(Clone, Debug, Default)]
-    pub(in crate::arc) struct Steps {
-        /// The number of steps, as a float.
-        count: f64,
-        /// Displacements since the beginning, and velocities.
-        moved: Vec<f64>,
-        v: Vec<f64>,
-        /// The beginning to which this belongs.
-        begin: (Vec<f64>, Vec<f64>),
-    }
-
-    /// The Taylor coefficients of all directions at a state a time `s` after the beginning, row after row of `terms`.
-    pub(in crate::arc) fn coefficients(
-        flight: &MachineFlight,
-        y: &[f64],
-        v: &[f64],
-        s: f64,
-        terms: usize,
-        c: &mut Vec<f64>,
-    ) {
-        let Some((stiffness, damping)) = &flight.structure.dense else { return };
-        let count = y.len();
-        c.clear();
-        c.resize(count * terms, 0.0);
-        let mut turned: Vec<(f64, f64)> = Vec::new();
-        for i in 0..count {
-            turned.clear();
-            turned.extend(flight.mode_harmonics(i).iter().zip(&flight.structure.rates).map(|((a, b), w)| {
-                let (sin, cos) = crate::math::sin_cos(w * s);
-                (a * cos + b * sin, b * cos - a * sin)
-            }));
-            let row = &mut c[i * terms..(i + 1) * terms];
-            (row[0], row[1]) = (y[i], v[i]);
-            flight.driven(i, s, &turned, row);
-        }
-        let mut k = 0.0;
-        for j in 2..terms {
-            for i in 0..count {
-                let mut sum = c[i * terms + j];
-                for other in 0..count {
-                    sum -= damping[(i, other)] * (k + 1.0) * c[other * terms + j - 1];
-                    sum -= stiffness[(i, other)] * c[other * terms + j - 2];
-                }
-                c[i * terms + j] = sum / ((k + 1.0) * (k + 2.0));
-            }
-            k += 1.0;
-        }
-    }
-
-    /// The displacements after a time, by steps from the beginning.
-    pub(in crate::arc) fn at(flight: &MachineFlight, s: f64, modes: &mut Modes) {
-        let count = flight.v.len();
-        let rate = flight.structure.modes.first().map_or(0.0, |mode| mode.rate);
-        let rate = rate.max(flight.structure.rates.last().copied().unwrap_or(0.0));
-        let step = if rate > 0.0 { STEP / rate } else { f64::INFINITY };
-        let whole = (s / step).floor();
-        let steps = &mut modes.steps;
-        if steps.count > whole
-            || steps.begin.0 != flight.steady
-            || steps.begin.1 != flight.v
-            || steps.moved.len() != count
-        {
-            steps.count = 0.0;
-            steps.begin = (flight.steady.clone(), flight.v.clone());
-            steps.moved = vec![0.0; count];
-            steps.v = flight.v.clone();
-        }
-        let mut c = Vec::new();
-        let go = |moved: &mut Vec<f64>, v: &mut Vec<f64>, from: f64, h: f64, c: &mut Vec<f64>| {
-            coefficients(flight, moved, v, from, TERMS, c);
-            for i in 0..count {
-                let row = &c[i * TERMS..(i + 1) * TERMS];
-                let (mut value, mut slope) = (0.0, 0.0);
-                let mut real = f64::from(u32::try_from(TERMS - 1).unwrap_or(0));
-                for k in (1..TERMS).rev() {
-                    value = value * h + row[k];
-                    slope = slope * h + real * row[k];
-                    real -= 1.0;
-                }
-                moved[i] += value * h;
-                v[i] = slope;
-            }
-        };
-        while steps.count < whole {
-            go(&mut steps.moved, &mut steps.v, steps.count * step, step, &mut c);
-            steps.count += 1.0;
-        }
-        let (mut moved, mut v) = (steps.moved.clone(), steps.v.clone());
-        let begin = if whole > 0.0 { whole * step } else { 0.0 };
-        go(&mut moved, &mut v, begin, s - begin, &mut c);
-        let size =
-            dot(&moved, &moved).sqrt() + dot(&v, &v).sqrt() / rate.max(f64::MIN_POSITIVE).max(1.0 / s.max(1e-300));
-        modes.error.resize(count, 0.5 * f64::EPSILON * size * (4.0 + whole));
-        modes.moved.extend(moved);
-        modes.v.extend(v);
     }
 }

@@ -3,9 +3,13 @@
 //! | idea | file |
 //! |---|---|
 //! | the modes from a state, at any time | `flight` |
+//! | what drives the modes | `drive` |
+//! | the same where there are no modes | `dense` |
 //! | first zeros of polynomials | `polynomial` |
 //! | the first zero of any guard, which misses none | `search` |
 
+mod dense;
+mod drive;
 mod flight;
 mod polynomial;
 mod search;

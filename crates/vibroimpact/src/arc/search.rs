@@ -47,7 +47,41 @@ pub(crate) struct Buffers {
     ninth: Vec<f64>,
     tenth: Vec<f64>,
     turned: Vec<(f64, f64)>,
-    polynomials: Vec<([f64; TERMS], f64, f64)>,
+    polynomials: Vec<GuardPolynomial>,
+}
+
+/// A guard over a window, by powers of the part of the window that has passed.
+#[derive(Clone, Copy, Debug)]
+struct GuardPolynomial {
+    /// Its coefficients, with the bound of the remainder in the last place. Zeros at the beginning that are known are not
+    /// divided out.
+    p: [f64; TERMS],
+    /// How many of them there are.
+    known: usize,
+    /// A bound of the rounding error of its value.
+    error: f64,
+    /// The size of its terms.
+    size: f64,
+}
+
+impl GuardPolynomial {
+    /// The polynomial with its bound of the remainder added or subtracted, and known zeros divided out.
+    fn beside(&self, sign: f64) -> [f64; TERMS] {
+        let mut q = self.p;
+        q[ORDER] *= sign;
+        if self.known > 0 {
+            q.rotate_left(self.known);
+            q[TERMS - self.known..].fill(0.0);
+        } else {
+            q[0] += sign * self.error;
+        }
+        q
+    }
+
+    /// The polynomial whose slope is that of the guard, with known zeros divided out and without them with its remainder.
+    fn steep(&self) -> [f64; TERMS] {
+        if self.known > 0 { self.beside(1.0) } else { self.p }
+    }
 }
 
 /// The first zero of a guard before the time `until`, in at most `steps` windows. `touches` receives what touches zero
@@ -59,9 +93,7 @@ pub(crate) fn first_event(
     buffers: &mut Buffers,
     touches: &mut Vec<Touch>,
 ) -> Found {
-    let structure = &flight.structure;
-    let fastest =
-        structure.modes.iter().map(|mode| mode.rate).fold(structure.rates.last().copied().unwrap_or(0.0), f64::max);
+    let fastest = flight.structure.fastest();
     let mut known: Vec<usize> = flight.guards.iter().map(|guard| guard.known).collect();
     // a contact on which the flight begins does not count as a touch
     let mut touched: Vec<bool> = flight.guards.iter().map(|guard| guard.known > 0).collect();
@@ -70,6 +102,10 @@ pub(crate) fn first_event(
     for _ in 0..steps {
         if s >= until {
             return Found::NoneBefore(until);
+        }
+        // after the beginning of the flight a contact on which it began is a guard as any other
+        if s > 0.0 {
+            known.fill(0);
         }
         flight.at(s, &mut buffers.modes);
         let surfaces = flight.guards.iter().filter_map(|guard| guard.recovery);
@@ -82,43 +118,38 @@ pub(crate) fn first_event(
         let window = if window.is_finite() { window } else { 1e150 };
         expand(flight, window, s, buffers);
         buffers.polynomials.clear();
-        for (g, known) in known.iter().enumerate() {
-            let of = polynomial(flight, g, window, s, buffers, *known);
-            buffers.polynomials.push(of);
-        }
-        // contacts on which the flight begins are divided out
         let mut first: Option<(f64, usize)> = None;
         for (g, known) in known.iter_mut().enumerate() {
-            while *known > 0 && *known < 4 && s == 0.0 {
-                let p = &buffers.polynomials[g].0;
-                let size: f64 = buffers.polynomials[g].2;
-                // a derivative that is zero within rounding is zero: the next one decides
-                if p[*known] <= 0.0 && p[*known].abs() <= 64.0 * f64::EPSILON * size {
-                    *known += 1;
-                } else {
-                    break;
-                }
+            let mut of = polynomial(flight, g, window, s, buffers, *known);
+            // contacts on which the flight begins are divided out; a derivative that is zero within rounding is zero,
+            // and the next one decides
+            while of.known > 0
+                && of.known < 4
+                && of.p[of.known] <= 0.0
+                && -of.p[of.known] <= 64.0 * f64::EPSILON * of.size
+            {
+                of.known += 1;
             }
-            let (p, error, _) = &buffers.polynomials[g];
-            if s > 0.0 && p[0] > 4.0 * error {
+            *known = of.known;
+            if s > 0.0 && of.p[0] > 4.0 * of.error {
                 touched[g] = false;
             }
-            let lower = beside(p, -1.0, *error, *known, s);
-            if let Some(t) = first_zero(&lower)
+            if let Some(t) = first_zero(&of.beside(-1.0))
                 && first.is_none_or(|(least, _)| t < least)
             {
                 first = Some((t, g));
             }
+            buffers.polynomials.push(of);
         }
         let Some((near, g)) = first else {
             s += window;
             reach = (reach * 1.5).min(1.0);
             continue;
         };
-        if let Some(found) = certain(flight, &known, window, s, near, buffers) {
+        if let Some(found) = certain(flight, window, s, near, buffers) {
             return found;
         }
-        let (p, error, _) = buffers.polynomials[g];
+        let GuardPolynomial { p, error, .. } = buffers.polynomials[g];
         let remainder = p[ORDER];
         if remainder <= error || window * 0.01 <= f64::EPSILON * s {
             // a touch within rounding, or a zero that cannot be told from one
@@ -135,9 +166,6 @@ pub(crate) fn first_event(
             }
             touched[g] = true;
             let next = s + (touch + after).min(1.0) * window;
-            if known[g] > 0 {
-                known[g] = 0;
-            }
             s = if next > s { next } else { s * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE };
             reach = 1.0;
         } else if near > 0.25 {
@@ -152,31 +180,18 @@ pub(crate) fn first_event(
 }
 
 /// The zero, if it is proven that there is exactly one near `near` for each guard that may be the first.
-fn certain(
-    flight: &MachineFlight,
-    known: &[usize],
-    window: f64,
-    s: f64,
-    near: f64,
-    buffers: &mut Buffers,
-) -> Option<Found> {
+fn certain(flight: &MachineFlight, window: f64, s: f64, near: f64, buffers: &mut Buffers) -> Option<Found> {
     let mut brackets: Vec<(usize, f64, f64)> = Vec::new();
     let mut end = 1.0_f64;
-    for (g, (p, error, _)) in buffers.polynomials.iter().enumerate() {
-        let Some(from) = first_zero(&beside(p, -1.0, *error, known[g], s)) else { continue };
+    for (g, of) in buffers.polynomials.iter().enumerate() {
+        let Some(from) = first_zero(&of.beside(-1.0)) else { continue };
         if from > end {
             continue;
         }
-        let upper = beside(p, 1.0, *error, known[g], s);
-        let to = first_zero(&upper);
-        match to {
+        match first_zero(&of.beside(1.0)) {
             Some(to) => {
                 // the guard itself falls from here to there
-                let mut steep = *p;
-                if known[g] > 0 && s == 0.0 {
-                    steep = beside(p, 1.0, 0.0, known[g], s);
-                }
-                if !falls(&steep, from, to.max(from)) {
+                if !falls(&of.steep(), from, to.max(from)) {
                     if from <= near {
                         return None;
                     }
@@ -199,15 +214,9 @@ fn certain(
     let mut best = f64::INFINITY;
     let mut zeros = Vec::with_capacity(brackets.len());
     for (g, from, to) in brackets {
-        let at = if known[g] > 0 && s == 0.0 {
-            on_polynomial(
-                flight,
-                g,
-                &beside(&buffers.polynomials[g].0, 0.0, 0.0, known[g], s),
-                window,
-                (from, to),
-                &mut buffers.modes,
-            )
+        let of = buffers.polynomials[g];
+        let at = if of.known > 0 {
+            on_polynomial(flight, g, &of.beside(0.0), window, (from, to), &mut buffers.modes)
         } else {
             refine(flight, g, s + from * window, s + to * window, RESOLUTION * window, &mut buffers.modes)
         };
@@ -217,21 +226,6 @@ fn certain(
     // the same time within rounding
     let guards = zeros.iter().filter(|(_, at)| *at <= best * (1.0 + 4.0 * f64::EPSILON)).map(|(g, _)| *g).collect();
     Some(Found::Zero { s: best, guards })
-}
-
-/// The polynomial with its bound of the remainder added or subtracted, and known zeros divided out.
-fn beside(p: &[f64; TERMS], sign: f64, error: f64, known: usize, s: f64) -> [f64; TERMS] {
-    let mut q = *p;
-    q[ORDER] *= sign;
-    if known > 0 && s == 0.0 {
-        q.rotate_left(known);
-        for c in &mut q[TERMS - known..] {
-            *c = 0.0;
-        }
-    } else {
-        q[0] += sign * error;
-    }
-    q
 }
 
 fn without_remainder(p: &[f64; TERMS]) -> [f64; TERMS] {
@@ -327,8 +321,7 @@ fn on_polynomial(
 
 /// Expands all modes at the current time, with bounds of their ninth and tenth derivatives over the window.
 fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
-    let structure = &flight.structure;
-    let rates = &structure.rates;
+    let (structure, drive) = (&flight.structure, &flight.drive);
     let count = structure.modes.len();
     let Buffers { modes, terms, ninth, tenth, turned, .. } = buffers;
     terms.clear();
@@ -336,36 +329,34 @@ fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
     ninth.clear();
     tenth.clear();
     // without modes: the energy of all directions together bounds each
-    let energy = structure.dense.as_ref().map(|(stiffness, _)| {
-        super::flight::dense::coefficients(flight, &modes.moved, &modes.v, s, TERMS + 1, terms);
-        (dot(&modes.v, &modes.v) + dot(&modes.moved, &stiffness.apply(&modes.moved))).max(0.0).sqrt()
+    let energy = flight.dense().map(|dense| {
+        dense.coefficients(&modes.moved, &modes.v, s, TERMS + 1, terms);
+        (dot(&modes.v, &modes.v) + dot(&modes.moved, &dense.stiffness.apply(&modes.moved))).max(0.0).sqrt()
     });
     for (i, mode) in structure.modes.iter().enumerate() {
         turned.clear();
-        let harmonics = flight.mode_harmonics(i).iter().zip(&modes.turned);
-        turned.extend(
-            harmonics.map(|((a, b), turned)| (a * turned.cos + b * turned.sin, b * turned.cos - a * turned.sin)),
-        );
+        let turns = modes.turned.iter().map(|turned| (turned.sin, turned.cos));
+        turned.extend(crate::regime::turned(drive.of(i), turns));
         let (y, v) = (modes.moved[i], modes.v[i]);
         if energy.is_none() {
             let c = &mut terms[i * (TERMS + 1)..(i + 1) * (TERMS + 1)];
             flight.coefficients(i, y, v, s, turned, c);
         }
         // bounds: w_k of |y^(k)| window^k / k!
-        let (mut ramp, mut steady) = (flight.ramp[i].abs(), flight.steady[i].abs());
+        let (mut ramp, mut steady) = (drive.ramp[i].abs(), drive.steady[i].abs());
         if energy.is_some() {
             // the forces on all directions together
-            ramp = flight.ramp.iter().map(|ramp| ramp.abs()).sum();
-            steady = flight.steady.iter().map(|steady| steady.abs()).sum();
+            ramp = drive.ramp.iter().map(|ramp| ramp.abs()).sum();
+            steady = drive.steady.iter().map(|steady| steady.abs()).sum();
             for (h, own) in turned.iter_mut().enumerate() {
-                let of = flight.harmonics.iter().skip(h).step_by(rates.len());
+                let of = drive.harmonics.iter().skip(h).step_by(drive.rates.len());
                 *own = (of.map(|(a, b)| a.abs() + b.abs()).sum(), 0.0);
             }
         }
         let mut push = ramp * (s + window);
         let mut shifted = y;
         if mode.k > 0.0 && energy.is_none() {
-            shifted -= flight.steady[i] / mode.k;
+            shifted -= drive.steady[i] / mode.k;
         } else {
             push += steady;
         }
@@ -381,19 +372,19 @@ fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
         let mut three = 0.5 * square * (2.0 * mode.d * speed + mode.omega * speed + push);
         let mut one;
         // p_k of |p^(k)| window^k / k!
-        let mut drive: [f64; ORDER] = [0.0; ORDER];
-        for ((a, b), w) in turned.iter().zip(rates) {
+        let mut pushed: [f64; ORDER] = [0.0; ORDER];
+        for ((a, b), w) in turned.iter().zip(&drive.rates) {
             let mut size = a.abs() + b.abs();
             let mut k = 1.0;
-            for place in &mut drive {
+            for place in &mut pushed {
                 *place += size;
                 size *= w * window / k;
                 k += 1.0;
             }
         }
-        drive[1] += ramp * window;
+        pushed[1] += ramp * window;
         let mut k = 1.0;
-        for place in &drive[1..] {
+        for place in &pushed[1..] {
             // from w_k, w_{k+1} to w_{k+2}
             (one, two) = (two, three);
             three = (2.0 * mode.d * window * (k + 1.0) * two + mode.k * square * one + square * place)
@@ -406,8 +397,7 @@ fn expand(flight: &MachineFlight, window: f64, s: f64, buffers: &mut Buffers) {
     }
 }
 
-/// The polynomial of a guard over the window, with the bound of its remainder as the last coefficient; its rounding
-/// error, and the size of its terms.
+/// The polynomial of a guard over the window.
 fn polynomial(
     flight: &MachineFlight,
     g: usize,
@@ -415,7 +405,7 @@ fn polynomial(
     s: f64,
     buffers: &Buffers,
     known: usize,
-) -> ([f64; TERMS], f64, f64) {
+) -> GuardPolynomial {
     let (function, start) = (&flight.structure.guards[g].function, &flight.guards[g]);
     let mut p = [0.0; TERMS];
     let mut remainder = 0.0;
@@ -466,12 +456,12 @@ fn polynomial(
         remainder += bound;
     }
     let (value, _, error) = flight.guard(g, &buffers.modes);
-    p[0] = if known > 0 && s == 0.0 { 0.0 } else { value };
+    p[0] = if known > 0 { 0.0 } else { value };
     let mut power = 1.0;
     for c in p.iter_mut().take(ORDER) {
         *c *= power;
         power *= window;
     }
     p[ORDER] = remainder;
-    (p, error, size + p[0].abs())
+    GuardPolynomial { p, known, error, size: size + p[0].abs() }
 }

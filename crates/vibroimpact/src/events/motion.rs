@@ -3,14 +3,13 @@
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::impulses::impulses;
 use super::place::{Place, Structures};
-use super::resolve::{Candidate, resolve};
+use super::resolve::resolve;
 use crate::arc::{Buffers, Found, MachineFlight, Recovery, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{Sum, add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, NoStructure, Normal, Structure, compliant};
+use crate::regime::{ContactState, GuardKind, Normal, compliant};
 use crate::system::phase;
 use std::collections::VecDeque;
-use std::sync::Arc;
 
 /// The events of a machine from a start, in order.
 ///
@@ -116,8 +115,9 @@ impl<'a> MachineMotion<'a> {
     /// Finds out what the stops and joints do at the start.
     fn begin(&mut self) -> Result<(), MachineError> {
         let (mut closing, mut candidates) = (Vec::new(), Vec::new());
+        let turns = self.place.turns(&self.normal);
         for (j, stop) in self.machine.stops().iter().enumerate() {
-            let (gap, rate, size, rate_size) = self.place.gap(&self.normal, j);
+            let (gap, rate, size, rate_size) = self.place.gap(&self.normal, &turns, j);
             let on = gap.abs() <= 4.0 * f64::EPSILON * size;
             let approaching = rate < -4.0 * f64::EPSILON * rate_size;
             let still = rate.abs() <= 4.0 * f64::EPSILON * rate_size;
@@ -134,7 +134,7 @@ impl<'a> MachineMotion<'a> {
                     }
                 }
                 _ if on && approaching => closing.push(j),
-                _ if on && still => candidates.push(Candidate { place: j }),
+                _ if on && still => candidates.push(j),
                 _ if on => self.place.known.push((GuardKind::Gap(j), 1)),
                 _ => {}
             }
@@ -143,7 +143,7 @@ impl<'a> MachineMotion<'a> {
             let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
             let at = self.machine.stops().len() + joint;
             if speed.abs() <= 4.0 * f64::EPSILON * size {
-                candidates.push(Candidate { place: at });
+                candidates.push(at);
                 self.place.states[at] = ContactState::Holding;
             } else {
                 self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
@@ -156,177 +156,81 @@ impl<'a> MachineMotion<'a> {
             .iter()
             .map(|state| if *state == ContactState::Holding { ContactState::Open } else { *state })
             .collect();
-        let outcome = self.change(&before, &closing, candidates, &[]);
-        self.settle(outcome);
+        self.change(&before, &closing, candidates, &[]);
         Ok(())
     }
 
-    /// The event, if something goes on; sets the end otherwise.
-    fn settle(&mut self, outcome: Result<bool, NoStructure>) {
-        match outcome {
-            Ok(true) => {}
-            Ok(false) => self.end = Some(MachineEnd::Inconsistent),
-            Err(NoStructure::Redundant) => self.end = Some(MachineEnd::Inconsistent),
+    /// Changes the contacts at this time: impacts on the stops `closing`, then the states of the candidates. `fixed` are
+    /// contacts whose new state is known. The motion ends if no state of the contacts is consistent.
+    fn change(&mut self, before: &[ContactState], closing: &[usize], candidates: Vec<usize>, fixed: &[usize]) {
+        if self.changed(before, closing, candidates, fixed).is_none() {
+            self.end = Some(MachineEnd::Inconsistent);
         }
     }
 
-    /// Changes the contacts at this time: impacts on the stops `closing`, then the states of the candidates. `fixed` are
-    /// contacts whose new state is known.
-    fn change(
+    fn changed(
         &mut self,
         before: &[ContactState],
         closing: &[usize],
-        mut candidates: Vec<Candidate>,
+        mut candidates: Vec<usize>,
         fixed: &[usize],
-    ) -> Result<bool, NoStructure> {
-        let stops = self.machine.stops().len();
+    ) -> Option<()> {
+        let turns = self.place.turns(&self.normal);
+        let speed = |place: &Place, stop: usize| (-place.gap(&self.normal, &turns, stop).1).max(0.0);
+        let speeds: Vec<f64> = (0..self.machine.stops().len()).map(|j| speed(&self.place, j)).collect();
+        let (rigid, compliant): (Vec<usize>, Vec<usize>) =
+            closing.iter().partition(|j| compliant(&self.machine.stops()[**j].law).is_none());
         let mut events: Vec<(MachineEventKind, usize, f64, Vec<usize>)> = Vec::new();
-        let speeds: Vec<f64> = (0..stops).map(|j| (-self.place.gap(&self.normal, j).1).max(0.0)).collect();
-        let rigid: Vec<usize> =
-            closing.iter().copied().filter(|j| compliant(&self.machine.stops()[*j].law).is_none()).collect();
-        let mut struck = Vec::new();
         if !rigid.is_empty() {
-            let mut set = rigid.clone();
-            set.extend((0..stops).filter(|j| {
-                before[*j] == ContactState::Resting
-                    && !fixed.contains(j)
-                    && compliant(&self.machine.stops()[*j].law).is_none()
+            let pushed = self.strike(&rigid, &speeds, &mut candidates, fixed)?;
+            events.extend(rigid.iter().map(|j| {
+                let with = pushed.iter().copied().filter(|other| other != j).collect();
+                (MachineEventKind::Impact, *j, speeds[*j], with)
             }));
-            let rates: Vec<f64> = set.iter().map(|j| if rigid.contains(j) { -speeds[*j] } else { 0.0 }).collect();
-            let restitutions: Vec<f64> = set
-                .iter()
-                .map(|j| match self.machine.stops()[*j].law {
-                    StopLaw::Rigid { restitution } => restitution,
-                    StopLaw::Compliant { .. } => 0.0,
-                })
-                .collect();
-            let directions: Vec<&[f64]> = set.iter().map(|j| self.normal.directions[*j].as_slice()).collect();
-            let Some(found) = impulses(&directions, &rates, &restitutions) else { return Ok(false) };
-            let mut after = self.place.v.clone();
-            for (direction, impulse) in directions.iter().zip(&found) {
-                add_scaled(&mut after, -impulse, direction);
-            }
-            let pushed: Vec<usize> =
-                set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0).map(|(j, _)| *j).collect();
-            for (place, j) in set.iter().enumerate() {
-                let change = dot(directions[place], &after) - dot(directions[place], &self.place.v);
-                let rate = rates[place] - change;
-                let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-                if rigid.contains(j) {
-                    let with = pushed.iter().copied().filter(|other| other != j).collect();
-                    events.push((MachineEventKind::Impact, *j, speeds[*j], with));
-                    struck.push(*j);
-                }
-                candidates.retain(|candidate| candidate.place != *j);
-                // a stop that was pushed opens with the velocity of the law, exactly 0 without restitution
-                let opens = if found[place] > 0.0 {
-                    restitutions[place] * rates[place] < 0.0
-                } else {
-                    let terms = directions[place].iter().zip(&after).map(|(w, v)| (w * v).abs()).sum::<f64>();
-                    rate > 16.0 * f64::EPSILON * (size + terms)
-                };
-                if opens {
-                    self.place.states[*j] = ContactState::Open;
-                    self.place.known.push((GuardKind::Gap(*j), 1));
-                } else {
-                    // exactly no velocity, so that the stop does not open by rounding
-                    add_scaled(&mut after, rate / dot(directions[place], directions[place]), directions[place]);
-                    candidates.push(Candidate { place: *j });
-                }
-            }
-            self.place.v = after;
-            // an impulse takes a compliant stop at rest off its surface, or into it
-            for j in (0..stops).filter(|j| compliant(&self.machine.stops()[*j].law).is_some()) {
-                if self.place.states[j] != ContactState::Resting || fixed.contains(&j) {
-                    continue;
-                }
-                let (_, rate, _, size) = self.place.gap(&self.normal, j);
-                candidates.retain(|candidate| candidate.place != j);
-                if rate.abs() <= 64.0 * f64::EPSILON * size {
-                    candidates.push(Candidate { place: j });
-                } else if rate > 0.0 {
-                    self.place.states[j] = ContactState::Open;
-                    self.place.known.push((GuardKind::Gap(j), 1));
-                } else {
-                    self.place.states[j] = ContactState::Closed;
-                    self.place.known.push((GuardKind::Depth(j), 1));
-                }
-            }
-            // and changes the velocities of the joints
-            for joint in 0..self.machine.joints().len() {
-                let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
-                let at = stops + joint;
-                candidates.retain(|candidate| candidate.place != at);
-                if speed.abs() > 64.0 * f64::EPSILON * size {
-                    self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
-                } else {
-                    candidates.push(Candidate { place: at });
-                }
-            }
         }
-        for j in closing.iter().copied().filter(|j| !rigid.contains(j)) {
+        for j in compliant {
             self.place.states[j] = ContactState::Closed;
             // on a surface that has not come back the stop is deep already
             if self.place.surfaces[j].take().is_none() {
                 self.place.known.push((GuardKind::Depth(j), 1));
             }
-            if let StopLaw::Compliant { damping, preload, .. } = self.machine.stops()[j].law
-                && damping == 0.0
-                && preload == 0.0
-            {
-                self.place.known.push((GuardKind::Force(j), 1));
-            }
         }
         // a force that jumps can end any rest
         for (at, state) in self.place.states.iter().enumerate() {
-            let listed = candidates.iter().any(|candidate| candidate.place == at);
-            if state.constrains() && !listed && !fixed.contains(&at) {
-                candidates.push(Candidate { place: at });
+            if state.constrains() && !candidates.contains(&at) && !fixed.contains(&at) {
+                candidates.push(at);
             }
         }
-        candidates.sort_by_key(|candidate| candidate.place);
+        candidates.sort_unstable();
         if !candidates.is_empty() {
-            let known = core::mem::take(&mut self.place.known);
-            let consistent = resolve(self.machine, &self.normal, &mut self.structures, &mut self.place, &candidates)?;
-            if !consistent {
-                return Ok(false);
-            }
-            self.place.known = known;
-            for Candidate { place } in &candidates {
-                let joint = place.wrapping_sub(stops);
-                let kind = match self.place.states[*place] {
-                    ContactState::Open => Some((GuardKind::Gap(*place), 2)),
-                    ContactState::Closed => Some((GuardKind::Depth(*place), 2)),
-                    ContactState::Forward | ContactState::Backward => Some((GuardKind::Sliding(joint), 1)),
-                    _ => None,
-                };
-                self.place.known.extend(kind);
-            }
+            self.place.states = resolve(self.machine, &self.normal, &mut self.structures, &self.place, &candidates)?;
+            let begun: Vec<(GuardKind, usize)> = candidates.iter().filter_map(|at| self.begun(*at)).collect();
+            self.place.known.extend(begun);
         }
         for (at, was) in before.iter().enumerate() {
             let now = self.place.states[at];
-            if now == *was || struck.contains(&at) && now == ContactState::Open {
+            if now == *was || rigid.contains(&at) && now == ContactState::Open {
                 continue;
             }
-            // a stop that was not about to close is pushed shut by an impact elsewhere
-            let speed = match speeds.get(at) {
-                Some(speed) if closing.contains(&at) => *speed,
-                Some(_) => (-self.place.gap(&self.normal, at).1).max(0.0),
-                None => 0.0,
-            };
             let kind = match (was, now) {
-                (_, ContactState::Resting) => Some((MachineEventKind::Stick, 0.0)),
-                (ContactState::Resting, ContactState::Open) => Some((MachineEventKind::Release, 0.0)),
-                (_, ContactState::Closed) => Some((MachineEventKind::Close, speed)),
-                (ContactState::Closed, ContactState::Open) => Some((MachineEventKind::Open, 0.0)),
-                (_, ContactState::Holding) => Some((MachineEventKind::Hold, 0.0)),
+                (_, ContactState::Resting) => MachineEventKind::Stick,
+                (ContactState::Resting, ContactState::Open) => MachineEventKind::Release,
+                (_, ContactState::Closed) => MachineEventKind::Close,
+                (ContactState::Closed, ContactState::Open) => MachineEventKind::Open,
+                (_, ContactState::Holding) => MachineEventKind::Hold,
                 // joints that slide at the start are not announced
-                (ContactState::Open, _) => None,
-                (_, ContactState::Forward) => Some((MachineEventKind::Slip, 1.0)),
-                (_, ContactState::Backward) => Some((MachineEventKind::Slip, -1.0)),
-                _ => None,
+                (ContactState::Open, _) => continue,
+                _ => MachineEventKind::Slip,
             };
-            events.extend(kind.map(|(kind, speed)| (kind, at, speed, Vec::new())));
+            let speed = match now {
+                ContactState::Closed if closing.contains(&at) => speeds[at],
+                // a stop that was not about to close is pushed shut by an impact elsewhere
+                ContactState::Closed => (-self.place.gap(&self.normal, &turns, at).1).max(0.0),
+                ContactState::Forward => 1.0,
+                ContactState::Backward => -1.0,
+                _ => 0.0,
+            };
+            events.push((kind, at, speed, Vec::new()));
         }
         for (kind, at, speed, with) in events {
             self.announce(kind, at, speed, with);
@@ -334,9 +238,105 @@ impl<'a> MachineMotion<'a> {
         if let [j] = rigid[..]
             && self.place.states[j] == ContactState::Open
         {
-            self.complete(j)?;
+            self.complete(j);
         }
-        Ok(true)
+        Some(())
+    }
+
+    /// How many derivatives of a guard are zero after a contact without velocity has got its state.
+    fn begun(&self, at: usize) -> Option<(GuardKind, usize)> {
+        match self.place.states[at] {
+            ContactState::Open => Some((GuardKind::Gap(at), 2)),
+            ContactState::Closed => Some((GuardKind::Depth(at), 2)),
+            ContactState::Forward | ContactState::Backward => {
+                Some((GuardKind::Sliding(at - self.machine.stops().len()), 1))
+            }
+            ContactState::Resting | ContactState::Holding => None,
+        }
+    }
+
+    /// The impacts on the rigid stops `struck`, together with the rigid ones at rest: new velocities, the states of
+    /// contacts that open or close by them, and the rest as candidates. Returns the stops that push; `None` if the law of
+    /// impact has no solution.
+    fn strike(
+        &mut self,
+        struck: &[usize],
+        speeds: &[f64],
+        candidates: &mut Vec<usize>,
+        fixed: &[usize],
+    ) -> Option<Vec<usize>> {
+        let stops = self.machine.stops();
+        let turns = self.place.turns(&self.normal);
+        let resting = |place: &Place, j: usize| place.states[j] == ContactState::Resting && !fixed.contains(&j);
+        let restitution = |j: usize| match stops[j].law {
+            StopLaw::Rigid { restitution } => Some(restitution),
+            StopLaw::Compliant { .. } => None,
+        };
+        // place, velocity of the gap, restitution
+        let at_rest = (0..stops.len()).filter(|j| resting(&self.place, *j)).map(|j| (j, 0.0));
+        let set: Vec<(usize, f64, f64)> = struck
+            .iter()
+            .map(|j| (*j, -speeds[*j]))
+            .chain(at_rest)
+            .filter_map(|(j, rate)| restitution(j).map(|e| (j, rate, e)))
+            .collect();
+        let directions: Vec<&[f64]> = set.iter().map(|(j, ..)| self.normal.directions[*j].as_slice()).collect();
+        let (rates, restitutions): (Vec<f64>, Vec<f64>) = set.iter().map(|(_, rate, e)| (*rate, *e)).unzip();
+        let found = impulses(&directions, &rates, &restitutions)?;
+        let mut after = self.place.v.clone();
+        for (direction, impulse) in directions.iter().zip(&found) {
+            add_scaled(&mut after, -impulse, direction);
+        }
+        let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        for ((j, before, e), (w, impulse)) in set.iter().zip(directions.iter().zip(&found)) {
+            let rate = before - (dot(w, &after) - dot(w, &self.place.v));
+            candidates.retain(|candidate| candidate != j);
+            // a stop that was pushed opens with the velocity of the law, exactly 0 without restitution
+            let opens = if *impulse > 0.0 {
+                e * before < 0.0
+            } else {
+                let terms = w.iter().zip(&after).map(|(w, v)| (w * v).abs()).sum::<f64>();
+                rate > 16.0 * f64::EPSILON * (size + terms)
+            };
+            if opens {
+                self.place.states[*j] = ContactState::Open;
+                self.place.known.push((GuardKind::Gap(*j), 1));
+            } else {
+                // exactly no velocity, so that the stop does not open by rounding
+                add_scaled(&mut after, rate / dot(w, w), w);
+                candidates.push(*j);
+            }
+        }
+        self.place.v = after;
+        // an impulse takes a compliant stop at rest off its surface, or into it
+        for j in (0..stops.len()).filter(|j| compliant(&stops[*j].law).is_some()) {
+            if !resting(&self.place, j) {
+                continue;
+            }
+            let (_, rate, _, size) = self.place.gap(&self.normal, &turns, j);
+            candidates.retain(|candidate| *candidate != j);
+            if rate.abs() <= 64.0 * f64::EPSILON * size {
+                candidates.push(j);
+            } else if rate > 0.0 {
+                self.place.states[j] = ContactState::Open;
+                self.place.known.push((GuardKind::Gap(j), 1));
+            } else {
+                self.place.states[j] = ContactState::Closed;
+                self.place.known.push((GuardKind::Depth(j), 1));
+            }
+        }
+        // and changes the velocities of the joints
+        for joint in 0..self.machine.joints().len() {
+            let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
+            let at = stops.len() + joint;
+            candidates.retain(|candidate| *candidate != at);
+            if speed.abs() > 64.0 * f64::EPSILON * size {
+                self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
+            } else {
+                candidates.push(at);
+            }
+        }
+        Some(set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0).map(|((j, ..), _)| *j).collect())
     }
 
     fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
@@ -354,19 +354,16 @@ impl<'a> MachineMotion<'a> {
 
     /// Sums the chatter on a stop that has just been struck, if its impacts accumulate so soon that the first two terms
     /// of the sum are exact to rounding (A. B. Nordmark and P. T. Piiroinen, doi:10.1007/s11071-008-9463-y).
-    fn complete(&mut self, j: usize) -> Result<(), NoStructure> {
-        let StopLaw::Rigid { restitution } = self.machine.stops()[j].law else { return Ok(()) };
-        let rebound = self.place.gap(&self.normal, j).1;
+    fn complete(&mut self, j: usize) {
+        let StopLaw::Rigid { restitution } = self.machine.stops()[j].law else { return };
+        let rebound = self.place.gap(&self.normal, &self.place.turns(&self.normal), j).1;
         if restitution >= 1.0 || rebound <= 0.0 {
-            return Ok(());
+            return;
         }
         let mut states = self.place.states.clone();
         states[j] = ContactState::Resting;
-        let structure = match self.structures.get(self.machine, &self.normal, &states) {
-            Ok(structure) => structure,
-            Err(NoStructure::Redundant) => return Ok(()),
-        };
-        let Some(held) = structure.held.iter().position(|place| *place == j) else { return Ok(()) };
+        let Some(structure) = self.structures.get(self.machine, &self.normal, &states) else { return };
+        let Some(held) = structure.held.iter().position(|place| *place == j) else { return };
         // the state at rest: the velocity of the gap taken away, the other constraints unchanged
         let mut there = self.place.clone();
         add_scaled(&mut there.v, rebound, &structure.across[held]);
@@ -377,18 +374,16 @@ impl<'a> MachineMotion<'a> {
         let (mobility, drag) = structure.mobility[held];
         let (a, jerk) = (force * mobility, force_rate * mobility);
         if a <= 0.0 {
-            return Ok(());
+            return;
         }
         let k = rebound / a;
         let r = 1.0 - restitution;
         // the fastest rate of the free motion: the terms that are left out are of its square
-        let free = self.structures.get(self.machine, &self.normal, &self.place.states)?;
-        let rates = free.modes.iter().map(|mode| mode.rate);
-        let fastest = rates.fold(free.rates.last().copied().unwrap_or(0.0), f64::max);
+        let Some(free) = self.structures.get(self.machine, &self.normal, &self.place.states) else { return };
         let first = 2.0 * k / r;
         let second = -2.0 * (jerk / a * k + 0.5 * drag * k) / (3.0 * r);
-        if second.abs() > SMALL || first * fastest.max(drag) > 10.0 * SMALL {
-            return Ok(());
+        if second.abs() > SMALL || first * free.fastest().max(drag) > 10.0 * SMALL {
+            return;
         }
         let duration = first * (1.0 + second);
         let mut touches = Vec::new();
@@ -397,16 +392,15 @@ impl<'a> MachineMotion<'a> {
         let next = first_event(&rebound, duration, self.limits.steps, &mut self.buffers, &mut touches);
         let again = |guards: &[usize]| matches!(guards, [g] if free.guards[*g].kind == GuardKind::Gap(j));
         if !matches!(next, Found::Zero { ref guards, .. } if again(guards)) {
-            return Ok(());
+            return;
         }
         let Found::NoneBefore(_) = first_event(&flight, duration, self.limits.steps, &mut self.buffers, &mut touches)
         else {
-            return Ok(());
+            return;
         };
         self.place = there;
         self.move_to(&flight, duration);
         self.announce(MachineEventKind::Stick, j, 0.0, Vec::new());
-        Ok(())
     }
 
     /// Moves the state to a time after the beginning of a flight.
@@ -434,9 +428,8 @@ impl<'a> MachineMotion<'a> {
 
     /// Follows the motion to its next event.
     fn advance(&mut self) {
-        let structure: Arc<Structure> = match self.structures.get(self.machine, &self.normal, &self.place.states) {
-            Ok(structure) => structure,
-            Err(NoStructure::Redundant) => return self.end = Some(MachineEnd::Inconsistent),
+        let Some(structure) = self.structures.get(self.machine, &self.normal, &self.place.states) else {
+            return self.end = Some(MachineEnd::Inconsistent);
         };
         let flight = self.place.flight(&self.normal, structure.clone());
         // the first surface that reaches its holder changes its guard without an event
@@ -454,12 +447,10 @@ impl<'a> MachineMotion<'a> {
         let found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut touches);
         for touch in &touches {
             if let GuardKind::Gap(j) = structure.guards[touch.guard].kind {
-                let (place, time, phase, known) =
-                    (self.place.clone(), self.time, self.place.phase, self.place.known.clone());
+                let (place, time) = (self.place.clone(), self.time);
                 self.move_to(&flight, touch.s);
                 self.announce(MachineEventKind::Graze, j, 0.0, Vec::new());
-                self.place = place;
-                (self.time, self.place.phase, self.place.known) = (time, phase, known);
+                (self.place, self.time) = (place, time);
             }
         }
         self.touches = touches;
@@ -478,23 +469,23 @@ impl<'a> MachineMotion<'a> {
                     return self.end = Some(MachineEnd::Collapse);
                 }
                 let kinds: Vec<GuardKind> = guards.iter().map(|g| structure.guards[*g].kind).collect();
-                let outcome = self.happen(&kinds);
-                self.settle(outcome);
+                self.happen(&kinds);
             }
         }
     }
 
     /// What follows when these guards are zero.
-    fn happen(&mut self, kinds: &[GuardKind]) -> Result<bool, NoStructure> {
+    fn happen(&mut self, kinds: &[GuardKind]) {
         let stops = self.machine.stops().len();
         let before = self.place.states.clone();
+        let turns = self.place.turns(&self.normal);
         let (mut closing, mut candidates, mut fixed) = (Vec::new(), Vec::new(), Vec::new());
         for kind in kinds {
             match *kind {
                 GuardKind::Gap(j) => {
                     // on the stop exactly, without the rounding error of the time
                     if self.place.surfaces[j].is_none() {
-                        let (gap, ..) = self.place.gap(&self.normal, j);
+                        let (gap, ..) = self.place.gap(&self.normal, &turns, j);
                         let w = &self.normal.directions[j];
                         add_scaled(&mut self.place.x, gap / dot(w, w), w);
                     }
@@ -506,7 +497,7 @@ impl<'a> MachineMotion<'a> {
                     }
                     self.place.states[j] = ContactState::Open;
                     self.place.known.push((GuardKind::Gap(j), 1));
-                    let depth = -self.place.gap(&self.normal, j).0;
+                    let depth = -self.place.gap(&self.normal, &turns, j).0;
                     if let (GuardKind::Force(_), StopLaw::Compliant { stiffness, damping, preload, .. }) =
                         (*kind, &self.machine.stops()[j].law)
                         && depth > 0.0
@@ -532,7 +523,7 @@ impl<'a> MachineMotion<'a> {
                     let (speed, _) = self.place.sliding(self.machine, &self.normal, joint);
                     let w = &self.normal.directions[stops + joint];
                     add_scaled(&mut self.place.v, -speed / dot(w, w), w);
-                    candidates.push(Candidate { place: stops + joint });
+                    candidates.push(stops + joint);
                 }
                 GuardKind::LimitForward(joint) | GuardKind::LimitBackward(joint) => {
                     let forward = matches!(kind, GuardKind::LimitForward(_));
@@ -544,7 +535,7 @@ impl<'a> MachineMotion<'a> {
                 }
             }
         }
-        self.change(&before, &closing, candidates, &fixed)
+        self.change(&before, &closing, candidates, &fixed);
     }
 }
 

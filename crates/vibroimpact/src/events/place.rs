@@ -2,23 +2,24 @@
 
 use crate::arc::{MachineFlight, Recovery};
 use crate::machine::Machine;
-use crate::math::dot;
-use crate::regime::{ContactState, GuardKind, NoStructure, Normal, Structure};
+use crate::math::{dot, sin_cos};
+use crate::regime::{ContactState, GuardKind, Normal, Structure};
 use crate::system::phase;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The structures of the regimes that a motion has visited.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Structures(BTreeMap<Vec<ContactState>, Result<Arc<Structure>, NoStructure>>);
+pub(super) struct Structures(BTreeMap<Vec<ContactState>, Option<Arc<Structure>>>);
 
 impl Structures {
+    /// The structure with these states of stops and joints; `None` if its constraints depend on each other.
     pub(super) fn get(
         &mut self,
         machine: &Machine,
         normal: &Normal,
         states: &[ContactState],
-    ) -> Result<Arc<Structure>, NoStructure> {
+    ) -> Option<Arc<Structure>> {
         if let Some(known) = self.0.get(states) {
             return known.clone();
         }
@@ -43,13 +44,10 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// The phases of all harmonics.
-    pub(super) fn phases(&self, normal: &Normal) -> Vec<f64> {
-        normal
-            .orders
-            .iter()
-            .map(|order| if *order == 1.0 { self.phase } else { phase::wrap(order * self.phase) })
-            .collect()
+    /// Sine and cosine of all harmonics.
+    pub(super) fn turns(&self, normal: &Normal) -> Vec<(f64, f64)> {
+        let phase = |order: f64| if order == 1.0 { self.phase } else { phase::wrap(order * self.phase) };
+        normal.orders.iter().map(|order| sin_cos(phase(*order))).collect()
     }
 
     /// The flight from here in the regime of `structure`.
@@ -61,39 +59,24 @@ impl Place {
             ContactState::Holding => dot(&normal.directions[stops + joint], &self.x),
             _ => 0.0,
         });
-        let phases = self.phases(normal);
+        let turns = self.turns(normal);
         let gap = |stop: usize| {
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
-            let gap = if at_zero { 0.0 } else { self.gap(normal, stop).0 };
-            let harmonics = normal.walls[stop].harmonics.iter().zip(&phases);
-            harmonics.fold(gap, |gap, ((a, b), phase)| {
-                let (sin, cos) = crate::math::sin_cos(*phase);
-                gap - (a * cos + b * sin)
-            })
+            let gap = if at_zero { 0.0 } else { self.gap(normal, &turns, stop).0 };
+            gap - normal.walls[stop].swing(&turns)
         };
-        MachineFlight::new(structure, &self.x, &self.v, set.collect(), &phases, gap, |kind| {
+        MachineFlight::new(structure, &self.x, &self.v, set.collect(), &turns, gap, |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);
             let surface = if let GuardKind::Gap(stop) = kind { self.surfaces[stop] } else { None };
             (known, surface)
         })
     }
 
-    /// The wall of a stop and its velocity.
-    fn wall(&self, normal: &Normal, stop: usize) -> (f64, f64) {
-        let signal = &normal.walls[stop];
-        let (mut place, mut rate) = (signal.constant, 0.0);
-        for ((a, b), (phase, w)) in signal.harmonics.iter().zip(self.phases(normal).iter().zip(&normal.rates)) {
-            let (sin, cos) = crate::math::sin_cos(*phase);
-            place += a * cos + b * sin;
-            rate += w * (b * cos - a * sin);
-        }
-        (place, rate)
-    }
-
-    /// The gap of a stop, its rate, and the sizes of the terms of both.
-    pub(super) fn gap(&self, normal: &Normal, stop: usize) -> (f64, f64, f64, f64) {
-        let w = &normal.directions[stop];
-        let (wall, wall_rate) = self.wall(normal, stop);
+    /// The gap of a stop, its rate, and the sizes of the terms of both. `turns` are sine and cosine of all harmonics.
+    pub(super) fn gap(&self, normal: &Normal, turns: &[(f64, f64)], stop: usize) -> (f64, f64, f64, f64) {
+        let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
+        let wall_rate: f64 = wall.turned(turns).zip(&normal.rates).map(|((_, b), rate)| rate * b).sum();
+        let wall = wall.constant + wall.swing(turns);
         let size = |x: &[f64]| w.iter().zip(x).map(|(w, x)| (w * x).abs()).sum::<f64>();
         (
             wall - dot(w, &self.x),

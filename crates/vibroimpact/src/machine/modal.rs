@@ -22,14 +22,7 @@ pub fn modal_damping(mass: &Matrix, stiffness: &Matrix, ratios: &[f64]) -> Optio
         return None;
     }
     let factor = mass.cholesky()?;
-    let half = forward(&factor, stiffness); // K L^-T, because K is symmetric
-    let mut reduced = forward(&factor, &half.transposed());
-    for i in 0..n {
-        for j in 0..i {
-            let mean = 0.5 * (reduced[(i, j)] + reduced[(j, i)]);
-            (reduced[(i, j)], reduced[(j, i)]) = (mean, mean);
-        }
-    }
+    let reduced = stiffness.reduced(&factor);
     let (squares, vectors) = symmetric_eigen(&reduced);
     let mut damping = Matrix::zeros(n, n);
     for (k, ratio) in ratios.iter().enumerate() {
@@ -42,16 +35,6 @@ pub fn modal_damping(mass: &Matrix, stiffness: &Matrix, ratios: &[f64]) -> Optio
         }
     }
     Some(damping)
-}
-
-/// The solution of `factor * X = right^T` for a lower factor, transposed.
-fn forward(factor: &Matrix, right: &Matrix) -> Matrix {
-    let mut solution = right.clone();
-    for i in 0..right.rows() {
-        let row = factor.solve_lower(right.row(i));
-        solution.row_mut(i).copy_from_slice(&row);
-    }
-    solution
 }
 
 #[cfg(test)]
@@ -67,7 +50,9 @@ mod tests {
         let stiffness = rows(&[[5.0, -2.0, 0.0], [-2.0, 4.0, -1.0], [0.0, -1.0, 3.0]]);
         let damping = modal_damping(&mass, &stiffness, &[0.05; 3]).unwrap();
         let factor = mass.cholesky().unwrap();
-        let half = forward(&factor, &damping);
+        // C L^-T, because C is symmetric
+        let half: Vec<Vec<f64>> = (0..3).map(|i| factor.solve_lower(damping.row(i))).collect();
+        let half = Matrix::from_rows(&half).unwrap();
         let product = half.times(&half.transposed());
         for i in 0..3 {
             for j in 0..3 {

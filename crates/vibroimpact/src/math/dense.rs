@@ -127,6 +127,34 @@ impl Matrix {
         }
     }
 
+    /// The mean of a square matrix and its transpose: exactly symmetric.
+    #[must_use]
+    pub(crate) fn symmetrised(&self) -> Self {
+        let mut even = self.clone();
+        for i in 0..self.rows {
+            for j in 0..i {
+                let mean = 0.5 * (self[(i, j)] + self[(j, i)]);
+                (even[(i, j)], even[(j, i)]) = (mean, mean);
+            }
+        }
+        even
+    }
+
+    /// $`L^{-1}AL^{-T}`$ of a symmetric matrix $`A`$, exactly symmetric, for a lower triangular matrix $`L`$.
+    #[must_use]
+    pub(crate) fn reduced(&self, lower: &Self) -> Self {
+        // the rows of the result are those of (L^{-1} A^T)^T; twice, because A is symmetric
+        let solved = |matrix: &Self| {
+            let mut rows = Self::zeros(matrix.columns, matrix.rows);
+            for j in 0..matrix.columns {
+                let column = lower.solve_lower(&matrix.column(j));
+                rows.row_mut(j).copy_from_slice(&column);
+            }
+            rows
+        };
+        solved(&solved(self)).symmetrised()
+    }
+
     /// The largest absolute value.
     #[must_use]
     pub fn largest(&self) -> f64 {

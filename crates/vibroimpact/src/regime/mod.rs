@@ -7,17 +7,21 @@
 //! | prescribed functions of time, linear functions of the state | `signal` |
 //! | one mode in closed form | `mode` |
 //! | the modes of a structure with any damping | `basis` |
+//! | the directions in which it is free | `complement` |
+//! | the constant force on its modes at a position | `rest_force` |
 //! | the structure in one regime, its guards | `structure` |
 
 mod basis;
+mod complement;
 mod contact_state;
 mod mode;
 mod normal;
+mod rest_force;
 mod signal;
 mod structure;
 
 pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
-pub(crate) use signal::{Observable, Signal};
-pub(crate) use structure::{GuardKind, NoStructure, Structure};
+pub(crate) use signal::{Observable, Signal, turned};
+pub(crate) use structure::{GuardKind, Structure};

@@ -38,22 +38,6 @@ impl Normal {
         let place = |order: u32| orders.iter().position(|known| *known == order).unwrap_or(0);
         let zero = || Signal::zero(joints, orders.len());
 
-        // L^{-1} A L^{-T}: the columns of A, then the rows of the result
-        let congruent = |a: &Matrix| {
-            let solved = |m: &Matrix| {
-                let columns: Vec<Vec<f64>> = (0..n).map(|j| factor.solve_lower(&m.column(j))).collect();
-                Matrix::from_rows(&columns).unwrap_or_default()
-            };
-            let both = solved(&solved(a));
-            // exactly symmetric, so that the eigenvectors are orthogonal
-            let mut even = both.clone();
-            for i in 0..n {
-                for j in 0..n {
-                    even[(i, j)] = 0.5 * (both[(i, j)] + both[(j, i)]);
-                }
-            }
-            even
-        };
         let mut force: Vec<Signal> = (0..n).map(|_| zero()).collect();
         for (signal, value) in force.iter_mut().zip(factor.solve_lower(&parts.constant)) {
             signal.constant = value;
@@ -80,8 +64,8 @@ impl Normal {
         let of_joints = parts.joints.iter().map(|joint| &joint.direction);
         Self {
             n,
-            stiffness: congruent(&parts.stiffness),
-            damping: congruent(&parts.damping),
+            stiffness: parts.stiffness.reduced(&factor),
+            damping: parts.damping.reduced(&factor),
             force,
             directions: of_stops.chain(of_joints).map(|direction| factor.solve_lower(direction)).collect(),
             walls: walls.collect(),

@@ -39,6 +39,16 @@ impl Signal {
         Self { constant: self.ramp, ramp: 0.0, set: vec![0.0; self.set.len()], harmonics }
     }
 
+    /// The harmonics at a time with these sines and cosines of each.
+    pub(crate) fn swing(&self, turns: &[(f64, f64)]) -> f64 {
+        self.harmonics.iter().zip(turns).fold(0.0, |sum, ((a, b), (sin, cos))| sum + (a * cos + b * sin))
+    }
+
+    /// The amplitudes of each harmonic, as functions of the time since then.
+    pub(crate) fn turned<'a>(&'a self, turns: &'a [(f64, f64)]) -> impl Iterator<Item = (f64, f64)> + 'a {
+        turned(&self.harmonics, turns.iter().copied())
+    }
+
     /// The constant part for these set points.
     pub(crate) fn steady(&self, set: &[f64]) -> f64 {
         self.set.iter().zip(set).fold(self.constant, |sum, (factor, point)| sum + factor * point)
@@ -62,6 +72,14 @@ impl Observable {
         Self { position: vec![0.0; modes], velocity: vec![0.0; modes], signal: Signal::zero(joints, harmonics) }
     }
 
+    /// A multiple of it.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let signal = &self.signal;
+        let mut scaled = Self::zero(self.position.len(), signal.set.len(), signal.harmonics.len());
+        scaled.add(factor, self);
+        scaled
+    }
+
     /// Adds a multiple of another one.
     pub(crate) fn add(&mut self, factor: f64, other: &Self) {
         if factor == 0.0 {
@@ -71,4 +89,12 @@ impl Observable {
         crate::math::add_scaled(&mut self.velocity, factor, &other.velocity);
         self.signal.add(factor, &other.signal);
     }
+}
+
+/// Harmonics as functions of the time since another one, which has these sines and cosines of each.
+pub(crate) fn turned<'a>(
+    harmonics: &'a [(f64, f64)],
+    turns: impl Iterator<Item = (f64, f64)> + 'a,
+) -> impl Iterator<Item = (f64, f64)> + 'a {
+    harmonics.iter().zip(turns).map(|((a, b), (sin, cos))| (a * cos + b * sin, b * cos - a * sin))
 }

@@ -1,9 +1,11 @@
 //! The linear structure in one regime: its modes, what drives them, and its guards.
 
 use super::basis::{Basis, inverse};
+use super::complement::complement;
 use super::contact_state::ContactState;
 use super::mode::Mode;
 use super::normal::{Normal, compliant};
+use super::rest_force::{RestContact, RestForce};
 use super::signal::{Observable, Signal};
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
@@ -38,7 +40,9 @@ pub(crate) struct Guard {
 /// The structure in one regime.
 #[derive(Clone, Debug)]
 pub(crate) struct Structure {
-    pub(crate) states: Vec<ContactState>,
+    states: Vec<ContactState>,
+    /// Number of joints.
+    joints: usize,
     pub(crate) modes: Vec<Mode>,
     /// Stiffness and damping of free directions that have no modes, because damping couples nearly defective ones. Then
     /// `modes` holds bounds, and the directions themselves stand in the place of modal displacements.
@@ -69,41 +73,9 @@ pub(crate) struct Structure {
     rest: RestForce,
 }
 
-/// The constant force on the modes at a position, from the force on the coordinates there.
-#[derive(Clone, Debug)]
-struct RestForce {
-    stiffness: Matrix,
-    /// Constant force on each coordinate, without contacts.
-    force: Vec<f64>,
-    free: Matrix,
-    /// What the constraints carry along.
-    carried: Vec<Signal>,
-    /// The closed stops.
-    contacts: Vec<RestContact>,
-    /// $`B_2 + 2dA_2`$ and $`A_2`$.
-    push: Matrix,
-    drift: Matrix,
-}
-
-/// A closed stop: its place, stiffness, constant force at gap 0, direction, and direction in the free directions.
-#[derive(Clone, Debug)]
-struct RestContact {
-    place: usize,
-    stiffness: f64,
-    force: f64,
-    direction: Vec<f64>,
-    share: Vec<f64>,
-}
-
-/// Why a regime has no modes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum NoStructure {
-    /// The constraints depend on each other.
-    Redundant,
-}
-
 impl Structure {
-    pub(crate) fn new(machine: &Machine, normal: &Normal, states: &[ContactState]) -> Result<Self, NoStructure> {
+    /// `None` if the constraints depend on each other.
+    pub(crate) fn new(machine: &Machine, normal: &Normal, states: &[ContactState]) -> Option<Self> {
         let (n, stops, joints) = (normal.n, machine.stops().len(), machine.joints().len());
         let harmonics = normal.rates.len();
         let zero = || Signal::zero(joints, harmonics);
@@ -143,14 +115,14 @@ impl Structure {
         let held: Vec<usize> = (0..states.len()).filter(|place| states[*place].constrains()).collect();
         let directions: Vec<Vec<f64>> = held.iter().map(|place| normal.directions[*place].clone()).collect();
         let along: Vec<&[f64]> = closed.iter().map(|contact| contact.direction).collect();
-        let (free, shares) = complement(&directions, &along, n).ok_or(NoStructure::Redundant)?;
+        let (free, shares) = complement(&directions, &along, n)?;
         let mut gram = Matrix::zeros(held.len(), held.len());
         for (i, one) in directions.iter().enumerate() {
             for (j, other) in directions.iter().enumerate() {
                 gram[(i, j)] = dot(one, other);
             }
         }
-        let gram = inverse(&gram).ok_or(NoStructure::Redundant)?;
+        let gram = inverse(&gram)?;
         let wanted: Vec<Signal> = held
             .iter()
             .map(|place| {
@@ -183,16 +155,7 @@ impl Structure {
 
         // the motion in the directions that are free
         let m = free.columns();
-        let turned = |a: &Matrix| {
-            let both = free.transposed().times(&a.times(&free));
-            let mut even = both.clone();
-            for i in 0..m {
-                for j in 0..m {
-                    even[(i, j)] = 0.5 * (both[(i, j)] + both[(j, i)]);
-                }
-            }
-            even
-        };
+        let turned = |a: &Matrix| free.transposed().times(&a.times(&free)).symmetrised();
         let (mut own_stiffness, mut own_damping) = (turned(stiffness), turned(damping));
         let mut pull = force.clone();
         for i in 0..n {
@@ -335,6 +298,7 @@ impl Structure {
         let modes: Vec<Mode> = basis.modes.iter().map(|(k, d)| Mode::new(*k, *d, rates)).collect();
         let mut structure = Self {
             states: states.to_vec(),
+            joints,
             modes,
             dense,
             drive,
@@ -365,16 +329,17 @@ impl Structure {
             rest,
         };
         structure.guards = structure.all_guards(machine, normal);
-        Ok(structure)
+        Some(structure)
+    }
+
+    /// The fastest rate of the free motion and of the forcing.
+    pub(crate) fn fastest(&self) -> f64 {
+        self.modes.iter().map(|mode| mode.rate).fold(self.rates.last().copied().unwrap_or(0.0), f64::max)
     }
 
     /// $`w\cdot x`$ and its rate.
     fn along(&self, direction: &[f64]) -> (Observable, Observable) {
-        let zero = || Observable {
-            position: vec![0.0; self.modes.len()],
-            velocity: vec![0.0; self.modes.len()],
-            signal: Signal::zero(self.x.first().map_or(0, |x| x.signal.set.len()), self.rates.len()),
-        };
+        let zero = || Observable::zero(self.modes.len(), self.joints, self.rates.len());
         let (mut place, mut rate) = (zero(), zero());
         for (i, factor) in direction.iter().enumerate() {
             place.add(*factor, &self.x[i]);
@@ -388,9 +353,8 @@ impl Structure {
         let (place, rate) = self.along(&normal.directions[stop]);
         let wall = &normal.walls[stop];
         let difference = |signal: &Signal, of: &Observable| {
-            let mut gap = Observable::zero(self.modes.len(), signal.set.len(), signal.harmonics.len());
+            let mut gap = of.scaled(-1.0);
             gap.signal.add(1.0, signal);
-            gap.add(-1.0, of);
             gap
         };
         (difference(wall, &place), difference(&wall.derivative(&self.rates), &rate))
@@ -400,8 +364,7 @@ impl Structure {
     pub(crate) fn force(&self, machine: &Machine, normal: &Normal, stop: usize) -> Option<Observable> {
         let (k, c, p) = compliant(&machine.stops()[stop].law)?;
         let (gap, rate) = self.gap(normal, stop);
-        let mut force = Observable::zero(gap.position.len(), gap.signal.set.len(), gap.signal.harmonics.len());
-        force.add(-k, &gap);
+        let mut force = gap.scaled(-k);
         force.add(-c, &rate);
         force.signal.constant += p;
         Some(force)
@@ -421,10 +384,9 @@ impl Structure {
     fn all_guards(&self, machine: &Machine, normal: &Normal) -> Vec<Guard> {
         let mut guards = Vec::new();
         let mut add = |kind, function| guards.push(Guard { kind, function });
-        let turned = |of: &Observable, factor: f64, constant: f64| {
-            let mut sum = Observable::zero(of.position.len(), of.signal.set.len(), of.signal.harmonics.len());
-            sum.add(factor, of);
-            sum.signal.constant += constant;
+        let missing = |limit: f64, of: Observable| {
+            let mut sum = of;
+            sum.signal.constant += limit;
             sum
         };
         for (j, stop) in machine.stops().iter().enumerate() {
@@ -432,20 +394,20 @@ impl Structure {
                 (ContactState::Closed, StopLaw::Compliant { opening, damping, preload, .. }) => {
                     // without damper and preload both are zero together
                     if *opening == Opening::Position || *preload > 0.0 || *damping == 0.0 {
-                        add(GuardKind::Depth(j), turned(&self.gap(normal, j).0, -1.0, 0.0));
+                        add(GuardKind::Depth(j), self.gap(normal, j).0.scaled(-1.0));
                     }
-                    if *opening == Opening::Force && (*damping > 0.0) {
-                        add(
-                            GuardKind::Force(j),
-                            self.force(machine, normal, j).unwrap_or_else(|| turned(&self.x[0], 0.0, 1.0)),
-                        );
+                    if *opening == Opening::Force
+                        && *damping > 0.0
+                        && let Some(force) = self.force(machine, normal, j)
+                    {
+                        add(GuardKind::Force(j), force);
                     }
                 }
                 (ContactState::Resting, law) => {
                     if let Some(reaction) = self.reaction(j) {
                         add(GuardKind::Reaction(j), reaction.clone());
                         if let StopLaw::Compliant { preload, .. } = law {
-                            add(GuardKind::Preload(j), turned(reaction, -1.0, *preload));
+                            add(GuardKind::Preload(j), missing(*preload, reaction.scaled(-1.0)));
                         }
                     }
                 }
@@ -457,13 +419,13 @@ impl Structure {
             match self.states[place] {
                 ContactState::Forward => add(GuardKind::Sliding(j), self.sliding(machine, normal, j)),
                 ContactState::Backward => {
-                    add(GuardKind::Sliding(j), turned(&self.sliding(machine, normal, j), -1.0, 0.0));
+                    add(GuardKind::Sliding(j), self.sliding(machine, normal, j).scaled(-1.0));
                 }
                 _ => {
                     if let Some(reaction) = self.reaction(place) {
                         // a positive force holds it against sliding forward
-                        add(GuardKind::LimitForward(j), turned(reaction, -1.0, joint.limit));
-                        add(GuardKind::LimitBackward(j), turned(reaction, 1.0, joint.limit));
+                        add(GuardKind::LimitForward(j), missing(joint.limit, reaction.scaled(-1.0)));
+                        add(GuardKind::LimitBackward(j), missing(joint.limit, reaction.clone()));
                     }
                 }
             }
@@ -472,11 +434,8 @@ impl Structure {
     }
 
     /// The constant force on each mode at the position `x`, less that of its own stiffness there: the force that remains if
-    /// modal displacements are counted from there. `gap` is the gap of a closed stop with its wall at its mean place. The
-    /// difference is formed in the coordinates, where nothing cancels: a stiff stop at gap 0 pushes with exactly nothing.
-    ///
-    /// `turns` are sine and cosine of the harmonics there. Harmonics of walls and of what they carry along are counted from
-    /// their mean, as they are in what drives the modes.
+    /// modal displacements are counted from there. `gap` is the gap of a closed stop with its wall at its mean place,
+    /// `turns` are sine and cosine of the harmonics there.
     pub(crate) fn rest_force(
         &self,
         x: &[f64],
@@ -484,22 +443,8 @@ impl Structure {
         turns: &[(f64, f64)],
         gap: impl Fn(usize) -> f64,
     ) -> Vec<f64> {
-        let rest = &self.rest;
-        let swing = |signal: &Signal| {
-            signal.harmonics.iter().zip(turns).map(|((a, b), (sin, cos))| a * cos + b * sin).sum::<f64>()
-        };
-        let swung: Vec<f64> = rest.carried.iter().map(swing).collect();
-        let mean: Vec<f64> = x.iter().zip(&swung).map(|(x, swung)| x - swung).collect();
-        let pulled = rest.stiffness.apply(&mean);
-        let left: Vec<f64> = rest.force.iter().zip(&pulled).map(|(force, pulled)| force - pulled).collect();
-        let mut on_free = rest.free.apply_transposed(&left);
-        for contact in &rest.contacts {
-            let gap = gap(contact.place) + dot(&contact.direction, &swung);
-            add_scaled(&mut on_free, contact.stiffness * gap + contact.force, &contact.share);
-        }
-        let mut push = rest.push.apply(&on_free);
+        let (mut push, drift) = self.rest.at(x, v, turns, gap);
         if self.dense.is_none() {
-            let drift = rest.drift.apply(&rest.free.apply_transposed(v));
             for (i, mode) in self.modes.iter().enumerate() {
                 // and the rate of a ramp in $`P_1`$
                 push[i] += self.slip[i].ramp - mode.k * drift[i];
@@ -529,71 +474,4 @@ struct Contact<'a> {
     /// Its force on the direction at x = 0.
     pushed: Signal,
     direction: &'a [f64],
-}
-
-/// An orthonormal basis of what is orthogonal to all directions `held`, as columns, the first of them along the
-/// directions `along`; and the components of these directions in it, with exact zeros. `None` if the directions `held`
-/// depend on each other.
-fn complement(held: &[Vec<f64>], along: &[&[f64]], n: usize) -> Option<(Matrix, Vec<Vec<f64>>)> {
-    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(n);
-    // twice, so that the result is orthogonal to rounding
-    let project = |basis: &[Vec<f64>], vector: &mut Vec<f64>| {
-        for _ in 0..2 {
-            for known in basis {
-                let part = dot(known, vector);
-                add_scaled(vector, -part, known);
-            }
-        }
-        dot(vector, vector).sqrt()
-    };
-    let unit = |vector: &[f64], size: f64| -> Vec<f64> { vector.iter().map(|x| x / size).collect() };
-    for direction in held {
-        let mut vector = unit(direction, dot(direction, direction).sqrt());
-        let rest = project(&basis, &mut vector);
-        if rest < 1e-9 {
-            return None;
-        }
-        basis.push(unit(&vector, rest));
-    }
-    let first = basis.len();
-    let mut reached = Vec::with_capacity(along.len());
-    for direction in along {
-        let size = dot(direction, direction).sqrt();
-        let mut vector = unit(direction, size);
-        let rest = project(&basis, &mut vector);
-        if rest > 1e-12 && basis.len() < n {
-            basis.push(unit(&vector, rest));
-        }
-        reached.push(basis.len());
-    }
-    let mut left: Vec<usize> = (0..n).collect();
-    while basis.len() < n {
-        // the unit vector that is farthest from what is spanned already
-        let mut best = (0.0, 0, Vec::new());
-        for (place, i) in left.iter().enumerate() {
-            let mut vector = vec![0.0; n];
-            vector[*i] = 1.0;
-            let rest = project(&basis, &mut vector);
-            if rest > best.0 * (1.0 + 1e-9) {
-                best = (rest, place, vector);
-            }
-        }
-        left.remove(best.1);
-        basis.push(unit(&best.2, best.0));
-    }
-    let mut columns = Matrix::zeros(n, n - first);
-    for (j, vector) in basis[first..].iter().enumerate() {
-        for (i, x) in vector.iter().enumerate() {
-            columns[(i, j)] = *x;
-        }
-    }
-    let share = |direction: &[f64], end: usize| {
-        let mut share = vec![0.0; n - first];
-        for (value, vector) in share.iter_mut().zip(&basis[first..end]) {
-            *value = dot(direction, vector);
-        }
-        share
-    };
-    let shares = along.iter().zip(reached).map(|(direction, end)| share(direction, end)).collect();
-    Some((columns, shares))
 }

@@ -1,0 +1,70 @@
+//! Directions in which a structure is free.
+
+use crate::math::{Matrix, add_scaled, dot};
+
+/// An orthonormal basis of what is orthogonal to all directions `held`, as columns, the first of them along the
+/// directions `along`; and the components of these directions in it, with exact zeros. `None` if the directions `held`
+/// depend on each other.
+pub(super) fn complement(held: &[Vec<f64>], along: &[&[f64]], n: usize) -> Option<(Matrix, Vec<Vec<f64>>)> {
+    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(n);
+    // twice, so that the result is orthogonal to rounding
+    let project = |basis: &[Vec<f64>], vector: &mut Vec<f64>| {
+        for _ in 0..2 {
+            for known in basis {
+                let part = dot(known, vector);
+                add_scaled(vector, -part, known);
+            }
+        }
+        dot(vector, vector).sqrt()
+    };
+    let unit = |vector: &[f64], size: f64| -> Vec<f64> { vector.iter().map(|x| x / size).collect() };
+    for direction in held {
+        let mut vector = unit(direction, dot(direction, direction).sqrt());
+        let rest = project(&basis, &mut vector);
+        if rest < 1e-9 {
+            return None;
+        }
+        basis.push(unit(&vector, rest));
+    }
+    let first = basis.len();
+    let mut reached = Vec::with_capacity(along.len());
+    for direction in along {
+        let size = dot(direction, direction).sqrt();
+        let mut vector = unit(direction, size);
+        let rest = project(&basis, &mut vector);
+        if rest > 1e-12 && basis.len() < n {
+            basis.push(unit(&vector, rest));
+        }
+        reached.push(basis.len());
+    }
+    let mut left: Vec<usize> = (0..n).collect();
+    while basis.len() < n {
+        // the unit vector that is farthest from what is spanned already
+        let mut best = (0.0, 0, Vec::new());
+        for (place, i) in left.iter().enumerate() {
+            let mut vector = vec![0.0; n];
+            vector[*i] = 1.0;
+            let rest = project(&basis, &mut vector);
+            if rest > best.0 * (1.0 + 1e-9) {
+                best = (rest, place, vector);
+            }
+        }
+        left.remove(best.1);
+        basis.push(unit(&best.2, best.0));
+    }
+    let mut columns = Matrix::zeros(n, n - first);
+    for (j, vector) in basis[first..].iter().enumerate() {
+        for (i, x) in vector.iter().enumerate() {
+            columns[(i, j)] = *x;
+        }
+    }
+    let share = |direction: &[f64], end: usize| {
+        let mut share = vec![0.0; n - first];
+        for (value, vector) in share.iter_mut().zip(&basis[first..end]) {
+            *value = dot(direction, vector);
+        }
+        share
+    };
+    let shares = along.iter().zip(reached).map(|(direction, end)| share(direction, end)).collect();
+    Some((columns, shares))
+}
