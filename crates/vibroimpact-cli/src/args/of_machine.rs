@@ -10,14 +10,14 @@ use vibroimpact::machine::Machine;
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Machine")]
 pub(crate) struct OfMachineArgs {
-    /// A machine of the catalogue or a file with a table [machine], instead of the system above
+    /// A machine of the catalogue or a machine file, instead of the system above
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) machine: Option<String>,
 
     #[command(flatten)]
     set: SetArgs,
 
-    /// Coordinates at the start, one for each, separated by commas [default: those of the table [start] of the machine, or 0]
+    /// Coordinates at the start, one for each, separated by commas [default: those that the machine file says, or 0]
     #[arg(long, value_parser = number, value_delimiter = ',', value_name = "A,B,...", allow_hyphen_values = true, requires = "machine")]
     q: Vec<f64>,
 

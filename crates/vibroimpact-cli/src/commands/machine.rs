@@ -35,7 +35,7 @@ struct List {
 
 /// Show a machine: where it comes from, its numbers with their paths, and the matrices to which it expands
 ///
-/// A machine is one of the catalogue or a file with a table [machine]; `vibro schema --machine` prints what may be in it.
+/// A machine is one of the catalogue or a machine file; `vibro schema --machine` prints what may be in such a file.
 #[derive(Clone, Debug, Args)]
 #[command(after_help = "Examples:\n  \
     vibro machine show soft-stop --set beta=100\n  \
