@@ -6,13 +6,18 @@
 //! | the law of impact | `impulses` |
 //! | the state at one time | `place` |
 //! | which stops rest and which joints hold | `resolve` |
+//! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
 
 mod event;
 mod impulses;
 mod motion;
+mod passage;
 mod place;
 mod resolve;
+mod saltation;
 
 pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;
+pub(crate) use passage::Passage;
+pub(crate) use place::{Place, Structures};

@@ -2,6 +2,7 @@
 
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::impulses::impulses;
+use super::passage::Passage;
 use super::place::{Place, Structures};
 use super::resolve::resolve;
 use crate::arc::{Buffers, Found, MachineFlight, Recovery, Touch, first_event};
@@ -43,6 +44,9 @@ pub struct MachineMotion<'a> {
     crowd: u32,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
     largest_impact: f64,
+    /// The last step, if steps are recorded.
+    passage: Option<Passage>,
+    recording: bool,
 }
 
 /// More events than this at one time are a collapse.
@@ -85,20 +89,7 @@ impl<'a> MachineMotion<'a> {
             surfaces: vec![None; stops],
             known: Vec::new(),
         };
-        let mut motion = Self {
-            machine,
-            normal,
-            structures: Structures::default(),
-            place,
-            time: Sum::default(),
-            limits,
-            pending: VecDeque::new(),
-            end: None,
-            buffers: Buffers::default(),
-            touches: Vec::new(),
-            crowd: 0,
-            largest_impact: 0.0,
-        };
+        let mut motion = Self { limits, ..Self::within(machine, normal, place) };
         motion.begin()?;
         Ok(motion)
     }
@@ -239,6 +230,9 @@ impl<'a> MachineMotion<'a> {
         for (kind, at, speed, with) in events {
             self.announce(kind, at, speed, with);
         }
+        if let Some(passage) = &mut self.passage {
+            passage.after = Some(self.place.clone());
+        }
         if let [j] = rigid[..]
             && self.place.states[j] == ContactState::Open
         {
@@ -312,6 +306,10 @@ impl<'a> MachineMotion<'a> {
             }
         }
         self.place.v = after;
+        if let Some(passage) = &mut self.passage {
+            let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
+            passage.pushed = pushing.map(|((j, _, e), _)| (*j, *e)).collect();
+        }
         // an impulse takes a compliant stop at rest off its surface, or into it
         for j in (0..stops.len()).filter(|j| compliant(&stops[*j].law).is_some()) {
             if !resting(&self.place, j) {
@@ -408,6 +406,12 @@ impl<'a> MachineMotion<'a> {
             return;
         };
         self.place = there;
+        if let Some(passage) = &mut self.passage {
+            // the state at rest is that after an impact without rebound
+            passage.pushed = vec![(j, 0.0)];
+            passage.after = Some(self.place.clone());
+            passage.rest = Some((flight.structure.clone(), duration));
+        }
         self.move_to(&flight, duration);
         self.announce(MachineEventKind::Stick, j, 0.0, Vec::new());
         self.largest_impact = 0.0;
@@ -434,6 +438,57 @@ impl<'a> MachineMotion<'a> {
             self.crowd = 0;
         }
         self.place.known.clear();
+    }
+
+    /// Follows the motion by one step: to its next event, or to the time at which a surface has come back to its holder.
+    /// The events of the step follow from the iterator. `None` at the end of the motion.
+    pub(crate) fn step(&mut self) -> Option<Passage> {
+        self.recording = true;
+        if self.end.is_some() {
+            return None;
+        }
+        self.advance();
+        self.passage.take()
+    }
+
+    /// The motion from a state in which all stops and joints have their states already.
+    pub(crate) fn resumed(machine: &'a Machine, place: Place) -> Self {
+        Self::within(machine, Normal::new(machine), place)
+    }
+
+    fn within(machine: &'a Machine, normal: Normal, place: Place) -> Self {
+        Self {
+            machine,
+            normal,
+            structures: Structures::default(),
+            place,
+            time: Sum::default(),
+            limits: MachineLimits::default(),
+            pending: VecDeque::new(),
+            end: None,
+            buffers: Buffers::default(),
+            touches: Vec::new(),
+            crowd: 0,
+            largest_impact: 0.0,
+            passage: None,
+            recording: false,
+        }
+    }
+
+    /// Moves on for a time in the regime of `structure`, without a search for events.
+    pub(crate) fn go(&mut self, structure: &std::sync::Arc<crate::regime::Structure>, time: f64) {
+        let flight = self.place.flight(&self.normal, structure.clone());
+        self.move_to(&flight, time);
+    }
+
+    /// The present state.
+    pub(crate) const fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// The machine in mass-normalised coordinates.
+    pub(crate) const fn normal(&self) -> &Normal {
+        &self.normal
     }
 
     /// Follows the motion to its next event.
@@ -464,6 +519,14 @@ impl<'a> MachineMotion<'a> {
             }
         }
         self.touches = touches;
+        self.passage = None;
+        if self.recording {
+            let duration = match &found {
+                Found::NoneBefore(s) if *s >= until && recovered <= self.limits.time => recovered,
+                Found::NoneBefore(s) | Found::Zero { s, .. } => *s,
+            };
+            self.passage = Some(Passage::new(structure.clone(), duration));
+        }
         match found {
             Found::NoneBefore(s) if s >= until && recovered <= self.limits.time => {
                 self.move_to(&flight, recovered);
@@ -479,6 +542,10 @@ impl<'a> MachineMotion<'a> {
                     return self.end = Some(MachineEnd::Collapse);
                 }
                 let kinds: Vec<GuardKind> = guards.iter().map(|g| structure.guards[*g].kind).collect();
+                if let Some(passage) = &mut self.passage {
+                    passage.guards.clone_from(&guards);
+                    passage.before = Some(self.place.clone());
+                }
                 self.happen(&kinds);
             }
         }

@@ -10,11 +10,11 @@ use std::sync::Arc;
 
 /// The structures of the regimes that a motion has visited.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Structures(BTreeMap<Vec<ContactState>, Option<Arc<Structure>>>);
+pub(crate) struct Structures(BTreeMap<Vec<ContactState>, Option<Arc<Structure>>>);
 
 impl Structures {
     /// The structure with these states of stops and joints; `None` if its constraints depend on each other.
-    pub(super) fn get(
+    pub(crate) fn get(
         &mut self,
         machine: &Machine,
         normal: &Normal,
@@ -31,27 +31,27 @@ impl Structures {
 
 /// The state of a machine at one time.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(crate) struct Place {
     /// Mass-normalised coordinates and velocities.
-    pub(super) x: Vec<f64>,
-    pub(super) v: Vec<f64>,
-    pub(super) phase: f64,
-    pub(super) states: Vec<ContactState>,
+    pub(crate) x: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+    pub(crate) phase: f64,
+    pub(crate) states: Vec<ContactState>,
     /// The surfaces of stops that have opened by force.
-    pub(super) surfaces: Vec<Option<Recovery>>,
+    pub(crate) surfaces: Vec<Option<Recovery>>,
     /// How many derivatives of a guard are zero now.
-    pub(super) known: Vec<(GuardKind, usize)>,
+    pub(crate) known: Vec<(GuardKind, usize)>,
 }
 
 impl Place {
     /// Sine and cosine of all harmonics.
-    pub(super) fn turns(&self, normal: &Normal) -> Vec<(f64, f64)> {
+    pub(crate) fn turns(&self, normal: &Normal) -> Vec<(f64, f64)> {
         let phase = |order: f64| if order == 1.0 { self.phase } else { phase::wrap(order * self.phase) };
         normal.orders.iter().map(|order| sin_cos(phase(*order))).collect()
     }
 
     /// The flight from here in the regime of `structure`.
-    pub(super) fn flight(&self, normal: &Normal, structure: Arc<Structure>) -> MachineFlight {
+    pub(crate) fn flight(&self, normal: &Normal, structure: Arc<Structure>) -> MachineFlight {
         // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
         let stops = self.surfaces.len();
         let joints = 0..self.states.len() - stops;
@@ -73,7 +73,7 @@ impl Place {
     }
 
     /// The gap of a stop, its rate, and the sizes of the terms of both. `turns` are sine and cosine of all harmonics.
-    pub(super) fn gap(&self, normal: &Normal, turns: &[(f64, f64)], stop: usize) -> (f64, f64, f64, f64) {
+    pub(crate) fn gap(&self, normal: &Normal, turns: &[(f64, f64)], stop: usize) -> (f64, f64, f64, f64) {
         let (w, wall) = (&normal.directions[stop], &normal.walls[stop]);
         let wall_rate: f64 = wall.turned(turns).zip(&normal.rates).map(|((_, b), rate)| rate * b).sum();
         let wall = wall.constant + wall.swing(turns);
@@ -87,7 +87,7 @@ impl Place {
     }
 
     /// The relative velocity of a joint, and the size of its terms.
-    pub(super) fn sliding(&self, machine: &Machine, normal: &Normal, joint: usize) -> (f64, f64) {
+    pub(crate) fn sliding(&self, machine: &Machine, normal: &Normal, joint: usize) -> (f64, f64) {
         let w = &normal.directions[machine.stops().len() + joint];
         let belt = machine.joints()[joint].belt;
         (dot(w, &self.v) - belt, belt.abs() + w.iter().zip(&self.v).map(|(w, v)| (w * v).abs()).sum::<f64>())

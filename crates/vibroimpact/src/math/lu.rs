@@ -48,6 +48,13 @@ impl Lu {
         Some(Self { n, rows, pivots })
     }
 
+    /// The determinant, with the sign of the row exchanges.
+    pub(crate) fn determinant(&self) -> f64 {
+        let exchanges = self.pivots.iter().enumerate().filter(|(k, pivot)| k != *pivot).count();
+        let product: f64 = (0..self.n).map(|k| self.rows[k * self.n + k]).product();
+        if exchanges.is_multiple_of(2) { product } else { -product }
+    }
+
     /// Replaces the right side `x` by the solution.
     pub(crate) fn solve(&self, x: &mut [f64]) {
         let n = self.n;

@@ -10,8 +10,10 @@
 //! | the directions in which it is free | `complement` |
 //! | the constant force on its modes at a position | `rest_force` |
 //! | the structure in one regime, its guards | `structure` |
+//! | small changes of its state, their motion, and the gradients of guards | `change` |
 
 mod basis;
+mod change;
 mod complement;
 mod contact_state;
 mod mode;

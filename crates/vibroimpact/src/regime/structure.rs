@@ -40,9 +40,9 @@ pub(crate) struct Guard {
 /// The structure in one regime.
 #[derive(Clone, Debug)]
 pub(crate) struct Structure {
-    states: Vec<ContactState>,
+    pub(super) states: Vec<ContactState>,
     /// Number of joints.
-    joints: usize,
+    pub(super) joints: usize,
     pub(crate) modes: Vec<Mode>,
     /// Stiffness and damping of free directions that have no modes, because damping couples nearly defective ones. Then
     /// `modes` holds bounds, and the directions themselves stand in the place of modal displacements.
@@ -55,10 +55,10 @@ pub(crate) struct Structure {
     pub(crate) x: Vec<Observable>,
     pub(crate) v: Vec<Observable>,
     /// Modes from the mass-normalised state: $`y = A_1x + A_2\dot x + `$ a signal, and $`z`$ alike.
-    to_y: [Matrix; 2],
-    to_z: [Matrix; 2],
-    to_y_signal: Vec<Signal>,
-    to_z_signal: Vec<Signal>,
+    pub(super) to_y: [Matrix; 2],
+    pub(super) to_z: [Matrix; 2],
+    pub(super) to_y_signal: Vec<Signal>,
+    pub(super) to_z_signal: Vec<Signal>,
     pub(crate) guards: Vec<Guard>,
     /// The places of the constraints: stops and, after them, joints.
     pub(crate) held: Vec<usize>,

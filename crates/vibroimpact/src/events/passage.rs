@@ -1,0 +1,35 @@
+//! One step of a motion: a flight in one regime, and what ended it.
+
+use super::place::Place;
+use crate::regime::Structure;
+use std::sync::Arc;
+
+/// One step of a motion.
+#[derive(Clone, Debug)]
+pub(crate) struct Passage {
+    /// The structure of the flight.
+    pub(crate) structure: Arc<Structure>,
+    /// Its duration.
+    pub(crate) duration: f64,
+    /// The guards of the structure that were zero at its end; none if only a surface has come back to its holder.
+    pub(crate) guards: Vec<usize>,
+    /// The state at its end, before the event.
+    pub(crate) before: Option<Place>,
+    /// The rigid stops that pushed, with their restitution.
+    pub(crate) pushed: Vec<(usize, f64)>,
+    /// The state after the event.
+    pub(crate) after: Option<Place>,
+    /// A chatter was summed after the event: the structure at rest, and the time for which it moved on in it.
+    pub(crate) rest: Option<(Arc<Structure>, f64)>,
+}
+
+impl Passage {
+    pub(super) const fn new(structure: Arc<Structure>, duration: f64) -> Self {
+        Self { structure, duration, guards: Vec::new(), before: None, pushed: Vec::new(), after: None, rest: None }
+    }
+
+    /// The time from the beginning of the step to its end.
+    pub(crate) fn time(&self) -> f64 {
+        self.duration + self.rest.as_ref().map_or(0.0, |(_, time)| *time)
+    }
+}
