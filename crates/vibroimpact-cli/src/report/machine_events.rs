@@ -27,6 +27,8 @@ pub(crate) fn events(machine: &Machine, events: &[MachineEvent], (end, time): (O
     }
     let why = match end_name(end) {
         "event_limit" => "the number of events that was asked for".to_owned(),
+        "no_more_impacts" => "no further event, for ever".to_owned(),
+        "stuck" => "at rest on a stop, for ever".to_owned(),
         "time_limit" => format!("no further event up to time {}", short(time)),
         other => other.replace('_', " "),
     };

@@ -47,6 +47,8 @@ struct EndObject {
 pub const fn end_name(end: Option<MachineEnd>) -> &'static str {
     match end {
         None => "event_limit",
+        Some(MachineEnd::Never) => "no_more_impacts",
+        Some(MachineEnd::Stuck) => "stuck",
         Some(MachineEnd::NoEventWithin) => "time_limit",
         Some(MachineEnd::SearchLimit) => "search_limit",
         Some(MachineEnd::Inconsistent) => "inconsistent",

@@ -5,14 +5,16 @@
 //! | the modes from a state, at any time | `flight` |
 //! | what drives the modes | `drive` |
 //! | the same where there are no modes | `dense` |
+//! | whether a flight ends at all | `never` |
 //! | first zeros of polynomials | `polynomial` |
 //! | the first zero of any guard, which misses none | `search` |
 
 mod dense;
 mod drive;
 mod flight;
+mod never;
 mod polynomial;
 mod search;
 
-pub(crate) use flight::{MachineFlight, Recovery};
+pub(crate) use flight::{MachineFlight, Modes, Recovery};
 pub(crate) use search::{Buffers, Found, Touch, first_event};

@@ -74,6 +74,10 @@ pub struct MachineStart {
 /// Why a motion has no further event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MachineEnd {
+    /// There is none for ever.
+    Never,
+    /// There is none for ever, and the structure rests on a stop.
+    Stuck,
     /// None within the longest flight that is searched ([`MachineLimits::time`]).
     NoEventWithin,
     /// The search has used all its steps.

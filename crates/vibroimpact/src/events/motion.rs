@@ -51,6 +51,8 @@ pub struct MachineMotion<'a> {
 
 /// More events than this at one time are a collapse.
 const CROWD: u32 = 10_000;
+/// The number of windows of a flight after which it is asked whether there is an event at all.
+const PATIENCE: u32 = 512;
 /// A chatter is summed if its first correction is below this part of the sum.
 const SMALL: f64 = 1e-6;
 
@@ -509,7 +511,21 @@ impl<'a> MachineMotion<'a> {
         let until = recovered.min(self.limits.time);
         let mut touches = core::mem::take(&mut self.touches);
         touches.clear();
-        let found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut touches);
+        let mut found = first_event(&flight, until, self.limits.steps.min(PATIENCE), &mut self.buffers, &mut touches);
+        let mut never = false;
+        if let Found::NoneBefore(s) = found
+            && s < until
+        {
+            // a long flight: is there an event at all?
+            never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
+            if !never && self.limits.steps > PATIENCE {
+                touches.clear();
+                found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut touches);
+                if let Found::NoneBefore(s) = found {
+                    never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
+                }
+            }
+        }
         for touch in &touches {
             if let GuardKind::Gap(j) = structure.guards[touch.guard].kind {
                 let (place, time) = (self.place.clone(), self.time);
@@ -533,7 +549,12 @@ impl<'a> MachineMotion<'a> {
             }
             Found::NoneBefore(s) => {
                 self.move_to(&flight, s);
-                self.end = Some(if s >= until { MachineEnd::NoEventWithin } else { MachineEnd::SearchLimit });
+                self.end = Some(match never {
+                    true if self.place.states.contains(&ContactState::Resting) => MachineEnd::Stuck,
+                    true => MachineEnd::Never,
+                    false if s >= until => MachineEnd::NoEventWithin,
+                    false => MachineEnd::SearchLimit,
+                });
             }
             Found::Zero { s, guards } => {
                 self.move_to(&flight, s);

@@ -7,39 +7,25 @@
 use super::graze_limit::Fading;
 use super::options::SettleOptions;
 use super::outcome::{Chaos, NoImpact, Undecided, Verdict};
-use super::recurrence::{self, Candidate};
+use super::record::{LOOK, Record, Shown};
 use super::trapping_region::Depth;
 use crate::flight::SearchLimits;
-use crate::lyapunov::{Measure, Spectrum};
 use crate::motion::{End, ImpactState, MAX_TOUCHES};
-use crate::orbit::{Cycle, DEFAULT_EVENTS, from_release, shoot};
+use crate::orbit::{DEFAULT_EVENTS, from_release};
 use crate::system::{Oscillator, Side};
 
 /// The record of a motion.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Follow {
-    /// The latest impacts, and the time between each and the one before.
-    impacts: Vec<(ImpactState, f64)>,
-    /// The number of impacts before those.
-    earlier: usize,
+    record: Record<Oscillator>,
     /// Time since the last impact.
     since: f64,
     /// The number of impacts before the first release from each stop.
     released: [Option<usize>; 2],
-    /// The number of impacts before the last release; the motion after it does not depend on them.
-    forgotten: usize,
-    candidate: Option<Cycle>,
     fading: Fading,
     grazes: u32,
-    next_look: usize,
     /// The number of search steps.
     pub(crate) steps: u64,
-    /// The current measurement for chaos. It is boxed, because most motions settle before it begins and a reset writes
-    /// all fields.
-    measure: Option<Box<Measure>>,
-    /// The number of measurements completed since the last release, and the exponents of the latest one.
-    windows: usize,
-    spectrum: Option<Spectrum>,
     /// Chaos that has ended because the motion stuck.
     over: Option<Chaos>,
 }
@@ -77,64 +63,39 @@ impl Releases {
 /// The number of events after a release in which a short cycle is searched for.
 const SHORT: u32 = 64;
 
-/// The lengths of successive measurements for chaos, in units of [`SettleOptions::chaos_over`]; weak chaos needs a
-/// longer measurement. The last length is repeated.
-const WINDOWS: [u32; 3] = [1, 3, 8];
-/// The number of impacts between searches for a recurrence at the beginning. Later it is an eighth of the number of
-/// impacts, so that the searches take little time in a long chaotic motion.
-const LOOK: usize = 16;
-/// The least number of impacts that are kept.
-const KEPT: usize = 1024;
-/// The number of candidates for the period that are tried in each search.
-const TRIES: usize = 3;
-
 impl Follow {
     /// Resets the record for another motion.
     pub(crate) fn reset(&mut self) {
-        let impacts = core::mem::take(&mut self.impacts);
-        *self = Self { impacts, ..Self::default() };
-        self.impacts.clear();
+        self.record.reset();
+        let record = core::mem::take(&mut self.record);
+        *self = Self { record, ..Self::default() };
     }
 
     /// The number of impacts so far.
     pub(crate) fn count(&self) -> usize {
-        self.earlier + self.impacts.len()
+        self.record.count()
     }
 
     /// Whether the budget permits more. A measurement that began because the one before diverged too little for a
     /// decision is completed beyond the budget.
     pub(crate) fn within(&self, options: &SettleOptions) -> bool {
-        let longer = options.extend
-            && self.windows + 1 == WINDOWS.len()
-            && self.measure.is_some()
-            && self.spectrum.is_some_and(|found| found.diverges());
+        let longer = options.extend && self.record.undecided_measurement();
         longer && self.steps < 3 * options.max_steps
             || self.count() < options.max_impacts as usize && self.steps < options.max_steps
-    }
-
-    /// The number of impacts after which a decision other than a cycle is possible next: chaos, or the end of the
-    /// budget.
-    pub(crate) fn undisturbed(&self, options: &SettleOptions) -> usize {
-        let end = options.max_impacts as usize;
-        let measured = match &self.measure {
-            Some(measure) => self.count() + measure.left() as usize,
-            None if options.chaos_over == 0 => end,
-            None => self.forgotten + (options.chaos_after + window(options, self.windows)) as usize,
-        };
-        end.min(measured)
     }
 
     /// Whether a motion captured by a trapping region of this depth would be decided as that cycle without the region,
     /// before any other decision is possible: when it is close to the cycle, and at the next search for a recurrence.
     pub(super) fn reaches(&self, depth: Depth, options: &SettleOptions) -> bool {
         let close = self.count() + depth.impacts;
-        close + LOOK + LOOK.max(close / 8) <= self.undisturbed(options) && self.steps + depth.steps <= options.max_steps
+        close + LOOK + LOOK.max(close / 8) <= self.record.undisturbed(options)
+            && self.steps + depth.steps <= options.max_steps
     }
 
     /// The last impact; before the first impact, a state with velocity 0 on the upper stop.
     pub(crate) fn last(&self) -> ImpactState {
         let none = ImpactState { phase: 0.0, velocity: 0.0, side: Side::Upper };
-        self.impacts.last().map_or(none, |(state, _)| *state)
+        self.record.returns.last().map_or(none, |(state, _)| *state)
     }
 
     /// Records an impact `interval` after the last event; returns the verdict if it is decided.
@@ -145,96 +106,21 @@ impl Follow {
         state: ImpactState,
         interval: f64,
     ) -> Option<Verdict> {
-        let since = self.since + interval;
-        if self.impacts.len() >= KEPT.max(4 * options.longest as usize) {
-            // recurrences are searched for among the remaining impacts
-            let gone = self.impacts.len() - 2 * options.longest as usize - 2;
-            self.impacts.drain(..gone);
-            self.earlier += gone;
-        }
-        self.impacts.push((state, since));
+        self.record.push(options, state, self.since + interval);
         (self.since, self.grazes) = (0.0, 0);
         if self.fading.strikes(osc, state, interval) {
             return Some(Verdict::NoImpact(NoImpact::GrazeLimit { velocity: state.velocity, phase: state.phase }));
         }
-        let complete = self.measured(osc, options, state, since);
-        if complete || self.count() >= self.next_look.max(LOOK) {
-            let shown = self.look(osc, options, state);
-            if shown.is_some() || !complete {
-                return shown;
-            }
-        }
-        if complete { self.judged(osc, options) } else { None }
-    }
-
-    /// Continues or begins the measurement for chaos at this impact; returns whether it is complete.
-    fn measured(&mut self, osc: &Oscillator, options: &SettleOptions, state: ImpactState, since: f64) -> bool {
-        match &mut self.measure {
-            Some(measure) => {
-                measure.impact(osc, state, since);
-                measure.complete()
-            }
-            None => {
-                if options.chaos_over > 0 && self.count() - self.forgotten >= options.chaos_after as usize {
-                    self.measure = Some(Box::new(Measure::new(state, window(options, self.windows))));
-                }
-                false
-            }
-        }
-    }
-
-    /// Decides chaos from a complete measurement, or begins the next measurement.
-    fn judged(&mut self, osc: &Oscillator, options: &SettleOptions) -> Option<Verdict> {
-        let (spectrum, chaotic) = self.measure.take()?.chaos(osc).unzip();
-        (self.spectrum, self.windows) = (spectrum, self.windows + 1);
-        let chaos = spectrum.filter(|_| chaotic == Some(true));
-        if chaos.is_none() {
-            self.measure = Some(Box::new(Measure::new(self.last(), window(options, self.windows))));
-        }
-        chaos.map(|spectrum| Verdict::Chaotic(Chaos { spectrum, impacts: self.count() as u64 }))
+        self.record.decide(osc, options).map(|shown| match shown {
+            Shown::Cycle(cycle) => Verdict::Periodic(cycle),
+            Shown::Chaos(spectrum) => Verdict::Chaotic(Chaos { spectrum, impacts: self.count() as u64 }),
+        })
     }
 
     /// Chaos that was measured and has ended, if the motion has settled into something else.
     pub(crate) fn transient(&self, osc: &Oscillator) -> Option<Chaos> {
-        let measured = self.measure.as_ref().and_then(|measure| measure.chaos(osc)).map(|(spectrum, _)| spectrum);
-        let found = measured.into_iter().chain(self.spectrum).find(Spectrum::chaotic);
+        let found = self.record.was_chaotic(osc);
         found.map(|spectrum| Chaos { spectrum, impacts: self.count() as u64 }).or(self.over)
-    }
-
-    /// Searches for a recurrence, and confirms the cycle by Newton's method and the test whether it captures the
-    /// motion.
-    fn look(&mut self, osc: &Oscillator, options: &SettleOptions, state: ImpactState) -> Option<Verdict> {
-        let count = self.count();
-        self.next_look = count + LOOK.max(count / 8);
-        if let Some(cycle) = &self.candidate
-            && recurrence::captured(osc, &state, cycle)
-        {
-            return self.candidate.take().map(Verdict::Periodic);
-        }
-        let mut tried = 0;
-        // a long cycle also resembles itself after fewer impacts, as after several period doublings; when close it is
-        // always tried
-        let found: Vec<Candidate> =
-            recurrence::candidates(osc, &self.impacts, options.longest as usize, options.recurrence)
-                .filter(|candidate| {
-                    tried += 1;
-                    tried <= TRIES || candidate.close
-                })
-                .take(TRIES + 1)
-                .collect();
-        for Candidate { m, n, .. } in found {
-            let Ok(cycle) = shoot(osc, state, u32::try_from(m).unwrap_or(u32::MAX), n) else {
-                continue;
-            };
-            if recurrence::captured(osc, &state, &cycle) {
-                return Some(Verdict::Periodic(cycle));
-            }
-            if cycle.stable() {
-                self.candidate = Some(cycle);
-                break;
-            }
-        }
-        None
     }
 
     /// Records a grazing contact `interval` after the last event; returns the verdict if it is decided.
@@ -252,7 +138,7 @@ impl Follow {
         self.since += interval;
         self.over = self.transient(osc);
         self.fading.rests();
-        (self.measure, self.spectrum, self.windows) = (None, None, 0);
+        self.record.unmeasured();
     }
 
     /// Records a release; returns the verdict if the motion after it returns to the same release. It is computed
@@ -266,7 +152,7 @@ impl Follow {
     ) -> Option<Verdict> {
         self.since += interval;
         let now = self.count();
-        self.forgotten = now;
+        self.record.forgotten = now;
         let first = &mut self.released[usize::from(side == Side::Lower)];
         let again = first.map(|then| now - then);
         first.get_or_insert(now);
@@ -275,18 +161,15 @@ impl Follow {
 
     /// The verdict when the budget is used up, after a last search for a recurrence.
     pub(crate) fn last_look(&mut self, osc: &Oscillator, options: &SettleOptions) -> Verdict {
-        let shown = self.impacts.last().copied().and_then(|(state, _)| self.look(osc, options, state));
-        shown.unwrap_or_else(|| {
-            let measured = self.measure.as_ref().and_then(|measure| measure.chaos(osc)).map(|(spectrum, _)| spectrum);
-            let impacts = self.count() as u64;
-            Verdict::Undecided(Undecided::Impacts { impacts, spectrum: measured.or(self.spectrum) })
-        })
+        let last = self.record.returns.last().map(|(state, _)| *state);
+        match last.and_then(|state| self.record.look(osc, options, &state)) {
+            Some(cycle) => Verdict::Periodic(cycle),
+            None => {
+                let impacts = self.count() as u64;
+                Verdict::Undecided(Undecided::Impacts { impacts, spectrum: self.record.latest(osc) })
+            }
+        }
     }
-}
-
-/// The length of the measurement `k` for chaos.
-fn window(options: &SettleOptions, k: usize) -> u32 {
-    options.chaos_over.saturating_mul(WINDOWS[k.min(WINDOWS.len() - 1)])
 }
 
 /// The verdict on a motion that has ended.

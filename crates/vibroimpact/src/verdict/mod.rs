@@ -5,6 +5,7 @@
 //! | the label m/n | [`Label`] |
 //! | the possible verdicts | [`Verdict`] |
 //! | from a start to a verdict | [`settle`], `follow` |
+//! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence` |
 //! | many starts side by side | [`settle_many`] |
 //! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
 //! | ever gentler impacts: the limit without impacts | [`graze_limit`] |
@@ -18,6 +19,7 @@ mod many;
 mod options;
 mod outcome;
 mod paper_rule;
+mod record;
 mod recurrence;
 mod settle;
 mod trapping_region;

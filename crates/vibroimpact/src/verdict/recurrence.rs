@@ -1,37 +1,38 @@
 //! Recurrence of impacts, which suggests a period, and the test whether a motion is captured by a cycle.
 
+use super::record::{Diverging, Recurring};
+use crate::lyapunov::{Measure, Spectrum};
 use crate::motion::ImpactState;
-use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits};
+use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits, shoot};
 use crate::system::Oscillator;
 use core::f64::consts::TAU;
 
 /// A period suggested by the latest impacts.
 pub(super) struct Candidate {
-    /// Number of impacts.
+    /// Number of returns.
     pub(super) m: usize,
     /// Number of forcing periods.
     pub(super) n: u32,
-    /// Whether the last impacts equal the earlier ones up to the small remainder of a transient.
+    /// Whether the last returns equal the earlier ones up to the small remainder of a transient.
     pub(super) close: bool,
 }
 
-/// The numbers of impacts after which the last impacts resemble earlier ones, smallest first. `impacts` holds the
-/// states and the time since the impact before; at most `longest` impacts are compared. A chance resemblance is more
-/// likely for a larger number m, so the tolerance is proportional to 1/m.
-pub(super) fn candidates(
-    osc: &Oscillator,
-    impacts: &[(ImpactState, f64)],
+/// The numbers of returns after which the last ones resemble earlier ones, smallest first. `returns` holds the states and
+/// the time since the return before; at most `longest` of them are compared. A chance resemblance is more likely for a larger number m, so the tolerance is proportional to 1/m.
+pub(super) fn candidates<R: Recurring>(
+    system: &R,
+    returns: &[(R::Return, f64)],
     longest: usize,
     tolerance: f64,
 ) -> impl Iterator<Item = Candidate> {
-    let j = impacts.len() - 1;
+    let j = returns.len() - 1;
     let mut time = 0.0;
-    let beta = osc.beta();
     (1..=longest.min(j / 2)).filter_map(move |m| {
-        time += impacts[j + 1 - m].1;
+        time += returns[j + 1 - m].1;
         #[allow(clippy::cast_precision_loss)] // a small count
-        let close = |k: usize, tolerance: f64| cycle_distance(&impacts[k].0, &impacts[k - m].0) * m as f64 <= tolerance;
-        let periods = (beta * time / TAU).round();
+        let close =
+            |k: usize, tolerance: f64| system.distance(&returns[k].0, &returns[k - m].0) * m as f64 <= tolerance;
+        let periods = system.periods(time).round();
         // the phases agree, so the time is close to a whole number of periods
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
         (close(j, tolerance) && close(j - 1, tolerance) && (1.0..1e6).contains(&periods)).then(|| Candidate {
@@ -78,3 +79,57 @@ const CLOSE: f64 = 1e-8;
 const NEAR: f64 = 1e-3;
 /// The distance below which the two differ only by rounding errors.
 const AT_ROUNDING: f64 = 1e-10;
+
+impl Recurring for Oscillator {
+    type Return = ImpactState;
+    type Cycle = Cycle;
+    type Measure = Measure;
+    type Spectrum = Spectrum;
+
+    fn distance(&self, a: &ImpactState, b: &ImpactState) -> f64 {
+        cycle_distance(a, b)
+    }
+
+    fn periods(&self, time: f64) -> f64 {
+        self.beta() * time / TAU
+    }
+
+    fn cycle(&self, last: &ImpactState, m: u32, n: u32) -> Option<Cycle> {
+        shoot(self, *last, m, n).ok()
+    }
+
+    fn stable(cycle: &Cycle) -> bool {
+        cycle.stable()
+    }
+
+    fn captured(&self, last: &ImpactState, cycle: &Cycle) -> bool {
+        captured(self, last, cycle)
+    }
+
+    fn measure(&self, from: &ImpactState, over: u32) -> Measure {
+        Measure::new(*from, over)
+    }
+
+    fn add(&self, measure: &mut Measure, next: &ImpactState, interval: f64) -> bool {
+        measure.impact(self, *next, interval);
+        measure.complete()
+    }
+
+    fn left(measure: &Measure) -> u32 {
+        measure.left()
+    }
+
+    fn chaos(&self, measure: &Measure) -> Option<(Spectrum, bool)> {
+        measure.chaos(self)
+    }
+}
+
+impl Diverging for Spectrum {
+    fn diverges(&self) -> bool {
+        self.diverges()
+    }
+
+    fn chaotic(&self) -> bool {
+        self.chaotic()
+    }
+}

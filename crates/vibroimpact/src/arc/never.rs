@@ -1,0 +1,100 @@
+//! Whether a flight ends at all.
+//!
+//! After a time each mode consists of its steady response, which is known, and of a transient whose energy
+//! $`\dot y^2 + ky^2`$ does not grow. So each guard lies above its steady part less bounds of the transients. If this is
+//! positive for every guard, there is no event for ever. A mode without stiffness drifts; its drift must not close a guard.
+
+use super::flight::{MachineFlight, Modes};
+
+impl MachineFlight {
+    /// Whether no guard becomes zero after the time `s`, for ever. `false` if this is not proven.
+    pub(crate) fn never_after(&self, s: f64, modes: &mut Modes) -> bool {
+        if self.structure.dense.is_some() {
+            return false;
+        }
+        self.at(s, modes);
+        let rates = &self.structure.rates;
+        let steady: Option<Vec<Steady>> = (0..self.v.len()).map(|i| self.steady(i, modes)).collect();
+        let Some(steady) = steady else { return false };
+        (0..self.guards.len()).all(|g| {
+            let (function, start) = (&self.structure.guards[g].function, &self.guards[g]);
+            if function.signal.ramp != 0.0 {
+                return false;
+            }
+            let mut constant = start.value;
+            let mut size = start.size;
+            let (mut drift, mut transient) = (0.0, 0.0);
+            let mut waves = start.harmonics.clone();
+            for (a, _) in &start.harmonics {
+                constant -= a;
+            }
+            for (i, of) in steady.iter().enumerate() {
+                let (alpha, beta) = (function.position[i], function.velocity[i]);
+                constant += alpha * of.middle - beta * self.v[i];
+                size += (alpha * of.middle).abs() + (beta * self.v[i]).abs();
+                drift += alpha * of.drift;
+                constant += beta * of.drift;
+                transient += (alpha * of.swing).abs() + (beta * of.speed).abs();
+                for ((wave, (a, b)), w) in waves.iter_mut().zip(&of.waves).zip(rates) {
+                    wave.0 += alpha * a + beta * w * b;
+                    wave.1 += alpha * b - beta * w * a;
+                }
+            }
+            let swing: f64 = waves.iter().map(|(a, b)| (a * a + b * b).sqrt()).sum();
+            let error = 64.0 * f64::EPSILON * (size + swing + transient);
+            // nothing changes: a contact that is only touched
+            let constant_for_ever = swing + transient + drift.abs() <= error && constant >= -error;
+            drift >= 0.0 && constant - swing - transient > error || constant_for_ever
+        })
+    }
+
+    /// The steady response of a mode and the bounds of its transient at the time of `modes`; `None` if it grows.
+    fn steady(&self, i: usize, modes: &Modes) -> Option<Steady> {
+        let mode = &self.structure.modes[i];
+        let push = self.drive.steady[i];
+        if self.drive.ramp[i] != 0.0 || mode.k == 0.0 && push != 0.0 {
+            return None;
+        }
+        let mut middle = if mode.k > 0.0 { push / mode.k } else { 0.0 };
+        let (mut y, mut v) = (modes.moved[i] - middle, modes.v[i]);
+        let mut waves = Vec::with_capacity(self.structure.rates.len());
+        for (((a, b), w), turned) in self.drive.of(i).iter().zip(&self.structure.rates).zip(&modes.turned) {
+            let (re, im) = (mode.k - w * w, 2.0 * mode.d * w);
+            let norm = re * re + im * im;
+            if *a == 0.0 && *b == 0.0 {
+                waves.push((0.0, 0.0));
+                continue;
+            }
+            if norm <= 1e-20 * (mode.k + w * w) * (mode.k + w * w) {
+                return None; // resonance without damping
+            }
+            // (a - ib) / (re + i im) = (c - is)
+            let (c, d) = ((a * re - b * im) / norm, (b * re + a * im) / norm);
+            y -= c * turned.cos + d * turned.sin;
+            v -= w * (d * turned.cos - c * turned.sin);
+            waves.push((c, d));
+        }
+        let mut drift = 0.0;
+        let (swing, speed) = if mode.k > 0.0 {
+            let energy = (v * v + mode.k * y * y).sqrt();
+            (energy / mode.omega, energy)
+        } else if mode.d > 0.0 {
+            // it comes to rest within this distance
+            middle = y;
+            (v.abs() / (2.0 * mode.d), v.abs())
+        } else {
+            (middle, drift) = (y - v * modes.s, v);
+            (0.0, 0.0)
+        };
+        Some(Steady { middle, waves, swing, speed, drift })
+    }
+}
+
+/// The steady response of a mode, and bounds of what remains of its transient: of the displacement and the velocity.
+struct Steady {
+    middle: f64,
+    waves: Vec<(f64, f64)>,
+    swing: f64,
+    speed: f64,
+    drift: f64,
+}

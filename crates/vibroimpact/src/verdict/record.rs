@@ -1,0 +1,241 @@
+//! The record of the latest returns of a motion to its stops, and the decisions that follow from them alone: a
+//! recurrence suggests a period, Newton's method confirms a cycle, and a measurement of the Lyapunov exponents decides
+//! chaos. It is the same for the oscillator, whose returns are impacts, and for machines, whose returns are events.
+
+use super::options::SettleOptions;
+use super::recurrence::{Candidate, candidates};
+
+/// A system whose motions are recorded.
+pub(crate) trait Recurring {
+    /// A return.
+    type Return: Clone;
+    /// A confirmed cycle.
+    type Cycle: Clone;
+    /// A measurement of the Lyapunov exponents in progress.
+    type Measure: Clone;
+    /// The exponents.
+    type Spectrum: Clone + Diverging;
+
+    /// The distance of two returns, relative to the motion; infinite if they are of different kinds.
+    fn distance(&self, a: &Self::Return, b: &Self::Return) -> f64;
+    /// The number of forcing periods in a time.
+    fn periods(&self, time: f64) -> f64;
+    /// The cycle near a return that takes `m` returns and `n` forcing periods.
+    fn cycle(&self, last: &Self::Return, m: u32, n: u32) -> Option<Self::Cycle>;
+    /// Whether a cycle attracts its neighbourhood.
+    fn stable(cycle: &Self::Cycle) -> bool;
+    /// Whether the motion is captured by this stable cycle: it is near, and follows its linear law.
+    fn captured(&self, last: &Self::Return, cycle: &Self::Cycle) -> bool;
+    /// A measurement from a return on, over this number of further ones.
+    fn measure(&self, from: &Self::Return, over: u32) -> Self::Measure;
+    /// Adds the next return, `interval` after the last one; whether the measurement is complete.
+    fn add(&self, measure: &mut Self::Measure, next: &Self::Return, interval: f64) -> bool;
+    /// The number of returns that are still missing.
+    fn left(measure: &Self::Measure) -> u32;
+    /// The exponents so far, and whether they show chaos.
+    fn chaos(&self, measure: &Self::Measure) -> Option<(Self::Spectrum, bool)>;
+}
+
+/// Exponents that tell whether neighbours separate.
+pub(crate) trait Diverging {
+    /// Whether the largest exponent exceeds its error bar.
+    fn diverges(&self) -> bool;
+    /// Whether neighbours separate, over the whole run, by more than on the way from one cycle to another.
+    fn chaotic(&self) -> bool;
+}
+
+/// The record of a motion.
+#[derive(Clone, Debug)]
+pub(crate) struct Record<R: Recurring> {
+    /// The latest returns, and the time between each and the one before.
+    pub(super) returns: Vec<(R::Return, f64)>,
+    /// The number of returns before those.
+    earlier: usize,
+    /// The number of returns before the motion last forgot its past.
+    pub(super) forgotten: usize,
+    candidate: Option<R::Cycle>,
+    next_look: usize,
+    /// The current measurement for chaos. It is boxed, because most motions settle before it begins and a reset writes
+    /// all fields.
+    measure: Option<Box<R::Measure>>,
+    /// The number of measurements completed since then, and the exponents of the latest one.
+    windows: usize,
+    spectrum: Option<R::Spectrum>,
+}
+
+impl<R: Recurring> Default for Record<R> {
+    fn default() -> Self {
+        Self {
+            returns: Vec::new(),
+            earlier: 0,
+            forgotten: 0,
+            candidate: None,
+            next_look: 0,
+            measure: None,
+            windows: 0,
+            spectrum: None,
+        }
+    }
+}
+
+/// What a return decides.
+#[derive(Clone, Debug)]
+pub(crate) enum Shown<R: Recurring> {
+    /// The motion is captured by this cycle.
+    Cycle(R::Cycle),
+    /// It is chaotic.
+    Chaos(R::Spectrum),
+}
+
+/// The lengths of successive measurements for chaos, in units of [`SettleOptions::chaos_over`]; weak chaos needs a
+/// longer measurement. The last length is repeated.
+const WINDOWS: [u32; 3] = [1, 3, 8];
+/// The number of returns between searches for a recurrence at the beginning. Later it is an eighth of the number of
+/// returns, so that the searches take little time in a long chaotic motion.
+pub(super) const LOOK: usize = 16;
+/// The least number of returns that are kept.
+const KEPT: usize = 1024;
+/// The number of candidates for the period that are tried in each search.
+const TRIES: usize = 3;
+
+impl<R: Recurring> Record<R> {
+    /// Resets the record for another motion.
+    pub(super) fn reset(&mut self) {
+        let returns = core::mem::take(&mut self.returns);
+        *self = Self { returns, ..Self::default() };
+        self.returns.clear();
+    }
+
+    /// The number of returns so far.
+    pub(crate) fn count(&self) -> usize {
+        self.earlier + self.returns.len()
+    }
+
+    /// Whether a measurement goes on that began because the one before diverged too little for a decision.
+    pub(super) fn undecided_measurement(&self) -> bool {
+        self.windows + 1 == WINDOWS.len()
+            && self.measure.is_some()
+            && self.spectrum.as_ref().is_some_and(Diverging::diverges)
+    }
+
+    /// The number of returns after which a decision other than a cycle is possible next: chaos, or the end of the
+    /// budget.
+    pub(super) fn undisturbed(&self, options: &SettleOptions) -> usize {
+        let end = options.max_impacts as usize;
+        let measured = match &self.measure {
+            Some(measure) => self.count() + R::left(measure) as usize,
+            None if options.chaos_over == 0 => end,
+            None => self.forgotten + (options.chaos_after + window(options, self.windows)) as usize,
+        };
+        end.min(measured)
+    }
+
+    /// Keeps a return `since` after the one before.
+    pub(super) fn push(&mut self, options: &SettleOptions, state: R::Return, since: f64) {
+        if self.returns.len() >= KEPT.max(4 * options.longest as usize) {
+            // recurrences are searched for among the remaining returns
+            let gone = self.returns.len() - 2 * options.longest as usize - 2;
+            self.returns.drain(..gone);
+            self.earlier += gone;
+        }
+        self.returns.push((state, since));
+    }
+
+    /// What the last return decides.
+    pub(super) fn decide(&mut self, system: &R, options: &SettleOptions) -> Option<Shown<R>> {
+        let (state, since) = self.returns.last()?.clone();
+        let complete = self.measured(system, options, &state, since);
+        if complete || self.count() >= self.next_look.max(LOOK) {
+            let shown = self.look(system, options, &state);
+            if shown.is_some() || !complete {
+                return shown.map(Shown::Cycle);
+            }
+        }
+        if complete { self.judged(system, options, &state).map(Shown::Chaos) } else { None }
+    }
+
+    /// Continues or begins the measurement for chaos at this return; returns whether it is complete.
+    fn measured(&mut self, system: &R, options: &SettleOptions, state: &R::Return, since: f64) -> bool {
+        match &mut self.measure {
+            Some(measure) => system.add(measure, state, since),
+            None => {
+                if options.chaos_over > 0 && self.count() - self.forgotten >= options.chaos_after as usize {
+                    self.measure = Some(Box::new(system.measure(state, window(options, self.windows))));
+                }
+                false
+            }
+        }
+    }
+
+    /// Decides chaos from a complete measurement, or begins the next measurement.
+    fn judged(&mut self, system: &R, options: &SettleOptions, state: &R::Return) -> Option<R::Spectrum> {
+        let (spectrum, chaotic) = system.chaos(&*self.measure.take()?).unzip();
+        self.windows += 1;
+        self.spectrum.clone_from(&spectrum);
+        let chaos = spectrum.filter(|_| chaotic == Some(true));
+        if chaos.is_none() {
+            self.measure = Some(Box::new(system.measure(state, window(options, self.windows))));
+        }
+        chaos
+    }
+
+    /// The exponents of the measurement in progress.
+    pub(super) fn so_far(&self, system: &R) -> Option<R::Spectrum> {
+        self.measure.as_ref().and_then(|measure| system.chaos(measure)).map(|(spectrum, _)| spectrum)
+    }
+
+    /// The exponents of the measurement in progress, or else of the last one.
+    pub(super) fn latest(&self, system: &R) -> Option<R::Spectrum> {
+        self.so_far(system).or_else(|| self.spectrum.clone())
+    }
+
+    /// Exponents of the measurement in progress or of the last one that show chaos.
+    pub(super) fn was_chaotic(&self, system: &R) -> Option<R::Spectrum> {
+        self.so_far(system).into_iter().chain(self.spectrum.clone()).find(Diverging::chaotic)
+    }
+
+    /// Forgets all measurements.
+    pub(super) fn unmeasured(&mut self) {
+        (self.measure, self.spectrum, self.windows) = (None, None, 0);
+    }
+
+    /// Searches for a recurrence, and confirms the cycle by Newton's method and the test whether it captures the
+    /// motion.
+    pub(super) fn look(&mut self, system: &R, options: &SettleOptions, state: &R::Return) -> Option<R::Cycle> {
+        let count = self.count();
+        self.next_look = count + LOOK.max(count / 8);
+        if let Some(cycle) = &self.candidate
+            && system.captured(state, cycle)
+        {
+            return self.candidate.take();
+        }
+        let mut tried = 0;
+        // a long cycle also resembles itself after fewer returns, as after several period doublings; when close it is
+        // always tried
+        let found: Vec<Candidate> = candidates(system, &self.returns, options.longest as usize, options.recurrence)
+            .filter(|candidate| {
+                tried += 1;
+                tried <= TRIES || candidate.close
+            })
+            .take(TRIES + 1)
+            .collect();
+        for Candidate { m, n, .. } in found {
+            let Some(cycle) = system.cycle(state, u32::try_from(m).unwrap_or(u32::MAX), n) else {
+                continue;
+            };
+            if system.captured(state, &cycle) {
+                return Some(cycle);
+            }
+            if R::stable(&cycle) {
+                self.candidate = Some(cycle);
+                break;
+            }
+        }
+        None
+    }
+}
+
+/// The length of the measurement `k` for chaos.
+fn window(options: &SettleOptions, k: usize) -> u32 {
+    options.chaos_over.saturating_mul(WINDOWS[k.min(WINDOWS.len() - 1)])
+}
