@@ -3,6 +3,9 @@
 //! After a time each mode consists of its steady response, which is known, and of a transient whose energy
 //! $`\dot y^2 + ky^2`$ does not grow. So each guard lies above its steady part less bounds of the transients. If this is
 //! positive for every guard, there is no event for ever. A mode without stiffness drifts; its drift must not close a guard.
+//!
+//! Without damping the transients do not decay. If all frequencies are commensurable, the flight repeats after their common
+//! period, so one such period without an event means that there is none for ever.
 
 use super::flight::{MachineFlight, Modes};
 
@@ -16,6 +19,9 @@ impl MachineFlight {
         let rates = &self.structure.rates;
         let steady: Option<Vec<Steady>> = (0..self.v.len()).map(|i| self.steady(i, modes)).collect();
         let Some(steady) = steady else { return false };
+        if self.repeats_after().is_some_and(|period| s >= period * (1.0 + 1e-9)) {
+            return true;
+        }
         (0..self.guards.len()).all(|g| {
             let (function, start) = (&self.structure.guards[g].function, &self.guards[g]);
             if function.signal.ramp != 0.0 {
@@ -46,6 +52,19 @@ impl MachineFlight {
             let constant_for_ever = swing + transient + drift.abs() <= error && constant >= -error;
             drift >= 0.0 && constant - swing - transient > error || constant_for_ever
         })
+    }
+
+    /// The time after which a flight without damping repeats.
+    fn repeats_after(&self) -> Option<f64> {
+        let modes = &self.structure.modes;
+        let first = modes.first()?.omega;
+        if modes.iter().any(|mode| mode.k == 0.0 || mode.d > 0.0) || self.drive.ramp.iter().any(|ramp| *ramp != 0.0) {
+            return None;
+        }
+        let of = |w: f64| w / first;
+        let rates = self.structure.rates.iter().copied().chain(modes.iter().map(|mode| mode.omega));
+        let periods = crate::system::common_period(rates.map(of))?;
+        Some(periods * core::f64::consts::TAU / first)
     }
 
     /// The steady response of a mode and the bounds of its transient at the time of `modes`; `None` if it grows.

@@ -33,7 +33,7 @@ mod exponents;
 mod run;
 mod section;
 
-pub use crate::lyapunov::{Measured, Spectrum, Tail, lyapunov, tangent};
+pub use crate::lyapunov::{MachineSpectrum, Measured, Spectrum, Tail, lyapunov, tangent};
 pub use exponents::{
     DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions, Exponents, Grounds, exponents, exponents_while,
 };

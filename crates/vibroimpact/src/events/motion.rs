@@ -454,8 +454,8 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// The motion from a state in which all stops and joints have their states already.
-    pub(crate) fn resumed(machine: &'a Machine, place: Place) -> Self {
-        Self::within(machine, Normal::new(machine), place)
+    pub(crate) fn resumed(machine: &'a Machine, normal: Normal, structures: Structures, place: Place) -> Self {
+        Self { structures, ..Self::within(machine, normal, place) }
     }
 
     fn within(machine: &'a Machine, normal: Normal, place: Place) -> Self {
@@ -475,6 +475,16 @@ impl<'a> MachineMotion<'a> {
             passage: None,
             recording: false,
         }
+    }
+
+    /// The events of the steps so far that have not been taken.
+    pub(crate) fn take_events(&mut self) -> Vec<MachineEvent> {
+        self.pending.drain(..).collect()
+    }
+
+    /// The structures of all regimes visited so far.
+    pub(crate) const fn structures(&self) -> &Structures {
+        &self.structures
     }
 
     /// Moves on for a time in the regime of `structure`, without a search for events.

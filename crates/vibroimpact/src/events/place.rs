@@ -29,6 +29,17 @@ impl Structures {
     }
 }
 
+impl Structures {
+    /// Takes over those of another motion.
+    pub(crate) fn join(&mut self, other: &Self) {
+        for (states, structure) in &other.0 {
+            if !self.0.contains_key(states) {
+                self.0.insert(states.clone(), structure.clone());
+            }
+        }
+    }
+}
+
 /// The state of a machine at one time.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {

@@ -44,6 +44,19 @@ impl StateShape {
         place.x.iter().chain(&place.v).copied().chain(backs).collect()
     }
 
+    /// The state with these components, in the same regime and at the same phase, between events.
+    pub(crate) fn with_values(&self, place: &Place, values: &[f64]) -> Place {
+        let mut other = Place { known: Vec::new(), ..place.clone() };
+        other.x.copy_from_slice(&values[..self.n]);
+        other.v.copy_from_slice(&values[self.n..2 * self.n]);
+        for (k, j) in self.surfaces.iter().enumerate() {
+            if let Some(surface) = &mut other.surfaces[*j] {
+                surface.size = values[2 * self.n + k];
+            }
+        }
+        other
+    }
+
     /// The derivative of the state a time `s` later in one regime by the state at `place`.
     pub(crate) fn transition(&self, structure: &Structure, normal: &Normal, place: &Place, s: f64) -> Matrix {
         let inner = structure.transition(normal, s);
@@ -227,7 +240,7 @@ mod tests {
             if now + passage.time() > until {
                 let left = until - now;
                 assert!(left <= passage.duration);
-                let mut end = MachineMotion::resumed(machine, begin.clone());
+                let mut end = MachineMotion::resumed(machine, normal.clone(), Structures::default(), begin.clone());
                 end.go(&passage.structure, left);
                 let last = shape.transition(&passage.structure, &normal, &begin, left);
                 return Some((shape.values(end.place()), last.times(&derivative), kinds));

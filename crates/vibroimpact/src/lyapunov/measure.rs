@@ -38,7 +38,7 @@ pub struct Spectrum {
 /// The logarithm of the largest stretch during a transient: from a distance of one rounding error, $`2^{-53}`$ (a
 /// factor $`e^{36.7}`$), to the size of the motion, and a margin. A motion that leaves an unstable cycle slowly
 /// diverges for that long, so steadily that its error bar is narrow.
-const TRANSIENT: f64 = 40.0;
+pub(super) const TRANSIENT: f64 = 40.0;
 
 impl Spectrum {
     /// Whether neighbours separate: the larger exponent exceeds its error bar.
@@ -218,7 +218,7 @@ impl LogSum {
 }
 
 /// The time-weighted mean of the blocks, with three standard errors.
-fn mean(blocks: &[(f64, f64)]) -> Measured {
+pub(super) fn mean(blocks: &[(f64, f64)]) -> Measured {
     let total: f64 = blocks.iter().map(|(_, t)| t).sum();
     let value = blocks.iter().map(|(x, t)| x * t).sum::<f64>() / total;
     #[allow(clippy::cast_precision_loss)] // a few dozen

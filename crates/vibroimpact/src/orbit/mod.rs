@@ -13,6 +13,7 @@
 //! | whether a solution is admissible, and its distance from a stop | [`earlier_contact`], `clearance` |
 //! | whether the speed of an impact is zero to within rounding | `grazing` |
 //! | the steady motion without impacts | [`without_impacts`] |
+//! | periodic motions of machines | `of_machine` |
 //! | all orbits with a label, from many starting guesses | [`find`] |
 
 mod clearance;
@@ -25,6 +26,7 @@ mod free;
 mod grazing;
 mod label;
 mod newton;
+mod of_machine;
 mod one_impact;
 mod physical;
 mod refine;
@@ -37,6 +39,8 @@ pub(crate) use find::struck;
 pub use find::{FindOptions, find, find_while};
 pub use free::without_impacts;
 pub use label::{Count, Label, LabelError};
+pub use of_machine::MachineCycle;
+pub(crate) use of_machine::{MachineFrame, MachineLap, machine_distance};
 pub use one_impact::{OneImpact, one_impact};
 pub use physical::{EarlierContact, Orbit, earlier_contact};
 pub use refine::refine;

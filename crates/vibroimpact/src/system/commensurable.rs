@@ -40,6 +40,24 @@ impl Oscillator {
     }
 }
 
+/// The common period, in periods of the first, of motions whose frequencies have these ratios to it; `None` if one is not
+/// a fraction by the rule above, or if the period is longer than a million.
+pub(crate) fn common_period(mut ratios: impl Iterator<Item = f64>) -> Option<f64> {
+    let common = |a: u64, b: u64| {
+        let (mut x, mut y) = (a, b);
+        while y > 0 {
+            (x, y) = (y, x % y);
+        }
+        a / x * b
+    };
+    let whole = ratios.try_fold(1, |so_far, ratio| {
+        let (_, q) = fraction(ratio)?;
+        Some(common(so_far, u64::from(q))).filter(|period| *period <= 1_000_000)
+    })?;
+    #[allow(clippy::cast_precision_loss)] // at most a million
+    Some(whole as f64)
+}
+
 /// The first convergent of the continued fraction of `beta` that equals it to within two units in the last place.
 fn fraction(beta: f64) -> Option<(u32, u32)> {
     // convergents of the continued fraction

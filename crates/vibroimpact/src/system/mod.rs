@@ -29,6 +29,7 @@ mod response;
 mod start;
 mod units;
 
+pub(crate) use commensurable::common_period;
 pub use error::SystemError;
 pub use excitation::{Amplitude, EquivalentOscillator, Excitation, Shaking};
 pub(crate) use free::{FreeResponse, HEAVY, decay, versine};

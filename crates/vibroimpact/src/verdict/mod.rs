@@ -6,6 +6,7 @@
 //! | the possible verdicts | [`Verdict`] |
 //! | from a start to a verdict | [`settle`], `follow` |
 //! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence` |
+//! | the same for machines | `of_machine` |
 //! | many starts side by side | [`settle_many`] |
 //! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
 //! | ever gentler impacts: the limit without impacts | [`graze_limit`] |
@@ -16,6 +17,7 @@ mod attractors;
 mod follow;
 pub mod graze_limit;
 mod many;
+mod of_machine;
 mod options;
 mod outcome;
 mod paper_rule;
@@ -28,6 +30,7 @@ pub use crate::orbit::{Count, Label, LabelError};
 pub use attractors::{Census, CountedMotion, StartBox, attractors, scattered_starts};
 pub(crate) use follow::{Follow, Releases, ended};
 pub use many::{KnownAttractors, Settlement, settle_many};
+pub use of_machine::{MachineSettled, MachineUndecided, MachineVerdict, settle_machine, settle_machine_while};
 pub use options::SettleOptions;
 pub use outcome::{Chaos, NoImpact, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};

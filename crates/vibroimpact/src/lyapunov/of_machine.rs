@@ -1,0 +1,162 @@
+//! Lyapunov exponents along the motion of a machine.
+//!
+//! A frame of $`2n`$ orthonormal tangent vectors is moved by the derivative of each step and made orthonormal again; the
+//! mean logarithms of the lengths are the exponents (G. Benettin, L. Galgani, A. Giorgilli and J.-M. Strelcyn, Meccanica
+//! 15 (1980) 9-20, doi:10.1007/BF02128236). The error bar is three standard errors of the mean of 25 blocks.
+
+use super::measure::{LogSum, mean};
+use super::{Measured, TRANSIENT};
+use crate::math::{Matrix, Sum, add_scaled, dot};
+
+/// The Lyapunov exponents of a motion of a machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineSpectrum {
+    /// All $`2n`$ exponents per unit of time, the largest first. Minus infinity where neighbouring motions become the same.
+    pub exponents: Vec<Measured>,
+    /// Closings of stops per unit of time.
+    pub closings: Measured,
+    /// The time of the run.
+    pub time: f64,
+}
+
+impl MachineSpectrum {
+    /// Whether neighbours separate: the largest exponent exceeds its error bar.
+    #[must_use]
+    pub fn diverges(&self) -> bool {
+        self.exponents.first().is_some_and(|first| first.value > first.error)
+    }
+
+    /// Whether neighbours separate, over the whole run, by more than is possible on the way from an unstable cycle to a
+    /// stable one.
+    #[must_use]
+    pub fn chaotic(&self) -> bool {
+        self.diverges() && self.exponents.first().is_some_and(|first| first.value * self.time > TRANSIENT)
+    }
+}
+
+/// The number of blocks of the run, and the smallest number from which a standard error is computed.
+const BLOCKS: usize = 25;
+const FEWEST: usize = 5;
+
+/// A measurement in progress; steps are added one by one.
+#[derive(Clone, Debug)]
+pub(crate) struct MachineMeasure {
+    /// Orthonormal tangent vectors.
+    frame: Vec<Vec<f64>>,
+    logs: Vec<LogSum>,
+    per_block: u32,
+    count: u32,
+    closings: f64,
+    time: Sum,
+    /// For each block: the sums of the logarithms and of the closings, and the time.
+    blocks: Vec<(Vec<f64>, f64, f64)>,
+}
+
+impl MachineMeasure {
+    /// A measurement over this number of steps, of `exponents` exponents in a state of `size` components.
+    pub(crate) fn new(size: usize, exponents: usize, steps: u32) -> Self {
+        let unit = |k: usize| (0..size).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
+        Self {
+            frame: (0..exponents).map(unit).collect(),
+            logs: vec![LogSum::default(); exponents],
+            per_block: (steps / 25).max(1),
+            count: 0,
+            closings: 0.0,
+            time: Sum::default(),
+            blocks: Vec::new(),
+        }
+    }
+
+    /// The number of steps that are still missing.
+    pub(crate) fn left(&self) -> u32 {
+        let blocks = u32::try_from(BLOCKS.saturating_sub(self.blocks.len())).unwrap_or(0);
+        (blocks * self.per_block).saturating_sub(self.count)
+    }
+
+    /// Whether all steps have been added.
+    pub(crate) fn complete(&self) -> bool {
+        self.blocks.len() >= BLOCKS
+    }
+
+    /// Adds a step with this derivative, time and number of closings.
+    pub(crate) fn add(&mut self, derivative: &Matrix, time: f64, closings: f64) {
+        for k in 0..self.frame.len() {
+            let mut moved = derivative.apply(&self.frame[k]);
+            let before = dot(&moved, &moved).sqrt();
+            let length = self.orthonormal(k, &mut moved);
+            // what rounding leaves of a vector that lies in the span of those before is nothing
+            let length = if length > 1e-13 * before { length } else { 0.0 };
+            self.logs[k].multiply(length);
+            if length == 0.0 {
+                self.replace(k, &mut moved);
+            }
+            self.frame[k] = moved;
+        }
+        self.time.add(time);
+        self.closings += closings;
+        self.count += 1;
+        if self.count == self.per_block {
+            let logs = core::mem::replace(&mut self.logs, vec![LogSum::default(); self.frame.len()]);
+            let sums = logs.into_iter().map(LogSum::value).collect();
+            self.blocks.push((sums, self.closings, self.time.value()));
+            (self.count, self.closings, self.time) = (0, 0.0, Sum::default());
+        }
+    }
+
+    /// Makes a vector orthogonal to the first `k` of the frame and of length 1; returns its length before.
+    fn orthonormal(&self, k: usize, vector: &mut [f64]) -> f64 {
+        // twice, because once leaves rounding errors of the original length
+        for _ in 0..2 {
+            for other in &self.frame[..k] {
+                add_scaled(vector, -dot(other, vector), other);
+            }
+        }
+        let length = dot(vector, vector).sqrt();
+        if length > 0.0 {
+            vector.iter_mut().for_each(|x| *x /= length);
+        }
+        length
+    }
+
+    /// Any direction that is orthogonal to the first `k`.
+    fn replace(&self, k: usize, vector: &mut Vec<f64>) {
+        let size = vector.len();
+        let mut best = (0.0, Vec::new());
+        for i in 0..size {
+            let mut unit = vec![0.0; size];
+            unit[i] = 1.0;
+            let length = self.orthonormal(k, &mut unit);
+            if length > best.0 {
+                best = (length, unit);
+            }
+        }
+        *vector = best.1;
+    }
+
+    /// The exponents of all complete blocks; `None` if there are too few.
+    pub(crate) fn spectrum(&self) -> Option<MachineSpectrum> {
+        if self.blocks.len() < FEWEST {
+            return None;
+        }
+        let of = |value: &dyn Fn(&(Vec<f64>, f64, f64)) -> f64| {
+            let values: Vec<(f64, f64)> = self.blocks.iter().map(|block| (value(block) / block.2, block.2)).collect();
+            if values.iter().any(|(value, _)| !value.is_finite()) {
+                return Measured { value: values.iter().fold(f64::INFINITY, |least, (v, _)| least.min(*v)), error: 0.0 };
+            }
+            mean(&values)
+        };
+        let mut exponents: Vec<Measured> = (0..self.frame.len()).map(|k| of(&|block| block.0[k])).collect();
+        exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
+        let time = self.blocks.iter().map(|block| block.2).sum();
+        Some(MachineSpectrum { exponents, closings: of(&|block| block.1), time })
+    }
+
+    /// The exponents, and whether the motion is chaotic by this measurement: it is by the whole, and its last fifth
+    /// diverges too.
+    pub(crate) fn chaos(&self) -> Option<(MachineSpectrum, bool)> {
+        let spectrum = self.spectrum()?;
+        let last: f64 = self.blocks.iter().rev().take(FEWEST).map(|block| block.0.first().copied().unwrap_or(0.0)).sum();
+        let chaotic = spectrum.chaotic() && last > 0.0;
+        Some((spectrum, chaotic))
+    }
+}

@@ -1,0 +1,216 @@
+//! A periodic motion of a machine.
+
+use super::frame::MachineFrame;
+use super::lap::MachineLap;
+use crate::events::{MachineEvent, MachineEventKind, MachineStart, Place};
+use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
+use crate::orbit::{Count, Label};
+use crate::system::phase;
+
+/// A periodic motion of a machine over its smallest period.
+#[derive(Clone, Debug)]
+pub struct MachineCycle {
+    /// The label m/n: m closings of stops (impacts, and beginnings of compliant contact) in n forcing periods; `inf/n` with
+    /// a complete chatter.
+    pub label: Label,
+    /// The closings of each stop.
+    pub counts: Vec<u32>,
+    /// Its events in order, beginning with the fastest closing. Times are counted from the first event.
+    pub events: Vec<MachineEvent>,
+    /// The time of one period.
+    pub period: f64,
+    /// Floquet multipliers, as many as the machine has states, the largest first.
+    pub multipliers: Vec<Multiplier>,
+    /// The largest difference of a coordinate or velocity after one period, relative to the largest ones.
+    pub residual: f64,
+    /// A state of the cycle between two events.
+    pub state: MachineStart,
+    /// The states at the phase of `state`, one for each forcing period.
+    pub(crate) strobes: Vec<Place>,
+    /// The largest sizes of coordinates and velocities.
+    pub(crate) sizes: (f64, f64),
+}
+
+/// The largest number of steps of Newton's method; from a good guess four or five are needed.
+const MAX_STEPS: u32 = 30;
+/// After this number of steps the iteration is ended if the residual exceeds [`HOPELESS`].
+const PATIENCE: u32 = 8;
+const HOPELESS: f64 = 1e-2;
+/// A residual up to this is accepted; the rounding error is usually 1e-14.
+const CLOSED: f64 = 1e-10;
+/// States that differ by less, relative to the motion, are the same.
+const SAME: f64 = 1e-8;
+
+impl MachineCycle {
+    /// Whether the cycle attracts its neighbourhood: all multipliers lie inside the unit circle.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.multipliers.iter().all(|multiplier| multiplier.modulus() < 1.0)
+    }
+
+    /// Whether `other` is the same motion: the same events in the same cyclic order, with phases and states equal to
+    /// within `tolerance` of the size of the motion.
+    #[must_use]
+    pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
+        let (a, b) = (&self.events, &other.events);
+        if self.label != other.label || self.counts != other.counts {
+            return false;
+        }
+        if a.len() != b.len() || a.is_empty() {
+            let apart = |one: &Place, two: &Place| distance(one, two, self.sizes);
+            let nearest = |one: &Place| other.strobes.iter().any(|two| apart(one, two) <= tolerance);
+            return a.len() == b.len() && self.strobes.iter().any(nearest);
+        }
+        let near = |x: f64, y: f64, size: f64| (x - y).abs() <= tolerance * size.max(f64::MIN_POSITIVE);
+        let (_, speed) = self.sizes;
+        let size = self.events.iter().flat_map(|event| &event.q).fold(0.0_f64, |most, q| most.max(q.abs()));
+        let rate = self.events.iter().flat_map(|event| &event.qdot).fold(speed, |most, v| most.max(v.abs()));
+        let close = |p: &MachineEvent, q: &MachineEvent| {
+            p.kind == q.kind
+                && p.place == q.place
+                && phase::difference(p.phase, q.phase).abs() <= tolerance
+                && p.q.iter().zip(&q.q).all(|(x, y)| near(*x, *y, size))
+                && p.qdot.iter().zip(&q.qdot).all(|(x, y)| near(*x, *y, rate))
+        };
+        (0..a.len()).any(|shift| (0..a.len()).all(|k| close(&a[k], &b[(k + shift) % b.len()])))
+    }
+
+    /// The largest speed of a closing.
+    #[must_use]
+    pub fn fastest(&self) -> f64 {
+        self.events.iter().filter(|event| closes(event)).map(|event| event.speed).fold(0.0, f64::max)
+    }
+
+    /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events;
+    /// `None` if it does not converge, or without forcing.
+    pub(crate) fn near(frame: &MachineFrame<'_>, from: &Place, n: u32) -> Option<Self> {
+        let time = frame.machine.period()? * f64::from(n);
+        // begin in the middle of the longest flight, far from all events
+        let first = MachineLap::fly(frame, from, time)?;
+        let (_, place, passage) = first.steps.iter().max_by(|a, b| a.2.duration.total_cmp(&b.2.duration))?;
+        let mut begin = frame.moved(place, &passage.structure, 0.5 * passage.duration.min(time));
+        let mut best: Option<(f64, Place, MachineLap)> = None;
+        for step in 0..MAX_STEPS {
+            let lap = MachineLap::fly(frame, &begin, time)?;
+            if lap.end.states != begin.states {
+                return None;
+            }
+            let residual = distance(&begin, &lap.end, lap.sizes);
+            let (from, to) = (frame.shape.values(&begin), frame.shape.values(&lap.end));
+            let mut change: Vec<f64> = from.iter().zip(&to).map(|(from, to)| to - from).collect();
+            let derivative = lap.derivative.clone();
+            let improves = best.as_ref().is_none_or(|(so_far, ..)| residual < *so_far);
+            if improves {
+                best = Some((residual, begin.clone(), lap));
+            } else if best.as_ref().is_some_and(|(so_far, ..)| *so_far <= CLOSED) {
+                break;
+            }
+            if residual == 0.0 {
+                break;
+            }
+            if !residual.is_finite() || step >= PATIENCE && residual > HOPELESS {
+                return None;
+            }
+            // (I - J) change = end - begin
+            let mut system = Matrix::identity(from.len());
+            let derivative = derivative?;
+            for i in 0..from.len() {
+                for j in 0..from.len() {
+                    system[(i, j)] -= derivative[(i, j)];
+                }
+            }
+            Lu::new(system.values().to_vec(), from.len())?.solve(&mut change);
+            let next: Vec<f64> = from.iter().zip(&change).map(|(from, change)| from + change).collect();
+            begin = frame.shape.with_values(&begin, &next);
+        }
+        let (residual, begin, lap) = best?;
+        if residual > CLOSED {
+            return None;
+        }
+        Self::closed(frame, (&begin, n), lap, residual)
+    }
+
+    /// The cycle whose motion over `n` periods is `lap`, over its smallest period.
+    fn closed(frame: &MachineFrame<'_>, (begin, n): (&Place, u32), lap: MachineLap, residual: f64) -> Option<Self> {
+        let one = frame.machine.period()?;
+        let mut strobes = vec![begin.clone()];
+        for k in 1..n {
+            let last = strobes.last()?;
+            let next = MachineLap::fly(frame, last, one)?.end;
+            if n.is_multiple_of(k) && distance(begin, &next, lap.sizes) <= SAME {
+                let lap = MachineLap::fly(frame, begin, one * f64::from(k))?;
+                let residual = distance(begin, &lap.end, lap.sizes);
+                return Some(Self::of(frame, (begin, k), &lap, residual, strobes));
+            }
+            strobes.push(next);
+        }
+        Some(Self::of(frame, (begin, n), &lap, residual, strobes))
+    }
+
+    fn of(
+        frame: &MachineFrame<'_>,
+        (begin, n): (&Place, u32),
+        lap: &MachineLap,
+        residual: f64,
+        strobes: Vec<Place>,
+    ) -> Self {
+        let period = frame.machine.period().unwrap_or(f64::INFINITY) * f64::from(n);
+        let mut events = lap.events.clone();
+        let fastest = (0..events.len()).filter(|k| closes(&events[*k])).max_by(|a, b| {
+            events[*a].speed.total_cmp(&events[*b].speed).then(b.cmp(a))
+        });
+        let first = fastest.unwrap_or(0);
+        if let Some(zero) = events.get(first).map(|event| event.time) {
+            for (k, event) in events.iter_mut().enumerate() {
+                event.time += if k < first { period - zero } else { -zero };
+            }
+            events.rotate_left(first);
+        }
+        let counts: Vec<u32> = (0..frame.machine.stops().len())
+            .map(|j| {
+                let own = lap.events.iter().filter(|event| closes(event) && (event.place == j || event.with.contains(&j)));
+                u32::try_from(own.count()).unwrap_or(u32::MAX)
+            })
+            .collect();
+        let chatter = lap.steps.iter().any(|(_, _, passage)| passage.rest.is_some());
+        let impacts = if chatter { Count::Infinite } else { Count::Finite(counts.iter().sum()) };
+        let derivative = lap.derivative.as_ref();
+        let mut multipliers = derivative.and_then(general_eigenvalues).unwrap_or_else(|| {
+            vec![Multiplier { re: f64::INFINITY, im: 0.0 }; 2 * frame.shape.n]
+        });
+        multipliers.truncate(2 * frame.shape.n);
+        Self {
+            label: Label { impacts, periods: n },
+            counts,
+            events,
+            period,
+            multipliers,
+            residual,
+            state: MachineStart {
+                q: frame.normal.to_machine(&begin.x),
+                qdot: frame.normal.to_machine(&begin.v),
+                phase: begin.phase,
+            },
+            strobes,
+            sizes: lap.sizes,
+        }
+    }
+}
+
+/// Whether an event is the closing of a stop.
+fn closes(event: &MachineEvent) -> bool {
+    matches!(event.kind, MachineEventKind::Impact | MachineEventKind::Close)
+}
+
+/// The largest difference of two states, relative to the sizes of coordinates and velocities; infinite in different
+/// regimes.
+pub(crate) fn distance(a: &Place, b: &Place, (size, speed): (f64, f64)) -> f64 {
+    if a.states != b.states {
+        return f64::INFINITY;
+    }
+    let apart = |a: &[f64], b: &[f64], size: f64| {
+        let most = a.iter().zip(b).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        if most == 0.0 { 0.0 } else { most / size }
+    };
+    apart(&a.x, &b.x, size).max(apart(&a.v, &b.v, speed)).max(phase::difference(a.phase, b.phase).abs())
+}

@@ -1,0 +1,52 @@
+//! A machine together with what its motions need again and again: mass-normalised coordinates and the structures of its
+//! regimes.
+
+use crate::events::{MachineMotion, Place, StateShape, Structures};
+use crate::machine::Machine;
+use crate::regime::{Normal, Structure};
+use core::cell::RefCell;
+use std::sync::Arc;
+
+/// A machine and the structures of its regimes.
+#[derive(Clone, Debug)]
+pub(crate) struct MachineFrame<'a> {
+    pub(crate) machine: &'a Machine,
+    pub(crate) normal: Normal,
+    pub(crate) shape: StateShape,
+    structures: RefCell<Structures>,
+}
+
+impl<'a> MachineFrame<'a> {
+    pub(crate) fn new(machine: &'a Machine) -> Self {
+        let (normal, shape) = (Normal::new(machine), StateShape::of(machine));
+        Self { machine, normal, shape, structures: RefCell::default() }
+    }
+
+    /// The motion from a state.
+    pub(crate) fn resume(&self, place: Place) -> MachineMotion<'a> {
+        MachineMotion::resumed(self.machine, self.normal.clone(), self.structures.borrow().clone(), place)
+    }
+
+    /// Keeps the structures that a motion has built.
+    pub(crate) fn keep(&self, motion: &MachineMotion<'_>) {
+        self.structures.borrow_mut().join(motion.structures());
+    }
+
+    /// Does something with the structures.
+    pub(crate) fn with<T>(&self, of: impl FnOnce(&mut Structures) -> T) -> T {
+        of(&mut self.structures.borrow_mut())
+    }
+
+    /// The state a time `s` later in the regime of `structure`.
+    pub(crate) fn moved(&self, place: &Place, structure: &Arc<Structure>, s: f64) -> Place {
+        let mut motion = self.resume(place.clone());
+        motion.go(structure, s);
+        motion.place().clone()
+    }
+
+    /// The largest sizes of coordinates and velocities.
+    pub(crate) fn sizes(place: &Place) -> (f64, f64) {
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        (largest(&place.x), largest(&place.v))
+    }
+}

@@ -1,0 +1,71 @@
+//! The motion of a machine over a time, with its derivative by the state at the beginning.
+
+use super::frame::MachineFrame;
+use crate::events::{MachineEnd, MachineEvent, Passage, Place, step_derivative};
+use crate::math::Matrix;
+
+/// The motion over a time.
+#[derive(Clone, Debug)]
+pub(crate) struct MachineLap {
+    /// The state at the end.
+    pub(crate) end: Place,
+    /// The derivative of the state at the end by that at the beginning; `None` if a guard was only touched.
+    pub(crate) derivative: Option<Matrix>,
+    /// The steps, each with the state at its beginning and the time of that.
+    pub(crate) steps: Vec<(f64, Place, Passage)>,
+    /// The events, with times since the beginning.
+    pub(crate) events: Vec<MachineEvent>,
+    /// The largest sizes of coordinates and velocities.
+    pub(crate) sizes: (f64, f64),
+}
+
+/// The largest number of steps of a lap.
+const STEPS: usize = 100_000;
+
+impl MachineLap {
+    /// The motion from `begin` over a time. `None` if it ends before.
+    pub(crate) fn fly(frame: &MachineFrame<'_>, begin: &Place, time: f64) -> Option<Self> {
+        let mut motion = frame.resume(begin.clone());
+        let mut derivative = Some(Matrix::identity(frame.shape.size()));
+        let mut steps: Vec<(f64, Place, Passage)> = Vec::new();
+        let mut events = Vec::new();
+        let mut sizes = MachineFrame::sizes(begin);
+        let mut end = None;
+        while end.is_none() {
+            let (now, from) = (motion.time(), motion.place().clone());
+            let (x, v) = MachineFrame::sizes(&from);
+            sizes = (sizes.0.max(x), sizes.1.max(v));
+            let left = time - now;
+            let passage = motion.step()?;
+            let for_ever = matches!(motion.end(), Some(MachineEnd::Never | MachineEnd::Stuck));
+            let own = if left <= passage.duration || for_ever {
+                end = Some(frame.moved(&from, &passage.structure, left));
+                Some(frame.shape.transition(&passage.structure, &frame.normal, &from, left))
+            } else {
+                if steps.len() >= STEPS || motion.end().is_some() {
+                    return None;
+                }
+                events.extend(motion.take_events());
+                let mut shortened = passage.clone();
+                if let (Some((rest, whole)), Some(after)) = (&passage.rest, &passage.after)
+                    && left < passage.time()
+                {
+                    // the end lies in the chatter that was summed
+                    let part = whole + left - passage.time();
+                    end = Some(frame.moved(after, rest, part));
+                    shortened.rest = Some((rest.clone(), part));
+                }
+                frame.with(|structures| {
+                    step_derivative(&frame.shape, frame.machine, &frame.normal, structures, &from, &shortened)
+                })
+            };
+            derivative = derivative.zip(own).map(|(so_far, own)| own.times(&so_far));
+            steps.push((now, from, passage));
+        }
+        frame.keep(&motion);
+        let end = end?;
+        // what happens after the end does not belong to it
+        events.retain(|event: &MachineEvent| event.time <= time);
+        Some(Self { end, derivative, steps, events, sizes })
+    }
+}

@@ -1,0 +1,153 @@
+//! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
+
+use super::super::record::{Diverging, Recurring};
+use crate::events::{MachineEvent, MachineEventKind, Passage, Place, step_derivative};
+use crate::lyapunov::{MachineMeasure, MachineSpectrum};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap, machine_distance};
+use core::cell::Cell;
+use std::sync::Arc;
+
+/// A machine whose motion is recorded.
+#[derive(Clone, Debug)]
+pub(crate) struct Recorded<'a> {
+    pub(crate) frame: MachineFrame<'a>,
+    /// The largest coordinates and velocities of late; distances are relative to them.
+    pub(crate) sizes: Cell<(f64, f64)>,
+}
+
+/// One step of a motion: the state before it, what happened, the state after it.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    pub(crate) begin: Place,
+    pub(crate) passage: Passage,
+    pub(crate) end: Place,
+    /// The number of stops that closed.
+    pub(crate) closings: u32,
+}
+
+impl Step {
+    /// The number of closings among the events of a step.
+    pub(crate) fn closings(events: &[MachineEvent]) -> u32 {
+        let closes = |event: &&MachineEvent| matches!(event.kind, MachineEventKind::Impact | MachineEventKind::Close);
+        let struck = events.iter().filter(closes).count();
+        u32::try_from(struck).unwrap_or(u32::MAX)
+    }
+}
+
+impl<'a> Recorded<'a> {
+    pub(crate) fn new(frame: MachineFrame<'a>) -> Self {
+        Self { frame, sizes: Cell::new((0.0, 0.0)) }
+    }
+}
+
+impl Recurring for Recorded<'_> {
+    type Return = Arc<Step>;
+    type Cycle = MachineCycle;
+    type Measure = MachineMeasure;
+    type Spectrum = MachineSpectrum;
+
+    fn distance(&self, a: &Arc<Step>, b: &Arc<Step>) -> f64 {
+        if a.passage.guards != b.passage.guards || a.begin.states != b.begin.states {
+            return f64::INFINITY;
+        }
+        machine_distance(&a.end, &b.end, self.sizes.get())
+    }
+
+    fn periods(&self, time: f64) -> f64 {
+        self.frame.machine.period().map_or(f64::NAN, |period| time / period)
+    }
+
+    fn cycle(&self, last: &Arc<Step>, _: u32, n: u32) -> Option<MachineCycle> {
+        MachineCycle::near(&self.frame, &last.end, n)
+    }
+
+    fn stable(cycle: &MachineCycle) -> bool {
+        cycle.stable()
+    }
+
+    fn captured(&self, last: &Arc<Step>, cycle: &MachineCycle) -> bool {
+        self.captures(&last.end, cycle).unwrap_or(false)
+    }
+
+    fn measure(&self, _: &Arc<Step>, over: u32) -> MachineMeasure {
+        MachineMeasure::new(self.frame.shape.size(), 2 * self.frame.shape.n, over)
+    }
+
+    fn add(&self, measure: &mut MachineMeasure, next: &Arc<Step>, interval: f64) -> bool {
+        let frame = &self.frame;
+        let derivative = frame.with(|structures| {
+            step_derivative(&frame.shape, frame.machine, &frame.normal, structures, &next.begin, &next.passage)
+        });
+        // a grazing contact has no derivative and is passed over
+        if let Some(derivative) = derivative {
+            measure.add(&derivative, interval, f64::from(next.closings));
+        }
+        measure.complete()
+    }
+
+    fn left(measure: &MachineMeasure) -> u32 {
+        measure.left()
+    }
+
+    fn chaos(&self, measure: &MachineMeasure) -> Option<(MachineSpectrum, bool)> {
+        measure.chaos()
+    }
+}
+
+impl Recorded<'_> {
+    /// Whether the motion from `place` is captured by a stable cycle: it is near at the phase of the states of the cycle,
+    /// and its next period follows the linear law of the cycle so closely that the remainder cannot undo the contraction.
+    pub(crate) fn captures(&self, place: &Place, cycle: &MachineCycle) -> Option<bool> {
+        if !cycle.stable() {
+            return Some(false);
+        }
+        let frame = &self.frame;
+        let first = cycle.strobes.first()?;
+        let period = frame.machine.period()?;
+        // to the phase of the cycle's states
+        let ahead = crate::system::phase::wrap(first.phase - place.phase) / frame.machine.parts().frequency?;
+        let mut real = MachineLap::fly(frame, place, ahead)?.end;
+        real.phase = first.phase;
+        let nearest = cycle.strobes.iter().min_by(|a, b| {
+            machine_distance(a, &real, cycle.sizes).total_cmp(&machine_distance(b, &real, cycle.sizes))
+        })?;
+        let apart = machine_distance(nearest, &real, cycle.sizes);
+        if apart > NEAR {
+            return Some(false);
+        }
+        if apart <= AT_ROUNDING {
+            return Some(true);
+        }
+        let time = period * f64::from(cycle.label.periods);
+        let (reference, moved) = (MachineLap::fly(frame, nearest, time)?, MachineLap::fly(frame, &real, time)?);
+        let offset = |a: &Place, b: &Place| -> Vec<f64> {
+            frame.shape.values(a).iter().zip(frame.shape.values(b)).map(|(a, b)| a - b).collect()
+        };
+        let before = offset(&real, nearest);
+        let linear = reference.derivative.as_ref()?.apply(&before);
+        let after = offset(&moved.end, &reference.end);
+        let (size, speed) = cycle.sizes;
+        let n = frame.shape.n;
+        let largest = |of: &dyn Fn(usize) -> f64| {
+            (0..2 * n).map(|i| of(i).abs() / if i < n { size } else { speed }).filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
+        let left_over = largest(&|i| after[i] - linear[i]);
+        let rate = cycle.multipliers.first().map_or(0.0, |first| first.modulus());
+        Some(left_over <= 0.3 * (1.0 - rate) * largest(&|i| before[i]) + 1e-12)
+    }
+}
+
+impl Diverging for MachineSpectrum {
+    fn diverges(&self) -> bool {
+        self.diverges()
+    }
+
+    fn chaotic(&self) -> bool {
+        self.chaotic()
+    }
+}
+
+/// The distance from a cycle below which capture is tested.
+const NEAR: f64 = 1e-3;
+/// The distance below which the two differ only by rounding errors.
+const AT_ROUNDING: f64 = 1e-10;

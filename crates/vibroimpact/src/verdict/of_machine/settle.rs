@@ -1,0 +1,256 @@
+//! The verdict on the motion of a machine from a start.
+
+use super::super::options::SettleOptions;
+use super::super::record::{Record, Shown};
+use super::returns::{Recorded, Step};
+use crate::events::{MachineEnd, MachineLimits, MachineMotion, MachineStart};
+use crate::lyapunov::MachineSpectrum;
+use crate::machine::{Machine, MachineError};
+use crate::orbit::{MachineCycle, MachineFrame};
+use std::sync::Arc;
+
+/// What a machine settles into.
+#[derive(Clone, Debug)]
+pub enum MachineVerdict {
+    /// A stable cycle, confirmed by Newton's method, that captures the motion.
+    Periodic(MachineCycle),
+    /// No further event, for ever.
+    NoImpact,
+    /// At rest on a stop, for ever.
+    Stuck,
+    /// Chaotic by its largest Lyapunov exponent.
+    Chaotic {
+        /// The exponents.
+        spectrum: MachineSpectrum,
+        /// Events followed.
+        events: u64,
+    },
+    /// None of these within the budget.
+    Undecided {
+        /// Why.
+        why: MachineUndecided,
+        /// Exponents of the last measurement.
+        spectrum: Option<MachineSpectrum>,
+        /// Events followed.
+        events: u64,
+    },
+}
+
+/// Why a motion of a machine is undecided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MachineUndecided {
+    /// The number of events is used up.
+    Events,
+    /// The motion ended for this reason.
+    Ended(MachineEnd),
+}
+
+/// A verdict and how far the motion was followed.
+#[derive(Clone, Debug)]
+pub struct MachineSettled {
+    /// The verdict.
+    pub verdict: MachineVerdict,
+    /// The number of events that were followed.
+    pub events: u64,
+    /// The time that was followed.
+    pub time: f64,
+    /// Chaos that was measured and has ended.
+    pub transient: Option<MachineSpectrum>,
+}
+
+impl MachineVerdict {
+    /// The label of the motion as text: `4/1`, `inf/1`, `0`, `chaotic`, `stuck`, `undecided`.
+    #[must_use]
+    pub fn label(&self) -> String {
+        match self {
+            Self::Periodic(cycle) => cycle.label.to_string(),
+            Self::NoImpact => "0".to_owned(),
+            Self::Stuck => "stuck".to_owned(),
+            Self::Chaotic { .. } => "chaotic".to_owned(),
+            Self::Undecided { .. } => "undecided".to_owned(),
+        }
+    }
+
+    /// Whether both are the same motion: cycles are compared to within `tolerance`, all others by their kind.
+    #[must_use]
+    pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
+        match (self, other) {
+            (Self::Periodic(a), Self::Periodic(b)) => a.same_as(b, tolerance),
+            _ => core::mem::discriminant(self) == core::mem::discriminant(other),
+        }
+    }
+}
+
+/// The verdict on the motion of `machine` from `start`. In the options an impact stands for an event, and the limits of
+/// the search of the oscillator are not used.
+///
+/// ```
+/// use vibroimpact::events::MachineStart;
+/// use vibroimpact::machine::{Machine, MachineParts};
+/// use vibroimpact::verdict::{SettleOptions, settle_machine};
+/// // N of the 1971 paper as a machine of one coordinate
+/// let parts = MachineParts::new(["mass"])
+///     .with_mass(0, 1.0)
+///     .with_link(&[1.0], 1.0, 0.0)
+///     .with_frequency(1.0 / 1.8)
+///     .with_force(0, 1, 0.0, 1.0)
+///     .with_rigid_stop("stop", &[1.0], 0.25, 0.5);
+/// let machine = Machine::new(parts)?;
+/// let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default())?;
+/// assert_eq!(settled.verdict.label(), "4/1");
+/// # Ok::<(), vibroimpact::machine::MachineError>(())
+/// ```
+///
+/// # Errors
+/// [`MachineError`] for an invalid start.
+pub fn settle_machine(
+    machine: &Machine,
+    start: &MachineStart,
+    options: &SettleOptions,
+) -> Result<MachineSettled, MachineError> {
+    let frame = MachineFrame::new(machine);
+    // it is never stopped
+    Ok(settle_in(frame, start, options, || true)?.unwrap_or_else(|| MachineSettled {
+        verdict: MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: None, events: 0 },
+        events: 0,
+        time: 0.0,
+        transient: None,
+    }))
+}
+
+/// The same, but stopped when `go_on` returns false, and then `None`. `go_on` is called at every step.
+///
+/// # Errors
+/// [`MachineError`] for an invalid start.
+pub fn settle_machine_while(
+    machine: &Machine,
+    start: &MachineStart,
+    options: &SettleOptions,
+    go_on: impl Fn() -> bool,
+) -> Result<Option<MachineSettled>, MachineError> {
+    settle_in(MachineFrame::new(machine), start, options, go_on)
+}
+
+/// The number of latest steps whose size distances are relative to.
+const RECENT: usize = 64;
+
+fn settle_in<'a>(
+    frame: MachineFrame<'a>,
+    start: &MachineStart,
+    options: &SettleOptions,
+    go_on: impl Fn() -> bool,
+) -> Result<Option<MachineSettled>, MachineError> {
+    let mut motion = MachineMotion::new(frame.machine, start, MachineLimits::default())?;
+    let system = Recorded::new(frame);
+    let mut record: Record<Recorded<'a>> = Record::default();
+    let mut sizes: std::collections::VecDeque<(f64, f64)> = std::collections::VecDeque::new();
+    let mut events = 0_u64;
+    let settled = |verdict, events, time, record: &Record<Recorded<'a>>| {
+        let transient = match &verdict {
+            MachineVerdict::Chaotic { .. } | MachineVerdict::Undecided { .. } => None,
+            _ => record.was_chaotic(&system),
+        };
+        Ok(Some(MachineSettled { verdict, events, time, transient }))
+    };
+    let most = options.max_impacts as usize;
+    while record.count() < most || options.extend && record.undecided_measurement() && record.count() < 3 * most {
+        if !go_on() {
+            return Ok(None);
+        }
+        let begin = motion.place().clone();
+        let Some(passage) = motion.step() else { break };
+        let time = motion.time();
+        let interval = passage.time();
+        let seen = motion.take_events();
+        events += seen.len() as u64;
+        if let Some(end) = motion.end() {
+            let verdict = match end {
+                MachineEnd::Never => MachineVerdict::NoImpact,
+                MachineEnd::Stuck => MachineVerdict::Stuck,
+                end => MachineVerdict::Undecided {
+                    why: MachineUndecided::Ended(end),
+                    spectrum: record.latest(&system),
+                    events,
+                },
+            };
+            return settled(verdict, events, time, &record);
+        }
+        let (x, v) = MachineFrame::sizes(&begin);
+        sizes.push_back((x, v));
+        if sizes.len() > RECENT {
+            sizes.pop_front();
+        }
+        system.sizes.set(sizes.iter().fold((0.0, 0.0), |(a, b), (x, v)| (x.max(a), v.max(b))));
+        let step = Step { begin, closings: Step::closings(&seen), passage, end: motion.place().clone() };
+        record.push(options, Arc::new(step), interval);
+        if record.count().is_multiple_of(64) {
+            system.frame.keep(&motion);
+        }
+        match record.decide(&system, options) {
+            Some(Shown::Cycle(cycle)) => {
+                return settled(MachineVerdict::Periodic(cycle), events, time, &record);
+            }
+            Some(Shown::Chaos(spectrum)) => {
+                return settled(MachineVerdict::Chaotic { spectrum, events }, events, time, &record);
+            }
+            None => {}
+        }
+    }
+    let last = record.returns.last().map(|(step, _)| step.clone());
+    let verdict = match last.and_then(|step| record.look(&system, options, &step)) {
+        Some(cycle) => MachineVerdict::Periodic(cycle),
+        None => {
+            MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: record.latest(&system), events }
+        }
+    };
+    settled(verdict, events, motion.time(), &record)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::MachineParts;
+    use crate::scenario;
+    use crate::system::Start;
+    use crate::verdict::{Verdict, settle};
+
+    fn of(osc: &crate::Oscillator) -> Machine {
+        let mut parts = MachineParts::new(["mass"])
+            .with_mass(0, 1.0)
+            .with_link(&[1.0], 1.0, 2.0 * osc.damping())
+            .with_frequency(osc.beta())
+            .with_force(0, 1, 0.0, 1.0);
+        for (side, stop) in osc.stops() {
+            parts = parts.with_rigid_stop(&format!("{side:?}"), &[side.sign()], stop.gap, stop.restitution);
+        }
+        Machine::new(parts).unwrap()
+    }
+
+    /// The paper's points as machines: the same labels, cycles and multipliers as the oscillator.
+    #[test]
+    fn the_papers_points() {
+        for point in scenario::PAPER {
+            let osc = point.oscillator();
+            let machine = of(&osc);
+            for (x, v) in [(0.0, 0.0), (-2.0, 0.0), (0.1, -1.0)] {
+                let start = Start { x, v, phase: 0.0 };
+                let expected = settle(&osc, start, &SettleOptions::default()).verdict;
+                let own = MachineStart { q: vec![x], qdot: vec![v], phase: 0.0 };
+                let found = settle_machine(&machine, &own, &SettleOptions::default()).unwrap().verdict;
+                assert_eq!(found.label(), expected.label(), "{} from {x} {v}", point.name);
+                if let (MachineVerdict::Periodic(cycle), Verdict::Periodic(of)) = (&found, &expected) {
+                    assert!(cycle.residual < 1e-12);
+                    assert!((cycle.fastest() - of.fastest()).abs() < 1e-11, "{} {}", cycle.fastest(), of.fastest());
+                    for (a, b) in cycle.multipliers.iter().zip(of.multipliers) {
+                        let apart = (a.re - b.re).abs() + (a.im - b.im).abs();
+                        assert!(apart < 1e-9 || of.multipliers[0].modulus() == 0.0 && apart < 1e-3, "{a:?} {b:?}");
+                    }
+                }
+                if let (MachineVerdict::Chaotic { spectrum, .. }, Verdict::Chaotic(chaos)) = (&found, &expected) {
+                    let (a, b) = (spectrum.exponents[0], chaos.spectrum.exponents[0]);
+                    assert!((a.value - b.value).abs() < a.error + b.error, "{a:?} {b:?}");
+                }
+            }
+        }
+    }
+}
