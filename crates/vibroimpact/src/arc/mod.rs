@@ -16,5 +16,5 @@ mod never;
 mod polynomial;
 mod search;
 
-pub(crate) use flight::{MachineFlight, Recovery};
+pub(crate) use flight::{MachineFlight, Modes, Recovery};
 pub(crate) use search::{Buffers, Found, Touch, first_event};

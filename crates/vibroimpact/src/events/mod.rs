@@ -21,4 +21,4 @@ pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, Machi
 pub use motion::MachineMotion;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures};
-pub(crate) use saltation::{LinearEvent, StateShape, step_derivative};
+pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};

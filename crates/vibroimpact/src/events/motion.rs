@@ -421,25 +421,11 @@ impl<'a> MachineMotion<'a> {
 
     /// Moves the state to a time after the beginning of a flight.
     fn move_to(&mut self, flight: &MachineFlight, s: f64) {
-        flight.at(s, &mut self.buffers.modes);
-        flight.state(&self.buffers.modes, &mut self.place.x, &mut self.place.v);
-        for surface in &mut self.place.surfaces {
-            if let Some(Recovery { size, rate, .. }) = surface {
-                *size *= crate::system::decay(*rate * s).0;
-            }
-            // a surface that has come back to rounding, or to its holder, is the stop itself
-            if surface.is_some_and(|surface| surface.size <= surface.offset || surface.size < 1e-300) {
-                *surface = None;
-            }
-        }
-        if let Some(frequency) = self.machine.parts().frequency {
-            self.place.phase = phase::advance(self.place.phase, frequency, s);
-        }
+        self.place.move_along(flight, s, self.machine.parts().frequency, &mut self.buffers.modes);
         self.time.add(s);
         if s > 0.0 {
             self.crowd = 0;
         }
-        self.place.known.clear();
     }
 
     /// Follows the motion by one step: to its next event, or to the time at which a surface has come back to its holder.
@@ -485,12 +471,6 @@ impl<'a> MachineMotion<'a> {
     /// The structures of all regimes visited so far.
     pub(crate) const fn structures(&self) -> &Structures {
         &self.structures
-    }
-
-    /// Moves on for a time in the regime of `structure`, without a search for events.
-    pub(crate) fn go(&mut self, structure: &std::sync::Arc<crate::regime::Structure>, time: f64) {
-        let flight = self.place.flight(&self.normal, structure.clone());
-        self.move_to(&flight, time);
     }
 
     /// The present state.

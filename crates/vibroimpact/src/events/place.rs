@@ -1,6 +1,6 @@
 //! Where a machine is: state, phase, and what its stops and joints do.
 
-use crate::arc::{MachineFlight, Recovery};
+use crate::arc::{MachineFlight, Modes, Recovery};
 use crate::machine::Machine;
 use crate::math::{dot, sin_cos};
 use crate::regime::{ContactState, GuardKind, Normal, Structure};
@@ -81,6 +81,25 @@ impl Place {
             let surface = if let GuardKind::Gap(stop) = kind { self.surfaces[stop] } else { None };
             (known, surface)
         })
+    }
+
+    /// Moves to a time after the beginning of a flight that began here; `frequency` is that of the forcing.
+    pub(crate) fn move_along(&mut self, flight: &MachineFlight, s: f64, frequency: Option<f64>, modes: &mut Modes) {
+        flight.at(s, modes);
+        flight.state(modes, &mut self.x, &mut self.v);
+        for surface in &mut self.surfaces {
+            if let Some(Recovery { size, rate, .. }) = surface {
+                *size *= crate::system::decay(*rate * s).0;
+            }
+            // a surface that has come back to rounding, or to its holder, is the stop itself
+            if surface.is_some_and(|surface| surface.size <= surface.offset || surface.size < 1e-300) {
+                *surface = None;
+            }
+        }
+        if let Some(frequency) = frequency {
+            self.phase = phase::advance(self.phase, frequency, s);
+        }
+        self.known.clear();
     }
 
     /// The gap of a stop, its rate, and the sizes of the terms of both. `turns` are sine and cosine of all harmonics.

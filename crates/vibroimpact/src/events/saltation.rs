@@ -11,7 +11,7 @@
 use super::passage::Passage;
 use super::place::{Place, Structures};
 use crate::machine::{Machine, Opening, StopLaw};
-use crate::math::{Lu, Matrix, dot};
+use crate::math::{Lu, Matrix, add_scaled, dot};
 use crate::regime::{GuardKind, Normal, Structure};
 use std::sync::Arc;
 
@@ -95,6 +95,64 @@ pub(crate) struct LinearEvent {
     pub(crate) flow_after: Vec<f64>,
 }
 
+/// What happens at an event, apart from the states on both sides.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EventLaw<'a> {
+    /// The structure before it, and the guard of it that is zero.
+    pub(crate) structure: &'a Arc<Structure>,
+    pub(crate) guard: usize,
+    /// The rigid stops that push, with their restitution.
+    pub(crate) pushed: &'a [(usize, f64)],
+}
+
+impl EventLaw<'_> {
+    /// The value of the guard at a state.
+    pub(crate) fn value(&self, normal: &Normal, at: &Place) -> f64 {
+        let guard = &self.structure.guards[self.guard];
+        let value = at.flight(normal, self.structure.clone()).first(&guard.function).0;
+        match guard.kind {
+            GuardKind::Gap(j) => value + at.surfaces[j].map_or(0.0, |surface| surface.size - surface.offset),
+            _ => value,
+        }
+    }
+
+    /// The velocities after the event.
+    pub(crate) fn rebound(&self, normal: &Normal, before: &Place) -> Option<Vec<f64>> {
+        let mut after = before.v.clone();
+        let turns = before.turns(normal);
+        for (push, j) in pushes(normal, self.pushed)? {
+            let rate = before.gap(normal, &turns, j).1;
+            add_scaled(&mut after, rate, &push);
+        }
+        Some(after)
+    }
+}
+
+/// What each stop that pushes adds to the velocities per unit of the rate of its gap: the columns of
+/// $`WG^{-1}(1 + e)`$.
+fn pushes(normal: &Normal, pushed: &[(usize, f64)]) -> Option<Vec<(Vec<f64>, usize)>> {
+    let count = pushed.len();
+    let w: Vec<&[f64]> = pushed.iter().map(|(j, _)| normal.directions[*j].as_slice()).collect();
+    let gram = w.iter().flat_map(|a| w.iter().map(|b| dot(a, b))).collect();
+    let lu = Lu::new(gram, count)?;
+    Some(
+        pushed
+            .iter()
+            .enumerate()
+            .map(|(i, (j, e))| {
+                let mut shares = vec![0.0; count];
+                shares[i] = 1.0 + e;
+                lu.solve(&mut shares);
+                let mut push = vec![0.0; normal.n];
+                for (w, share) in w.iter().zip(&shares) {
+                    add_scaled(&mut push, *share, w);
+                }
+                (push, *j)
+            })
+            .collect(),
+    )
+}
+
 impl LinearEvent {
     /// The event of a step; `None` if the step ends without one, or if the state after it is not consistent.
     pub(crate) fn of(
@@ -105,10 +163,27 @@ impl LinearEvent {
         passage: &Passage,
     ) -> Option<Self> {
         let (before, after) = (passage.before.as_ref()?, passage.after.as_ref()?);
-        let guard = passage.structure.guards.get(*passage.guards.first()?)?;
-        let mut gradient = passage.structure.gradient(normal, &guard.function);
+        let next = match &passage.rest {
+            Some((rest, _)) => rest.clone(),
+            None => structures.get(machine, normal, &after.states)?,
+        };
+        let law =
+            EventLaw { structure: &passage.structure, guard: *passage.guards.first()?, pushed: &passage.pushed };
+        Self::at(shape, normal, &law, before, (after, &next))
+    }
+
+    /// The event with this law between two states, the second one in the regime of `next`.
+    pub(crate) fn at(
+        shape: &StateShape,
+        normal: &Normal,
+        law: &EventLaw<'_>,
+        before: &Place,
+        (after, next): (&Place, &Arc<Structure>),
+    ) -> Option<Self> {
+        let guard = law.structure.guards.get(law.guard)?;
+        let mut gradient = law.structure.gradient(normal, &guard.function);
         gradient.resize(shape.size(), 0.0);
-        let mut rate = before.flight(normal, passage.structure.clone()).first(&guard.function).1;
+        let mut rate = before.flight(normal, law.structure.clone()).first(&guard.function).1;
         if let GuardKind::Gap(j) = guard.kind
             && let Some(surface) = before.surfaces[j]
             && let Some(k) = shape.surfaces.iter().position(|of| *of == j)
@@ -116,18 +191,14 @@ impl LinearEvent {
             gradient[2 * shape.n + k] = 1.0;
             rate -= surface.rate * surface.size;
         }
-        let (reset, reset_rate) = reset(shape, normal, passage, before, after)?;
-        let next = match &passage.rest {
-            Some((rest, _)) => rest.clone(),
-            None => structures.get(machine, normal, &after.states)?,
-        };
+        let (reset, reset_rate) = reset(shape, normal, law.pushed, before, after)?;
         Some(Self {
             gradient,
             rate,
             reset,
             reset_rate,
-            flow_before: shape.flow(&passage.structure, normal, before),
-            flow_after: shape.flow(&next, normal, after),
+            flow_before: shape.flow(law.structure, normal, before),
+            flow_after: shape.flow(next, normal, after),
         })
     }
 
@@ -149,11 +220,11 @@ impl LinearEvent {
     }
 }
 
-/// $`DR`$ and $`R_t`$ of a step.
+/// $`DR`$ and $`R_t`$.
 fn reset(
     shape: &StateShape,
     normal: &Normal,
-    passage: &Passage,
+    pushed: &[(usize, f64)],
     before: &Place,
     after: &Place,
 ) -> Option<(Matrix, Vec<f64>)> {
@@ -161,23 +232,15 @@ fn reset(
     let turns = before.turns(normal);
     let mut reset = Matrix::identity(size);
     let mut rate = vec![0.0; size];
-    if !passage.pushed.is_empty() {
+    if !pushed.is_empty() {
         // v+ = v + W G^-1 (1 + e) (wall' - W' v)
-        let count = passage.pushed.len();
-        let w: Vec<&[f64]> = passage.pushed.iter().map(|(j, _)| normal.directions[*j].as_slice()).collect();
-        let gram = w.iter().flat_map(|a| w.iter().map(|b| dot(a, b))).collect();
-        let lu = Lu::new(gram, count)?;
-        for (i, (j, e)) in passage.pushed.iter().enumerate() {
-            let mut column = vec![0.0; count];
-            column[i] = 1.0 + e;
-            lu.solve(&mut column);
-            let wall = normal.walls[*j].derivative(&normal.rates).derivative(&normal.rates).swing(&turns);
+        for (push, j) in pushes(normal, pushed)? {
+            let wall = normal.walls[j].derivative(&normal.rates).derivative(&normal.rates).swing(&turns);
             for row in 0..n {
-                let push: f64 = w.iter().zip(&column).map(|(w, share)| w[row] * share).sum();
-                for (k, own) in w[i].iter().enumerate() {
-                    reset[(n + row, n + k)] -= push * own;
+                for (k, own) in normal.directions[j].iter().enumerate() {
+                    reset[(n + row, n + k)] -= push[row] * own;
                 }
-                rate[n + row] += push * wall;
+                rate[n + row] += push[row] * wall;
             }
         }
     }
@@ -240,10 +303,11 @@ mod tests {
             if now + passage.time() > until {
                 let left = until - now;
                 assert!(left <= passage.duration);
-                let mut end = MachineMotion::resumed(machine, normal.clone(), Structures::default(), begin.clone());
-                end.go(&passage.structure, left);
+                let flight = begin.flight(&normal, passage.structure.clone());
+                let mut end = begin.clone();
+                end.move_along(&flight, left, machine.parts().frequency, &mut crate::arc::Modes::default());
                 let last = shape.transition(&passage.structure, &normal, &begin, left);
-                return Some((shape.values(end.place()), last.times(&derivative), kinds));
+                return Some((shape.values(&end), last.times(&derivative), kinds));
             }
             let own = step_derivative(&shape, machine, &normal, &mut structures, &begin, &passage)?;
             derivative = own.times(&derivative);

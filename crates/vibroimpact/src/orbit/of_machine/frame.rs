@@ -1,6 +1,7 @@
 //! A machine together with what its motions need again and again: mass-normalised coordinates and the structures of its
 //! regimes.
 
+use crate::arc::Modes;
 use crate::events::{MachineMotion, Place, StateShape, Structures};
 use crate::machine::Machine;
 use crate::regime::{Normal, Structure};
@@ -39,9 +40,10 @@ impl<'a> MachineFrame<'a> {
 
     /// The state a time `s` later in the regime of `structure`.
     pub(crate) fn moved(&self, place: &Place, structure: &Arc<Structure>, s: f64) -> Place {
-        let mut motion = self.resume(place.clone());
-        motion.go(structure, s);
-        motion.place().clone()
+        let flight = place.flight(&self.normal, structure.clone());
+        let mut moved = place.clone();
+        moved.move_along(&flight, s, self.machine.parts().frequency, &mut Modes::default());
+        moved
     }
 
     /// The largest sizes of coordinates and velocities.
