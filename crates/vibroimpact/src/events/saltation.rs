@@ -26,9 +26,7 @@ pub(crate) struct StateShape {
 
 impl StateShape {
     pub(crate) fn of(machine: &Machine) -> Self {
-        let back = |law: &StopLaw| {
-            matches!(law, StopLaw::Compliant { damping, opening: Opening::Force, .. } if *damping > 0.0)
-        };
+        let back = |law: &StopLaw| matches!(law, StopLaw::Compliant { damping, opening: Opening::Force, .. } if *damping > 0.0);
         let stops = machine.stops().iter().enumerate();
         Self { n: machine.n(), surfaces: stops.filter(|(_, stop)| back(&stop.law)).map(|(j, _)| j).collect() }
     }
@@ -167,8 +165,7 @@ impl LinearEvent {
             Some((rest, _)) => rest.clone(),
             None => structures.get(machine, normal, &after.states)?,
         };
-        let law =
-            EventLaw { structure: &passage.structure, guard: *passage.guards.first()?, pushed: &passage.pushed };
+        let law = EventLaw { structure: &passage.structure, guard: *passage.guards.first()?, pushed: &passage.pushed };
         Self::at(shape, normal, &law, before, (after, &next))
     }
 
@@ -330,9 +327,7 @@ mod tests {
             1 => parts.with_stop("pad", &[1.0, 0.0], 0.3, soft(15.0, 0.9, 0.0, Opening::Force)),
             2 => parts.with_stop("pad", &[1.0, -1.0], 0.2, soft(9.0, 0.4, 0.3, Opening::Position)),
             3 => parts.with_joint("floor", &[0.0, 1.0], 0.15, 0.25, 0.1),
-            _ => parts
-                .with_rigid_stop("wall", &[1.0, 0.0], 0.4, 0.0)
-                .with_rigid_stop("other", &[0.0, -1.0], 0.3, 0.5),
+            _ => parts.with_rigid_stop("wall", &[1.0, 0.0], 0.4, 0.0).with_rigid_stop("other", &[0.0, -1.0], 0.3, 0.5),
         };
         if let Some(stop) = parts.stops.first_mut() {
             stop.motion.push(crate::machine::HarmonicMotion { order: 1, cos: 0.05, sin: 0.02 });
@@ -367,7 +362,11 @@ mod tests {
                     continue;
                 }
                 let (mut x, mut v) = (vec![0.0; 2], vec![0.0; 2]);
-                if j < 2 { x[j] = 1.0 } else { v[j - 2] = 1.0 }
+                if j < 2 {
+                    x[j] = 1.0
+                } else {
+                    v[j - 2] = 1.0
+                }
                 let mut direction = normal.to_normal(&x);
                 direction.extend(normal.to_normal(&v));
                 direction.resize(derivative.rows(), 0.0);

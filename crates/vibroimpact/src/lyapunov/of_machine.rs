@@ -141,7 +141,10 @@ impl MachineMeasure {
         let of = |value: &dyn Fn(&(Vec<f64>, f64, f64)) -> f64| {
             let values: Vec<(f64, f64)> = self.blocks.iter().map(|block| (value(block) / block.2, block.2)).collect();
             if values.iter().any(|(value, _)| !value.is_finite()) {
-                return Measured { value: values.iter().fold(f64::INFINITY, |least, (v, _)| least.min(*v)), error: 0.0 };
+                return Measured {
+                    value: values.iter().fold(f64::INFINITY, |least, (v, _)| least.min(*v)),
+                    error: 0.0,
+                };
             }
             mean(&values)
         };
@@ -155,7 +158,8 @@ impl MachineMeasure {
     /// diverges too.
     pub(crate) fn chaos(&self) -> Option<(MachineSpectrum, bool)> {
         let spectrum = self.spectrum()?;
-        let last: f64 = self.blocks.iter().rev().take(FEWEST).map(|block| block.0.first().copied().unwrap_or(0.0)).sum();
+        let last: f64 =
+            self.blocks.iter().rev().take(FEWEST).map(|block| block.0.first().copied().unwrap_or(0.0)).sum();
         let chaotic = spectrum.chaotic() && last > 0.0;
         Some((spectrum, chaotic))
     }

@@ -66,7 +66,11 @@ impl Structure {
         let mut result = Matrix::zeros(2 * n, 2 * n);
         for j in 0..2 * n {
             let (mut x, mut v) = (vec![0.0; n], vec![0.0; n]);
-            if j < n { x[j] = 1.0 } else { v[j - n] = 1.0 }
+            if j < n {
+                x[j] = 1.0
+            } else {
+                v[j - n] = 1.0
+            }
             let mut change = self.modal_change(normal, &x, &v);
             if self.moved(&mut change, s).is_none() {
                 self.stepped(&mut change, s);
@@ -113,7 +117,11 @@ impl Structure {
         (0..2 * n)
             .map(|j| {
                 let (mut x, mut v) = (vec![0.0; n], vec![0.0; n]);
-                if j < n { x[j] = 1.0 } else { v[j - n] = 1.0 }
+                if j < n {
+                    x[j] = 1.0
+                } else {
+                    v[j - n] = 1.0
+                }
                 self.changed(of, &self.modal_change(normal, &x, &v))
             })
             .collect()

@@ -147,7 +147,8 @@ impl MachineCycle {
         Some(Self::of(frame, (begin, n), &lap, residual, strobes))
     }
 
-    fn of(
+    /// The cycle that begins at a state between two events, whose motion over `n` periods is `lap`.
+    pub(crate) fn of(
         frame: &MachineFrame<'_>,
         (begin, n): (&Place, u32),
         lap: &MachineLap,
@@ -156,9 +157,9 @@ impl MachineCycle {
     ) -> Self {
         let period = frame.machine.period().unwrap_or(f64::INFINITY) * f64::from(n);
         let mut events = lap.events.clone();
-        let fastest = (0..events.len()).filter(|k| closes(&events[*k])).max_by(|a, b| {
-            events[*a].speed.total_cmp(&events[*b].speed).then(b.cmp(a))
-        });
+        let fastest = (0..events.len())
+            .filter(|k| closes(&events[*k]))
+            .max_by(|a, b| events[*a].speed.total_cmp(&events[*b].speed).then(b.cmp(a)));
         let first = fastest.unwrap_or(0);
         if let Some(zero) = events.get(first).map(|event| event.time) {
             for (k, event) in events.iter_mut().enumerate() {
@@ -168,16 +169,17 @@ impl MachineCycle {
         }
         let counts: Vec<u32> = (0..frame.machine.stops().len())
             .map(|j| {
-                let own = lap.events.iter().filter(|event| closes(event) && (event.place == j || event.with.contains(&j)));
+                let own =
+                    lap.events.iter().filter(|event| closes(event) && (event.place == j || event.with.contains(&j)));
                 u32::try_from(own.count()).unwrap_or(u32::MAX)
             })
             .collect();
         let chatter = lap.steps.iter().any(|(_, _, passage)| passage.rest.is_some());
         let impacts = if chatter { Count::Infinite } else { Count::Finite(counts.iter().sum()) };
         let derivative = lap.derivative.as_ref();
-        let mut multipliers = derivative.and_then(general_eigenvalues).unwrap_or_else(|| {
-            vec![Multiplier { re: f64::INFINITY, im: 0.0 }; 2 * frame.shape.n]
-        });
+        let mut multipliers = derivative
+            .and_then(general_eigenvalues)
+            .unwrap_or_else(|| vec![Multiplier { re: f64::INFINITY, im: 0.0 }; 2 * frame.shape.n]);
         multipliers.truncate(2 * frame.shape.n);
         Self {
             label: Label { impacts, periods: n },

@@ -1,10 +1,10 @@
 //! A machine together with what its motions need again and again: mass-normalised coordinates and the structures of its
 //! regimes.
 
-use crate::arc::Modes;
+use crate::arc::{Modes, Recovery};
 use crate::events::{MachineMotion, Place, StateShape, Structures};
 use crate::machine::Machine;
-use crate::regime::{Normal, Structure};
+use crate::regime::{ContactState, Normal, Structure, compliant};
 use core::cell::RefCell;
 use std::sync::Arc;
 
@@ -36,6 +36,17 @@ impl<'a> MachineFrame<'a> {
     /// Does something with the structures.
     pub(crate) fn with<T>(&self, of: impl FnOnce(&mut Structures) -> T) -> T {
         of(&mut self.structures.borrow_mut())
+    }
+
+    /// The structure with these states of stops and joints.
+    pub(crate) fn structure(&self, states: &[ContactState]) -> Option<Arc<Structure>> {
+        self.structures.borrow_mut().get(self.machine, &self.normal, states)
+    }
+
+    /// How the surface of a damped stop comes back, from a size of 0.
+    pub(crate) fn recovery(&self, stop: usize) -> Option<Recovery> {
+        let (stiffness, damping, preload) = compliant(&self.machine.stops()[stop].law)?;
+        (damping > 0.0).then(|| Recovery { size: 0.0, rate: stiffness / damping, offset: preload / stiffness })
     }
 
     /// The state a time `s` later in the regime of `structure`.

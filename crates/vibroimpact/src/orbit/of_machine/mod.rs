@@ -4,13 +4,16 @@
 //! |---|---|
 //! | a machine and the structures of its regimes | `frame` |
 //! | the motion over a time, with its derivative | `lap` |
+//! | the events of a cycle as unknowns, and their equations | `ring` |
 //! | a cycle, by Newton's method on the state between two events | [`MachineCycle`] |
 
 mod cycle;
 mod frame;
 mod lap;
+mod ring;
 
 pub use cycle::MachineCycle;
 pub(crate) use cycle::distance as machine_distance;
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;
+pub(crate) use ring::{MachineRing, RingEvent};

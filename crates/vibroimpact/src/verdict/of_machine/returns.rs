@@ -129,7 +129,10 @@ impl Recorded<'_> {
         let (size, speed) = cycle.sizes;
         let n = frame.shape.n;
         let largest = |of: &dyn Fn(usize) -> f64| {
-            (0..2 * n).map(|i| of(i).abs() / if i < n { size } else { speed }).filter(|x| x.is_finite()).fold(0.0, f64::max)
+            (0..2 * n)
+                .map(|i| of(i).abs() / if i < n { size } else { speed })
+                .filter(|x| x.is_finite())
+                .fold(0.0, f64::max)
         };
         let left_over = largest(&|i| after[i] - linear[i]);
         let rate = cycle.multipliers.first().map_or(0.0, |first| first.modulus());

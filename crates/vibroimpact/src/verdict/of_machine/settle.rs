@@ -199,9 +199,7 @@ fn settle_in<'a>(
     let last = record.returns.last().map(|(step, _)| step.clone());
     let verdict = match last.and_then(|step| record.look(&system, options, &step)) {
         Some(cycle) => MachineVerdict::Periodic(cycle),
-        None => {
-            MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: record.latest(&system), events }
-        }
+        None => MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: record.latest(&system), events },
     };
     settled(verdict, events, motion.time(), &record)
 }

@@ -1,0 +1,221 @@
+//! The branch beyond a change of the events of its cycle.
+//!
+//! Where a rigid stop is grazed, the cycle with an impact of speed zero and the cycle without it are the same motion and
+//! solve both systems of equations; the branch goes on along the curve of the other one, in the direction in which the
+//! impact gains speed or the gap opens. At any other change the motion is continuous, and the cycle beyond is found by
+//! Newton's method from the last one at a number a little beyond, or before if the branch turns back.
+
+use super::branch::{begun, last, traced};
+use super::change::Difference;
+use super::equations::MachineEquations;
+use super::problem::{MachineProblem, MachineSolution};
+use crate::continuation::branches::BranchOptions;
+use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::trace::tracer::Tracer;
+use crate::events::Place;
+use crate::machine::{Machine, StopLaw};
+use crate::orbit::{MachineCycle, MachineFrame, MachineRing, RingEvent};
+use crate::regime::{ContactState, GuardKind};
+
+/// The tracer on the other side of a change at `at`; `None` if no cycle is found there.
+pub(super) fn beyond(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    found: &Difference,
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let (machine, ring) = tracer.problem.equations.split(&at.w)?;
+    let rigid = |stop: usize| match machine.stops()[stop].law {
+        StopLaw::Rigid { restitution } => restitution > 0.0,
+        StopLaw::Compliant { .. } => false,
+    };
+    let through_grazing = match *found {
+        Difference::Appears { at: before, stop } if rigid(stop) => {
+            appearing(tracer, at, (&machine, &ring), (before, stop), options)
+        }
+        Difference::Disappears { at: gone, stop } if rigid(stop) && ring.len() > 1 => {
+            disappearing(tracer, at, (&machine, &ring), gone, options)
+        }
+        _ => None,
+    };
+    through_grazing.or_else(|| replayed(tracer, at, (&machine, &ring), options))
+}
+
+/// The problem with another ring at the same machine.
+fn with_ring(
+    tracer: &Tracer<MachineProblem>,
+    machine: &Machine,
+    ring: MachineRing,
+    sizes: (f64, f64),
+) -> MachineProblem {
+    let old = &tracer.problem;
+    let equations = MachineEquations::new(machine, &old.equations.path, ring, sizes, old.equations.scale);
+    MachineProblem { equations, range: old.range }
+}
+
+/// Lengths of the first step beyond a grazing contact, at which the derivative does not exist.
+const STEPS: [f64; 5] = [2e-3, 5e-4, 1e-4, 1e-5, 1e-6];
+
+/// The first admissible solution in one of these directions.
+fn first_step(
+    problem: &MachineProblem,
+    w: &[f64],
+    directions: &[Vec<f64>],
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    for h in STEPS {
+        for along in directions {
+            let guess: Vec<f64> = w.iter().zip(along).map(|(w, t)| w + h * t).collect();
+            let row = problem.row(along);
+            let level = problem.dot(along, w) + h;
+            let Some((next, _)) = correct(problem, &guess, &row, level) else { continue };
+            let Some(next_along) = tangent(problem, &next, &row) else { continue };
+            if let Some(tracer) = traced(problem.clone(), next, next_along, *options)
+                && tracer.here.known.physical()
+            {
+                return Some(tracer);
+            }
+        }
+    }
+    None
+}
+
+/// With a new impact of speed zero before event `before`.
+fn appearing(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    (machine, ring): (&Machine, &MachineRing),
+    (before, stop): (usize, usize),
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let frame = MachineFrame::new(machine);
+    let frequency = machine.parts().frequency?;
+    let m = ring.len();
+    let leg = (before + m - 1) % m;
+    let from = ring.place(leg);
+    let structure = frame.structure(&from.states)?;
+    let time = ring.time(leg, frequency);
+    // the lowest point of the gap on this flight
+    let gap = |s: f64| {
+        let place = frame.moved(&from, &structure, s);
+        let turns = place.turns(&frame.normal);
+        let (gap, rate, ..) = place.gap(&frame.normal, &turns, stop);
+        (gap, rate, place)
+    };
+    let count = 400_u32;
+    let steps: Vec<(f64, f64)> =
+        (0..=count).map(|k| time * f64::from(k) / f64::from(count)).map(|s| (s, gap(s).1)).collect();
+    let turning = steps.windows(2).filter(|pair| pair[0].1 < 0.0 && pair[1].1 >= 0.0);
+    let lowest = turning
+        .map(|pair| {
+            let (mut low, mut high) = (pair[0].0, pair[1].0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if gap(middle).1 < 0.0 { low = middle } else { high = middle }
+            }
+            0.5 * (low + high)
+        })
+        .min_by(|a, b| gap(*a).0.total_cmp(&gap(*b).0))?;
+    let mut place: Place = gap(lowest).2;
+    place.phase = ring.theta(leg) + frequency * lowest;
+    let event = RingEvent {
+        guard: GuardKind::Gap(stop),
+        after: from.states.clone(),
+        pushed: vec![(stop, false)],
+        back: place.surfaces.iter().map(Option::is_some).collect(),
+    };
+    let mut next = ring.clone();
+    let index = leg + 1;
+    next.events.insert(index, event);
+    next.places.insert(index, place);
+    let sizes = at.known.cycle.as_ref()?.sizes;
+    let problem = with_ring(tracer, machine, next, sizes);
+    let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
+    // towards a larger velocity away from the stop
+    let width = frame.shape.size() + 1;
+    let mut row = vec![0.0; w.len()];
+    for (i, direction) in frame.normal.directions[stop].iter().enumerate() {
+        row[index * width + 1 + machine.n() + i] = -direction;
+    }
+    let mut along = tangent(&problem, &w, &row)?;
+    let length = problem.length(&along);
+    along.iter_mut().for_each(|t| *t /= length);
+    first_step(&problem, &w, &[along], options)
+}
+
+/// Without the impact `gone`, whose speed is zero.
+fn disappearing(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    (machine, ring): (&Machine, &MachineRing),
+    gone: usize,
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let mut next = ring.clone();
+    next.events.remove(gone);
+    next.places.remove(gone);
+    let sizes = at.known.cycle.as_ref()?.sizes;
+    let problem = with_ring(tracer, machine, next, sizes);
+    let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
+    let mut row = vec![0.0; w.len()];
+    *row.last_mut()? = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
+    let mut along = tangent(&problem, &w, &row)?;
+    let length = problem.length(&along);
+    along.iter_mut().for_each(|t| *t /= length);
+    let back: Vec<f64> = along.iter().map(|t| -t).collect();
+    first_step(&problem, &w, &[along, back], options)
+}
+
+/// How far beyond a change the motion is followed, in the scale of the number.
+const BESIDE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
+
+/// The cycle a little beyond, from the last one.
+fn replayed(
+    tracer: &Tracer<MachineProblem>,
+    at: &MachineSolution,
+    (machine, ring): (&Machine, &MachineRing),
+    options: &BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let equations = &tracer.problem.equations;
+    let value = last(&at.w);
+    let forward = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
+    let begin = ring.middle(&MachineFrame::new(machine))?.1;
+    let (low, high) = tracer.problem.range;
+    for up in [forward, -forward] {
+        for by in BESIDE {
+            let there = value + up * by * equations.scale;
+            if there < low || there > high {
+                continue;
+            }
+            let Ok(moved) = machine.with(&equations.path, there) else { continue };
+            let frame = MachineFrame::new(&moved);
+            let Some(cycle) = MachineCycle::near(&frame, &begin, ring.periods) else { continue };
+            if cycle.label.periods != ring.periods {
+                continue;
+            }
+            let Some(next) = MachineRing::of(&frame, cycle.strobes.first()?, ring.periods) else { continue };
+            if same_signature(&next, ring) {
+                continue;
+            }
+            let w = MachineEquations::join(&moved, &next, there);
+            let problem = with_ring(tracer, &moved, next, cycle.sizes);
+            if let Some(tracer) = begun(problem, w, there, up, *options)
+                && tracer.here.known.physical()
+            {
+                return Some(tracer);
+            }
+        }
+    }
+    None
+}
+
+/// Whether two rings have the same events in the same cyclic order.
+fn same_signature(a: &MachineRing, b: &MachineRing) -> bool {
+    let m = a.len();
+    let states = |ring: &MachineRing| -> Vec<Vec<ContactState>> {
+        ring.events.iter().map(|event| event.after.clone()).collect()
+    };
+    m == b.len()
+        && states(a).len() == states(b).len()
+        && (0..m).any(|shift| (0..m).all(|k| a.events[k] == b.events[(k + shift) % m]))
+}

@@ -1,0 +1,243 @@
+//! The branch of a cycle of a machine in one of its numbers.
+
+use super::beyond::beyond;
+use super::change::{Difference, difference};
+use super::equations::MachineEquations;
+use super::point::{MachineBranchEvent, MachinePoint};
+use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
+use crate::continuation::branches::{BranchOptions, Direction};
+use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::trace::step_length::StepLength;
+use crate::continuation::trace::tracer::{Step, Tracer};
+use crate::machine::{Machine, MachineError};
+use crate::orbit::{MachineCycle, MachineFrame, MachineRing};
+use core::ops::RangeInclusive;
+use std::collections::VecDeque;
+use thiserror::Error;
+
+/// Why a branch of a machine cannot begin.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum MachineBranchError {
+    /// The path leads to no number of the machine.
+    #[error(transparent)]
+    Path(#[from] MachineError),
+    /// The range is not two finite numbers in increasing order, or does not contain the value of the machine.
+    #[error("the branch begins at {value}, which does not lie in the range from {low} to {high}")]
+    OutOfRange {
+        /// The value of the machine.
+        value: f64,
+        /// Lower end of the range.
+        low: f64,
+        /// Upper end of the range.
+        high: f64,
+    },
+    /// The cycle has no events, or Newton's method does not converge from it.
+    #[error(
+        "the orbit cannot be followed from here: it has no events, or its equations have no single curve of solutions close by\nhint: begin a little beside a bifurcation or a grazing contact"
+    )]
+    NoCycle,
+}
+
+/// A branch: an iterator over its points, including its events. The last point has an event that
+/// [ends](MachineBranchEvent::ends) the branch.
+#[derive(Clone, Debug)]
+pub struct MachineBranch {
+    options: BranchOptions,
+    pub(super) tracer: Tracer<MachineProblem>,
+    begin: Option<MachineSolution>,
+    count: u32,
+    pending: VecDeque<MachinePoint>,
+    over: bool,
+}
+
+impl MachineBranch {
+    /// The branch of `cycle`, a cycle of `machine`, in the number at `path` over `range`, beginning in `direction`. In the
+    /// options the largest number of impacts is not used.
+    ///
+    /// # Errors
+    /// [`MachineBranchError`] if the branch cannot begin.
+    pub fn new(
+        machine: &Machine,
+        cycle: &MachineCycle,
+        path: &str,
+        range: &RangeInclusive<f64>,
+        direction: Direction,
+        options: BranchOptions,
+    ) -> Result<Self, MachineBranchError> {
+        let value = machine.number(path)?;
+        let (low, high) = (*range.start(), *range.end());
+        if !(low.is_finite() && high.is_finite() && low < high && range.contains(&value)) {
+            return Err(MachineBranchError::OutOfRange { value, low, high });
+        }
+        let ring = cycle
+            .strobes
+            .first()
+            .and_then(|begin| MachineRing::of(&MachineFrame::new(machine), begin, cycle.label.periods))
+            .ok_or(MachineBranchError::NoCycle)?;
+        let equations = MachineEquations::new(machine, path, ring, cycle.sizes, 0.25 * (high - low));
+        let up = if direction == Direction::Up { 1.0 } else { -1.0 };
+        let problem = MachineProblem { equations, range: (low, high) };
+        let w = MachineEquations::join(machine, &problem.equations.ring, value);
+        let tracer = begun(problem, w, value, up, options).ok_or(MachineBranchError::NoCycle)?;
+        let first = Self::point(&tracer.here, None).ok_or(MachineBranchError::NoCycle)?;
+        let begin = Some(tracer.here.clone());
+        Ok(Self { options, tracer, begin, count: 0, pending: VecDeque::from([first]), over: false })
+    }
+
+    fn point(at: &MachineSolution, event: Option<MachineBranchEvent>) -> Option<MachinePoint> {
+        let cycle = at.known.cycle.clone()?;
+        Some(MachinePoint { value: last(&at.w), cycle, event })
+    }
+
+    fn add(&mut self, at: &MachineSolution, event: Option<MachineBranchEvent>) {
+        // at an event rounding can make a solution inadmissible: the cycle of the last point stands for it
+        let cycle = at.known.cycle.clone().or_else(|| self.tracer.here.known.cycle.clone());
+        if let Some(cycle) = cycle {
+            self.pending.push_back(MachinePoint { value: last(&at.w), cycle, event });
+            self.count += 1;
+        }
+    }
+
+    fn end(&mut self, at: &MachineSolution, event: MachineBranchEvent) {
+        self.add(at, Some(event));
+        self.over = true;
+    }
+
+    fn advance(&mut self) {
+        let here = self.tracer.here.clone();
+        if self.count >= self.options.points {
+            return self.end(&here, MachineBranchEvent::StepLimit);
+        }
+        match self.tracer.step() {
+            Some(step) => self.go_through(step),
+            None => self.end(&here, MachineBranchEvent::NoConvergence),
+        }
+    }
+
+    /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
+    fn go_through(&mut self, step: Step<Judged>) {
+        let edge = if step.there.known.physical() { None } else { self.edge(&step) };
+        if !step.there.known.physical() && edge.is_none() {
+            let here = self.tracer.here.clone();
+            return self.end(&here, MachineBranchEvent::NoConvergence);
+        }
+        let until = edge.as_ref().map_or(f64::INFINITY, |(s, _, _)| *s);
+        for (s, what) in step.crossed.iter().filter(|(s, _)| *s < until) {
+            let event = match what {
+                None => {
+                    let (low, high) = self.tracer.problem.range;
+                    let end = if last(&step.there.w) > high { high } else { low };
+                    let guess = self.tracer.between(&step, *s);
+                    let at = guess.and_then(|w| self.tracer.on_end(&w, end)).and_then(|(w, _)| self.tracer.solution(w));
+                    let at = at.unwrap_or_else(|| self.tracer.here.clone());
+                    return self.end(&at, MachineBranchEvent::EndOfRange);
+                }
+                Some(PACE) => continue,
+                Some(PLUS_ONE) if step.crossed.iter().any(|(_, what)| *what == Some(PACE)) => MachineBranchEvent::Fold,
+                Some(PLUS_ONE) => MachineBranchEvent::BranchPoint,
+                Some(MINUS_ONE) => MachineBranchEvent::Flip,
+                Some(_) => MachineBranchEvent::Torus,
+            };
+            let at = self.tracer.between(&step, *s).and_then(|w| {
+                let along = self.tracer.tangent_at(&w).unwrap_or_else(|| self.tracer.here.tangent.clone());
+                self.tracer.solution_along(w, along)
+            });
+            let Some(at) = at else { continue };
+            // two real multipliers whose product is 1 are no torus bifurcation
+            let complex = at.known.multipliers.iter().any(|m| m.im.abs() > 1e-6 && (m.modulus() - 1.0).abs() < 1e-6);
+            if what != &Some(TORUS) || complex {
+                self.add(&at, Some(event));
+            }
+        }
+        if let Some((_, at, found)) = edge {
+            return self.pass(&at, &found);
+        }
+        if step.on_end {
+            return self.end(&step.there, MachineBranchEvent::EndOfRange);
+        }
+        let closed = self.count > 3 && self.begin.as_ref().is_some_and(|begin| self.tracer.closes(begin, &step.there));
+        self.add(&step.there, closed.then_some(MachineBranchEvent::Closed));
+        self.tracer.take(step.there);
+        self.over = closed;
+    }
+
+    /// The last admissible solution on a step that ends inadmissible: its distance, the solution, and how the events
+    /// differ beyond it.
+    fn edge(&self, step: &Step<Judged>) -> Option<(f64, MachineSolution, Difference)> {
+        let at = |s: f64| self.tracer.between(step, s).and_then(|w| self.tracer.solution(w));
+        let (mut low, mut high) = (0.0, step.length);
+        let (mut inside, mut outside) = (self.tracer.here.clone(), step.there.known.clone());
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if high - low <= 1e-14 * step.length.max(1e-3) {
+                break;
+            }
+            match at(middle) {
+                Some(solution) if solution.known.physical() => (low, inside) = (middle, solution),
+                Some(solution) => (high, outside) = (middle, solution.known),
+                None => high = middle,
+            }
+        }
+        let found = difference(&self.tracer.problem.equations.ring, &outside);
+        Some((low, inside, found))
+    }
+
+    /// Reports the change of the events at `at` and goes on with the events beyond.
+    fn pass(&mut self, at: &MachineSolution, found: &Difference) {
+        let Some(next) = beyond(&self.tracer, at, found, &self.options) else {
+            self.add(at, Some(found.event(false)));
+            return self.end(&at.clone(), MachineBranchEvent::NoConvergence);
+        };
+        let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
+        self.add(at, Some(found.event(turns)));
+        self.tracer = next;
+        self.begin = None;
+        let here = self.tracer.here.clone();
+        self.add(&here, None);
+    }
+}
+
+impl Iterator for MachineBranch {
+    type Item = MachinePoint;
+
+    fn next(&mut self) -> Option<MachinePoint> {
+        while self.pending.is_empty() && !self.over {
+            self.advance();
+        }
+        self.pending.pop_front()
+    }
+}
+
+pub(super) fn last(w: &[f64]) -> f64 {
+    w.last().copied().unwrap_or(f64::NAN)
+}
+
+/// The tracer from the solution near `w` with this value of the number; the number changes in direction `up` first.
+pub(super) fn begun(
+    problem: MachineProblem,
+    w: Vec<f64>,
+    value: f64,
+    up: f64,
+    options: BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let mut row = vec![0.0; w.len()];
+    *row.last_mut()? = 1.0;
+    let (w, _) = correct(&problem, &w, &row, value)?;
+    *row.last_mut()? = up;
+    let along = tangent(&problem, &w, &row)?;
+    traced(problem, w, along, options)
+}
+
+/// The tracer from a solution along a tangent.
+pub(super) fn traced(
+    problem: MachineProblem,
+    w: Vec<f64>,
+    mut along: Vec<f64>,
+    options: BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let length = problem.length(&along);
+    along.iter_mut().for_each(|t| *t /= length);
+    let step = StepLength { now: options.first, longest: options.longest, shortest: options.shortest };
+    Tracer::new(problem, w, along, step)
+}

@@ -1,0 +1,100 @@
+//! How the events of a motion differ from those of a signature.
+
+use super::point::MachineBranchEvent;
+use super::problem::Judged;
+use crate::orbit::{MachineRing, RingEvent};
+use crate::regime::{ContactState, GuardKind};
+
+/// The first difference between the events of a signature and those of a motion beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Difference {
+    /// Before event `at` of the signature a stop closes.
+    Appears { at: usize, stop: usize },
+    /// Event `at` of the signature, the closing of a stop, does not happen.
+    Disappears { at: usize, stop: usize },
+    /// Two events change their order, or happen together.
+    Corner { first: usize, second: usize },
+    /// A stop rests or a joint holds after an event where it did not, or the other way round.
+    Rest { place: usize, joint: bool, begins: bool },
+    /// Something else.
+    Other { place: usize },
+}
+
+impl Difference {
+    /// The event of a branch.
+    pub(super) const fn event(&self, turns: bool) -> MachineBranchEvent {
+        match *self {
+            Self::Appears { stop, .. } => MachineBranchEvent::Grazing { stop, appears: true, turns },
+            Self::Disappears { stop, .. } => MachineBranchEvent::Grazing { stop, appears: false, turns },
+            Self::Corner { first, second } => MachineBranchEvent::Corner { first, second },
+            Self::Rest { place, joint: false, begins } => MachineBranchEvent::Sticking { stop: place, begins },
+            Self::Rest { place, begins, .. } => MachineBranchEvent::Holding { joint: place, begins },
+            Self::Other { place } => MachineBranchEvent::Change { place },
+        }
+    }
+}
+
+/// The stop of a guard, or the joint, counted after the stops.
+fn place(guard: GuardKind, stops: usize) -> usize {
+    match guard {
+        GuardKind::Gap(j)
+        | GuardKind::Depth(j)
+        | GuardKind::Force(j)
+        | GuardKind::Reaction(j)
+        | GuardKind::Preload(j) => j,
+        GuardKind::Sliding(joint) | GuardKind::LimitForward(joint) | GuardKind::LimitBackward(joint) => stops + joint,
+    }
+}
+
+/// The first difference between a signature and the events of the motion from one of its solutions.
+pub(super) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
+    let m = ring.len();
+    let stops = ring.events.first().map_or(0, |event| event.back.len());
+    let wanted = |i: usize| (judged.from + 1 + i) % m;
+    let at = (0..m.max(judged.seen.len())).find(|i| *i >= m || judged.seen.get(*i) != Some(&ring.events[wanted(*i)]));
+    let Some(i) = at else { return Difference::Other { place: 0 } };
+    let expected: &RingEvent = &ring.events[wanted(i % m)];
+    let own = place(expected.guard, stops);
+    let Some(found) = judged.seen.get(i) else {
+        // the motion has fewer events than the signature
+        return match expected.guard {
+            GuardKind::Gap(stop) => Difference::Disappears { at: wanted(i % m), stop },
+            _ => Difference::Other { place: own },
+        };
+    };
+    if i < m && found.guard == expected.guard {
+        if found.pushed.iter().map(|(j, _)| j).ne(expected.pushed.iter().map(|(j, _)| j)) {
+            let other = found.pushed.iter().chain(&expected.pushed).map(|(j, _)| *j).find(|j| *j != own);
+            return Difference::Corner { first: own, second: other.unwrap_or(own) };
+        }
+        let changed = (0..found.after.len()).find(|j| found.after[*j] != expected.after[*j]);
+        let rests = |state: ContactState| state.constrains();
+        return match changed {
+            Some(place) if rests(found.after[place]) != rests(expected.after[place]) => {
+                Difference::Rest { place, joint: place >= stops, begins: rests(found.after[place]) }
+            }
+            Some(place) => Difference::Other { place },
+            // a chatter that is summed after another number of impacts
+            None => Difference::Rest { place: own, joint: false, begins: found.pushed.iter().any(|(_, still)| *still) },
+        };
+    }
+    let other = place(found.guard, stops);
+    let later = |events: &mut dyn Iterator<Item = &RingEvent>, guard| events.take(3).any(|event| event.guard == guard);
+    // the expected event comes a little later, or not at all
+    let delayed = i < m && later(&mut judged.seen.iter().skip(i + 1), expected.guard);
+    let early = later(&mut (1..4).map(|k| &ring.events[wanted(i + k)]), found.guard);
+    match (found.guard, expected.guard) {
+        _ if delayed && early && judged.seen.len() == m => Difference::Corner { first: own, second: other },
+        (GuardKind::Gap(stop), _) if judged.seen.len() > m || i >= m => Difference::Appears { at: wanted(i), stop },
+        (_, GuardKind::Gap(stop)) if judged.seen.len() < m => Difference::Disappears { at: wanted(i), stop },
+        (GuardKind::Gap(stop), _) => Difference::Appears { at: wanted(i), stop },
+        (_, GuardKind::Gap(stop)) => Difference::Disappears { at: wanted(i), stop },
+        (GuardKind::Sliding(_) | GuardKind::LimitForward(_) | GuardKind::LimitBackward(_), _) => {
+            Difference::Rest { place: other, joint: true, begins: found.after[other].constrains() }
+        }
+        (_, GuardKind::Sliding(_) | GuardKind::LimitForward(_) | GuardKind::LimitBackward(_)) => {
+            Difference::Rest { place: own, joint: true, begins: !expected.after[own].constrains() }
+        }
+        _ => Difference::Other { place: other },
+    }
+}

@@ -1,0 +1,189 @@
+//! The equations of a cycle of a machine with one of its numbers among the unknowns.
+
+use crate::continuation::trace::equations::Equations;
+use crate::events::StateShape;
+use crate::machine::Machine;
+use crate::orbit::{MachineFrame, MachineRing};
+
+/// The equations of the cycles with the signature of a ring. The unknowns are phases and states of the events and, last, a
+/// number of the machine.
+#[derive(Clone, Debug)]
+pub(crate) struct MachineEquations {
+    pub(crate) machine: Machine,
+    pub(crate) path: String,
+    pub(crate) ring: MachineRing,
+    weights: Vec<f64>,
+    pub(crate) scale: f64,
+}
+
+impl MachineEquations {
+    /// The equations for the signature of `ring`; `sizes` are the largest coordinates and velocities. A change of the
+    /// number by `scale` has the same length as a change of all phases by one radian.
+    pub(crate) fn new(machine: &Machine, path: &str, ring: MachineRing, sizes: (f64, f64), scale: f64) -> Self {
+        #[allow(clippy::cast_precision_loss)] // a few dozen
+        let m = ring.len() as f64;
+        let width = MachineFrame::new(machine).shape.size() + 1;
+        let n = machine.n();
+        let weight = |i: usize| {
+            let size = match i {
+                0 => 1.0,
+                i if i <= n => sizes.0,
+                i if i <= 2 * n => sizes.1,
+                _ => sizes.0,
+            };
+            1.0 / (m * size * size).max(f64::MIN_POSITIVE)
+        };
+        let mut weights: Vec<f64> = (0..ring.len() * width).map(|i| weight(i % width)).collect();
+        weights.push(1.0 / (scale * scale));
+        Self { machine: machine.clone(), path: path.to_owned(), ring, weights, scale }
+    }
+
+    /// The machine and the ring that belong to these unknowns; `None` if the number is not allowed.
+    pub(crate) fn split(&self, w: &[f64]) -> Option<(Machine, MachineRing)> {
+        let (value, unknowns) = w.split_last()?;
+        let machine = self.machine.with(&self.path, *value).ok()?;
+        let ring = self.ring.with(&MachineFrame::new(&machine), unknowns);
+        Some((machine, ring))
+    }
+
+    /// The vector of unknowns of a ring and a value.
+    pub(crate) fn join(machine: &Machine, ring: &MachineRing, value: f64) -> Vec<f64> {
+        let mut w = ring.unknowns(&MachineFrame::new(machine));
+        w.push(value);
+        w
+    }
+
+    /// The residuals at the same events with another value of the number.
+    fn misses(&self, w: &[f64], value: f64) -> Option<Vec<f64>> {
+        let mut other = w.to_vec();
+        *other.last_mut()? = value;
+        let (machine, ring) = self.split(&other)?;
+        ring.misses(&MachineFrame::new(&machine))
+    }
+
+    /// The derivatives of all residuals by the number, from differences of the fourth order whose own error is about
+    /// 1e-12 of the largest terms.
+    fn by_number(&self, w: &[f64]) -> Option<Vec<f64>> {
+        let value = *w.last()?;
+        let mut h = STEP * self.scale.min(value.abs().max(0.1 * self.scale));
+        for _ in 0..8 {
+            let at = |k: f64| self.misses(w, value + k * h);
+            if let (Some(a), Some(b), Some(c), Some(d)) = (at(1.0), at(-1.0), at(2.0), at(-2.0)) {
+                let slope = |i: usize| (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * h);
+                return Some((0..a.len()).map(slope).collect());
+            }
+            // beside the end of the allowed numbers: one-sided differences of the second order
+            for side in [1.0, -1.0] {
+                if let (Some(a), Some(b), Some(c)) = (at(0.0), at(0.05 * side), at(0.1 * side)) {
+                    let slope = |i: usize| side * (4.0 * b[i] - 3.0 * a[i] - c[i]) / (0.1 * h);
+                    return Some((0..a.len()).map(slope).collect());
+                }
+            }
+            h *= 0.1;
+        }
+        None
+    }
+}
+
+/// The step of the differences, relative to the scale of the number.
+const STEP: f64 = 1e-3;
+
+impl Equations for MachineEquations {
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let (machine, ring) = self.split(w)?;
+        let blocks = ring.blocks(&MachineFrame::new(&machine))?;
+        let length = w.len();
+        let mut rows = vec![0.0; length * length];
+        ring.fill(&mut rows, length, &blocks);
+        for (row, slope) in self.by_number(w)?.into_iter().enumerate() {
+            rows[row * length + length - 1] = slope;
+        }
+        let mut miss: Vec<f64> = blocks.into_iter().flat_map(|block| block.miss).collect();
+        // the sizes of surfaces that do not stand back are 0
+        let (m, n) = (ring.len(), machine.n());
+        let shape = StateShape::of(&machine);
+        let width = shape.size() + 1;
+        for (k, event) in ring.events.iter().enumerate() {
+            for (s, _) in shape.surfaces.iter().enumerate().filter(|(_, j)| !event.back[**j]) {
+                let place = 1 + 2 * n + s;
+                miss[((k + m - 1) % m) * width + place] -= w[k * width + place];
+            }
+        }
+        Some((miss, rows))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::continuation::trace::equations::correct;
+    use crate::events::MachineStart;
+    use crate::machine::{MachineParts, Opening, StopLaw};
+    use crate::verdict::{MachineVerdict, SettleOptions, settle_machine};
+
+    fn machine(soft: bool) -> Machine {
+        let parts = MachineParts::new(["a", "b"])
+            .with_mass(0, 1.0)
+            .with_mass(1, 0.8)
+            .with_link(&[1.0, -1.0], 1.1, 0.12)
+            .with_link(&[0.0, 1.0], 0.9, 0.1)
+            .with_frequency(0.8)
+            .with_force(1, 1, 0.0, 0.9);
+        let law = StopLaw::Compliant { stiffness: 20.0, damping: 0.6, preload: 0.0, opening: Opening::Force };
+        Machine::new(if soft {
+            parts.with_stop("stop", &[1.0, 0.0], 0.5, law)
+        } else {
+            parts.with_rigid_stop("stop", &[1.0, 0.0], 0.5, 0.6)
+        })
+        .unwrap()
+    }
+
+    /// The Jacobian against differences of the residuals, and Newton's method from a distant guess.
+    #[test]
+    fn derivatives_and_convergence() {
+        for soft in [false, true] {
+            let machine = machine(soft);
+            let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+            let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
+            let frame = MachineFrame::new(&machine);
+            let ring = MachineRing::of(&frame, &cycle.strobes[0], cycle.label.periods).unwrap();
+            let equations = MachineEquations::new(&machine, "stop.stop.gap", ring.clone(), cycle.sizes, 0.5);
+            let w = MachineEquations::join(&machine, &ring, 0.5);
+            let (miss, rows) = equations.at(&w).unwrap();
+            assert!(miss.iter().all(|miss| miss.abs() < 1e-12), "{miss:?}");
+            let length = w.len();
+            for j in 0..length {
+                let at = |h: f64| {
+                    let mut other = w.clone();
+                    other[j] += h;
+                    let (machine, ring) = equations.split(&other).unwrap();
+                    ring.misses(&MachineFrame::new(&machine)).unwrap()
+                };
+                let (plus, minus) = (at(1e-5), at(-1e-5));
+                for i in 0..length - 1 {
+                    let difference = (plus[i] - minus[i]) / 2e-5;
+                    let exact = rows[i * length + j];
+                    // the size of a surface that does not stand back is 0, which `at` alone adds
+                    let width = frame.shape.size() + 1;
+                    if j < length - 1 && j % width > 4 && !ring.events[j / width].back[0] {
+                        continue;
+                    }
+                    assert!(
+                        (difference - exact).abs() < 1e-7 * (1.0 + exact.abs()),
+                        "{soft} {i} {j}: {difference} {exact}"
+                    );
+                }
+            }
+            // the same cycle from a guess beside it
+            let guess: Vec<f64> = w.iter().enumerate().map(|(i, w)| w + 1e-3 * (1.3 * i as f64).sin()).collect();
+            let mut row = vec![0.0; length];
+            row[length - 1] = 1.0;
+            let (found, _) = correct(&equations, &guess, &row, 0.5).unwrap();
+            assert!(found.iter().zip(&w).all(|(a, b)| (a - b).abs() < 1e-11), "{soft}");
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Branches of cycles of machines, traced by the same tracer as those of the oscillator.
+//!
+//! | idea | file |
+//! |---|---|
+//! | the equations of all events, with a number of the machine among the unknowns | `equations` |
+//! | the problem that the tracer solves: test functions, admissible solutions | `problem` |
+//! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
+//! | how the events of a motion differ from those of a signature | `change` |
+//! | the branch beyond such a change | `beyond` |
+//! | the branch | [`MachineBranch`] |
+
+mod beyond;
+mod branch;
+mod change;
+mod equations;
+mod point;
+mod problem;
+
+pub use branch::{MachineBranch, MachineBranchError};
+pub use point::{MachineBranchEvent, MachinePoint};

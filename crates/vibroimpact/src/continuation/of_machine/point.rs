@@ -1,0 +1,113 @@
+//! A point of a branch of a machine, and the events that are possible there.
+
+use crate::orbit::MachineCycle;
+
+/// A point of a branch.
+#[derive(Clone, Debug)]
+pub struct MachinePoint {
+    /// Value of the number that varies.
+    pub value: f64,
+    /// The cycle there.
+    pub cycle: MachineCycle,
+    /// The event at this point; `None` for an ordinary point.
+    pub event: Option<MachineBranchEvent>,
+}
+
+/// An event at a point of a branch. Stops and joints are given by their place: joints are counted after the stops.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MachineBranchEvent {
+    /// The number turns back; a multiplier is +1.
+    Fold,
+    /// A multiplier is +1 and another branch crosses here.
+    BranchPoint,
+    /// A multiplier is -1; a branch of twice the period begins or ends here.
+    Flip,
+    /// A pair of complex multipliers crosses the unit circle (Neimark-Sacker).
+    Torus,
+    /// A stop is closed with speed zero.
+    Grazing {
+        /// The stop.
+        stop: usize,
+        /// Whether a closing appears or disappears beyond.
+        appears: bool,
+        /// Whether the number turns back here.
+        turns: bool,
+    },
+    /// Two events happen at the same time and change their order or act together beyond.
+    Corner {
+        /// The one that came first.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+    /// A rest on a stop begins or ends to be a part of the cycle.
+    Sticking {
+        /// The stop.
+        stop: usize,
+        /// Whether it begins.
+        begins: bool,
+    },
+    /// A friction joint begins or ends to hold in the cycle.
+    Holding {
+        /// The joint.
+        joint: usize,
+        /// Whether it begins.
+        begins: bool,
+    },
+    /// Another change of the sequence of events.
+    Change {
+        /// The stop or joint at which the sequence first differs.
+        place: usize,
+    },
+    /// The branch is closed: the next point would be the first.
+    Closed,
+    /// The number reached the end of its range.
+    EndOfRange,
+    /// The largest number of points was reached.
+    StepLimit,
+    /// No cycle was found further on.
+    NoConvergence,
+}
+
+impl MachineBranchEvent {
+    /// Its name in JSON and tables.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::BranchPoint => "branch point",
+            Self::Flip => "flip",
+            Self::Torus => "torus",
+            Self::Grazing { .. } => "grazing",
+            Self::Corner { .. } => "corner",
+            Self::Sticking { begins: true, .. } => "sticking begins",
+            Self::Sticking { .. } => "sticking ends",
+            Self::Holding { begins: true, .. } => "holding begins",
+            Self::Holding { .. } => "holding ends",
+            Self::Change { .. } => "change",
+            Self::Closed => "closed",
+            Self::EndOfRange => "end of range",
+            Self::StepLimit => "step limit",
+            Self::NoConvergence => "no convergence",
+        }
+    }
+
+    /// The stop or joint of the event.
+    #[must_use]
+    pub const fn place(&self) -> Option<usize> {
+        match *self {
+            Self::Grazing { stop, .. } | Self::Sticking { stop, .. } => Some(stop),
+            Self::Corner { first, .. } => Some(first),
+            Self::Holding { joint, .. } => Some(joint),
+            Self::Change { place } => Some(place),
+            _ => None,
+        }
+    }
+
+    /// Whether the branch ends at this event.
+    #[must_use]
+    pub const fn ends(&self) -> bool {
+        matches!(self, Self::Closed | Self::EndOfRange | Self::StepLimit | Self::NoConvergence)
+    }
+}

@@ -1,0 +1,162 @@
+//! The problem that the tracer solves along a branch of a machine: its equations, and the test functions of its
+//! bifurcations. Whether a solution is admissible is decided by following the motion over one period.
+
+use super::equations::MachineEquations;
+use crate::continuation::trace::equations::Equations;
+use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
+use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
+use crate::orbit::{MachineCycle, MachineFrame, MachineLap, MachineRing, RingEvent};
+
+/// The equations of a branch with the range of the number.
+#[derive(Clone, Debug)]
+pub(crate) struct MachineProblem {
+    pub(crate) equations: MachineEquations,
+    pub(crate) range: (f64, f64),
+}
+
+/// What is known of a solution apart from its unknowns.
+#[derive(Clone, Debug)]
+pub(crate) struct Judged {
+    /// The cycle, if the solution is admissible.
+    pub(crate) cycle: Option<MachineCycle>,
+    pub(crate) multipliers: Vec<Multiplier>,
+    /// The events that the motion has, beginning with the one after event `from` of the ring.
+    pub(crate) seen: Vec<RingEvent>,
+    pub(crate) from: usize,
+}
+
+impl Judged {
+    pub(crate) fn physical(&self) -> bool {
+        self.cycle.is_some()
+    }
+}
+
+/// A solution on a branch.
+pub(crate) type MachineSolution = Solution<Judged>;
+
+/// The test functions, by place.
+pub(crate) const PACE: usize = 0;
+pub(crate) const PLUS_ONE: usize = 1;
+pub(crate) const MINUS_ONE: usize = 2;
+pub(crate) const TORUS: usize = 3;
+
+impl Equations for MachineProblem {
+    fn weights(&self) -> &[f64] {
+        self.equations.weights()
+    }
+
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        self.equations.at(w)
+    }
+}
+
+/// The determinant of a matrix with `shift` added on its diagonal.
+fn shifted_determinant(matrix: &Matrix, shift: f64) -> f64 {
+    let mut other = matrix.clone();
+    for i in 0..other.rows() {
+        other[(i, i)] += shift;
+    }
+    Lu::new(other.values().to_vec(), other.rows()).map_or(0.0, |lu| lu.determinant())
+}
+
+impl MachineProblem {
+    /// The values of all test functions, and the multipliers; `None` where an event is only a touch.
+    fn values(
+        &self,
+        frame: &MachineFrame<'_>,
+        ring: &MachineRing,
+        tangent: &[f64],
+    ) -> Option<(Vec<f64>, Vec<Multiplier>)> {
+        let turn = MachineRing::monodromy(&ring.blocks(frame)?)?;
+        let mut multipliers = general_eigenvalues(&turn)?;
+        let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
+        // the product over all pairs changes its sign where a product of two multipliers is 1
+        let mut torus = 1.0;
+        for (i, a) in multipliers.iter().enumerate() {
+            for (j, b) in multipliers.iter().enumerate().skip(i + 1) {
+                let (re, im) = (a.re * b.re - a.im * b.im - 1.0, a.re * b.im + a.im * b.re);
+                // two factors that are conjugate are positive together
+                let conjugate = a.im != 0.0 && b.im != 0.0 && !(a.re == b.re && a.im == -b.im);
+                let factor = if im == 0.0 && !conjugate { re } else { crate::math::hypot(re, im) };
+                torus *= factor.clamp(-1e3, 1e3);
+                let _ = j;
+            }
+        }
+        let pace = tangent.last().map_or(0.0, |last| last / self.equations.scale);
+        let values = vec![pace, even * shifted_determinant(&turn, -1.0), shifted_determinant(&turn, 1.0), torus];
+        multipliers.truncate(2 * frame.shape.n);
+        Some((values, multipliers))
+    }
+
+    /// The motion from the middle of the longest flight over one period, and the cycle if its events are those of the
+    /// ring.
+    fn judge(frame: &MachineFrame<'_>, ring: &MachineRing, multipliers: Vec<Multiplier>) -> Judged {
+        let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: 0 };
+        let Some((from, begin)) = ring.middle(frame) else { return nothing(multipliers) };
+        let Some(time) = frame.machine.period().map(|period| period * f64::from(ring.periods)) else {
+            return nothing(multipliers);
+        };
+        let Some(lap) = MachineLap::fly(frame, &begin, time) else { return nothing(multipliers) };
+        let seen: Vec<RingEvent> =
+            lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
+        let m = ring.len();
+        let alike = seen.len() == m && (0..m).all(|i| seen[i] == ring.events[(from + 1 + i) % m]);
+        let cycle = alike.then(|| {
+            let residual = crate::orbit::machine_distance(&begin, &lap.end, lap.sizes);
+            MachineCycle {
+                multipliers: multipliers.clone(),
+                ..MachineCycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])
+            }
+        });
+        Judged { cycle, multipliers, seen, from }
+    }
+}
+
+impl Problem for MachineProblem {
+    type Known = Judged;
+
+    fn rules(&self) -> StepRules {
+        StepRules {
+            stray: 0.3,
+            rounding: 1e-9,
+            bend: 0.95,
+            straight: 0.995,
+            few: 3,
+            many: 5,
+            zero: 1e-11,
+            // at a branch point itself Newton's method does not converge
+            beside: 3e-5,
+        }
+    }
+
+    fn tests(&self) -> usize {
+        4
+    }
+
+    fn look(&self, w: &[f64], tangent: &[f64]) -> Option<(Vec<f64>, Judged)> {
+        let (machine, ring) = self.equations.split(w)?;
+        let frame = MachineFrame::new(&machine);
+        let (values, multipliers) = self.values(&frame, &ring, tangent)?;
+        Some((values, Self::judge(&frame, &ring, multipliers)))
+    }
+
+    fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
+        if j == PACE {
+            return Some(tangent()?.last()? / self.equations.scale);
+        }
+        let (machine, ring) = self.equations.split(w)?;
+        Some(self.values(&MachineFrame::new(&machine), &ring, &[])?.0[j])
+    }
+
+    fn resolution(&self, j: usize) -> f64 {
+        if j == PACE { 3e-5 } else { 1e-13 }
+    }
+
+    fn phases(&self) -> usize {
+        0
+    }
+
+    fn range(&self) -> Option<(f64, f64)> {
+        Some(self.range)
+    }
+}

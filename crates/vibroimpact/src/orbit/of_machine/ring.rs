@@ -1,0 +1,253 @@
+//! The events of a cycle of a machine as unknowns, and the equations that they obey.
+//!
+//! The unknowns are the phase $`\theta_k`$ of each event and the state $`z_k`$ after it. The *signature* prescribes which
+//! guard is zero at each event, the states of all stops and joints after it, and the number n of forcing periods. The
+//! flight after event k takes $`T_k = (\theta_{k+1} - \theta_k)/\omega`$ in one regime and ends at $`z_-`$; there
+//!
+//! $$`h_{k+1}(z_-, \theta_{k+1}) = 0, \qquad R_{k+1}(z_-, \theta_{k+1}) = z_{k+1}`$$
+//!
+//! with the guard $`h`$ and the reset $`R`$. No first zero is searched for, so the equations are smooth through grazing.
+
+use super::frame::MachineFrame;
+use super::lap::MachineLap;
+use crate::events::{EventLaw, LinearEvent, Passage, Place};
+use crate::machine::StopLaw;
+use crate::math::Matrix;
+use crate::regime::{ContactState, GuardKind, Structure};
+use crate::system::phase;
+use core::f64::consts::TAU;
+use std::sync::Arc;
+
+/// An event of a signature.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct RingEvent {
+    /// The guard that is zero.
+    pub(crate) guard: GuardKind,
+    /// The states of all stops and joints after it.
+    pub(crate) after: Vec<ContactState>,
+    /// The rigid stops that push, and whether the rebound is taken away because a chatter is summed.
+    pub(crate) pushed: Vec<(usize, bool)>,
+    /// The stops whose surfaces stand back after it.
+    pub(crate) back: Vec<bool>,
+}
+
+impl RingEvent {
+    /// The event at the end of a step; `None` if there is none.
+    pub(crate) fn of(passage: &Passage) -> Option<Self> {
+        let after = passage.after.as_ref()?;
+        Some(Self {
+            guard: passage.structure.guards.get(*passage.guards.first()?)?.kind,
+            after: after.states.clone(),
+            pushed: passage.pushed.iter().map(|(j, _)| (*j, passage.rest.is_some())).collect(),
+            back: after.surfaces.iter().map(Option::is_some).collect(),
+        })
+    }
+}
+
+/// The events of a cycle: signature and unknowns.
+#[derive(Clone, Debug)]
+pub(crate) struct MachineRing {
+    pub(crate) events: Vec<RingEvent>,
+    /// The states after the events. Their phases increase along the cycle beyond 2 pi.
+    pub(crate) places: Vec<Place>,
+    pub(crate) periods: u32,
+}
+
+/// One flight of a cycle and the event at its end, to first order.
+pub(crate) struct MachineBlock {
+    /// The residuals: of the guard, and of the state after the event.
+    pub(crate) miss: Vec<f64>,
+    /// Their derivatives by phase and state at the beginning,
+    pub(crate) left: Matrix,
+    /// and by the phase at the end. Those by the state after the event are -1 on the diagonal.
+    pub(crate) late: Vec<f64>,
+    /// The derivative of the state after the event by that after the one before; `None` where the guard is touched.
+    pub(crate) step: Option<Matrix>,
+}
+
+impl MachineRing {
+    /// The events of the motion from `begin`, a state between two events, over `periods` forcing periods; `None` if there
+    /// is none.
+    pub(crate) fn of(frame: &MachineFrame<'_>, begin: &Place, periods: u32) -> Option<Self> {
+        let time = frame.machine.period()? * f64::from(periods);
+        Self::of_lap(&MachineLap::fly(frame, begin, time)?, begin, periods, frame.machine.parts().frequency?)
+    }
+
+    pub(crate) fn of_lap(lap: &MachineLap, begin: &Place, periods: u32, frequency: f64) -> Option<Self> {
+        let (mut events, mut places) = (Vec::new(), Vec::new());
+        for (k, (time, _, passage)) in lap.steps.iter().enumerate() {
+            // the last step is the flight to the end
+            if k + 1 == lap.steps.len() {
+                break;
+            }
+            let Some(event) = RingEvent::of(passage) else { continue };
+            let mut place = passage.after.clone()?;
+            place.phase = begin.phase + frequency * (time + passage.duration);
+            events.push(event);
+            places.push(place);
+        }
+        (!events.is_empty()).then_some(Self { events, places, periods })
+    }
+
+    /// The number of events.
+    pub(crate) fn len(&self) -> usize {
+        self.events.len()
+    }
+
+    /// The phase of event `k`, not reduced to one forcing period; `k` may lie in the next period.
+    pub(crate) fn theta(&self, k: usize) -> f64 {
+        let m = self.len();
+        if k < m { self.places[k].phase } else { self.places[k - m].phase + TAU * f64::from(self.periods) }
+    }
+
+    /// All unknowns: for each event its phase and the state after it.
+    pub(crate) fn unknowns(&self, frame: &MachineFrame<'_>) -> Vec<f64> {
+        let of = |place: &Place| core::iter::once(place.phase).chain(frame.shape.values(place)).collect::<Vec<f64>>();
+        self.places.iter().flat_map(of).collect()
+    }
+
+    /// The ring of the same signature with these unknowns.
+    pub(crate) fn with(&self, frame: &MachineFrame<'_>, unknowns: &[f64]) -> Self {
+        let width = frame.shape.size() + 1;
+        let mut ring = self.clone();
+        for (place, own) in ring.places.iter_mut().zip(unknowns.chunks_exact(width)) {
+            // the rates of surfaces are numbers of the machine
+            for (j, surface) in place.surfaces.iter_mut().enumerate() {
+                if let Some(surface) = surface {
+                    *surface = frame.recovery(j).unwrap_or(*surface);
+                }
+            }
+            *place = frame.shape.with_values(place, &own[1..]);
+            place.phase = own[0];
+        }
+        ring
+    }
+
+    /// The state after event `k` with a phase in $`[0, 2\pi)`$.
+    pub(crate) fn place(&self, k: usize) -> Place {
+        let place = &self.places[k % self.len()];
+        Place { phase: phase::wrap(place.phase), ..place.clone() }
+    }
+
+    /// The time from event `k` to the next.
+    pub(crate) fn time(&self, k: usize, frequency: f64) -> f64 {
+        (self.theta(k + 1) - self.theta(k)) / frequency
+    }
+
+    /// The flight after event `k` and the event at its end; the derivatives only if `linear`.
+    fn block(&self, frame: &MachineFrame<'_>, k: usize, linear: bool) -> Option<MachineBlock> {
+        let frequency = frame.machine.parts().frequency?;
+        let (from, next) = (self.place(k), (k + 1) % self.len());
+        let event = &self.events[next];
+        let time = self.time(k, frequency);
+        if !(time > 0.0 && time.is_finite()) {
+            return None;
+        }
+        let structure = frame.structure(&from.states)?;
+        let before = frame.moved(&from, &structure, time);
+        let guard = structure.guards.iter().position(|guard| guard.kind == event.guard)?;
+        let restitution = |j: usize| match frame.machine.stops()[j].law {
+            StopLaw::Rigid { restitution } => restitution,
+            StopLaw::Compliant { .. } => 0.0,
+        };
+        let pushed: Vec<(usize, f64)> =
+            event.pushed.iter().map(|(j, still)| (*j, if *still { 0.0 } else { restitution(*j) })).collect();
+        let law = EventLaw { structure: &structure, guard, pushed: &pushed };
+        let mut arrived = before.clone();
+        arrived.v = law.rebound(&frame.normal, &before)?;
+        arrived.states.clone_from(&event.after);
+        let turns = before.turns(&frame.normal);
+        for (j, back) in event.back.iter().enumerate() {
+            match (before.surfaces[j], back) {
+                (None, true) => {
+                    let depth = -before.gap(&frame.normal, &turns, j).0;
+                    let mut surface = frame.recovery(j)?;
+                    surface.size = depth + surface.offset;
+                    arrived.surfaces[j] = Some(surface);
+                }
+                (_, false) => arrived.surfaces[j] = None,
+                _ => {}
+            }
+        }
+        let to = self.place(next);
+        let (reached, wanted) = (frame.shape.values(&arrived), frame.shape.values(&to));
+        let mut miss = vec![law.value(&frame.normal, &before)];
+        miss.extend(reached.iter().zip(&wanted).map(|(reached, wanted)| reached - wanted));
+        let size = frame.shape.size();
+        if !linear {
+            return Some(MachineBlock { miss, left: Matrix::zeros(0, 0), late: Vec::new(), step: None });
+        }
+        let after = frame.structure(&event.after)?;
+        let linear = LinearEvent::at(&frame.shape, &frame.normal, &law, &before, (&arrived, &after))?;
+        let transition = frame.shape.transition(&structure, &frame.normal, &from, time);
+        let start = frame.shape.flow(&structure, &frame.normal, &from);
+        let through = linear.reset.times(&transition);
+        let guarded = transition.apply_transposed(&linear.gradient);
+        let mut left = Matrix::zeros(size + 1, size + 1);
+        // an earlier beginning at the same state: the flow at the beginning, carried to the end
+        left[(0, 0)] = -crate::math::dot(&guarded, &start) / frequency;
+        left.row_mut(0)[1..].copy_from_slice(&guarded);
+        let carried = through.apply(&start);
+        let ended = linear.reset.apply(&linear.flow_before);
+        let mut late = vec![linear.rate / frequency];
+        for i in 0..size {
+            left[(i + 1, 0)] = -carried[i] / frequency;
+            left.row_mut(i + 1)[1..].copy_from_slice(through.row(i));
+            late.push((ended[i] + linear.reset_rate[i]) / frequency);
+        }
+        let step = linear.saltation().map(|saltation| saltation.times(&transition));
+        Some(MachineBlock { miss, left, late, step })
+    }
+
+    /// All flights to first order; `None` if one is not defined.
+    pub(crate) fn blocks(&self, frame: &MachineFrame<'_>) -> Option<Vec<MachineBlock>> {
+        (0..self.len()).map(|k| self.block(frame, k, true)).collect()
+    }
+
+    /// The residuals of all flights.
+    pub(crate) fn misses(&self, frame: &MachineFrame<'_>) -> Option<Vec<f64>> {
+        let blocks: Option<Vec<MachineBlock>> = (0..self.len()).map(|k| self.block(frame, k, false)).collect();
+        Some(blocks?.into_iter().flat_map(|block| block.miss).collect())
+    }
+
+    /// Writes the derivatives of all residuals into the first columns of a matrix of rows of this length.
+    pub(crate) fn fill(&self, rows: &mut [f64], length: usize, blocks: &[MachineBlock]) {
+        let m = self.len();
+        for (k, block) in blocks.iter().enumerate() {
+            let width = block.late.len();
+            let (own, next) = (k * width, ((k + 1) % m) * width);
+            for i in 0..width {
+                let row = &mut rows[(k * width + i) * length..(k * width + i + 1) * length];
+                for (j, value) in block.left.row(i).iter().enumerate() {
+                    row[own + j] += value;
+                }
+                row[next] += block.late[i];
+                if i > 0 {
+                    row[next + i] -= 1.0;
+                }
+            }
+        }
+    }
+
+    /// The derivative of the state after the last event by that after the first, over one period.
+    pub(crate) fn monodromy(blocks: &[MachineBlock]) -> Option<Matrix> {
+        let mut product: Option<Matrix> = None;
+        for block in blocks {
+            let step = block.step.clone()?;
+            product = Some(match product {
+                None => step,
+                Some(so_far) => step.times(&so_far),
+            });
+        }
+        product
+    }
+
+    /// A state between two events: the middle of the longest flight, with the event before it.
+    pub(crate) fn middle(&self, frame: &MachineFrame<'_>) -> Option<(usize, Place)> {
+        let frequency = frame.machine.parts().frequency?;
+        let longest = (0..self.len()).max_by(|a, b| self.time(*a, frequency).total_cmp(&self.time(*b, frequency)))?;
+        let from = self.place(longest);
+        let structure: Arc<Structure> = frame.structure(&from.states)?;
+        Some((longest, frame.moved(&from, &structure, 0.5 * self.time(longest, frequency))))
+    }
+}
