@@ -1,6 +1,7 @@
 //! The events of machines against an independent simulation in high precision (see README.md here).
 
 #[cfg(test)]
+mod branches;
 mod case;
 
 use case::{Case, cases};

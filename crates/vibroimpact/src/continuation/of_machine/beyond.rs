@@ -15,7 +15,7 @@ use crate::continuation::trace::tracer::Tracer;
 use crate::events::Place;
 use crate::machine::{Machine, StopLaw};
 use crate::orbit::{MachineCycle, MachineFrame, MachineRing, RingEvent};
-use crate::regime::{ContactState, GuardKind};
+use crate::regime::GuardKind;
 
 /// The tracer on the other side of a change at `at`; `None` if no cycle is found there.
 pub(super) fn beyond(
@@ -38,7 +38,7 @@ pub(super) fn beyond(
         }
         _ => None,
     };
-    through_grazing.or_else(|| replayed(tracer, at, (&machine, &ring), options))
+    through_grazing.or_else(|| replayed(tracer, at, options))
 }
 
 /// The problem with another ring at the same machine.
@@ -170,16 +170,16 @@ fn disappearing(
 const BESIDE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
 
 /// The cycle a little beyond, from the last one.
-fn replayed(
+pub(super) fn replayed(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
-    (machine, ring): (&Machine, &MachineRing),
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let equations = &tracer.problem.equations;
+    let (machine, ring) = equations.split(&at.w)?;
     let value = last(&at.w);
     let forward = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
-    let begin = ring.middle(&MachineFrame::new(machine))?.1;
+    let begin = ring.middle(&MachineFrame::new(&machine))?.1;
     let (low, high) = tracer.problem.range;
     for up in [forward, -forward] {
         for by in BESIDE {
@@ -194,7 +194,7 @@ fn replayed(
                 continue;
             }
             let Some(next) = MachineRing::of(&frame, cycle.strobes.first()?, ring.periods) else { continue };
-            if same_signature(&next, ring) {
+            if same_signature(&next, &ring) {
                 continue;
             }
             let w = MachineEquations::join(&moved, &next, there);
@@ -212,10 +212,5 @@ fn replayed(
 /// Whether two rings have the same events in the same cyclic order.
 fn same_signature(a: &MachineRing, b: &MachineRing) -> bool {
     let m = a.len();
-    let states = |ring: &MachineRing| -> Vec<Vec<ContactState>> {
-        ring.events.iter().map(|event| event.after.clone()).collect()
-    };
-    m == b.len()
-        && states(a).len() == states(b).len()
-        && (0..m).any(|shift| (0..m).all(|k| a.events[k] == b.events[(k + shift) % m]))
+    m == b.len() && (0..m).any(|shift| (0..m).all(|k| a.events[k] == b.events[(k + shift) % m]))
 }

@@ -1,6 +1,6 @@
 //! The branch of a cycle of a machine in one of its numbers.
 
-use super::beyond::beyond;
+use super::beyond::{beyond, replayed};
 use super::change::{Difference, difference};
 use super::equations::MachineEquations;
 use super::point::{MachineBranchEvent, MachinePoint};
@@ -46,6 +46,9 @@ pub struct MachineBranch {
     options: BranchOptions,
     pub(super) tracer: Tracer<MachineProblem>,
     begin: Option<MachineSolution>,
+    /// The changes of the events so far, with the number of unknowns and the direction; at the second one of a kind the
+    /// branch is closed.
+    passed: Vec<(f64, usize, bool, MachineBranchEvent)>,
     count: u32,
     pending: VecDeque<MachinePoint>,
     over: bool,
@@ -82,7 +85,7 @@ impl MachineBranch {
         let tracer = begun(problem, w, value, up, options).ok_or(MachineBranchError::NoCycle)?;
         let first = Self::point(&tracer.here, None).ok_or(MachineBranchError::NoCycle)?;
         let begin = Some(tracer.here.clone());
-        Ok(Self { options, tracer, begin, count: 0, pending: VecDeque::from([first]), over: false })
+        Ok(Self { options, tracer, begin, passed: Vec::new(), count: 0, pending: VecDeque::from([first]), over: false })
     }
 
     fn point(at: &MachineSolution, event: Option<MachineBranchEvent>) -> Option<MachinePoint> {
@@ -111,13 +114,22 @@ impl MachineBranch {
         }
         match self.tracer.step() {
             Some(step) => self.go_through(step),
-            None => self.end(&here, MachineBranchEvent::NoConvergence),
+            None => match replayed(&self.tracer, &here, &self.options) {
+                // the events change so close by that no step ends before
+                Some(next) => self.go_on(&here, MachineBranchEvent::Change { place: 0 }, next),
+                None => self.end(&here, MachineBranchEvent::NoConvergence),
+            },
         }
     }
 
     /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
     fn go_through(&mut self, step: Step<Judged>) {
-        let edge = if step.there.known.physical() { None } else { self.edge(&step) };
+        // where the derivative is infinite between two admissible solutions, there are inadmissible ones
+        let at = |test: usize| step.crossed.iter().find(|(_, what)| *what == Some(test)).map(|(s, _)| *s);
+        let pole = at(PLUS_ONE).zip(at(MINUS_ONE)).is_some_and(|(a, b)| (a - b).abs() < 1e-9);
+        let outside =
+            if step.there.known.physical() { pole.then(|| self.hidden(&step)).flatten() } else { Some(step.length) };
+        let edge = outside.and_then(|outside| self.edge(&step, outside));
         if !step.there.known.physical() && edge.is_none() {
             let here = self.tracer.here.clone();
             return self.end(&here, MachineBranchEvent::NoConvergence);
@@ -133,8 +145,14 @@ impl MachineBranch {
                     let at = at.unwrap_or_else(|| self.tracer.here.clone());
                     return self.end(&at, MachineBranchEvent::EndOfRange);
                 }
-                Some(PACE) => continue,
-                Some(PLUS_ONE) if step.crossed.iter().any(|(_, what)| *what == Some(PACE)) => MachineBranchEvent::Fold,
+                Some(PACE) if at(PLUS_ONE).is_some() => continue,
+                Some(PACE) => {
+                    if let Some(at) = self.halving(&step, *s) {
+                        return self.end(&at, MachineBranchEvent::Halving);
+                    }
+                    continue;
+                }
+                Some(PLUS_ONE) if at(PACE).is_some() => MachineBranchEvent::Fold,
                 Some(PLUS_ONE) => MachineBranchEvent::BranchPoint,
                 Some(MINUS_ONE) => MachineBranchEvent::Flip,
                 Some(_) => MachineBranchEvent::Torus,
@@ -162,12 +180,36 @@ impl MachineBranch {
         self.over = closed;
     }
 
-    /// The last admissible solution on a step that ends inadmissible: its distance, the solution, and how the events
+    /// The solution at which the number turns back and a cycle repeats itself after half its period.
+    fn halving(&self, step: &Step<Judged>, s: f64) -> Option<MachineSolution> {
+        let w = self.tracer.between(step, s).unwrap_or_else(|| {
+            let share = s / step.length;
+            self.tracer.here.w.iter().zip(&step.there.w).map(|(a, b)| a + (b - a) * share).collect()
+        });
+        let (_, ring) = self.tracer.problem.equations.split(&w)?;
+        let cycle = self.tracer.here.known.cycle.as_ref()?;
+        ring.is_twice(cycle.sizes).then_some(())?;
+        let along = self.tracer.here.tangent.clone();
+        let known = Judged { cycle: Some(cycle.clone()), ..self.tracer.here.known.clone() };
+        Some(MachineSolution { w, tangent: along, values: self.tracer.here.values.clone(), known })
+    }
+
+    /// An inadmissible solution within a step.
+    fn hidden(&self, step: &Step<Judged>) -> Option<f64> {
+        (1..32).map(|k| step.length * f64::from(k) / 32.0).find(|s| {
+            let at = self.tracer.between(step, *s).and_then(|w| self.tracer.solution(w));
+            at.is_none_or(|solution| !solution.known.physical())
+        })
+    }
+
+    /// The last admissible solution before an inadmissible one on a step: its distance, the solution, and how the events
     /// differ beyond it.
-    fn edge(&self, step: &Step<Judged>) -> Option<(f64, MachineSolution, Difference)> {
+    fn edge(&self, step: &Step<Judged>, outside: f64) -> Option<(f64, MachineSolution, Difference)> {
         let at = |s: f64| self.tracer.between(step, s).and_then(|w| self.tracer.solution(w));
-        let (mut low, mut high) = (0.0, step.length);
-        let (mut inside, mut outside) = (self.tracer.here.clone(), step.there.known.clone());
+        let (mut low, mut high) = (0.0, outside);
+        let mut inside = self.tracer.here.clone();
+        let mut beyond =
+            if outside == step.length { Some(step.there.known.clone()) } else { at(outside).map(|at| at.known) };
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
             if high - low <= 1e-14 * step.length.max(1e-3) {
@@ -175,22 +217,42 @@ impl MachineBranch {
             }
             match at(middle) {
                 Some(solution) if solution.known.physical() => (low, inside) = (middle, solution),
-                Some(solution) => (high, outside) = (middle, solution.known),
+                Some(solution) => (high, beyond) = (middle, Some(solution.known)),
                 None => high = middle,
             }
         }
-        let found = difference(&self.tracer.problem.equations.ring, &outside);
+        let found = difference(&self.tracer.problem.equations.ring, &beyond?);
         Some((low, inside, found))
     }
 
     /// Reports the change of the events at `at` and goes on with the events beyond.
     fn pass(&mut self, at: &MachineSolution, found: &Difference) {
+        if let Difference::Disappears { stop, .. } = found
+            && at.known.cycle.as_ref().is_some_and(|cycle| cycle.counts.iter().sum::<u32>() == 1)
+            && self.tracer.problem.equations.ring.len() <= 2
+        {
+            return self.end(at, MachineBranchEvent::LossOfContact { stop: *stop });
+        }
         let Some(next) = beyond(&self.tracer, at, found, &self.options) else {
             self.add(at, Some(found.event(false)));
             return self.end(&at.clone(), MachineBranchEvent::NoConvergence);
         };
         let turns = last(&next.here.tangent) * last(&at.tangent) < 0.0;
-        self.add(at, Some(found.event(turns)));
+        self.go_on(at, found.event(turns), next);
+    }
+
+    /// Reports an event and goes on with another tracer. The branch is closed if the same event was there before.
+    fn go_on(&mut self, at: &MachineSolution, event: MachineBranchEvent, next: Tracer<MachineProblem>) {
+        let here = (last(&at.w), at.w.len(), last(&at.tangent) > 0.0, event);
+        let near = 1e-9 * self.tracer.problem.equations.scale;
+        let before = |known: &(f64, usize, bool, MachineBranchEvent)| {
+            (known.0 - here.0).abs() < near && (known.1, known.2, known.3) == (here.1, here.2, here.3)
+        };
+        if self.passed.iter().any(before) {
+            return self.end(at, MachineBranchEvent::Closed);
+        }
+        self.passed.push(here);
+        self.add(at, Some(event));
         self.tracer = next;
         self.begin = None;
         let here = self.tracer.here.clone();

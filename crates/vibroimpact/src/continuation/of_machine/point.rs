@@ -23,6 +23,8 @@ pub enum MachineBranchEvent {
     BranchPoint,
     /// A multiplier is -1; a branch of twice the period begins or ends here.
     Flip,
+    /// The branch ends on the branch of half the period, at a flip of that branch.
+    Halving,
     /// A pair of complex multipliers crosses the unit circle (Neimark-Sacker).
     Torus,
     /// A stop is closed with speed zero.
@@ -60,6 +62,11 @@ pub enum MachineBranchEvent {
         /// The stop or joint at which the sequence first differs.
         place: usize,
     },
+    /// The only closing has speed zero; beyond, there is none.
+    LossOfContact {
+        /// The stop.
+        stop: usize,
+    },
     /// The branch is closed: the next point would be the first.
     Closed,
     /// The number reached the end of its range.
@@ -78,7 +85,9 @@ impl MachineBranchEvent {
             Self::Fold => "fold",
             Self::BranchPoint => "branch point",
             Self::Flip => "flip",
+            Self::Halving => "halving",
             Self::Torus => "torus",
+            Self::LossOfContact { .. } => "loss of contact",
             Self::Grazing { .. } => "grazing",
             Self::Corner { .. } => "corner",
             Self::Sticking { begins: true, .. } => "sticking begins",
@@ -97,7 +106,7 @@ impl MachineBranchEvent {
     #[must_use]
     pub const fn place(&self) -> Option<usize> {
         match *self {
-            Self::Grazing { stop, .. } | Self::Sticking { stop, .. } => Some(stop),
+            Self::Grazing { stop, .. } | Self::Sticking { stop, .. } | Self::LossOfContact { stop } => Some(stop),
             Self::Corner { first, .. } => Some(first),
             Self::Holding { joint, .. } => Some(joint),
             Self::Change { place } => Some(place),
@@ -108,6 +117,14 @@ impl MachineBranchEvent {
     /// Whether the branch ends at this event.
     #[must_use]
     pub const fn ends(&self) -> bool {
-        matches!(self, Self::Closed | Self::EndOfRange | Self::StepLimit | Self::NoConvergence)
+        matches!(
+            self,
+            Self::Halving
+                | Self::LossOfContact { .. }
+                | Self::Closed
+                | Self::EndOfRange
+                | Self::StepLimit
+                | Self::NoConvergence
+        )
     }
 }

@@ -4,6 +4,7 @@
 use crate::arc::{Modes, Recovery};
 use crate::events::{MachineMotion, Place, StateShape, Structures};
 use crate::machine::Machine;
+use crate::math::add_scaled;
 use crate::regime::{ContactState, Normal, Structure, compliant};
 use core::cell::RefCell;
 use std::sync::Arc;
@@ -55,6 +56,28 @@ impl<'a> MachineFrame<'a> {
         let mut moved = place.clone();
         moved.move_along(&flight, s, self.machine.parts().frequency, &mut Modes::default());
         moved
+    }
+
+    /// Moves a state onto the stops on which it rests, and gives joints that hold the velocity of their belt.
+    pub(crate) fn constrain(&self, place: &mut Place) -> Option<()> {
+        if !place.states.iter().any(|state| state.constrains()) {
+            return Some(());
+        }
+        let structure = self.structure(&place.states)?;
+        let turns = place.turns(&self.normal);
+        let stops = self.machine.stops().len();
+        let (mut x, mut v) = (place.x.clone(), place.v.clone());
+        for (held, across) in structure.held.iter().zip(&structure.across) {
+            if *held < stops {
+                let (gap, rate, ..) = place.gap(&self.normal, &turns, *held);
+                add_scaled(&mut x, gap, across);
+                add_scaled(&mut v, rate, across);
+            } else {
+                add_scaled(&mut v, -place.sliding(self.machine, &self.normal, held - stops).0, across);
+            }
+        }
+        (place.x, place.v) = (x, v);
+        Some(())
     }
 
     /// The largest sizes of coordinates and velocities.

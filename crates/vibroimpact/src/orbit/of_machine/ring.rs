@@ -18,6 +18,9 @@ use crate::system::phase;
 use core::f64::consts::TAU;
 use std::sync::Arc;
 
+/// Two halves of a cycle that differ by less are the same.
+const ALIKE: f64 = 1e-5;
+
 /// An event of a signature.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RingEvent {
@@ -137,7 +140,8 @@ impl MachineRing {
     /// The flight after event `k` and the event at its end; the derivatives only if `linear`.
     fn block(&self, frame: &MachineFrame<'_>, k: usize, linear: bool) -> Option<MachineBlock> {
         let frequency = frame.machine.parts().frequency?;
-        let (from, next) = (self.place(k), (k + 1) % self.len());
+        let (mut from, next) = (self.place(k), (k + 1) % self.len());
+        frame.constrain(&mut from)?;
         let event = &self.events[next];
         let time = self.time(k, frequency);
         if !(time > 0.0 && time.is_finite()) {
@@ -242,11 +246,27 @@ impl MachineRing {
         product
     }
 
+    /// Whether the second half of the events repeats the first, to within 1e-5 of the sizes of the motion.
+    pub(crate) fn is_twice(&self, sizes: (f64, f64)) -> bool {
+        let half = self.len() / 2;
+        self.len().is_multiple_of(2)
+            && self.periods.is_multiple_of(2)
+            && (0..half).all(|k| {
+                let (one, mut two) = (self.place(k), self.place(k + half));
+                let ahead = self.theta(k + half) - self.theta(k) - 0.5 * TAU * f64::from(self.periods);
+                two.phase = one.phase;
+                self.events[k] == self.events[k + half]
+                    && ahead.abs() < ALIKE
+                    && super::cycle::distance(&one, &two, sizes) < ALIKE
+            })
+    }
+
     /// A state between two events: the middle of the longest flight, with the event before it.
     pub(crate) fn middle(&self, frame: &MachineFrame<'_>) -> Option<(usize, Place)> {
         let frequency = frame.machine.parts().frequency?;
         let longest = (0..self.len()).max_by(|a, b| self.time(*a, frequency).total_cmp(&self.time(*b, frequency)))?;
-        let from = self.place(longest);
+        let mut from = self.place(longest);
+        frame.constrain(&mut from)?;
         let structure: Arc<Structure> = frame.structure(&from.states)?;
         Some((longest, frame.moved(&from, &structure, 0.5 * self.time(longest, frequency))))
     }
