@@ -50,6 +50,12 @@ fn place(guard: GuardKind, stops: usize) -> usize {
 pub(super) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let m = ring.len();
     let stops = ring.events.first().map_or(0, |event| event.back.len());
+    if let Some(at) = judged.rising {
+        return match ring.events[at].guard {
+            GuardKind::Gap(stop) => Difference::Disappears { at, stop },
+            guard => Difference::Other { place: place(guard, stops) },
+        };
+    }
     let wanted = |i: usize| (judged.from + 1 + i) % m;
     let at = (0..m.max(judged.seen.len())).find(|i| *i >= m || judged.seen.get(*i) != Some(&ring.events[wanted(*i)]));
     let Some(i) = at else { return Difference::Other { place: 0 } };

@@ -23,6 +23,8 @@ pub(crate) struct Judged {
     /// The events that the motion has, beginning with the one after event `from` of the ring.
     pub(crate) seen: Vec<RingEvent>,
     pub(crate) from: usize,
+    /// An event of the ring whose guard does not fall, so that it does not happen.
+    pub(crate) rising: Option<usize>,
 }
 
 impl Judged {
@@ -50,6 +52,9 @@ impl Equations for MachineProblem {
     }
 }
 
+/// A motion with the same events that misses its beginning by more than this is another one.
+const CLOSED: f64 = 1e-5;
+
 /// The determinant of a matrix with `shift` added on its diagonal.
 fn shifted_determinant(matrix: &Matrix, shift: f64) -> f64 {
     let mut other = matrix.clone();
@@ -60,14 +65,17 @@ fn shifted_determinant(matrix: &Matrix, shift: f64) -> f64 {
 }
 
 impl MachineProblem {
-    /// The values of all test functions, and the multipliers; `None` where an event is only a touch.
+    /// The values of all test functions, the multipliers, and an event whose guard does not fall; `None` where an event is only a touch.
     fn values(
         &self,
         frame: &MachineFrame<'_>,
         ring: &MachineRing,
         tangent: &[f64],
-    ) -> Option<(Vec<f64>, Vec<Multiplier>)> {
-        let turn = MachineRing::monodromy(&ring.blocks(frame)?)?;
+    ) -> Option<(Vec<f64>, Vec<Multiplier>, Option<usize>)> {
+        let blocks = ring.blocks(frame)?;
+        // every guard must fall to zero at its event
+        let rising = blocks.iter().position(|block| block.late[0] >= 0.0).map(|k| (k + 1) % ring.len());
+        let turn = MachineRing::monodromy(&blocks)?;
         let mut multipliers = general_eigenvalues(&turn)?;
         let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
         // the product over all pairs changes its sign where a product of two multipliers is 1
@@ -85,13 +93,17 @@ impl MachineProblem {
         let pace = tangent.last().map_or(0.0, |last| last / self.equations.scale);
         let values = vec![pace, even * shifted_determinant(&turn, -1.0), shifted_determinant(&turn, 1.0), torus];
         multipliers.truncate(2 * frame.shape.n);
-        Some((values, multipliers))
+        Some((values, multipliers, rising))
     }
 
     /// The motion from the middle of the longest flight over one period, and the cycle if its events are those of the
     /// ring.
-    fn judge(frame: &MachineFrame<'_>, ring: &MachineRing, multipliers: Vec<Multiplier>) -> Judged {
-        let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: 0 };
+    fn judge(
+        frame: &MachineFrame<'_>,
+        ring: &MachineRing,
+        (multipliers, rising): (Vec<Multiplier>, Option<usize>),
+    ) -> Judged {
+        let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: 0, rising };
         let Some((from, begin)) = ring.middle(frame) else { return nothing(multipliers) };
         let Some(time) = frame.machine.period().map(|period| period * f64::from(ring.periods)) else {
             return nothing(multipliers);
@@ -101,14 +113,12 @@ impl MachineProblem {
             lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
         let m = ring.len();
         let alike = seen.len() == m && (0..m).all(|i| seen[i] == ring.events[(from + 1 + i) % m]);
-        let cycle = alike.then(|| {
-            let residual = crate::orbit::machine_distance(&begin, &lap.end, lap.sizes);
-            MachineCycle {
-                multipliers: multipliers.clone(),
-                ..MachineCycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])
-            }
+        let residual = crate::orbit::machine_distance(&begin, &lap.end, lap.sizes);
+        let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| MachineCycle {
+            multipliers: multipliers.clone(),
+            ..MachineCycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])
         });
-        Judged { cycle, multipliers, seen, from }
+        Judged { cycle, multipliers, seen, from, rising }
     }
 }
 
@@ -136,8 +146,8 @@ impl Problem for MachineProblem {
     fn look(&self, w: &[f64], tangent: &[f64]) -> Option<(Vec<f64>, Judged)> {
         let (machine, ring) = self.equations.split(w)?;
         let frame = MachineFrame::new(&machine);
-        let (values, multipliers) = self.values(&frame, &ring, tangent)?;
-        Some((values, Self::judge(&frame, &ring, multipliers)))
+        let (values, multipliers, rising) = self.values(&frame, &ring, tangent)?;
+        Some((values, Self::judge(&frame, &ring, (multipliers, rising))))
     }
 
     fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
