@@ -116,10 +116,11 @@ impl Place {
         )
     }
 
-    /// The relative velocity of a joint, and the size of its terms.
+    /// The relative velocity of a joint, and the size to which its rounding error is relative: velocities are rounded as
+    /// parts of the whole motion, so this is that of all of them.
     pub(crate) fn sliding(&self, machine: &Machine, normal: &Normal, joint: usize) -> (f64, f64) {
         let w = &normal.directions[machine.stops().len() + joint];
         let belt = machine.joints()[joint].belt;
-        (dot(w, &self.v) - belt, belt.abs() + w.iter().zip(&self.v).map(|(w, v)| (w * v).abs()).sum::<f64>())
+        (dot(w, &self.v) - belt, belt.abs() + (dot(w, w) * dot(&self.v, &self.v)).sqrt())
     }
 }

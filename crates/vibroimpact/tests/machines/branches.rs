@@ -2,7 +2,7 @@
 
 use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, MachineBranch, MachineBranchEvent};
 use vibroimpact::events::MachineStart;
-use vibroimpact::machine::{Machine, MachineParts};
+use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
 use vibroimpact::{Oscillator, Parameter, Start};
 
@@ -57,76 +57,96 @@ fn the_same_events() {
     }
 }
 
+/// A machine of two coordinates with one stop of each kind.
+fn random_machine(case: usize, random: &mut impl FnMut() -> f64) -> Machine {
+    let parts = MachineParts::new(["a", "b"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 0.5 + random())
+        .with_link(&[1.0, -1.0], 0.5 + random(), 0.05 + 0.2 * random())
+        .with_link(&[0.0, 1.0], 0.5 + random(), 0.05 + 0.2 * random())
+        .with_frequency(0.5 + random())
+        .with_force(1, 1, 0.3, 0.9);
+    let gap = 0.2 + 0.8 * random();
+    let soft = |preload, damping, opening| StopLaw::Compliant { stiffness: 20.0, damping, preload, opening };
+    let parts = match case % 5 {
+        0 => parts.with_rigid_stop("stop", &[1.0, 0.0], gap, 0.4 + 0.5 * random()),
+        1 => parts.with_stop("stop", &[1.0, 0.0], gap, soft(0.0, 0.0, Opening::Force)),
+        2 => parts.with_stop("stop", &[1.0, -1.0], gap, soft(0.0, 0.8, Opening::Force)),
+        3 => parts.with_stop("stop", &[1.0, 0.0], gap, soft(0.3, 0.0, Opening::Position)),
+        _ => parts.with_rigid_stop("stop", &[1.0, 0.0], gap, 0.6).with_joint("floor", &[0.0, 1.0], 0.2, 0.2, 0.0),
+    };
+    Machine::new(parts).unwrap()
+}
+
+/// Beside each event of random branches, motions that begin close to the cycle settle into it if its multipliers say that
+/// it is stable, and leave it otherwise.
 #[test]
-#[ignore = "prints"]
-fn explore() {
-    use vibroimpact::machine::{Opening, StopLaw};
+fn simulation_beside_events() {
     let mut state = 5_u64;
     let mut random = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
     };
-    for case in 0..24 {
-        let mut parts = MachineParts::new(["a", "b"])
-            .with_mass(0, 1.0)
-            .with_mass(1, 0.5 + random())
-            .with_link(&[1.0, -1.0], 0.5 + random(), 0.05 + 0.2 * random())
-            .with_link(&[0.0, 1.0], 0.5 + random(), 0.05 + 0.2 * random())
-            .with_frequency(0.5 + random())
-            .with_force(1, 1, 0.3, 0.9);
-        let gap = 0.2 + 0.8 * random();
-        let soft = |preload, damping, opening| StopLaw::Compliant { stiffness: 20.0, damping, preload, opening };
-        let name = ["rigid", "soft", "damped", "preload", "friction", "inelastic"][case % 6];
-        parts = match case % 6 {
-            0 => parts.with_rigid_stop("stop", &[1.0, 0.0], gap, 0.4 + 0.5 * random()),
-            1 => parts.with_stop("stop", &[1.0, 0.0], gap, soft(0.0, 0.0, Opening::Force)),
-            2 => parts.with_stop("stop", &[1.0, -1.0], gap, soft(0.0, 0.8, Opening::Force)),
-            3 => parts.with_stop("stop", &[1.0, 0.0], gap, soft(0.3, 0.0, Opening::Position)),
-            4 => parts.with_rigid_stop("stop", &[1.0, 0.0], gap, 0.6).with_joint("floor", &[0.0, 1.0], 0.2, 0.2, 0.0),
-            _ => parts.with_rigid_stop("stop", &[1.0, 0.0], gap, 0.0),
-        };
-        let machine = Machine::new(parts).unwrap();
-        let options = SettleOptions::default();
+    let options = SettleOptions::default();
+    let mut confirmed = std::collections::BTreeMap::new();
+    for case in 0..12 {
+        let machine = random_machine(case, &mut random);
         let settled = settle_machine(&machine, &MachineStart::default(), &options).unwrap();
-        let label = settled.verdict.label();
-        eprintln!(
-            "case {case} {name} gap {gap:.3} frequency {:.3}: {label} {:?}",
-            machine.number("frequency").unwrap(),
-            settled.events
-        );
         let MachineVerdict::Periodic(found) = settled.verdict else { continue };
-        for (path, range) in [("stop.stop.gap", -0.2..=2.0), ("frequency", 0.3..=2.0)] {
-            for direction in [Direction::Up, Direction::Down] {
-                let now = std::time::Instant::now();
-                let branch = MachineBranch::new(
-                    &machine,
-                    &found,
-                    path,
-                    &range,
-                    direction,
-                    BranchOptions { points: 600, ..BranchOptions::default() },
-                );
-                let branch = match branch {
-                    Ok(branch) => branch,
-                    Err(error) => {
-                        eprintln!("   {error}");
+        let limits = BranchOptions { points: 200, ..BranchOptions::default() };
+        for (path, range, direction) in
+            [("stop.stop.gap", -0.2..=2.0, Direction::Down), ("frequency", 0.35..=1.6, Direction::Up)]
+        {
+            let branch = MachineBranch::new(&machine, &found, path, &range, direction, limits).unwrap();
+            let points: Vec<_> = branch.collect();
+            for (k, point) in points.iter().enumerate() {
+                let Some(event) = point.event.filter(|event| !event.ends()) else { continue };
+                let beside = points[..k].iter().rev().take(6).chain(points[k + 1..].iter().take(6));
+                let mut both = (false, false);
+                for other in beside.filter(|other| other.event.is_none()) {
+                    let largest = other.cycle.multipliers[0].modulus();
+                    // at the event itself no neighbourhood is left
+                    if (other.value - point.value).abs() < 1e-3 || (0.97..1.03).contains(&largest) || largest > 1e3 {
                         continue;
                     }
-                };
-                let points: Vec<_> = branch.collect();
-                eprintln!("  {path} {direction:?} {} points {:?}", points.len(), now.elapsed());
-                for point in &points {
-                    if let Some(event) = point.event {
-                        eprintln!(
-                            "     {:.9} {event:?} {} {:?} largest {:.4}",
-                            point.value,
-                            point.cycle.label,
-                            point.cycle.counts,
-                            point.cycle.multipliers[0].modulus()
-                        );
+                    let there = machine.with(path, other.value).unwrap();
+                    let mut start = other.cycle.state.clone();
+                    start.q[0] += 1e-7;
+                    let settled = settle_machine(&there, &start, &options).unwrap();
+                    let same = matches!(&settled.verdict, MachineVerdict::Periodic(cycle) if cycle.same_as(&other.cycle, 1e-6));
+                    if same != (largest < 1.0)
+                        && let MachineVerdict::Periodic(cycle) = &settled.verdict
+                    {
+                        for (a, cycle) in [("settled", cycle), ("branch", &other.cycle)] {
+                            eprintln!(
+                                "{a} residual {} sizes {:?} mult {:?}",
+                                cycle.residual,
+                                cycle.events.len(),
+                                cycle.multipliers
+                            );
+                            for event in &cycle.events {
+                                eprintln!(
+                                    "   {:?} {} {:.9} {:.9} {:?} {:?}",
+                                    event.kind, event.place, event.time, event.phase, event.q, event.qdot
+                                );
+                            }
+                        }
                     }
+                    assert_eq!(
+                        same,
+                        largest < 1.0,
+                        "case {case} {path} {} beside {event:?} at {}: {} multiplier {largest}, settled {}",
+                        other.value,
+                        point.value,
+                        other.cycle.label,
+                        settled.verdict.label()
+                    );
+                    if largest < 1.0 { both.0 = true } else { both.1 = true }
                 }
+                *confirmed.entry(event.name()).or_insert(0) += i32::from(both.0 || both.1);
             }
         }
     }
+    eprintln!("{confirmed:?}");
+    assert!(confirmed.values().sum::<i32>() >= 20, "{confirmed:?}");
 }
