@@ -24,12 +24,14 @@
 //! |---|---|
 //! | the exponents of the motion from a start | [`exponents()`], [`Exponents`] |
 //! | how neighbouring motions separate: flight and saltation | [`tangent`] |
+//! | all exponents of the motion of a machine | [`machine_exponents_while`] |
 //! | the Kaplan-Yorke dimension | `dimension` |
 //! | points of the attractor in both sections | [`section`] |
 //! | exponents along impacts, as measured for verdicts | [`lyapunov`] |
 
 mod dimension;
 mod exponents;
+mod of_machine;
 mod run;
 mod section;
 
@@ -37,4 +39,5 @@ pub use crate::lyapunov::{MachineSpectrum, Measured, Spectrum, Tail, lyapunov, t
 pub use exponents::{
     DEFAULT_IMPACTS, DEFAULT_TRANSIENT, ExponentOptions, Exponents, Grounds, exponents, exponents_while,
 };
+pub use of_machine::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, MachineExponents, machine_exponents_while};
 pub use section::{Section, section, section_while};

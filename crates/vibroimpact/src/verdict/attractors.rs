@@ -6,29 +6,47 @@ use super::settle::settle;
 use crate::system::{Oscillator, Start};
 use core::f64::consts::TAU;
 
+/// A verdict that can be told apart from another one: that on an oscillator, or that on a machine.
+pub trait SteadyMotion: Clone {
+    /// Whether both are the same motion; cycles are compared to within `tolerance`.
+    fn same_as(&self, other: &Self, tolerance: f64) -> bool;
+}
+
+impl SteadyMotion for Verdict {
+    fn same_as(&self, other: &Self, tolerance: f64) -> bool {
+        self.same_as(other, tolerance)
+    }
+}
+
 /// A steady motion and the number of starts that lead to it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CountedMotion {
+pub struct CountedMotion<V = Verdict> {
     /// The verdict on the first start that leads to it.
-    pub verdict: Verdict,
+    pub verdict: V,
     /// Starts that lead to it.
     pub count: u64,
 }
 
 /// The distinct motions of the starts counted so far. Two different cycles with the same label are counted separately.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Census {
-    found: Vec<CountedMotion>,
+#[derive(Clone, Debug, PartialEq)]
+pub struct Census<V = Verdict> {
+    found: Vec<CountedMotion<V>>,
     total: u64,
+}
+
+impl<V> Default for Census<V> {
+    fn default() -> Self {
+        Self { found: Vec::new(), total: 0 }
+    }
 }
 
 /// Two cycles that differ by less than this in phase and relative velocity are the same; the residuals of both are
 /// rounding errors.
 pub(super) const SAME: f64 = 1e-6;
 
-impl Census {
+impl<V: SteadyMotion> Census<V> {
     /// Adds a motion of another census with all its starts, and returns its index here.
-    pub fn add_found(&mut self, found: &CountedMotion) -> usize {
+    pub fn add_found(&mut self, found: &CountedMotion<V>) -> usize {
         let number = self.add(&found.verdict);
         self.found[number].count += found.count - 1;
         self.total += found.count - 1;
@@ -36,7 +54,7 @@ impl Census {
     }
 
     /// Adds one verdict and returns the index of its motion, in order of first appearance.
-    pub fn add(&mut self, verdict: &Verdict) -> usize {
+    pub fn add(&mut self, verdict: &V) -> usize {
         self.total += 1;
         if let Some(k) = self.found.iter().position(|found| found.verdict.same_as(verdict, SAME)) {
             self.found[k].count += 1;
@@ -48,14 +66,14 @@ impl Census {
 
     /// The motions in order of first appearance.
     #[must_use]
-    pub fn motions(&self) -> &[CountedMotion] {
+    pub fn motions(&self) -> &[CountedMotion<V>] {
         &self.found
     }
 
     /// The motions, the most frequent first.
     #[must_use]
-    pub fn by_share(&self) -> Vec<&CountedMotion> {
-        let mut list: Vec<&CountedMotion> = self.found.iter().collect();
+    pub fn by_share(&self) -> Vec<&CountedMotion<V>> {
+        let mut list: Vec<&CountedMotion<V>> = self.found.iter().collect();
         list.sort_by_key(|found| core::cmp::Reverse(found.count));
         list
     }
@@ -69,7 +87,7 @@ impl Census {
     /// The fraction of starts that lead to a motion.
     #[must_use]
     #[allow(clippy::cast_precision_loss)] // counts below 2^53
-    pub fn share(&self, found: &CountedMotion) -> f64 {
+    pub fn share(&self, found: &CountedMotion<V>) -> f64 {
         found.count as f64 / (self.total.max(1)) as f64
     }
 }
@@ -132,7 +150,7 @@ pub fn scattered_starts(osc: &Oscillator, area: StartBox, seed: u64, index: u64)
 }
 
 /// The finaliser of SplitMix64.
-const fn mix(seed: u64) -> u64 {
+pub(super) const fn mix(seed: u64) -> u64 {
     let z = seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

@@ -27,10 +27,12 @@ mod settle;
 mod trapping_region;
 
 pub use crate::orbit::{Count, Label, LabelError};
-pub use attractors::{Census, CountedMotion, StartBox, attractors, scattered_starts};
+pub use attractors::{Census, CountedMotion, StartBox, SteadyMotion, attractors, scattered_starts};
 pub(crate) use follow::{Follow, Releases, ended};
 pub use many::{KnownAttractors, Settlement, settle_many};
-pub use of_machine::{MachineSettled, MachineUndecided, MachineVerdict, settle_machine, settle_machine_while};
+pub use of_machine::{
+    MachineSettled, MachineUndecided, MachineVerdict, scattered_machine_starts, settle_machine, settle_machine_while,
+};
 pub use options::SettleOptions;
 pub use outcome::{Chaos, NoImpact, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};

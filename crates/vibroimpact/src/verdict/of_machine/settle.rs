@@ -1,5 +1,6 @@
 //! The verdict on the motion of a machine from a start.
 
+use super::super::attractors::SteadyMotion;
 use super::super::options::SettleOptions;
 use super::super::record::{Record, Shown};
 use super::returns::{Recorded, Step};
@@ -70,10 +71,10 @@ impl MachineVerdict {
             Self::Undecided { .. } => "undecided".to_owned(),
         }
     }
+}
 
-    /// Whether both are the same motion: cycles are compared to within `tolerance`, all others by their kind.
-    #[must_use]
-    pub fn same_as(&self, other: &Self, tolerance: f64) -> bool {
+impl SteadyMotion for MachineVerdict {
+    fn same_as(&self, other: &Self, tolerance: f64) -> bool {
         match (self, other) {
             (Self::Periodic(a), Self::Periodic(b)) => a.same_as(b, tolerance),
             _ => core::mem::discriminant(self) == core::mem::discriminant(other),

@@ -1,0 +1,145 @@
+//! All Lyapunov exponents of the motion of a machine from a start.
+
+use crate::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart, step_derivative};
+use crate::lyapunov::{MachineMeasure, MachineSpectrum, Measured};
+use crate::machine::{Machine, MachineError};
+use crate::math::{general_eigenvalues, ln};
+use crate::orbit::MachineFrame;
+use crate::verdict::{MachineVerdict, SettleOptions, settle_machine_while};
+
+/// The exponents of a motion of a machine, and where they come from.
+#[derive(Clone, Debug)]
+pub struct MachineExponents {
+    /// The exponents; `None` if the motion ends in a way for which there are none.
+    pub spectrum: Option<MachineSpectrum>,
+    /// What the motion settles into.
+    pub motion: MachineVerdict,
+    /// Whether they are exact: from the multipliers of a cycle, or from the structure at rest.
+    pub exact: bool,
+}
+
+/// The number of events over which exponents are measured by default, and of the transient before.
+pub const DEFAULT_EVENTS: u32 = 20_000;
+/// See [`DEFAULT_EVENTS`].
+pub const DEFAULT_MACHINE_TRANSIENT: u32 = 1_000;
+
+/// The exponents of the motion of `machine` from `start`: exact if it settles into a cycle or comes to an end, otherwise
+/// measured over `events` events after `transient`; stopped when `go_on` returns false, and then `None`.
+///
+/// # Errors
+/// [`MachineError`] for an invalid start.
+pub fn machine_exponents_while(
+    machine: &Machine,
+    start: &MachineStart,
+    (events, transient): (u32, u32),
+    go_on: impl Fn() -> bool,
+) -> Result<Option<MachineExponents>, MachineError> {
+    let watch = SettleOptions { chaos_over: 0, max_impacts: transient.max(2_000), ..SettleOptions::default() };
+    let Some(settled) = settle_machine_while(machine, start, &watch, &go_on)? else { return Ok(None) };
+    let exact = |exponents: Vec<f64>, closings: f64| {
+        let measured = |value: f64| Measured { value, error: 0.0 };
+        MachineSpectrum {
+            exponents: exponents.into_iter().map(measured).collect(),
+            closings: measured(closings),
+            time: f64::INFINITY,
+        }
+    };
+    match &settled.verdict {
+        MachineVerdict::Periodic(cycle) => {
+            let rates = cycle.multipliers.iter().map(|multiplier| ln(multiplier.modulus()) / cycle.period).collect();
+            let closings = f64::from(cycle.counts.iter().sum::<u32>()) / cycle.period;
+            let spectrum = Some(exact(rates, closings));
+            return Ok(Some(MachineExponents { spectrum, motion: settled.verdict, exact: true }));
+        }
+        MachineVerdict::NoImpact | MachineVerdict::Stuck => {
+            // those of the structure in its last regime
+            let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
+            while motion.step().is_some() {
+                motion.take_events();
+                if !go_on() {
+                    return Ok(None);
+                }
+            }
+            let frame = MachineFrame::new(machine);
+            let place = motion.place();
+            let spectrum = frame.structure(&place.states).and_then(|structure| {
+                let time = core::f64::consts::TAU / structure.fastest().max(1e-300);
+                let values = general_eigenvalues(&structure.transition(&frame.normal, time))?;
+                Some(exact(values.iter().map(|value| ln(value.modulus()) / time).collect(), 0.0))
+            });
+            return Ok(Some(MachineExponents { spectrum, motion: settled.verdict, exact: true }));
+        }
+        _ => {}
+    }
+    let frame = MachineFrame::new(machine);
+    let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
+    let mut measure: Option<MachineMeasure> = None;
+    let mut seen = 0_u32;
+    while measure.as_ref().is_none_or(|measure| !measure.complete()) {
+        if !go_on() {
+            return Ok(None);
+        }
+        let begin = motion.place().clone();
+        let Some(passage) = motion.step() else { break };
+        if motion.end().is_some() {
+            break;
+        }
+        let closes = |event: &&MachineEvent| matches!(event.kind, MachineEventKind::Impact | MachineEventKind::Close);
+        let told = motion.take_events();
+        #[allow(clippy::cast_precision_loss)] // a few
+        let closings = told.iter().filter(closes).count() as f64;
+        seen += 1;
+        if let Some(measure) = &mut measure {
+            let derivative = frame
+                .with(|structures| step_derivative(&frame.shape, machine, &frame.normal, structures, &begin, &passage));
+            if let Some(derivative) = derivative {
+                measure.add(&derivative, passage.time(), closings);
+            }
+        } else if seen >= transient {
+            measure = Some(MachineMeasure::new(frame.shape.size(), 2 * frame.shape.n, events));
+        }
+    }
+    let spectrum = measure.and_then(|measure| measure.spectrum());
+    let motion = match &spectrum {
+        Some(found) if found.chaotic() => MachineVerdict::Chaotic { spectrum: found.clone(), events: u64::from(seen) },
+        _ => settled.verdict,
+    };
+    Ok(Some(MachineExponents { spectrum, motion, exact: false }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::{MachineParts, Opening, StopLaw};
+
+    fn machine(law: StopLaw, gap: f64) -> Machine {
+        let parts = MachineParts::new(["mass"])
+            .with_mass(0, 1.0)
+            .with_link(&[1.0], 1.0, 0.05)
+            .with_frequency(1.0 / 1.11)
+            .with_force(0, 1, 0.0, 1.0);
+        Machine::new(parts.with_stop("stop", &[1.0], gap, law)).unwrap()
+    }
+
+    /// An undamped soft stop changes no volume: the exponents sum to minus the structure's own damping, exactly.
+    #[test]
+    fn the_sum_of_exponents() {
+        for (gap, stiffness) in [(0.0, 30.0), (2.0, 400.0), (2.6, 900.0)] {
+            let law = StopLaw::Compliant { stiffness, damping: 0.0, preload: 0.0, opening: Opening::Force };
+            let machine = machine(law, gap);
+            let found =
+                machine_exponents_while(&machine, &MachineStart::default(), (5_000, 500), || true).unwrap().unwrap();
+            let spectrum = found.spectrum.unwrap();
+            let sum: f64 = spectrum.exponents.iter().map(|exponent| exponent.value).sum();
+            assert!((sum + 0.05).abs() < 1e-9, "{gap} {} {sum}", found.motion.label());
+        }
+    }
+
+    #[test]
+    fn without_contacts_those_of_the_structure() {
+        let machine = machine(StopLaw::Rigid { restitution: 0.5 }, 100.0);
+        let found = machine_exponents_while(&machine, &MachineStart::default(), (100, 100), || true).unwrap().unwrap();
+        assert!(matches!(found.motion, MachineVerdict::NoImpact));
+        assert!(found.spectrum.unwrap().exponents.iter().all(|exponent| (exponent.value + 0.025).abs() < 1e-12));
+    }
+}
