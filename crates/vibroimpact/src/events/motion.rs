@@ -4,6 +4,7 @@ use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, Ma
 use super::impulses::impulses;
 use super::place::{Place, Structures};
 use super::resolve::resolve;
+use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Recovery, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{Sum, add_scaled, dot};
@@ -43,6 +44,8 @@ pub struct MachineMotion<'a> {
     crowd: u32,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
     largest_impact: f64,
+    /// What it did since the last event, if someone looks.
+    trail: Option<Vec<Stretch>>,
 }
 
 /// More events than this at one time are a collapse.
@@ -98,6 +101,7 @@ impl<'a> MachineMotion<'a> {
             touches: Vec::new(),
             crowd: 0,
             largest_impact: 0.0,
+            trail: None,
         };
         motion.begin()?;
         Ok(motion)
@@ -113,6 +117,21 @@ impl<'a> MachineMotion<'a> {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time.value()
+    }
+
+    /// The same, with its stretches kept.
+    pub(super) fn trailed(self) -> Self {
+        Self { trail: Some(Vec::new()), ..self }
+    }
+
+    /// The stretches since they were last taken.
+    pub(super) fn trail(&mut self) -> Vec<Stretch> {
+        self.trail.as_mut().map(core::mem::take).unwrap_or_default()
+    }
+
+    /// The machine in mass-normalised coordinates.
+    pub(super) const fn normal(&self) -> &Normal {
+        &self.normal
     }
 
     /// Finds out what the stops and joints do at the start.
@@ -415,6 +434,10 @@ impl<'a> MachineMotion<'a> {
 
     /// Moves the state to a time after the beginning of a flight.
     fn move_to(&mut self, flight: &MachineFlight, s: f64) {
+        if let Some(trail) = self.trail.as_mut().filter(|_| s > 0.0) {
+            let (begin, place, flight) = (self.time, self.place.clone(), flight.clone());
+            follow(trail, Stretch { begin, duration: s, place, flight });
+        }
         flight.at(s, &mut self.buffers.modes);
         flight.state(&self.buffers.modes, &mut self.place.x, &mut self.place.v);
         for surface in &mut self.place.surfaces {

@@ -2,6 +2,8 @@
 
 #[cfg(test)]
 mod case;
+#[cfg(test)]
+mod samples;
 
 use case::{Case, cases};
 use std::fmt::Write as _;
