@@ -452,8 +452,9 @@ impl<'a> MachineMotion<'a> {
         if let Some(frequency) = self.machine.parts().frequency {
             self.place.phase = phase::advance(self.place.phase, frequency, s);
         }
+        let before = self.time.value();
         self.time.add(s);
-        if s > 0.0 {
+        if self.time.value() > before {
             self.crowd = 0;
         }
         self.place.known.clear();

@@ -34,7 +34,8 @@ pub struct MachineSample {
 }
 
 /// The states of a machine from its start until a time: at `0, step, 2 step, ...`, on both sides of each event, and at
-/// the end. At an event the equal step is the state after it.
+/// the end. At an event the equal step is the state after it. While a chatter that is summed lasts, the structure is at
+/// rest on its stop.
 ///
 /// ```
 /// use vibroimpact::events::{MachineLimits, MachineSamples, MachineStart};
@@ -184,7 +185,7 @@ impl Iterator for MachineSamples<'_> {
             self.entered = true;
             let first = due <= begin && even;
             self.count += f64::from(u8::from(first));
-            self.done = end <= begin;
+            self.done = last && end <= begin;
             let sample = self.sample(&stretch, 0.0, (begin, first));
             self.trail.push_front(stretch);
             return Some(sample);

@@ -18,7 +18,7 @@ pub(super) struct Stretch {
 
 /// Adds a stretch. Those that begin at the same time are a part of it, up to a touch without effect.
 pub(super) fn follow(trail: &mut Vec<Stretch>, stretch: Stretch) {
-    while trail.last().is_some_and(|last| last.begin.value() >= stretch.begin.value()) {
+    while trail.last().is_some_and(|last| last.begin == stretch.begin) {
         trail.pop();
     }
     trail.push(stretch);

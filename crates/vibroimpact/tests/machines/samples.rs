@@ -79,11 +79,18 @@ fn samples_meet_the_events() {
             // the two sides; at one time there may be several events, of which the last has the velocities after all
             let last = events.iter().rfind(|other| other.time == event.time).unwrap();
             let sides: Vec<_> = wave.iter().filter(|sample| sample.time == event.time).collect();
+            // where a motion ends there is nothing after it
+            if sides.len() == 1 && wave.last().is_some_and(|sample| sample.time == event.time) {
+                continue;
+            }
             let [before, .., after] = sides.as_slice() else { panic!("{}: {event:?}", case.name) };
             for (i, q) in event.q.iter().enumerate() {
                 assert!((before.q[i] - q).abs() < 1e-12 * size, "{}: {event:?} {before:?}", case.name);
                 assert!((after.q[i] - q).abs() < 1e-12 * size, "{}: {event:?} {after:?}", case.name);
-                assert!((after.qdot[i] - last.qdot[i]).abs() < 1e-12 * size, "{}: {event:?} {after:?}", case.name);
+                // an impact whose rebounds are summed is followed by rest
+                let summed = last.kind == MachineEventKind::Impact && after.states[last.place] == ContactState::Resting;
+                let allowed = if summed { last.speed } else { 1e-12 * size };
+                assert!((after.qdot[i] - last.qdot[i]).abs() < allowed, "{}: {event:?} {after:?}", case.name);
             }
             match event.kind {
                 MachineEventKind::Impact => {
