@@ -1,7 +1,7 @@
 //! A plan of a machine: everything on which a result depends, and nothing else.
 
 use super::simulate::check;
-use crate::machine::{MachineSource, StartNumbers, StartText};
+use crate::machine::{MachineSource, NumberText, StartNumbers, StartText, VectorText};
 use crate::{PLAN_VERSION, PlanError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -61,13 +61,24 @@ impl MachinePlan {
         Self { version: PLAN_VERSION, machine, task }
     }
 
-    /// The same plan with another start.
+    /// The same plan with another start. Vectors that are empty are 0.
     #[must_use]
     pub fn starting(mut self, start: &MachineStart) -> Self {
-        let numbers = StartNumbers { q: start.q.clone(), qdot: start.qdot.clone(), phase: start.phase };
-        let text = StartText::from(&numbers);
+        let vector = |values: &[f64]| {
+            let list = values.iter().map(|value| NumberText::Value(*value)).collect();
+            (!values.is_empty()).then_some(VectorText::List(list))
+        };
+        let phase = (start.phase != 0.0).then_some(NumberText::Value(start.phase));
+        let text = StartText { q: vector(&start.q), qdot: vector(&start.qdot), phase };
         self.machine.start = (text != StartText::default()).then_some(text);
         self
+    }
+
+    /// The plan as JSON.
+    #[must_use]
+    pub fn json(&self) -> String {
+        // finite numbers and texts can always be written as JSON
+        serde_json::to_string(self).unwrap_or_default()
     }
 
     /// The start, with a number for each coordinate and velocity.
