@@ -2,6 +2,7 @@
 
 use super::{json, vibro};
 use std::fs;
+use vibroimpact_study::MachinePlan;
 use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
 
 fn printed(line: &str) -> String {
@@ -117,4 +118,77 @@ fn a_machine_begins_where_its_file_says() {
     assert!((events[1]["time"].as_f64().unwrap() - contact).abs() < 1e-14, "{events}");
     let still = json("simulate --machine sdnd101 --impacts 2 --qdot 0");
     assert_ne!(still["events"], events);
+}
+
+/// The phase of the command line is that of the start, 0 too; what is not given is that of the file.
+#[test]
+fn a_start_is_that_of_the_command_line_or_of_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.toml");
+    let text = "[start]\nq = { a = 0.25 }\nphase = 1\n[machine]\nbodies = { a = 1 }\nfrequency = 1\n\
+        force = [{ at = \"a\", sin = 1 }]\nstop = [{ name = \"s\", at = \"a\", gap = 1, restitution = 0.5 }]\n";
+    fs::write(&file, text).unwrap();
+    let start =
+        |flags: &str| json(&format!("simulate --machine {} --impacts 1 {flags}", file.display()))["start"].clone();
+    assert_eq!(start(""), serde_json::json!({"q": [0.25], "qdot": [0.0], "phase": 1.0}));
+    assert_eq!(start("--phase 0"), serde_json::json!({"q": [0.25], "qdot": [0.0], "phase": 0.0}));
+    assert_eq!(start("--qdot -1 --q 0"), serde_json::json!({"q": [0.0], "qdot": [-1.0], "phase": 1.0}));
+    let said = refused(&format!("simulate --machine {} --q 1,2", file.display()));
+    assert!(said.contains("start.q: has 2 numbers, and 1 are needed"), "{said}");
+    assert!(refused(&format!("simulate --machine {} --q 2", file.display())).contains("error: stop.s"));
+}
+
+/// The plan that is printed runs again to the same bytes, as JSON and as TOML.
+#[test]
+fn printed_plans_run_again() {
+    let folder = tempfile::tempdir().unwrap();
+    for line in [
+        "--machine capsule --set beta=20 --periods 5",
+        "--machine sdnd101 --impacts 4",
+        "--machine cantilever --phase 2",
+    ] {
+        let told = json(&format!("simulate {line}"));
+        let plan = MachinePlan::from_text(&told["plan"].to_string(), no_files).unwrap();
+        for (name, text) in [("plan.json", told["plan"].to_string()), ("plan.toml", plan.to_toml())] {
+            let file = folder.path().join(name);
+            fs::write(&file, text).unwrap();
+            let again = json(&format!("run {}", file.display()));
+            for field in ["events", "end", "plan", "start"] {
+                assert_eq!(again[field], told[field], "{line}: {name}");
+            }
+            assert!(refused(&format!("run {} --store a.zarr", file.display())).contains("fills no store"));
+        }
+    }
+    let bad = folder.path().join("bad.toml");
+    fs::write(&bad, "version = 1\n[machine]\nbodies = { a = 1 }\n[task.simulate]\nperiods = 3\n").unwrap();
+    let said = refused(&format!("run {}", bad.display()));
+    assert!(said.contains("bad.toml`: the machine has no forcing, so no forcing periods"), "{said}");
+}
+
+#[test]
+fn waveforms() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let table = printed("simulate --machine capsule --periods 2 --csv - --step 0.5");
+    let header = table.lines().next().unwrap();
+    assert!(
+        header.starts_with("time,q.") && header.contains(",gap.plate") && header.contains(",force.plate"),
+        "{header}"
+    );
+    let columns = header.split(',').count();
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == columns), "{table}");
+    assert!(rows.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
+    for (name, said, absent) in [
+        ("soft-stop", "force of stop", "impact</"),
+        ("two-mass-hammer", ">impact<", "contact force"),
+        ("impact-damper", ">particle<", "contact force"),
+    ] {
+        printed(&format!("simulate --machine {name} --periods 8 --plot {}", file(&format!("{name}.svg"))));
+        let svg = fs::read_to_string(file(&format!("{name}.svg"))).unwrap();
+        assert!(svg.contains(said) && !svg.contains(absent) && svg.contains("displacement"), "{name}");
+    }
+    assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 0").contains("step = 0 lies outside"));
+    assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 1e-9").contains("at most"));
 }

@@ -1,6 +1,7 @@
 """Machines of several coordinates with stops and friction joints, and their motions event by event."""
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -21,14 +22,18 @@ _Floats = NDArray[np.float64]
 _Part = Mapping[str, Any]
 
 
-def _plain(value: Any) -> Any:
-    """Lists and numbers of Python for arrays and numbers of numpy."""
+def _plain(value: Any, path: str) -> Any:
+    """Lists and numbers of Python for arrays and numbers of numpy; absent parts are left out. Paths are those of a file."""
     if isinstance(value, np.ndarray | np.generic):
-        return value.tolist()
+        value = value.tolist()
+    if isinstance(value, float) and not math.isfinite(value):
+        raise QuestionError(f"{path}: {value} is not a finite number")
     if isinstance(value, Mapping):
-        return {str(name): _plain(inner) for name, inner in value.items()}
+        inner = {str(name): (part, f"{path}.{name}" if path else str(name)) for name, part in value.items()}
+        return {name: _plain(part, where.removeprefix("machine.")) for name, (part, where) in inner.items()
+                if part is not None}
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return [_plain(inner) for inner in value]
+        return [_plain(part, path) for part in value]
     return value
 
 
@@ -133,7 +138,7 @@ class Machine:
             "mode": modes, "link": links, "force": forces, "stop": _parts(stops), "friction": _parts(joints),
         }
         whole = {"title": title, "parameters": parameters, "start": start, "machine": table}
-        self._file = _core.MachineFile(json.dumps(_given(whole), allow_nan=True), _no_files)
+        self._file = _core.MachineFile(json.dumps(_plain(whole, "")), _no_files)
 
     @classmethod
     def _of(cls, file: _core.MachineFile) -> "Machine":
@@ -273,13 +278,6 @@ class Machine:
         kind, stop = (np.array(fields.pop(name), dtype=np.str_) for name in ("kind", "stop"))
         with_ = tuple(tuple(names) for names in fields.pop("with_"))
         return MachineSimulation(machine=self, start=start, kind=kind, stop=stop, with_=with_, **fields)
-
-
-def _given(table: Mapping[str, Any]) -> dict[str, Any]:
-    """What is not None, as plain values."""
-    known = {name: _given(value) if name == "machine" else _plain(value) for name, value in table.items()
-             if value is not None}
-    return known
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)

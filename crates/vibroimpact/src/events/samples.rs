@@ -138,7 +138,7 @@ impl<'a> MachineSamples<'a> {
             match guard.kind {
                 GuardKind::Gap(j) if place.surfaces[j].is_none() => gaps[j] = value,
                 GuardKind::Depth(j) => {
-                    gaps[j] = -value;
+                    gaps[j] = 0.0 - value;
                     if let Some((k, c, p)) = compliant(&machine.stops()[j].law) {
                         forces[j] = k * value + c * rate + p;
                     }
