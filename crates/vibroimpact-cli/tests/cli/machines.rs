@@ -107,6 +107,14 @@ fn the_schema_of_machine_files() {
     assert!(stop["gap"]["description"].as_str().is_some_and(|text| text.contains("coordinates are 0")), "{stop}");
 }
 
+#[test]
+fn the_schema_of_plans_of_machines() {
+    let schema: serde_json::Value = serde_json::from_str(&printed("schema --machine-plan")).unwrap();
+    assert_eq!(schema["additionalProperties"], false);
+    assert_eq!(schema["required"], serde_json::json!(["version", "machine", "task"]));
+    assert!(schema["$defs"]["MachineTask"].to_string().contains("periods"), "{schema}");
+}
+
 /// The contact of SDND101 has a closed form: half a period of the mass on both springs.
 #[test]
 fn a_machine_begins_where_its_file_says() {
@@ -189,6 +197,9 @@ fn waveforms() {
         let svg = fs::read_to_string(file(&format!("{name}.svg"))).unwrap();
         assert!(svg.contains(said) && !svg.contains(absent) && svg.contains("displacement"), "{name}");
     }
+    // a motion that ends where it begins
+    printed(&format!("simulate --machine sdnd101 --impacts 1 --plot {} --csv -", file("short.png")));
+    assert!(fs::read(file("short.png")).unwrap().starts_with(b"\x89PNG"));
     assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 0").contains("step = 0 lies outside"));
     assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 1e-9").contains("at most"));
 }

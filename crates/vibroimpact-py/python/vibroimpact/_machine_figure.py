@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
     from vibroimpact._machine import MachineSimulation
 
-#: Number of equal steps, largest number of lines, largest number of impacts with a mark each.
-_STEPS, _LINES, _MARKED = 4000, 6, 2000
+#: Number of equal steps, and largest numbers of lines, of impacts with a mark each, and of events with both sides.
+_STEPS, _LINES, _MARKED, _SIDES = 4000, 6, 2000, 20_000
 _HATCHES = ("///", "\\\\\\", "---", "...")
 
 
@@ -29,7 +29,8 @@ def _intervals(time: NDArray[Any], closed: NDArray[Any]) -> list[tuple[float, fl
 def draw(motion: "MachineSimulation", axes: "Sequence[Axes] | None") -> "NDArray[Any]":
     """Draw the coordinates, and the contact forces if there are any."""
     machine, until = motion.machine, motion.shown_until
-    wave = motion.waveform(until / _STEPS or 1.0, events=True)
+    # with very many events their sides are not seen
+    wave = motion.waveform(until / _STEPS or 1.0, events=len(motion) <= _SIDES)
     names, stops, contacts = machine.coordinates, machine.stops, machine.stops + machine.joints
     compliant = [f"stop.{name}.stiffness" in machine.paths for name in stops]
     pushing = [k for k in range(len(contacts)) if k >= len(stops) or compliant[k] or np.any(wave.force[:, k])][:_LINES]

@@ -17,6 +17,8 @@ const STEPS: f64 = 4000.0;
 const LINES: usize = 6;
 /// Maximum number of impacts with a mark each; more marks would merge into a band.
 const MARKED: usize = 2000;
+/// Maximum number of events both sides of which are drawn.
+const SIDES: usize = 20_000;
 /// The hatches of the contacts of several stops.
 const HATCHES: [Pattern; 4] = [Pattern::Rising, Pattern::Falling, Pattern::Horizontal, Pattern::Dots];
 
@@ -31,13 +33,16 @@ pub fn figure(
     title: String,
 ) -> Result<Figure, ReportError> {
     let until = found.shown_until;
-    let wave: Vec<MachineSample> = samples(machine, start, (until, until / STEPS))?.collect();
+    // with so many events their sides are not seen
+    let sides = found.events.len() <= SIDES;
+    let wave: Vec<MachineSample> =
+        samples(machine, start, (until, until / STEPS))?.filter(|sample| sides || sample.even).collect();
     let times: Vec<f64> = wave.iter().map(|sample| sample.time).collect();
     let coordinates = &machine.parts().coordinates;
     let shown = coordinates.len().min(LINES);
     let (low, high) = range(wave.iter().flat_map(|sample| sample.q[..shown].iter().copied()));
     let mut legend = Legend::below();
-    let time = || FigureAxis::new("time").range(0.0, until.max(f64::MIN_POSITIVE));
+    let time = || FigureAxis::new("time").range(0.0, if until > 0.0 { until } else { 1.0 });
     let mut panel = Panel::new(time(), FigureAxis::new("displacement").range(low, high));
 
     // contacts behind the lines
