@@ -2,8 +2,9 @@
 
 use super::{json, vibro};
 use std::fs;
-use vibroimpact_study::MachinePlan;
+use vibroimpact_report::machine_answer;
 use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
+use vibroimpact_study::{Control, MachinePlan, MachineTask};
 
 fn printed(line: &str) -> String {
     let output = vibro(line).output().expect("vibro runs");
@@ -202,4 +203,20 @@ fn waveforms() {
     assert!(fs::read(file("short.png")).unwrap().starts_with(b"\x89PNG"));
     assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 0").contains("step = 0 lies outside"));
     assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 1e-9").contains("at most"));
+}
+
+#[test]
+fn the_command_answers_as_the_library_does() {
+    let source = MachineSource::from_text(&printed("machine show impact-damper --written"), no_files).unwrap();
+    let plan = MachinePlan::new(source, MachineTask::Simulate { impacts: Some(30), periods: None });
+    let answer = machine_answer("impact-damper", &plan, &Control::default()).unwrap();
+    let line = "simulate --machine impact-damper --impacts 30";
+    assert_eq!(printed(&format!("{line} --json")), answer.json() + "\n");
+    let mut table = Vec::new();
+    answer.table(None).unwrap().write(&mut table).unwrap();
+    assert_eq!(printed(&format!("{line} --csv -")).as_bytes(), table);
+    let folder = tempfile::tempdir().unwrap();
+    let svg = folder.path().join("a.svg");
+    printed(&format!("{line} --plot {}", svg.display()));
+    assert_eq!(fs::read_to_string(svg).unwrap(), answer.figure().unwrap().to_svg());
 }
