@@ -32,6 +32,7 @@ pub(crate) fn plan(error: &PlanError) -> Option<String> {
         PlanError::System(error) => return system(error),
         PlanError::Text(_) => "`vibro schema` prints what may be in a plan".to_owned(),
         PlanError::Frequency(_) => "--beta B or --inverse-beta X, with X = 1/B".to_owned(),
+        PlanError::Unforced => "--impacts N limits the number of events".to_owned(),
         PlanError::Size { .. } => "fewer values, or a store (--store), which holds any number".to_owned(),
         PlanError::Nowhere { .. } => "--to another value".to_owned(),
         PlanError::NoOrbit { others, .. } => format!(

@@ -21,10 +21,12 @@ pub(crate) fn read(name: &str) -> Result<MachineSource, Failure> {
             )
         })
     })?;
-    // files that a machine names are beside it
-    let beside = |other: &str| {
-        let place = path.parent().unwrap_or(Path::new("")).join(other);
-        fs::read_to_string(place).map_err(|error| format!("cannot be read: {error}"))
-    };
-    MachineSource::from_text(&text, beside).map_err(|error| Failure::bad(format!("{name}: {error}")))
+    MachineSource::from_text(&text, |other| beside(path, other))
+        .map_err(|error| Failure::bad(format!("{name}: {error}")))
+}
+
+/// The text of a file that a machine names: it is beside the file of the machine.
+pub(crate) fn beside(path: &Path, other: &str) -> Result<String, String> {
+    let place = path.parent().unwrap_or(Path::new("")).join(other);
+    fs::read_to_string(place).map_err(|error| format!("cannot be read: {error}"))
 }

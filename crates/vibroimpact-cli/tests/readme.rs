@@ -104,7 +104,7 @@ fn the_page_on_machines_runs() {
     for block in &files {
         let name = block.lines().next().and_then(|line| line.strip_prefix("# ")).expect("the first line is the name");
         fs::write(folder.path().join(name), block).unwrap();
-        if name.ends_with(".toml") {
+        if name.ends_with(".toml") && !block.contains("[task.") {
             let output = vibro(&format!("vibro machine show {name}"), folder.path());
             assert!(output.status.success(), "{name}\n{}", String::from_utf8_lossy(&output.stderr));
         }
@@ -131,5 +131,5 @@ fn the_page_on_machines_runs() {
     assert!(ran >= 12, "{ran}");
     let expansion = |name: &str| vibro(&format!("vibro machine show {name} --toml"), folder.path()).stdout;
     assert_eq!(expansion("beam.toml"), expansion("table.toml"));
-    assert!(folder.path().join("hammer.png").exists());
+    assert!(folder.path().join("hammer.png").exists() && folder.path().join("waveform.png").exists());
 }

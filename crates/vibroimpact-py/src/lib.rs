@@ -13,6 +13,7 @@ mod door;
 mod error;
 mod grid;
 mod lyapunov;
+mod machine;
 mod margins;
 mod motion;
 mod orbits;
@@ -39,6 +40,8 @@ mod _core {
     use crate::grid::{basin_measures, fill, labels_of, span_values};
     #[pymodule_export]
     use crate::lyapunov::lyapunov;
+    #[pymodule_export]
+    use crate::machine::{MachineFile, machine_names, machine_waveform, simulate_machine};
     #[pymodule_export]
     use crate::margins::{margins, varied_parameters};
     #[pymodule_export]

@@ -51,7 +51,7 @@ def listings(path: Path) -> list[str]:
 def test_listings_run_as_typed(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
     monkeypatch.chdir(tmp_path)
-    pages = [root / "README.md", root / "docs/python.md"]
+    pages = [root / "README.md", root / "docs/python.md", root / "docs/machines.md"]
     found = {page.name: listings(page) for page in pages}
     assert all(found.values()), found.keys()
     for page, texts in found.items():

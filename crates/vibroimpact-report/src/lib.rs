@@ -6,6 +6,7 @@
 //! | idea | file |
 //! |---|---|
 //! | a plan, its result, and everything that is reported of it | [`answer()`], [`Answer`], [`Shown`] |
+//! | the same for a plan of a machine | [`machine_answer()`], [`MachineAnswer`] |
 //! | the system of a question, and the units of results | [`Asked`], [`Units`] |
 //! | the JSON objects of the commands, one file for each | [`json`] |
 //! | the tables | [`Table`], [`table`] |
@@ -19,6 +20,7 @@ pub mod answer;
 mod error;
 pub mod figure;
 pub mod json;
+mod machine_answer;
 pub mod number;
 pub mod question;
 pub mod scene;
@@ -27,6 +29,7 @@ mod units;
 
 pub use answer::{Answer, AnswerError, Shown, answer};
 pub use error::ReportError;
+pub use machine_answer::{MachineAnswer, machine_answer};
 pub use table::Table;
 pub use units::{Asked, Units};
 

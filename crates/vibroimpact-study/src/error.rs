@@ -2,6 +2,7 @@
 
 use crate::control::Stopped;
 use crate::counted;
+use crate::machine::MachineTextError;
 use thiserror::Error;
 use vibroimpact::continuation::BranchError;
 use vibroimpact::verdict::LabelError;
@@ -14,6 +15,12 @@ pub enum PlanError {
     /// The system or a start is invalid.
     #[error(transparent)]
     System(#[from] SystemError),
+    /// A machine, a number in it or its start is invalid.
+    #[error(transparent)]
+    Machine(#[from] MachineTextError),
+    /// A number of forcing periods of a machine without forcing.
+    #[error("the machine has no forcing, so no forcing periods\nhint: a number of impacts limits the number of events")]
+    Unforced,
     /// A number of a machine in two forms.
     #[error("{0} and {1} are two forms of one number, and both are given")]
     PhysicalTwice(&'static str, &'static str),

@@ -29,6 +29,7 @@
 //! | a parameter and its range; a line through one or two of them | [`Stretch`], [`Cut`] |
 //! | the parameters of the core in plans | [`Parameter`], `parameter` |
 //! | machines as they are written, and their catalogue | [`machine`] |
+//! | a plan of a machine, and the one function that turns it into its result | [`MachinePlan`], [`run_machine`] |
 //! | an oscillator in SI units; the units of a plan | [`PhysicalPlan`], [`UnitsPlan`] |
 //! | the quantities of a motion that a plan asks for | [`Quantity`], `quantity` |
 
@@ -49,6 +50,7 @@ mod in_memory;
 mod limits;
 mod lyapunov;
 pub mod machine;
+mod machine_plan;
 mod map;
 mod margins;
 mod parameter;
@@ -84,6 +86,7 @@ pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
+pub use machine_plan::{MachinePlan, MachineResults, MachineSimulated, MachineTask, is_machine_plan, run_machine};
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,

@@ -4,8 +4,7 @@ use super::{SetArgs, number};
 use crate::failure::Failure;
 use crate::machine_file;
 use clap::Args;
-use vibroimpact::events::MachineStart;
-use vibroimpact::machine::Machine;
+use vibroimpact_study::machine::{MachineSource, NumberText, StartText, VectorText};
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Machine")]
@@ -27,18 +26,25 @@ pub(crate) struct OfMachineArgs {
 }
 
 impl OfMachineArgs {
-    /// The machine with its changed numbers, and the start; `None` if none is named. A phase of 0 is that of the table
-    /// `[start]`.
-    pub(crate) fn asked(&self, phase: f64) -> Result<Option<(&str, Machine, MachineStart)>, Failure> {
+    /// The machine with its changed numbers and its start, and its name; `None` if none is named. What is not given of the
+    /// start is that of the table `[start]`.
+    pub(crate) fn asked(&self, phase: Option<f64>) -> Result<Option<(&str, MachineSource)>, Failure> {
         let Some(name) = &self.machine else { return Ok(None) };
-        let source = self.set.apply(machine_file::read(name)?)?;
-        let (machine, start) = (source.machine()?, source.start()?);
-        let given = |typed: &[f64], written: Vec<f64>| if typed.is_empty() { written } else { typed.to_vec() };
-        let phase = if phase == 0.0 { start.phase } else { phase };
-        Ok(Some((
-            name,
-            machine,
-            MachineStart { q: given(&self.q, start.q), qdot: given(&self.qdot, start.qdot), phase },
-        )))
+        let mut source = self.set.apply(machine_file::read(name)?)?;
+        let numbers = |given: &[f64]| VectorText::List(given.iter().map(|value| NumberText::Value(*value)).collect());
+        let start = source.start.get_or_insert_default();
+        if !self.q.is_empty() {
+            start.q = Some(numbers(&self.q));
+        }
+        if !self.qdot.is_empty() {
+            start.qdot = Some(numbers(&self.qdot));
+        }
+        if let Some(phase) = phase {
+            start.phase = Some(NumberText::Value(phase));
+        }
+        if *start == StartText::default() {
+            source.start = None;
+        }
+        Ok(Some((name, source)))
     }
 }

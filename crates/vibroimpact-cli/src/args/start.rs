@@ -16,13 +16,17 @@ pub(crate) struct StartArgs {
     #[arg(long, value_parser = number, value_name = "V", default_value_t = 0.0, allow_hyphen_values = true)]
     v: f64,
 
-    /// Phase of the force in radians
-    #[arg(long, value_parser = number, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true)]
-    pub(crate) phase: f64,
+    /// Phase of the force in radians [default: 0]
+    #[arg(long, value_parser = number, value_name = "P", allow_hyphen_values = true)]
+    pub(crate) phase: Option<f64>,
 }
 
 impl StartArgs {
     pub(crate) fn plan(&self, units: &Units) -> StartPlan {
-        StartPlan { x: self.x.map(|x| x / units.length()), v: self.v / units.velocity(), phase: self.phase }
+        StartPlan {
+            x: self.x.map(|x| x / units.length()),
+            v: self.v / units.velocity(),
+            phase: self.phase.unwrap_or(0.0),
+        }
     }
 }

@@ -1,15 +1,16 @@
 //! `vibro run`: fills a store with the study of a plan in a file.
 
-use super::stored;
+use super::{simulate_machine, stored};
 use crate::args::{ColourArgs, FigureArgs, Tiles};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::hints;
+use crate::machine_file;
 use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use vibroimpact_store::Part;
-use vibroimpact_study::Plan;
+use vibroimpact_study::{MachinePlan, Plan, PlanError, is_machine_plan};
 
 /// Run a study from a plan, into a store that can be resumed
 ///
@@ -53,13 +54,42 @@ pub(crate) struct Run {
 
 /// Reads the plan in a file.
 pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
+    Plan::from_text(&text(path)?).map_err(|error| named(path, &error))
+}
+
+fn text(path: &Path) -> Result<String, Failure> {
     let name = path.display();
-    let text = std::fs::read_to_string(path)
+    std::fs::read_to_string(path)
         .map_err(|error| Failure::bad(format!(
                 "the plan `{name}` cannot be read: {error}\nhint: a plan is a TOML or JSON file; `vibro schema` prints what may be in it"
-            )))?;
-    Plan::from_text(&text)
-        .map_err(|error| Failure::bad(format!("`{name}`: {}", hints::worded(&error, hints::plan(&error)))))
+            )))
+}
+
+/// An error in the plan of a file.
+fn named(path: &Path, error: &PlanError) -> Failure {
+    Failure::bad(format!("`{}`: {}", path.display(), hints::worded(error, hints::plan(error))))
+}
+
+/// The plan in a file, if it is one of a machine.
+fn of_machine(path: &Path) -> Result<Option<MachinePlan>, Failure> {
+    let text = text(path)?;
+    if !is_machine_plan(&text) {
+        return Ok(None);
+    }
+    let plan = MachinePlan::from_text(&text, |other| machine_file::beside(path, other));
+    let plan = plan.and_then(|plan| plan.check().map(|()| plan));
+    plan.map(Some).map_err(|error| named(path, &error))
+}
+
+/// A plan of a machine has no tiles: its result is printed.
+fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), Failure> {
+    if args.store.is_some() || args.tiles.is_some() {
+        return Err(Failure::bad("a plan of a machine fills no store: --store and --tiles have no meaning here"));
+    }
+    args.colour.coloured(false)?;
+    let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+    let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
+    simulate_machine::run(&name, plan, (outputs, None), session)
 }
 
 /// The default place of the store of a plan.
@@ -69,6 +99,9 @@ pub(super) fn default_store(plan: &Path) -> String {
 }
 
 pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
+    if let Some(plan) = of_machine(&args.plan)? {
+        return run_machine(args, &plan, session);
+    }
     let plan = read(&args.plan)?;
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;

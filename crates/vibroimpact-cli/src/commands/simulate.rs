@@ -8,7 +8,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{Plan, Task};
+use vibroimpact_study::{MachinePlan, MachineTask, Plan, Task};
 
 /// Follow a motion event by event: impacts, grazes, sticking, release
 ///
@@ -22,7 +22,8 @@ use vibroimpact_study::{Plan, Task};
         vibro simulate --inverse-beta 1.8 --gap 0.25 --restitution 0.5 --impacts 20\n  \
         vibro simulate --beta 0.9 --gap -0.5 --restitution 0.5 --periods 4 --plot chatter.svg\n  \
         vibro simulate --beta 0.9 --gap 0.5 --restitution 0.7 --periods 10 --csv wave.csv --step 0.01\n  \
-        vibro simulate --machine soft-stop --impacts 10"
+        vibro simulate --machine soft-stop --impacts 10\n  \
+        vibro simulate --machine two-mass-hammer --periods 10 --plot hammer.svg"
 )]
 pub(crate) struct Simulate {
     #[command(flatten)]
@@ -44,7 +45,8 @@ pub(crate) struct Simulate {
     #[arg(long, help_heading = "Output")]
     json: bool,
 
-    /// Write the waveform, columns t, x, v, to this file; - for stdout
+    /// Write the waveform, columns t, x, v, to this file; - for stdout. Of a machine: time, coordinates, velocities, gaps and
+    /// forces
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
@@ -61,21 +63,30 @@ pub(crate) struct Simulate {
 }
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
-    if let Some((name, machine, start)) = args.of_machine.asked(args.start.phase)? {
-        if args.csv.is_some() || args.plot.is_some() {
-            return Err(Failure::bad("the waveform of a machine is not available yet\nhint: --json has its events"));
-        }
-        return simulate_machine::run((name, &machine, &start), (args.impacts, args.periods), args.json, session);
+    if let Some((name, machine)) = args.of_machine.asked(args.start.phase)? {
+        let task = MachineTask::Simulate { impacts: args.impacts, periods: args.periods };
+        let plan = MachinePlan::new(machine, task);
+        plan.check()?;
+        let step = checked(args.step)?;
+        let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
+        return simulate_machine::run(name, &plan, (outputs, step), session);
     }
     let asked = args.system.asked()?;
     let start = args.start.plan(&asked.units);
     let task = Task::Simulate { start, impacts: args.impacts, periods: args.periods };
     let plan = Plan::new(asked.system, task);
     plan.check()?;
-    let step = args.step.map(|step| step / asked.units.time());
-    if let Some(step) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
-        return Err(Failure::bad(format!("step = {step} lies outside 0 < step < infinity")));
-    }
+    let step = checked(args.step.map(|step| step / asked.units.time()))?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown { step, ..Shown::default() }), None, session)
+}
+
+/// The time between points of a waveform, if it is one.
+fn checked(step: Option<f64>) -> Result<Option<f64>, Failure> {
+    match step {
+        Some(step) if !(step > 0.0 && step.is_finite()) => {
+            Err(Failure::bad(format!("step = {step} lies outside 0 < step < infinity")))
+        }
+        step => Ok(step),
+    }
 }

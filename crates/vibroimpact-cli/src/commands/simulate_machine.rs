@@ -1,55 +1,29 @@
-//! `vibro simulate --machine`: the events of a machine.
+//! `vibro simulate --machine` and `vibro run` with a plan of a machine: the result of the plan.
 
+use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
 use crate::report::machine_events as text;
 use crate::session::Session;
-use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
-use vibroimpact::machine::Machine;
-use vibroimpact_report::json::MachineEvents;
+use vibroimpact_report::machine_answer;
+use vibroimpact_study::{MachinePlan, MachineResults};
 
-/// The number of events without a limit, and with a number of periods.
-const EVENTS: u64 = 100;
-const EVENTS_IN_PERIODS: u64 = 1_000_000;
-
+/// Computes the answer of a plan and reports it.
 pub(super) fn run(
-    (name, machine, start): (&str, &Machine, &MachineStart),
-    (events, periods): (Option<u64>, Option<f64>),
-    json: bool,
+    name: &str,
+    plan: &MachinePlan,
+    (outputs, step): (Outputs, Option<f64>),
     session: &Session,
 ) -> Result<(), Failure> {
-    let time = match (periods, machine.period()) {
-        (None, _) => f64::INFINITY,
-        (Some(periods), Some(period)) if periods > 0.0 && periods <= 1e9 => periods * period,
-        (Some(periods), Some(_)) => {
-            return Err(Failure::bad(format!("periods = {periods} lies outside 0 < periods <= 1e9")));
-        }
-        (Some(_), None) => {
-            return Err(Failure::bad(format!(
-                "`{name}` has no forcing, so no forcing periods\nhint: --impacts N limits the number of events"
-            )));
-        }
-    };
-    let most = events.unwrap_or(if periods.is_some() { EVENTS_IN_PERIODS } else { EVENTS });
-    let mut motion = MachineMotion::new(machine, start, MachineLimits::default())
-        .map_err(|error| Failure::bad(error.to_string()))?;
-    let mut found = Vec::new();
-    let mut end = None;
-    let mut until = 0.0;
-    while (found.len() as u64) < most {
-        let Some(event) = motion.next() else {
-            end = motion.end();
-            until = motion.time();
-            break;
-        };
-        if event.time > time {
-            (end, until) = (Some(vibroimpact::events::MachineEnd::NoEventWithin), time);
-            break;
-        }
-        until = event.time;
-        found.push(event);
-    }
+    let answer = session.watched(None, |control| machine_answer(name, plan, control))?;
+    let (json, table) = (outputs.json(), outputs.table_on_stdout());
+    outputs.write(session, || Ok(answer.table(step)?), || Ok(answer.figure()?))?;
     if json {
-        return session.print_json(&MachineEvents::new((name, machine), start, &found, (end, until)));
+        return session.print_json(&answer);
     }
-    session.print(&text::events(machine, &found, (end, until)))
+    if table {
+        return Ok(());
+    }
+    match &answer.results {
+        MachineResults::Simulate(found) => session.print(&text::events(&answer.machine, found)),
+    }
 }

@@ -1,13 +1,12 @@
 //! The events of a machine as a table.
 
 use core::fmt::Write;
-use vibroimpact::events::{MachineEnd, MachineEvent};
 use vibroimpact::machine::Machine;
-use vibroimpact_report::json::end_name;
 use vibroimpact_report::number::short;
+use vibroimpact_study::MachineSimulated;
 
 /// One line for each event: time, kind, stop, speed, coordinates and velocities after it.
-pub(crate) fn events(machine: &Machine, events: &[MachineEvent], (end, time): (Option<MachineEnd>, f64)) -> String {
+pub(crate) fn events(machine: &Machine, MachineSimulated { events, reason, time, .. }: &MachineSimulated) -> String {
     let wide = events.iter().map(|event| machine.name_of(event.place).len()).max().unwrap_or(0).max(4);
     let mut text = format!("{:>14}  {:<8} {:<wide$} {:>12}", "time", "event", "stop", "speed");
     for name in &machine.parts().coordinates {
@@ -25,11 +24,11 @@ pub(crate) fn events(machine: &Machine, events: &[MachineEvent], (end, time): (O
         }
         text.push('\n');
     }
-    let why = match end_name(end) {
+    let why = match *reason {
         "event_limit" => "the number of events that was asked for".to_owned(),
         "no_more_impacts" => "no further event, for ever".to_owned(),
         "stuck" => "at rest on a stop, for ever".to_owned(),
-        "time_limit" => format!("no further event up to time {}", short(time)),
+        "time_limit" => format!("no further event up to time {}", short(*time)),
         other => other.replace('_', " "),
     };
     let _ = writeln!(text, "end: {why}");

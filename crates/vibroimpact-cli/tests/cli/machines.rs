@@ -2,7 +2,9 @@
 
 use super::{json, vibro};
 use std::fs;
+use vibroimpact_report::machine_answer;
 use vibroimpact_study::machine::{CATALOGUE, MachineSource, no_files};
+use vibroimpact_study::{Control, MachinePlan, MachineTask};
 
 fn printed(line: &str) -> String {
     let output = vibro(line).output().expect("vibro runs");
@@ -106,6 +108,14 @@ fn the_schema_of_machine_files() {
     assert!(stop["gap"]["description"].as_str().is_some_and(|text| text.contains("coordinates are 0")), "{stop}");
 }
 
+#[test]
+fn the_schema_of_plans_of_machines() {
+    let schema: serde_json::Value = serde_json::from_str(&printed("schema --machine-plan")).unwrap();
+    assert_eq!(schema["additionalProperties"], false);
+    assert_eq!(schema["required"], serde_json::json!(["version", "machine", "task"]));
+    assert!(schema["$defs"]["MachineTask"].to_string().contains("periods"), "{schema}");
+}
+
 /// The contact of SDND101 has a closed form: half a period of the mass on both springs.
 #[test]
 fn a_machine_begins_where_its_file_says() {
@@ -117,4 +127,96 @@ fn a_machine_begins_where_its_file_says() {
     assert!((events[1]["time"].as_f64().unwrap() - contact).abs() < 1e-14, "{events}");
     let still = json("simulate --machine sdnd101 --impacts 2 --qdot 0");
     assert_ne!(still["events"], events);
+}
+
+/// The phase of the command line is that of the start, 0 too; what is not given is that of the file.
+#[test]
+fn a_start_is_that_of_the_command_line_or_of_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.toml");
+    let text = "[start]\nq = { a = 0.25 }\nphase = 1\n[machine]\nbodies = { a = 1 }\nfrequency = 1\n\
+        force = [{ at = \"a\", sin = 1 }]\nstop = [{ name = \"s\", at = \"a\", gap = 1, restitution = 0.5 }]\n";
+    fs::write(&file, text).unwrap();
+    let start =
+        |flags: &str| json(&format!("simulate --machine {} --impacts 1 {flags}", file.display()))["start"].clone();
+    assert_eq!(start(""), serde_json::json!({"q": [0.25], "qdot": [0.0], "phase": 1.0}));
+    assert_eq!(start("--phase 0"), serde_json::json!({"q": [0.25], "qdot": [0.0], "phase": 0.0}));
+    assert_eq!(start("--qdot -1 --q 0"), serde_json::json!({"q": [0.0], "qdot": [-1.0], "phase": 1.0}));
+    let said = refused(&format!("simulate --machine {} --q 1,2", file.display()));
+    assert!(said.contains("start.q: has 2 numbers, and 1 are needed"), "{said}");
+    assert!(refused(&format!("simulate --machine {} --q 2", file.display())).contains("error: stop.s"));
+}
+
+/// The plan that is printed runs again to the same bytes, as JSON and as TOML.
+#[test]
+fn printed_plans_run_again() {
+    let folder = tempfile::tempdir().unwrap();
+    for line in [
+        "--machine capsule --set beta=20 --periods 5",
+        "--machine sdnd101 --impacts 4",
+        "--machine cantilever --phase 2",
+    ] {
+        let told = json(&format!("simulate {line}"));
+        let plan = MachinePlan::from_text(&told["plan"].to_string(), no_files).unwrap();
+        for (name, text) in [("plan.json", told["plan"].to_string()), ("plan.toml", plan.to_toml())] {
+            let file = folder.path().join(name);
+            fs::write(&file, text).unwrap();
+            let again = json(&format!("run {}", file.display()));
+            for field in ["events", "end", "plan", "start"] {
+                assert_eq!(again[field], told[field], "{line}: {name}");
+            }
+            assert!(refused(&format!("run {} --store a.zarr", file.display())).contains("fills no store"));
+        }
+    }
+    let bad = folder.path().join("bad.toml");
+    fs::write(&bad, "version = 1\n[machine]\nbodies = { a = 1 }\n[task.simulate]\nperiods = 3\n").unwrap();
+    let said = refused(&format!("run {}", bad.display()));
+    assert!(said.contains("bad.toml`: the machine has no forcing, so no forcing periods"), "{said}");
+}
+
+#[test]
+fn waveforms() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let table = printed("simulate --machine capsule --periods 2 --csv - --step 0.5");
+    let header = table.lines().next().unwrap();
+    assert!(
+        header.starts_with("time,q.") && header.contains(",gap.plate") && header.contains(",force.plate"),
+        "{header}"
+    );
+    let columns = header.split(',').count();
+    let rows: Vec<Vec<f64>> =
+        table.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert!(rows.len() > 20 && rows.iter().all(|row| row.len() == columns), "{table}");
+    assert!(rows.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
+    for (name, said, absent) in [
+        ("soft-stop", "force of stop", "impact</"),
+        ("two-mass-hammer", ">impact<", "contact force"),
+        ("impact-damper", ">particle<", "contact force"),
+    ] {
+        printed(&format!("simulate --machine {name} --periods 8 --plot {}", file(&format!("{name}.svg"))));
+        let svg = fs::read_to_string(file(&format!("{name}.svg"))).unwrap();
+        assert!(svg.contains(said) && !svg.contains(absent) && svg.contains("displacement"), "{name}");
+    }
+    // a motion that ends where it begins
+    printed(&format!("simulate --machine sdnd101 --impacts 1 --plot {} --csv -", file("short.png")));
+    assert!(fs::read(file("short.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 0").contains("step = 0 lies outside"));
+    assert!(refused("simulate --machine soft-stop --periods 1 --csv - --step 1e-9").contains("at most"));
+}
+
+#[test]
+fn the_command_answers_as_the_library_does() {
+    let source = MachineSource::from_text(&printed("machine show impact-damper --written"), no_files).unwrap();
+    let plan = MachinePlan::new(source, MachineTask::Simulate { impacts: Some(30), periods: None });
+    let answer = machine_answer("impact-damper", &plan, &Control::default()).unwrap();
+    let line = "simulate --machine impact-damper --impacts 30";
+    assert_eq!(printed(&format!("{line} --json")), answer.json() + "\n");
+    let mut table = Vec::new();
+    answer.table(None).unwrap().write(&mut table).unwrap();
+    assert_eq!(printed(&format!("{line} --csv -")).as_bytes(), table);
+    let folder = tempfile::tempdir().unwrap();
+    let svg = folder.path().join("a.svg");
+    printed(&format!("{line} --plot {}", svg.display()));
+    assert_eq!(fs::read_to_string(svg).unwrap(), answer.figure().unwrap().to_svg());
 }

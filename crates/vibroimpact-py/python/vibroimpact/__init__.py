@@ -29,6 +29,7 @@ Lengths are in units of the static deflection F/k, times in units of 1/omega_n, 
 | Lyapunov exponents and the dimension of the attractor | `lyapunov` |
 | the motion after its transient at each value of a parameter | `orbit_diagram` |
 | the motion to which each start leads; the motions at each point of a parameter plane | `basin`, `region_map` |
+| a machine of several coordinates, and its motions | `Machine` |
 | a study of any size: a plan in a store | `Plan`, `run`, `resume`, `status`, `verify`, `open`, `vibroimpact.dask` |
 
 Results contain arrays. `plot()` draws a figure, and `to_dict()` returns the fields of the JSON of the command.
@@ -42,6 +43,7 @@ from vibroimpact._curve import Curve, CurveEvent, curve
 from vibroimpact._cycle import Cycle
 from vibroimpact._grid import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import Lyapunov, Measured, lyapunov
+from vibroimpact._machine import Machine, MachineSimulation, MachineWaveform
 from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin, margins
 from vibroimpact._motion import Motion
 from vibroimpact._orbits import EarlierContact, Orbit, orbits
@@ -62,6 +64,9 @@ __all__ = [
     "Cycle",
     "EarlierContact",
     "Lyapunov",
+    "Machine",
+    "MachineSimulation",
+    "MachineWaveform",
     "MarginEnd",
     "Margins",
     "Measured",

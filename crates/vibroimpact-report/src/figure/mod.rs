@@ -6,6 +6,7 @@ pub mod coloured;
 pub mod curve;
 pub mod diagram;
 pub mod machine;
+pub mod machine_waveform;
 pub mod map;
 pub mod plane;
 pub mod point_motion;

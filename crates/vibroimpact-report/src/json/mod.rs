@@ -8,7 +8,7 @@ pub mod branch;
 pub mod curve;
 pub mod diagram;
 pub mod lyapunov;
-mod machine_events;
+mod machine;
 pub mod map;
 pub mod margins;
 pub mod motion;
@@ -21,7 +21,6 @@ pub mod simulate;
 
 use crate::units::given;
 use crate::{Asked, PROGRAM, Units};
-pub use machine_events::{MachineEvents, end_name};
 use serde::Serialize;
 use vibroimpact::{Oscillator, Side, Start};
 use vibroimpact_study::{Cut, FramePlan, Plan, Span, Stretch, Values};

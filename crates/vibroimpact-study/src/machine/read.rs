@@ -4,6 +4,7 @@ use super::error::{MachineProblem, MachineTextError};
 use super::modes;
 use super::source::MachineSource;
 use crate::plan_text::plain;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 use serde_path_to_error::{Path, Segment};
 
@@ -23,20 +24,33 @@ impl MachineSource {
     /// [`MachineTextError`] with the path of the part, or the line and the column, and what is expected there. What the
     /// numbers mean is checked by [`MachineSource::machine`].
     pub fn from_text(text: &str, files: impl FnOnce(&str) -> Result<String, String>) -> Result<Self, MachineTextError> {
-        let mut source = if text.trim_start().starts_with('{') { from_json(text)? } else { from_toml(text)? };
-        if let Some(name) = source.machine.modes.take() {
-            if !source.machine.mode.is_empty() {
-                return Err(MachineTextError::new("modes", MachineProblem::Several("modes and tables mode")));
-            }
-            let read = files(&name).and_then(|table| modes::from_csv(&table));
-            let wrong = |why| MachineTextError::new("modes", MachineProblem::File { name: name.clone(), why });
-            source.machine.mode = read.map_err(wrong)?;
-        }
+        let mut source: Self = from_either(text)?;
+        source.read_modes(files)?;
         Ok(source)
+    }
+
+    /// Replaces the name of a table of modes by the modes in it.
+    pub(crate) fn read_modes(
+        &mut self,
+        files: impl FnOnce(&str) -> Result<String, String>,
+    ) -> Result<(), MachineTextError> {
+        let Some(name) = self.machine.modes.take() else { return Ok(()) };
+        if !self.machine.mode.is_empty() {
+            return Err(MachineTextError::new("modes", MachineProblem::Several("modes and tables mode")));
+        }
+        let read = files(&name).and_then(|table| modes::from_csv(&table));
+        let wrong = |why| MachineTextError::new("modes", MachineProblem::File { name: name.clone(), why });
+        self.machine.mode = read.map_err(wrong)?;
+        Ok(())
     }
 }
 
-fn from_toml(text: &str) -> Result<MachineSource, MachineTextError> {
+/// Reads TOML or, where the text begins with a brace, JSON.
+pub(crate) fn from_either<T: DeserializeOwned>(text: &str) -> Result<T, MachineTextError> {
+    if text.trim_start().starts_with('{') { from_json(text) } else { from_toml(text) }
+}
+
+fn from_toml<T: DeserializeOwned>(text: &str) -> Result<T, MachineTextError> {
     let place = |error: &toml::de::Error| error.span().map(|span| position(text, span.start));
     let syntax = |error: &toml::de::Error| wrong(String::new(), place(error), error.message());
     let parsed = toml::Deserializer::parse(text).map_err(|error| syntax(&error))?;
@@ -46,7 +60,7 @@ fn from_toml(text: &str) -> Result<MachineSource, MachineTextError> {
     })
 }
 
-fn from_json(text: &str) -> Result<MachineSource, MachineTextError> {
+fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, MachineTextError> {
     let mut parsed = serde_json::Deserializer::from_str(text);
     let read = serde_path_to_error::deserialize(&mut parsed).map_err(|error| {
         let whole = serde_json::from_str::<Value>(text).unwrap_or_default();

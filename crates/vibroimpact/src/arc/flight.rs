@@ -230,7 +230,7 @@ impl MachineFlight {
     }
 
     /// The value of a guard, its rate, and a bound of its rounding error.
-    pub(super) fn guard(&self, g: usize, modes: &Modes) -> (f64, f64, f64) {
+    pub(crate) fn guard(&self, g: usize, modes: &Modes) -> (f64, f64, f64) {
         let (function, start) = (&self.structure.guards[g].function, &self.guards[g]);
         let mut value = start.value;
         let mut rate = function.signal.ramp;

@@ -8,6 +8,8 @@
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
+//! | what it does between two events | `stretch` |
+//! | states, gaps and forces at equal steps | [`MachineSamples`], `samples` |
 
 mod event;
 mod impulses;
@@ -16,9 +18,12 @@ mod passage;
 mod place;
 mod resolve;
 mod saltation;
+mod samples;
+mod stretch;
 
 pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures};
 pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
+pub use samples::{MachineSample, MachineSamples};

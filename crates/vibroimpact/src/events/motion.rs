@@ -5,6 +5,7 @@ use super::impulses::impulses;
 use super::passage::Passage;
 use super::place::{Place, Structures};
 use super::resolve::resolve;
+use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Recovery, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{Sum, add_scaled, dot};
@@ -47,6 +48,8 @@ pub struct MachineMotion<'a> {
     /// The last step, if steps are recorded.
     passage: Option<Passage>,
     recording: bool,
+    /// What it did since the last event, if someone looks.
+    trail: Option<Vec<Stretch>>,
 }
 
 /// More events than this at one time are a collapse.
@@ -106,6 +109,21 @@ impl<'a> MachineMotion<'a> {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time.value()
+    }
+
+    /// The same, with its stretches kept.
+    pub(super) fn trailed(self) -> Self {
+        Self { trail: Some(Vec::new()), ..self }
+    }
+
+    /// The stretches since they were last taken.
+    pub(super) fn trail(&mut self) -> Vec<Stretch> {
+        self.trail.as_mut().map(core::mem::take).unwrap_or_default()
+    }
+
+    /// The machine in mass-normalised coordinates.
+    pub(crate) const fn normal(&self) -> &Normal {
+        &self.normal
     }
 
     /// Finds out what the stops and joints do at the start.
@@ -421,9 +439,14 @@ impl<'a> MachineMotion<'a> {
 
     /// Moves the state to a time after the beginning of a flight.
     fn move_to(&mut self, flight: &MachineFlight, s: f64) {
+        if let Some(trail) = self.trail.as_mut().filter(|_| s > 0.0) {
+            let (begin, place, flight) = (self.time, self.place.clone(), flight.clone());
+            follow(trail, Stretch { begin, duration: s, place, flight });
+        }
         self.place.move_along(flight, s, self.machine.parts().frequency, &mut self.buffers.modes);
+        let before = self.time.value();
         self.time.add(s);
-        if s > 0.0 {
+        if self.time.value() > before {
             self.crowd = 0;
         }
     }
@@ -460,6 +483,7 @@ impl<'a> MachineMotion<'a> {
             largest_impact: 0.0,
             passage: None,
             recording: false,
+            trail: None,
         }
     }
 
@@ -476,11 +500,6 @@ impl<'a> MachineMotion<'a> {
     /// The present state.
     pub(crate) const fn place(&self) -> &Place {
         &self.place
-    }
-
-    /// The machine in mass-normalised coordinates.
-    pub(crate) const fn normal(&self) -> &Normal {
-        &self.normal
     }
 
     /// Follows the motion to its next event.

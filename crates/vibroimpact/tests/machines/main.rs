@@ -3,6 +3,8 @@
 #[cfg(test)]
 mod branches;
 mod case;
+#[cfg(test)]
+mod samples;
 
 use case::{Case, cases};
 use std::fmt::Write as _;

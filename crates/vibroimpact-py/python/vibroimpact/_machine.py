@@ -1,0 +1,409 @@
+"""Machines of several coordinates with stops and friction joints, and their motions event by event."""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vibroimpact import _core
+from vibroimpact._core import QuestionError
+from vibroimpact._whole import SIMULATED, maybe
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_Floats = NDArray[np.float64]
+_Part = Mapping[str, Any]
+
+
+def _plain(value: Any, path: str) -> Any:
+    """Lists and numbers of Python for arrays and numbers of numpy; absent parts are left out. Paths are those of a file."""
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, float) and not math.isfinite(value):
+        raise QuestionError(f"{path}: {value} is not a finite number")
+    if isinstance(value, Mapping):
+        inner = {str(name): (part, f"{path}.{name}" if path else str(name)) for name, part in value.items()}
+        return {name: _plain(part, where.removeprefix("machine.")) for name, (part, where) in inner.items()
+                if part is not None}
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [_plain(part, path) for part in value]
+    return value
+
+
+def _parts(parts: "Sequence[_Part] | Mapping[str, _Part] | None") -> list[_Part] | None:
+    """A list of parts with names, from such a list or from a dict of parts by name."""
+    if isinstance(parts, Mapping):
+        return [{"name": name, **part} for name, part in parts.items()]
+    return None if parts is None else list(parts)
+
+
+def _vector(values: ArrayLike | None) -> list[float] | None:
+    return None if values is None else np.atleast_1d(np.asarray(values, dtype=float)).tolist()
+
+
+def _no_files(name: str) -> str:
+    raise QuestionError("there is no folder to look in")
+
+
+class Machine:
+    """A linear structure with forces, rigid and compliant stops, and friction joints.
+
+    M q'' + C q' + K q = constant + harmonics of the forcing + contact and friction forces
+
+    All arguments are fields of the table `[machine]` of a machine file (docs/machines.md); arrays of numpy and numbers
+    may be given, and expressions of `parameters` as texts. A machine is a value: `set` returns another one.
+
+    Parameters
+    ----------
+    coordinates : list of str
+        Names of the coordinates. Not needed with `bodies` or `modes`.
+    mass, damping, stiffness : array
+        Symmetric matrices, or the numbers on their diagonals.
+    bodies : dict of numbers
+        Masses of bodies by name, instead of `coordinates` and `mass`.
+    links : list of dicts
+        Springs and dampers: `{"between": ["a", "ground"], "stiffness": 1, "damping": 0.1}`.
+    modes : list of dicts
+        Modes of vibration: `{"frequency": 3, "damping_ratio": 0.01, "shape": {"tip": 2}}`.
+    modal_damping : array
+        Damping ratios of the modes of the matrices, instead of `damping`.
+    constant : array or dict
+        Constant force on each coordinate.
+    frequency, frequency_hz : float
+        Frequency of the forcing, in radians or in periods per unit of time.
+    forces : list of dicts
+        Harmonics of the force: `{"order": 1, "cos": [0, 1], "sin": [0, 0]}`; or `"at"` and one number.
+    stops : list of dicts, or dict of dicts
+        `{"name": "wall", "direction": [1, 0], "gap": 1, "restitution": 0.8}`; or with `stiffness`, `damping`, `preload`.
+    joints : list of dicts, or dict of dicts
+        Friction joints: `{"name": "guide", "direction": [0, 1], "sliding": 0.2, "static": 0.3}`.
+    parameters : dict of float
+        Numbers that expressions use.
+    start : dict
+        Where motions start if nothing else is asked: `{"q": [...], "qdot": [...], "phase": 0}`.
+    title : str
+        A title in a few words.
+
+    Examples
+    --------
+    >>> import vibroimpact as vi
+    >>> machine = vi.Machine(
+    ...     coordinates=["body", "shoe"], mass=[1, 1], stiffness=[[1, -1], [-1, 2]],
+    ...     frequency=0.66, forces=[{"at": "shoe", "cos": 0.1}],
+    ...     stops={"wall": {"at": "body", "gap": 0.1, "restitution": 0.8}},
+    ... )
+    >>> machine
+    <Machine of 2 coordinates: body, shoe; stops: wall>
+    >>> machine.number("stop.wall.gap"), machine.set({"stop.wall.gap": 0.2}).number("stop.wall.gap")
+    (0.1, 0.2)
+    >>> motion = machine.simulate(impacts=3)
+    >>> motion.kind.tolist(), motion.stop.tolist()
+    (['impact', 'impact', 'impact'], ['wall', 'wall', 'wall'])
+    """
+
+    __slots__ = ("_file",)
+    _file: _core.MachineFile
+
+    def __init__(
+        self,
+        *,
+        coordinates: Sequence[str] | None = None,
+        mass: ArrayLike | None = None,
+        damping: ArrayLike | None = None,
+        stiffness: ArrayLike | None = None,
+        bodies: Mapping[str, Any] | None = None,
+        links: Sequence[_Part] | None = None,
+        modes: Sequence[_Part] | None = None,
+        modal_damping: ArrayLike | None = None,
+        constant: Any = None,
+        frequency: float | str | None = None,
+        frequency_hz: float | str | None = None,
+        forces: Sequence[_Part] | None = None,
+        stops: Sequence[_Part] | Mapping[str, _Part] | None = None,
+        joints: Sequence[_Part] | Mapping[str, _Part] | None = None,
+        parameters: Mapping[str, float] | None = None,
+        start: _Part | None = None,
+        title: str | None = None,
+    ) -> None:
+        table = {
+            "coordinates": coordinates, "bodies": bodies, "mass": mass, "damping": damping, "stiffness": stiffness,
+            "modal_damping": modal_damping, "constant": constant, "frequency": frequency, "frequency_hz": frequency_hz,
+            "mode": modes, "link": links, "force": forces, "stop": _parts(stops), "friction": _parts(joints),
+        }
+        whole = {"title": title, "parameters": parameters, "start": start, "machine": table}
+        self._file = _core.MachineFile(json.dumps(_plain(whole, "")), _no_files)
+
+    @classmethod
+    def _of(cls, file: _core.MachineFile) -> "Machine":
+        made = cls.__new__(cls)
+        made._file = file
+        return made
+
+    @classmethod
+    def named(cls, name: str) -> "Machine":
+        """The machine of this name in the catalogue, as `vibro machine list` lists them.
+
+        >>> import vibroimpact as vi
+        >>> vi.Machine.named("two-mass-hammer").coordinates
+        ('frame', 'head')
+        """
+        return cls._of(_core.MachineFile.named(name))
+
+    @classmethod
+    def from_toml(cls, source: str | PathLike[str]) -> "Machine":
+        """The machine of a machine file: its text, or the path of the file. Text has a line `[machine]`.
+
+        Files that it names, such as tables of modes, are read beside the file.
+        """
+        if isinstance(source, str) and "[machine" in source:
+            return cls._of(_core.MachineFile(source, _no_files))
+        path = Path(source)
+        return cls._of(_core.MachineFile(path.read_text(), lambda name: (path.parent / name).read_text()))
+
+    def set(self, changes: Mapping[str, float] | None = None, /, **parameters: float) -> "Machine":
+        """The same machine with other numbers, by their paths; parameters may be given as keywords.
+
+        >>> import vibroimpact as vi
+        >>> vi.Machine.named("two-mass-hammer").set({"stop.anvil.restitution": 0.5}, b=0.1).number("stop.anvil.gap")
+        0.1
+        """
+        given = {**(changes or {}), **parameters}
+        return self._of(self._file.with_numbers([(path, float(value)) for path, value in given.items()]))
+
+    def number(self, path: str) -> float:
+        """The number at a path, such as "stop.wall.gap"."""
+        return self._file.number(path)
+
+    @property
+    def paths(self) -> list[str]:
+        """The paths of all numbers: parameters, those of the file, and those of its expansion that are not zero."""
+        return self._file.paths()
+
+    def toml(self, *, expanded: bool = False) -> str:
+        """The machine file, as it is written, or expanded to matrices and directions. It reads as the same machine."""
+        return self._file.toml(expanded)
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The names of the coordinates."""
+        return tuple(self._file.names()[0])
+
+    @property
+    def stops(self) -> tuple[str, ...]:
+        """The names of the stops."""
+        return tuple(self._file.names()[1])
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """The names of the friction joints."""
+        return tuple(self._file.names()[2])
+
+    @property
+    def title(self) -> str | None:
+        """The title, if it has one."""
+        return self._file.texts()[0]
+
+    @property
+    def source(self) -> str | None:
+        """Where the machine comes from, if it is said."""
+        return self._file.texts()[1]
+
+    @property
+    def summary(self) -> str | None:
+        """What it is, if it is said."""
+        return self._file.texts()[2]
+
+    @property
+    def period(self) -> float | None:
+        """The period of the forcing; None without forcing."""
+        return self._file.period()
+
+    def __repr__(self) -> str:
+        coordinates, stops, joints = self._file.names()
+        count = "1 coordinate" if len(coordinates) == 1 else f"{len(coordinates)} coordinates"
+        shown = ", ".join(coordinates[:6]) + (", ..." if len(coordinates) > 6 else "")
+        of = "".join(f"; {what}: {', '.join(names)}" for what, names in (("stops", stops), ("joints", joints)) if names)
+        return f"<Machine of {count}: {shown}{of}>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Machine) and self._file == other._file
+
+    def __hash__(self) -> int:
+        return hash(self.toml())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Machine.from_toml, (self.toml(),)
+
+    def simulate(
+        self,
+        *,
+        q: ArrayLike | None = None,
+        qdot: ArrayLike | None = None,
+        phase: float | None = None,
+        impacts: int | None = None,
+        periods: float | None = None,
+    ) -> "MachineSimulation":
+        """Follow a motion event by event.
+
+        Parameters
+        ----------
+        q, qdot : array
+            Coordinates and velocities at the start. Default: those of `start`, or 0.
+        phase : float
+            Phase of the forcing at the start, radians. Default: likewise.
+        impacts : int
+            Stop after this number of events, 1 to 1e7. Default: 100, or 1e6 with `periods`.
+        periods : float
+            Stop after this number of forcing periods, up to 1e9.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> motion = vi.Machine.named("sdnd101").simulate(impacts=2)
+        >>> motion.kind.tolist(), motion.time.round(6).tolist()
+        (['close', 'open'], [0.0, 0.03126])
+        >>> wave = motion.waveform(1e-4)
+        >>> float(wave.force[:, 0].max().round())          # 9950.37 N in closed form
+        9950.0
+        """
+        start = self._file.start(_vector(q), _vector(qdot), None if phase is None else float(phase))
+        fields = _core.simulate_machine(self._file, start, maybe("impacts", impacts, SIMULATED), periods)
+        kind, stop = (np.array(fields.pop(name), dtype=np.str_) for name in ("kind", "stop"))
+        with_ = tuple(tuple(names) for names in fields.pop("with_"))
+        return MachineSimulation(machine=self, start=start, kind=kind, stop=stop, with_=with_, **fields)
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineSimulation:
+    """The events of a motion of a machine as columns, and the reason why the list ends.
+
+    Attributes
+    ----------
+    machine : Machine
+        The machine.
+    start : (list, list, float)
+        Coordinates, velocities and phase of the start.
+    kind : ndarray of str
+        "impact", "close", "open", "stick", "release", "slip", "hold" or "graze".
+    stop : ndarray of str
+        The name of the stop or joint.
+    time, phase : ndarray
+        Time and phase of each event; phases in radians in [0, 2 pi).
+    speed : ndarray
+        Speed of closing before the event; of a slip the direction, 1 or -1.
+    q, qdot : ndarray, events x coordinates
+        Coordinates, and velocities after the event.
+    with_ : tuple of tuples of str
+        Other stops that take part at the same time.
+    end : str
+        Why the list ends: "event_limit", "time_limit", "search_limit", "inconsistent" or "collapse".
+    end_time : float
+        The time at which the list ends.
+    shown_until : float
+        The time up to which a waveform is shown.
+    plan : str
+        The plan as JSON.
+    """
+
+    machine: Machine
+    start: tuple[list[float], list[float], float]
+    kind: NDArray[np.str_]
+    stop: NDArray[np.str_]
+    time: _Floats
+    phase: _Floats
+    speed: _Floats
+    q: _Floats
+    qdot: _Floats
+    with_: tuple[tuple[str, ...], ...]
+    end: str
+    end_time: float
+    shown_until: float
+    plan: str
+
+    def __repr__(self) -> str:
+        return f"<MachineSimulation of {len(self)} events, ends with {self.end} at time {self.end_time:.6g}>"
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def waveform(self, step: float | None = None, *, events: bool = False) -> "MachineWaveform":
+        """The motion at equal steps of time, up to `shown_until`.
+
+        Parameters
+        ----------
+        step : float
+            Time between two points. Default: a thousandth of the whole time.
+        events : bool
+            Whether to add both sides of each event, at the same time, and the end.
+        """
+        step = self.shown_until / 1000 or 1.0 if step is None else float(step)
+        fields = _core.machine_waveform(self.machine._file, self.start, self.shown_until, step, events)
+        return MachineWaveform(machine=self.machine, **fields)
+
+    def plot(self, axes: "Sequence[Axes] | None" = None) -> "NDArray[Any]":
+        """Draw the coordinates over time with contacts and impacts, and below them the contact forces, if there are any.
+
+        `axes` are one or two axes to draw into. Returns the axes.
+        """
+        from vibroimpact import _machine_figure
+
+        return _machine_figure.draw(self, axes)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields "events" and "end" of the JSON of the command."""
+        forced = self.machine.period is not None
+        names = ("kind", "stop", "time", "phase", "speed", "q", "qdot")
+        rows = zip(*(getattr(self, name).tolist() for name in names), self.with_)
+        events = []
+        for *values, others in rows:
+            event = dict(zip(names, values))
+            if not forced:
+                del event["phase"]
+            if others:
+                event["with"] = list(others)
+            events.append(event)
+        return {"events": events, "end": {"reason": self.end, "time": self.end_time}}
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineWaveform:
+    """A motion of a machine at equal steps of time.
+
+    Attributes
+    ----------
+    machine : Machine
+        The machine.
+    time, phase : ndarray
+        Time and phase of the forcing.
+    q, qdot : ndarray, points x coordinates
+        Coordinates and velocities.
+    gap : ndarray, points x stops
+        The gap of each stop; negative where a compliant stop is pushed in.
+    force : ndarray, points x (stops and joints)
+        The force of each stop, against its direction, and of each joint, against positive relative velocity. Forces of
+        impacts are infinite and are not told.
+    contact : ndarray of bool, points x stops
+        Whether a stop is closed or rested on.
+    """
+
+    machine: Machine
+    time: _Floats
+    phase: _Floats
+    q: _Floats
+    qdot: _Floats
+    gap: _Floats
+    force: _Floats
+    contact: NDArray[np.bool_]
+
+    def __repr__(self) -> str:
+        return f"<MachineWaveform of {len(self)} points>"
+
+    def __len__(self) -> int:
+        return len(self.time)

@@ -1,0 +1,240 @@
+//! Machines: a machine as it is written, the events of its motion, and its waveform.
+
+use crate::columns::column;
+use crate::door::{self, Watch};
+use crate::error::Trouble;
+use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use vibroimpact::events::{MachineLimits, MachineSample, MachineSamples, MachineStart};
+use vibroimpact::regime::ContactState;
+use vibroimpact_study::machine::{CATALOGUE, MachineProblem, MachineSource, MachineTextError};
+use vibroimpact_study::{MachinePlan, MachineResults, MachineTask, PlanError, run_machine};
+
+/// A machine file that describes a machine.
+#[pyclass(frozen, module = "vibroimpact._core")]
+#[derive(Debug)]
+pub(crate) struct MachineFile(MachineSource);
+
+/// Coordinates, velocities and phase.
+type Start = (Vec<f64>, Vec<f64>, f64);
+
+fn checked(source: MachineSource) -> Result<MachineFile, Trouble> {
+    source.machine()?;
+    Ok(MachineFile(source))
+}
+
+impl From<MachineTextError> for Trouble {
+    fn from(error: MachineTextError) -> Self {
+        Self::question(error.to_string())
+    }
+}
+
+#[pymethods]
+impl MachineFile {
+    /// Reads TOML or JSON. `files` returns the text of a file that it names.
+    #[new]
+    fn new(text: &str, files: &Bound<'_, PyAny>) -> Result<Self, Trouble> {
+        let read = |name: &str| {
+            let text = files.call1((name,)).and_then(|text| text.extract::<String>());
+            text.map_err(|error| format!("cannot be read: {}", error.value(files.py())))
+        };
+        let source = MachineSource::from_text(text, read).map_err(|error| match (&error.problem, text) {
+            // JSON is written by this package, so a position in it does not help the user
+            (MachineProblem::Text(said), text) if text.starts_with('{') => {
+                let said = said.rsplit_once(" (line ").map_or(said.as_str(), |(said, _)| said);
+                Trouble::question(format!("{}: {said}", error.path))
+            }
+            _ => error.into(),
+        })?;
+        checked(source)
+    }
+
+    /// The machine of this name in the catalogue.
+    #[staticmethod]
+    fn named(name: &str) -> Result<Self, Trouble> {
+        let entry = CATALOGUE.iter().find(|entry| entry.name == name).ok_or_else(|| {
+            let names: Vec<&str> = CATALOGUE.iter().map(|entry| entry.name).collect();
+            Trouble::question(format!("`{name}` is no machine of the catalogue\nhint: {}", names.join(", ")))
+        })?;
+        checked(entry.source()?)
+    }
+
+    /// The same with other numbers, in this order.
+    #[allow(clippy::needless_pass_by_value)] // arguments from Python
+    fn with_numbers(&self, changes: Vec<(String, f64)>) -> Result<Self, Trouble> {
+        let mut source = self.0.clone();
+        for (path, value) in &changes {
+            source = source.with(path, *value)?;
+        }
+        checked(source)
+    }
+
+    fn number(&self, path: &str) -> Result<f64, Trouble> {
+        Ok(self.0.number(path)?)
+    }
+
+    fn paths(&self) -> Result<Vec<String>, Trouble> {
+        Ok(self.0.paths()?)
+    }
+
+    /// As it is written, or the matrices and directions to which it expands.
+    fn toml(&self, expanded: bool) -> Result<String, Trouble> {
+        Ok(if expanded { self.0.expansion()?.to_toml() } else { self.0.to_toml() })
+    }
+
+    /// The names of the coordinates, stops and joints.
+    fn names(&self) -> Result<[Vec<String>; 3], Trouble> {
+        let parts = self.0.parts()?;
+        Ok([
+            parts.coordinates,
+            parts.stops.into_iter().map(|stop| stop.name).collect(),
+            parts.joints.into_iter().map(|joint| joint.name).collect(),
+        ])
+    }
+
+    /// Title, source and summary.
+    fn texts(&self) -> [Option<&str>; 3] {
+        [&self.0.title, &self.0.source, &self.0.summary].map(Option::as_deref)
+    }
+
+    /// The period of the forcing.
+    fn period(&self) -> Result<Option<f64>, Trouble> {
+        Ok(self.0.machine()?.period())
+    }
+
+    /// The start, with what is given instead of what is written.
+    fn start(&self, q: Option<Vec<f64>>, qdot: Option<Vec<f64>>, phase: Option<f64>) -> Result<Start, Trouble> {
+        let start = self.0.start()?;
+        Ok((q.unwrap_or(start.q), qdot.unwrap_or(start.qdot), phase.unwrap_or(start.phase)))
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+/// The fields of `MachineSimulation`.
+#[derive(IntoPyObject)]
+pub(crate) struct Fields<'py> {
+    kind: Vec<&'static str>,
+    stop: Vec<String>,
+    time: Bound<'py, PyArray1<f64>>,
+    phase: Bound<'py, PyArray1<f64>>,
+    speed: Bound<'py, PyArray1<f64>>,
+    q: Bound<'py, PyArray2<f64>>,
+    qdot: Bound<'py, PyArray2<f64>>,
+    with_: Vec<Vec<String>>,
+    end: &'static str,
+    end_time: f64,
+    shown_until: f64,
+    plan: String,
+}
+
+fn start((q, qdot, phase): Start) -> MachineStart {
+    MachineStart { q, qdot, phase }
+}
+
+/// Rows of `width` values each as an array; `width` may be 0.
+fn rows<T: Element + Copy>(
+    py: Python<'_>,
+    rows: impl ExactSizeIterator<Item = Vec<T>>,
+    width: usize,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let count = rows.len();
+    rows.flatten().collect::<Vec<T>>().into_pyarray(py).reshape([count, width])
+}
+
+/// Follows a machine event by event.
+#[pyfunction]
+pub(crate) fn simulate_machine<'py>(
+    py: Python<'py>,
+    file: &MachineFile,
+    from: Start,
+    impacts: Option<u64>,
+    periods: Option<f64>,
+) -> Result<Fields<'py>, Trouble> {
+    // a start of the wrong size is refused by its path
+    let plan = MachinePlan::new(file.0.clone(), MachineTask::Simulate { impacts, periods }).starting(&start(from));
+    plan.check()?;
+    let (machine, text) = (plan.machine.machine()?, plan.json());
+    let MachineResults::Simulate(found) =
+        door::run(py, Watch::alone("following a machine"), move |control| Ok(run_machine(&plan, control)?))?;
+    let (n, events) = (machine.n(), &found.events);
+    let name = |place: usize| machine.name_of(place).to_owned();
+    Ok(Fields {
+        kind: events.iter().map(|event| event.kind.name()).collect(),
+        stop: events.iter().map(|event| name(event.place)).collect(),
+        time: column(py, events.iter().map(|event| event.time)),
+        phase: column(py, events.iter().map(|event| event.phase)),
+        speed: column(py, events.iter().map(|event| event.speed)),
+        q: rows(py, events.iter().map(|event| event.q.clone()), n)?,
+        qdot: rows(py, events.iter().map(|event| event.qdot.clone()), n)?,
+        with_: events.iter().map(|event| event.with.iter().map(|place| name(*place)).collect()).collect(),
+        end: found.reason,
+        end_time: found.time,
+        shown_until: found.shown_until,
+        plan: text,
+    })
+}
+
+/// The fields of `MachineWaveform`.
+#[derive(IntoPyObject)]
+pub(crate) struct WaveformFields<'py> {
+    time: Bound<'py, PyArray1<f64>>,
+    phase: Bound<'py, PyArray1<f64>>,
+    q: Bound<'py, PyArray2<f64>>,
+    qdot: Bound<'py, PyArray2<f64>>,
+    gap: Bound<'py, PyArray2<f64>>,
+    force: Bound<'py, PyArray2<f64>>,
+    contact: Bound<'py, PyArray2<bool>>,
+}
+
+/// Maximum number of points of a waveform.
+const MOST_POINTS: f64 = 1e7;
+
+/// The waveform of a machine up to a time, at equal steps, and on both sides of each event if asked.
+#[pyfunction]
+pub(crate) fn machine_waveform<'py>(
+    py: Python<'py>,
+    file: &MachineFile,
+    from: Start,
+    until: f64,
+    step: f64,
+    events: bool,
+) -> Result<WaveformFields<'py>, Trouble> {
+    if !(step > 0.0 && step.is_finite() && until / step <= MOST_POINTS) {
+        return Err(Trouble::question(format!(
+            "step = {step} gives {} points over a time of {until}; between 0 and {MOST_POINTS} are allowed",
+            until / step
+        )));
+    }
+    let machine = file.0.machine()?;
+    let (n, stops, joints) = (machine.n(), machine.stops().len(), machine.joints().len());
+    let start = start(from);
+    let wave: Vec<MachineSample> = door::run(py, Watch::alone("drawing a waveform"), move |control| {
+        let limits = MachineLimits::default();
+        let limits = MachineLimits { time: limits.time.max(until), ..limits };
+        let samples = MachineSamples::new(&machine, &start, limits, (until, step))
+            .map_err(|error| PlanError::Machine(error.into()))?;
+        Ok(samples.filter(|sample| events || sample.even).take_while(|_| !control.stopping()).collect())
+    })?;
+    let contact = |sample: &MachineSample| {
+        let closed = |state: &ContactState| matches!(state, ContactState::Closed | ContactState::Resting);
+        sample.states[..stops].iter().map(closed).collect()
+    };
+    Ok(WaveformFields {
+        time: column(py, wave.iter().map(|sample| sample.time)),
+        phase: column(py, wave.iter().map(|sample| sample.phase)),
+        q: rows(py, wave.iter().map(|sample| sample.q.clone()), n)?,
+        qdot: rows(py, wave.iter().map(|sample| sample.qdot.clone()), n)?,
+        gap: rows(py, wave.iter().map(|sample| sample.gaps.clone()), stops)?,
+        force: rows(py, wave.iter().map(|sample| sample.forces.clone()), stops + joints)?,
+        contact: rows(py, wave.iter().map(contact), stops)?,
+    })
+}
+
+/// The names of the machines of the catalogue.
+#[pyfunction]
+pub(crate) fn machine_names() -> Vec<&'static str> {
+    CATALOGUE.iter().map(|entry| entry.name).collect()
+}

@@ -1,0 +1,77 @@
+//! A plan of a machine, its result, and everything that is reported of it: the JSON object, the table and the figure.
+
+use crate::answer::AnswerError;
+use crate::{Table, figure, table};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+use vibroimpact_plot::Figure;
+use vibroimpact_study::{Control, MachinePlan, MachineResults, run_machine};
+
+/// A plan of a machine and its result. Its [`Serialize`](serde::Serialize) form is the JSON object that the command
+/// prints with `--json`.
+#[derive(Clone, Debug)]
+pub struct MachineAnswer {
+    /// The name under which the machine was asked for.
+    pub name: String,
+    /// The plan.
+    pub plan: MachinePlan,
+    /// The machine of the plan.
+    pub machine: Machine,
+    /// The start of the plan, with a number for each coordinate and velocity.
+    pub start: MachineStart,
+    /// The result.
+    pub results: MachineResults,
+}
+
+/// Runs a plan of a machine, like [`run_machine`].
+///
+/// # Errors
+/// [`AnswerError`] for an invalid plan, or when stopped.
+pub fn machine_answer(name: &str, plan: &MachinePlan, control: &Control<'_>) -> Result<MachineAnswer, AnswerError> {
+    let results = run_machine(plan, control)?;
+    let (machine, start) = plan.problem()?;
+    Ok(MachineAnswer { name: name.to_owned(), plan: plan.clone(), machine, start, results })
+}
+
+impl MachineAnswer {
+    /// The line that the command prints with `--json`, without the line break.
+    #[must_use]
+    pub fn json(&self) -> String {
+        // texts and numbers can always be written as JSON
+        serde_json::to_string(self).unwrap_or_default()
+    }
+
+    /// The title of a figure: that of the machine file, or the name.
+    #[must_use]
+    pub fn title(&self) -> String {
+        self.plan.machine.title.clone().unwrap_or_else(|| self.name.clone())
+    }
+
+    /// The figure that the command draws with `--plot`.
+    ///
+    /// # Errors
+    /// [`AnswerError`] for a result that cannot be drawn.
+    pub fn figure(&self) -> Result<Figure, AnswerError> {
+        match &self.results {
+            MachineResults::Simulate(found) => {
+                let title = vibroimpact_plot::plain(&self.title());
+                Ok(figure::machine_waveform::figure(&self.machine, &self.start, found, title)?)
+            }
+        }
+    }
+
+    /// The table that the command writes with `--csv`, with points a time `step` apart; a hundredth of the forcing period
+    /// by default, or a thousandth of the whole time without forcing.
+    ///
+    /// # Errors
+    /// [`AnswerError`] for a result that cannot be tabulated.
+    pub fn table(&self, step: Option<f64>) -> Result<Table<'_>, AnswerError> {
+        match &self.results {
+            MachineResults::Simulate(found) => {
+                let until = found.shown_until;
+                let step = step.unwrap_or_else(|| self.machine.period().unwrap_or(0.1 * until) / 100.0);
+                Ok(table::machine_waveform::table(&self.machine, &self.start, (until, step))?)
+            }
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! A motion of a machine over time: one row for each point.
+
+use super::Table;
+use crate::ReportError;
+use crate::number::Number;
+use vibroimpact::events::{MachineLimits, MachineSamples, MachineStart};
+use vibroimpact::machine::Machine;
+use vibroimpact_study::PlanError;
+
+/// Maximum number of points at equal steps.
+const MOST_POINTS: f64 = 1e7;
+
+/// The samples of a motion until a time, at equal steps, at its events and at the end.
+///
+/// # Errors
+/// [`ReportError::Points`] for more than ten million points, [`ReportError::Plan`] for an invalid start.
+pub fn samples<'a>(
+    machine: &'a Machine,
+    start: &MachineStart,
+    (until, step): (f64, f64),
+) -> Result<MachineSamples<'a>, ReportError> {
+    if until / step > MOST_POINTS || until.is_nan() {
+        return Err(ReportError::Points { step, until, most: MOST_POINTS });
+    }
+    let limits = MachineLimits::default();
+    let limits = MachineLimits { time: limits.time.max(until), ..limits };
+    let step = if step > 0.0 { step } else { 1.0 };
+    MachineSamples::new(machine, start, limits, (until, step))
+        .map_err(|error| ReportError::Plan(PlanError::Machine(error.into())))
+}
+
+/// The table of `vibro simulate --machine`: time, coordinates, velocities, gaps of the stops, forces of stops and joints.
+///
+/// # Errors
+/// As [`samples`].
+pub fn table<'a>(machine: &'a Machine, start: &MachineStart, span: (f64, f64)) -> Result<Table<'a>, ReportError> {
+    let rows = samples(machine, start, span)?.map(|sample| {
+        let mut row = Number(sample.time).to_string();
+        for value in sample.q.iter().chain(&sample.qdot).chain(&sample.gaps).chain(&sample.forces) {
+            row.push_str(&format!(",{}", Number(*value)));
+        }
+        row
+    });
+    Ok(Table::new(columns(machine).join(","), rows))
+}
+
+/// The names of the columns.
+#[must_use]
+pub fn columns(machine: &Machine) -> Vec<String> {
+    let coordinates = |what: &'static str| machine.parts().coordinates.iter().map(move |name| format!("{what}.{name}"));
+    let gaps = machine.stops().iter().map(|stop| format!("gap.{}", stop.name));
+    let contacts = machine.stops().len() + machine.joints().len();
+    let forces = (0..contacts).map(|place| format!("force.{}", machine.name_of(place)));
+    let time = core::iter::once("time".to_owned());
+    time.chain(coordinates("q")).chain(coordinates("qdot")).chain(gaps).chain(forces).collect()
+}

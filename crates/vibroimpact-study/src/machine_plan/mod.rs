@@ -1,0 +1,18 @@
+//! Plans of machines: a machine as it is written, where it starts, and what is computed.
+//!
+//! | idea | file |
+//! |---|---|
+//! | a plan, its checks | [`MachinePlan`], [`MachineTask`], `plan` |
+//! | a plan as TOML and JSON | `text` |
+//! | the function that turns a plan into its result | [`run_machine`], [`MachineResults`], `run` |
+//! | the events of a motion | [`MachineSimulated`], `simulate` |
+
+mod plan;
+mod run;
+mod simulate;
+mod text;
+
+pub use plan::{MachinePlan, MachineTask};
+pub use run::{MachineResults, run_machine};
+pub use simulate::MachineSimulated;
+pub use text::is_machine_plan;

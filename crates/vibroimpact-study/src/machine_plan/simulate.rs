@@ -1,0 +1,142 @@
+//! The events of a motion of a machine, up to a number of events or forcing periods, and the reason why the list ends.
+
+use crate::{Control, PlanError, RunError, Stopped};
+use vibroimpact::events::{MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::machine::Machine;
+
+/// The number of events if neither events nor periods are given.
+const EVENTS: u64 = 100;
+/// The number of events if only a number of periods is given.
+const EVENTS_IN_PERIODS: u64 = 1_000_000;
+
+/// The events of a motion of a machine and the reason why the list ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineSimulated {
+    /// The events, in order.
+    pub events: Vec<MachineEvent>,
+    /// The reason why the list ends: `event_limit`, `time_limit`, `no_more_impacts`, `stuck`, `search_limit`, `inconsistent` or `collapse`.
+    pub reason: &'static str,
+    /// The time at which the list ends.
+    pub time: f64,
+    /// The time up to which a waveform is worth showing: not far beyond the last event if none follows it.
+    pub shown_until: f64,
+}
+
+/// Checks the limits of a task.
+pub(super) fn check(machine: &Machine, (impacts, periods): (Option<u64>, Option<f64>)) -> Result<(), PlanError> {
+    if let Some(n) = impacts.filter(|n| !(1..=10_000_000).contains(n)) {
+        return Err(PlanError::Impacts(n));
+    }
+    match periods {
+        Some(n) if !(n > 0.0 && n <= 1e9) => Err(PlanError::Periods(n)),
+        Some(_) if machine.period().is_none() => Err(PlanError::Unforced),
+        _ => Ok(()),
+    }
+}
+
+/// Follows a motion up to the given number of events and of forcing periods.
+pub(super) fn simulate(
+    machine: &Machine,
+    start: &MachineStart,
+    (impacts, periods): (Option<u64>, Option<f64>),
+    control: &Control<'_>,
+) -> Result<MachineSimulated, RunError> {
+    let most = impacts.unwrap_or(if periods.is_some() { EVENTS_IN_PERIODS } else { EVENTS });
+    let until = periods.zip(machine.period()).map_or(f64::INFINITY, |(periods, period)| periods * period);
+    let limits = limits(until);
+    let mut motion = MachineMotion::new(machine, start, limits).map_err(|error| PlanError::Machine(error.into()))?;
+    let mut events: Vec<MachineEvent> = Vec::new();
+    let (reason, time) = loop {
+        let count = events.len() as u64;
+        if count >= most {
+            break ("event_limit", events.last().map_or(0.0, |event| event.time));
+        }
+        if control.stopping() {
+            return Err(Stopped { done: count, total: most }.into());
+        }
+        let Some(event) = motion.next() else {
+            let time = motion.time().min(until);
+            let last = events.last().map_or(0.0, |event| event.time);
+            break match motion.end() {
+                // for ever, whatever the limit
+                end @ Some(MachineEnd::Never | MachineEnd::Stuck) => (name(end), last),
+                end => (if motion.time() >= until { "time_limit" } else { name(end) }, time),
+            };
+        };
+        if event.time > until {
+            break ("time_limit", until);
+        }
+        events.push(event);
+    };
+    let last = events.last().map_or(0.0, |event| event.time);
+    let for_ever = matches!(reason, "no_more_impacts" | "stuck");
+    let after =
+        if for_ever || reason == "time_limit" && until.is_infinite() { beyond(machine, &events) } else { time - last };
+    let shown_until = (last + after).min(if for_ever { until } else { time });
+    Ok(MachineSimulated { shown_until, events, reason, time })
+}
+
+/// The limits of a search for events until a time.
+pub(super) fn limits(until: f64) -> MachineLimits {
+    let limits = MachineLimits::default();
+    MachineLimits { time: if until.is_finite() { limits.time.max(until) } else { limits.time }, ..limits }
+}
+
+/// For how long a motion without further events is worth showing: five periods of the forcing, or as long again.
+fn beyond(machine: &Machine, events: &[MachineEvent]) -> f64 {
+    let last = events.last().map_or(0.0, |event| event.time);
+    machine.period().map_or(if last > 0.0 { 0.5 * last } else { 10.0 }, |period| 5.0 * period)
+}
+
+/// The name of an end.
+const fn name(end: Option<MachineEnd>) -> &'static str {
+    match end {
+        Some(MachineEnd::Never) => "no_more_impacts",
+        Some(MachineEnd::Stuck) => "stuck",
+        None | Some(MachineEnd::SearchLimit) => "search_limit",
+        Some(MachineEnd::NoEventWithin) => "time_limit",
+        Some(MachineEnd::Inconsistent) => "inconsistent",
+        Some(MachineEnd::Collapse) => "collapse",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::{MachineSource, no_files};
+    use core::sync::atomic::AtomicBool;
+
+    fn machine(text: &str) -> Machine {
+        MachineSource::from_text(text, no_files).unwrap().machine().unwrap()
+    }
+
+    #[test]
+    fn each_end_has_its_reason() {
+        let driven = machine(
+            "[machine]\nbodies = { a = 1 }\nfrequency = 0.7\nlink = [{ between = [\"a\", \"ground\"], stiffness = 1 }]\n\
+             force = [{ at = \"a\", sin = 1 }]\nstop = [{ name = \"s\", at = \"a\", gap = 0.2, restitution = 0.5 }]",
+        );
+        let run = |impacts, periods| {
+            simulate(&driven, &MachineStart::default(), (impacts, periods), &Control::default()).unwrap()
+        };
+        let some = run(Some(7), None);
+        assert_eq!((some.reason, some.events.len(), some.time), ("event_limit", 7, some.events[6].time));
+        let timed = run(None, Some(3.0));
+        assert_eq!((timed.reason, timed.time), ("time_limit", 3.0 * driven.period().unwrap()));
+        assert!(timed.events.len() > 3 && timed.shown_until == timed.time);
+        let free =
+            machine("[machine]\nbodies = { a = 1 }\nstop = [{ name = \"s\", at = \"a\", gap = 1, restitution = 0.5 }]");
+        let start = MachineStart { qdot: vec![2.0], ..MachineStart::default() };
+        let left = simulate(&free, &start, (None, None), &Control::default()).unwrap();
+        assert_eq!((left.reason, left.events.len(), left.time, left.shown_until), ("no_more_impacts", 1, 0.5, 0.75));
+    }
+
+    #[test]
+    fn the_flag_stops_it() {
+        let ball = machine("[machine]\nbodies = { a = 1 }");
+        let stop = AtomicBool::new(true);
+        let control = Control { stop: &stop, ..Control::default() };
+        let stopped = simulate(&ball, &MachineStart::default(), (Some(5), None), &control);
+        assert_eq!(stopped, Err(RunError::Stopped(Stopped { done: 0, total: 5 })));
+    }
+}
