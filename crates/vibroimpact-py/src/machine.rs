@@ -158,7 +158,10 @@ pub(crate) fn simulate_machine<'py>(
     plan.check()?;
     let (machine, text) = (plan.machine.machine()?, plan.json());
     let MachineResults::Simulate(found) =
-        door::run(py, Watch::alone("following a machine"), move |control| Ok(run_machine(&plan, control)?))?;
+        door::run(py, Watch::alone("following a machine"), move |control| Ok(run_machine(&plan, control)?))?
+    else {
+        return Err(PlanError::NoStudy("simulate").into()); // the task of the plan is to simulate
+    };
     let (n, events) = (machine.n(), &found.events);
     let name = |place: usize| machine.name_of(place).to_owned();
     Ok(Fields {

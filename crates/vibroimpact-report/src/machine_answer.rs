@@ -5,7 +5,7 @@ use crate::{Table, figure, table};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{Control, MachinePlan, MachineResults, run_machine};
+use vibroimpact_study::{Control, MachinePlan, MachineResults, MachineTask, run_machine};
 
 /// A plan of a machine and its result. Its [`Serialize`](serde::Serialize) form is the JSON object that the command
 /// prints with `--json`.
@@ -47,31 +47,40 @@ impl MachineAnswer {
         self.plan.machine.title.clone().unwrap_or_else(|| self.name.clone())
     }
 
-    /// The figure that the command draws with `--plot`.
+    /// The figure that the command draws with `--plot`; `None` for a task without one.
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn.
-    pub fn figure(&self) -> Result<Figure, AnswerError> {
-        match &self.results {
+    pub fn figure(&self) -> Result<Option<Figure>, AnswerError> {
+        Ok(match &self.results {
             MachineResults::Simulate(found) => {
                 let title = vibroimpact_plot::plain(&self.title());
-                Ok(figure::machine_waveform::figure(&self.machine, &self.start, found, title)?)
+                Some(figure::machine_waveform::figure(&self.machine, &self.start, found, title)?)
             }
-        }
+            _ => None,
+        })
     }
 
     /// The table that the command writes with `--csv`, with points a time `step` apart; a hundredth of the forcing period
-    /// by default, or a thousandth of the whole time without forcing.
+    /// by default, or a thousandth of the whole time without forcing; `None` for a task without one.
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be tabulated.
-    pub fn table(&self, step: Option<f64>) -> Result<Table<'_>, AnswerError> {
-        match &self.results {
+    pub fn table(&self, step: Option<f64>) -> Result<Option<Table<'_>>, AnswerError> {
+        Ok(Some(match &self.results {
             MachineResults::Simulate(found) => {
                 let until = found.shown_until;
                 let step = step.unwrap_or_else(|| self.machine.period().unwrap_or(0.1 * until) / 100.0);
-                Ok(table::machine_waveform::table(&self.machine, &self.start, (until, step))?)
+                table::machine_waveform::table(&self.machine, &self.start, (until, step))?
             }
-        }
+            MachineResults::Attractors(census) => table::machine_tables::attractors(&self.machine, census),
+            MachineResults::Branch(found) => {
+                let MachineTask::Branch { vary, .. } = &self.plan.task else { return Ok(None) };
+                table::machine_tables::branch(&self.machine, vary, &found.points)
+            }
+            MachineResults::Basin(found) => table::machine_tables::basin(found),
+            MachineResults::Map(found) => table::machine_tables::map(found),
+            MachineResults::Settle(_) | MachineResults::Orbit(_) | MachineResults::Lyapunov(_) => return Ok(None),
+        }))
     }
 }

@@ -21,6 +21,46 @@ pub enum PlanError {
     /// A number of forcing periods of a machine without forcing.
     #[error("the machine has no forcing, so no forcing periods\nhint: a number of impacts limits the number of events")]
     Unforced,
+    /// Periodic motions of a machine without forcing.
+    #[error("the machine has no forcing, so its motions have no forcing periods and no label m/n")]
+    NoPeriodUnforced,
+    /// The range of a number of a machine along a branch.
+    #[error(
+        "{path} is {from} in the machine, and the branch would end at {to}\nhint: the other end of the range is another finite number"
+    )]
+    MachineRange {
+        /// The path.
+        path: String,
+        /// Its value in the machine.
+        from: f64,
+        /// The other end.
+        to: f64,
+    },
+    /// The motion from the start of a branch is not periodic.
+    #[error(
+        "the motion from the start is `{0}`, not periodic, so no branch begins there\nhint: give the label of an orbit, or another start"
+    )]
+    NotPeriodic(String),
+    /// No orbit of a machine with a label was found.
+    #[error("no orbit {0} was found at this machine\nhint: `vibro attractors --machine` lists the stable ones")]
+    NoMachineOrbit(Label),
+    /// A branch of a machine cannot begin.
+    #[error("{0}")]
+    MachineBranch(String),
+    /// An axis of a basin of a machine that is no part of a start.
+    #[error("`{given}` is no part of a start\nhint: q.NAME, qdot.NAME or phase; the coordinates are {coordinates}")]
+    MachineStartAxis {
+        /// The given name.
+        given: String,
+        /// All coordinates.
+        coordinates: String,
+    },
+    /// The number of axes of a grid of a machine.
+    #[error("{0} axes were given: allowed are 1 to 4\nhint: --axis PATH=A:B:N, once for each")]
+    MachineAxes(usize),
+    /// An axis that is given twice.
+    #[error("{0} is given as an axis twice")]
+    MachineAxisTwice(String),
     /// A number of a machine in two forms.
     #[error("{0} and {1} are two forms of one number, and both are given")]
     PhysicalTwice(&'static str, &'static str),

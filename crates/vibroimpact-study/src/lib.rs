@@ -86,7 +86,10 @@ pub use field::{Column, Extra, Field, NumberType};
 pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
-pub use machine_plan::{MachinePlan, MachineResults, MachineSimulated, MachineTask, is_machine_plan, run_machine};
+pub use machine_plan::{
+    MachineAxis, MachineBasin, MachineBranched, MachineMap, MachinePlan, MachineResults, MachineSimulated, MachineTask,
+    is_machine_plan, run_machine,
+};
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
     BoxEdge, DEFAULT_LINES, DEFAULT_WITHIN, Loss, MarginEnd, MarginsPlan, MotionBox, MotionMargins, ParameterMargin,

@@ -1,21 +1,27 @@
-//! A machine instead of an oscillator, and its start.
+//! A machine instead of an oscillator, its start, and the axes of its grids.
 
 use super::{SetArgs, number};
 use crate::failure::Failure;
 use crate::machine_file;
 use clap::Args;
+use core::str::FromStr;
 use vibroimpact_study::machine::{MachineSource, NumberText, StartText, VectorText};
+use vibroimpact_study::{MachineAxis, Span};
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Machine")]
-pub(crate) struct OfMachineArgs {
+pub(crate) struct MachineArgs {
     /// A machine of the catalogue or a machine file, instead of the system above
     #[arg(long, value_name = "NAME|FILE")]
     pub(crate) machine: Option<String>,
 
     #[command(flatten)]
     set: SetArgs,
+}
 
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Machine")]
+pub(crate) struct StartOfMachineArgs {
     /// Coordinates at the start, one for each, separated by commas [default: those that the machine file says, or 0]
     #[arg(long, value_parser = number, value_delimiter = ',', value_name = "A,B,...", allow_hyphen_values = true, requires = "machine")]
     q: Vec<f64>,
@@ -25,19 +31,48 @@ pub(crate) struct OfMachineArgs {
     qdot: Vec<f64>,
 }
 
-impl OfMachineArgs {
-    /// The machine with its changed numbers and its start, and its name; `None` if none is named. What is not given of the
-    /// start is that of the table `[start]`.
-    pub(crate) fn asked(&self, phase: Option<f64>) -> Result<Option<(&str, MachineSource)>, Failure> {
-        let Some(name) = &self.machine else { return Ok(None) };
+#[derive(Clone, Debug, Args)]
+#[command(next_help_heading = "Machine")]
+pub(crate) struct MachineAxesArgs {
+    /// What varies over a machine, once for each axis: the path of a number, or q.NAME, qdot.NAME and phase of the start
+    #[arg(long, value_name = "PATH=A:B:N", allow_hyphen_values = true, requires = "machine")]
+    axis: Vec<AxisFlag>,
+}
+
+/// An axis as it is typed.
+#[derive(Clone, Debug)]
+pub(crate) struct AxisFlag(MachineAxis);
+
+impl FromStr for AxisFlag {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (vary, over) =
+            text.split_once('=').ok_or("an axis is PATH=A:B:N, for example stop.wall.gap=0:2:41".to_owned())?;
+        let over: Span = over.parse().map_err(|error: vibroimpact_study::PlanError| error.to_string())?;
+        Ok(Self(MachineAxis { vary: vary.trim().to_owned(), over }))
+    }
+}
+
+impl MachineAxesArgs {
+    pub(crate) fn axes(&self) -> Vec<MachineAxis> {
+        self.axis.iter().map(|AxisFlag(axis)| axis.clone()).collect()
+    }
+}
+
+impl MachineArgs {
+    /// The machine with its changed numbers and its start. What is not given of the start is that of the table `[start]`.
+    pub(crate) fn source(&self, start: Option<(&StartOfMachineArgs, Option<f64>)>) -> Result<MachineSource, Failure> {
+        let name = self.machine.as_deref().unwrap_or_default();
         let mut source = self.set.apply(machine_file::read(name)?)?;
+        let Some((given, phase)) = start else { return Ok(source) };
         let numbers = |given: &[f64]| VectorText::List(given.iter().map(|value| NumberText::Value(*value)).collect());
         let start = source.start.get_or_insert_default();
-        if !self.q.is_empty() {
-            start.q = Some(numbers(&self.q));
+        if !given.q.is_empty() {
+            start.q = Some(numbers(&given.q));
         }
-        if !self.qdot.is_empty() {
-            start.qdot = Some(numbers(&self.qdot));
+        if !given.qdot.is_empty() {
+            start.qdot = Some(numbers(&given.qdot));
         }
         if let Some(phase) = phase {
             start.phase = Some(NumberText::Value(phase));
@@ -45,6 +80,6 @@ impl OfMachineArgs {
         if *start == StartText::default() {
             source.start = None;
         }
-        Ok(Some((name, source)))
+        Ok(source)
     }
 }

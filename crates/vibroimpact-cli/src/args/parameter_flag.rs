@@ -1,6 +1,9 @@
 //! A parameter as it is named on the command line.
 
+use crate::failure::Failure;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, Command};
+use std::ffi::OsStr;
 use vibroimpact::PhysicalParameter;
 use vibroimpact_study::Parameter;
 
@@ -55,6 +58,58 @@ pub(crate) fn parameter() -> impl TypedValueParser<Value = ParameterFlag> {
     PossibleValuesParser::new(values).try_map(|name| {
         ParameterFlag::all().find(|named| named.flag() == name).ok_or_else(|| format!("`{name}` is no parameter"))
     })
+}
+
+/// What a branch varies: a parameter, or the path of a number of a machine.
+#[derive(Clone, Debug)]
+pub(crate) enum Varied {
+    Parameter(ParameterFlag),
+    Path(String),
+}
+
+impl Varied {
+    /// The parameter of the oscillator.
+    pub(crate) fn parameter(&self) -> Result<ParameterFlag, Failure> {
+        match self {
+            Self::Parameter(parameter) => Ok(*parameter),
+            Self::Path(path) => Err(Failure::bad(format!(
+                "`{path}` is the path of a number of a machine, and no machine is given\nhint: --machine NAME|FILE"
+            ))),
+        }
+    }
+
+    /// The path in a machine.
+    pub(crate) fn path(&self) -> String {
+        match self {
+            Self::Parameter(parameter) => parameter.flag().to_owned(),
+            Self::Path(path) => path.clone(),
+        }
+    }
+}
+
+/// Parses what a branch varies. A name with a dot, and `frequency`, are paths in a machine.
+pub(crate) fn varied() -> impl TypedValueParser<Value = Varied> {
+    VariedParser
+}
+
+#[derive(Clone)]
+struct VariedParser;
+
+impl TypedValueParser for VariedParser {
+    type Value = Varied;
+
+    fn parse_ref(&self, cmd: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<Varied, clap::Error> {
+        match value.to_str() {
+            Some(path) if path.contains('.') || path == "frequency" => Ok(Varied::Path(path.to_owned())),
+            _ => parameter().parse_ref(cmd, arg, value).map(Varied::Parameter),
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let values: Vec<PossibleValue> =
+            ParameterFlag::all().map(|named| PossibleValue::new(named.flag()).help(named.meaning())).collect();
+        Some(Box::new(values.into_iter()))
+    }
 }
 
 /// The name of the flag of a parameter, without the dashes.

@@ -1,14 +1,14 @@
 //! `vibro attractors`: the attractors of a system, and the share of starts that lead to each.
 
-use crate::args::{FigureArgs, StoreArgs, SystemArgs, whole};
+use crate::args::{FigureArgs, MachineArgs, StoreArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{Plan, Task};
+use vibroimpact_study::{MachineTask, Plan, Task};
 
 /// The steady motions that many scattered starts lead to, and their shares
 ///
@@ -16,12 +16,15 @@ use vibroimpact_study::{Plan, Task};
 /// every machine. Two motions with one label are counted apart if their impacts differ.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro attractors --beta B --gap D --restitution E --starts N [OPTIONS]",
+    override_usage = "vibro attractors --beta B --gap D --restitution E --starts N [OPTIONS]\n       \
+        vibro attractors --machine NAME|FILE [--set PATH=VALUE] --starts N [OPTIONS]",
     after_help = "Example:\n  vibro attractors --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --starts 500"
 )]
 pub(crate) struct Attractors {
     #[command(flatten)]
     system: SystemArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
 
     /// How many starts, 1 to 1e9
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
@@ -48,6 +51,12 @@ pub(crate) struct Attractors {
 }
 
 pub(super) fn run(args: &Attractors, session: &Session) -> Result<(), Failure> {
+    let look = FigureArgs::default();
+    let files = (args.csv.as_deref(), (None, &look), args.json);
+    let task = || Ok(MachineTask::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts });
+    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, session) {
+        return answer;
+    }
     let asked = args.system.asked()?;
     let task = Task::Attractors { starts: args.starts, seed: args.seed, impacts: args.impacts };
     let plan = args.store.tiled(Plan::new(asked.system, task))?;

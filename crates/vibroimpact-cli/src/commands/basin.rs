@@ -1,14 +1,17 @@
 //! `vibro basin`: the motion to which each start of a plane leads.
 
-use crate::args::{ColourArgs, FieldsArgs, FigureArgs, StoreArgs, SystemArgs, number, whole};
+use crate::args::{
+    ColourArgs, FieldsArgs, FigureArgs, MachineArgs, MachineAxesArgs, StartOfMachineArgs, StoreArgs, SystemArgs,
+    number, whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{BasinPlan, Plan, Span, Task};
+use vibroimpact_study::{BasinPlan, MachineTask, Plan, Span, Task};
 
 /// Which motion each start of a plane of positions and velocities leads to
 ///
@@ -17,7 +20,8 @@ use vibroimpact_study::{BasinPlan, Plan, Span, Task};
 /// merging method, which tells whether all basins have one boundary (Wada) at the resolution of the grid.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro basin --beta B --gap D --restitution E --x A:B:N --v A:B:N [OPTIONS]",
+    override_usage = "vibro basin --beta B --gap D --restitution E --x A:B:N --v A:B:N [OPTIONS]\n       \
+        vibro basin --machine NAME|FILE --axis q.NAME=A:B:N --axis qdot.NAME=A:B:N [OPTIONS]",
     after_help = "Example:\n  \
         vibro basin --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --x -4:0.75:400 --v -4:4:400 \\\n    \
         --csv basin.csv --plot basin.png"
@@ -25,14 +29,32 @@ use vibroimpact_study::{BasinPlan, Plan, Span, Task};
 pub(crate) struct Basin {
     #[command(flatten)]
     system: SystemArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
+    #[command(flatten)]
+    axes: MachineAxesArgs,
 
     /// Positions, none beyond a stop
-    #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Starts")]
-    x: Span,
+    #[arg(
+        long,
+        value_name = "A:B:N",
+        allow_hyphen_values = true,
+        required_unless_present = "machine",
+        help_heading = "Starts"
+    )]
+    x: Option<Span>,
 
     /// Velocities
-    #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Starts")]
-    v: Span,
+    #[arg(
+        long,
+        value_name = "A:B:N",
+        allow_hyphen_values = true,
+        required_unless_present = "machine",
+        help_heading = "Starts"
+    )]
+    v: Option<Span>,
 
     /// Phase of the force at all starts, in radians
     #[arg(long, value_parser = number, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "Starts")]
@@ -71,9 +93,18 @@ pub(crate) struct Basin {
 }
 
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let start = Some((&args.of_machine, (args.phase != 0.0).then_some(args.phase)));
+    let task = || Ok(MachineTask::Basin { axes: args.axes.axes(), impacts: args.impacts });
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, session) {
+        return answer;
+    }
+    let (Some(x), Some(v)) = (&args.x, &args.v) else {
+        return Err(Failure::bad("a basin needs --x A:B:N and --v A:B:N"));
+    };
     let asked = args.system.asked()?;
     let units = asked.units;
-    let plane = BasinPlan::plane(args.x.scaled(units.length())?, args.v.scaled(units.velocity())?, args.phase);
+    let plane = BasinPlan::plane(x.scaled(units.length())?, v.scaled(units.velocity())?, args.phase);
     let task = BasinPlan {
         refine: args.refine,
         impacts: args.impacts,

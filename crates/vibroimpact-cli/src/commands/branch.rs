@@ -1,14 +1,16 @@
 //! `vibro branch`: a branch of periodic orbits in one parameter, through its events.
 
-use crate::args::{FigureArgs, Named, ParameterFlag, SystemArgs, Value, number, parameter, whole};
+use crate::args::{
+    FigureArgs, MachineArgs, Named, ParameterFlag, StartOfMachineArgs, SystemArgs, Value, Varied, number, varied, whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Plan, Target, Task};
+use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, MachineTask, Plan, Target, Task};
 
 /// Follow an orbit in one parameter, stable or unstable, with all events on the branch
 ///
@@ -22,7 +24,8 @@ use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Plan, Target, Task};
 /// on.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro branch --beta B --gap D --restitution E --label m/n --vary PARAMETER --to VALUE [OPTIONS]",
+    override_usage = "vibro branch --beta B --gap D --restitution E --label m/n --vary PARAMETER --to VALUE [OPTIONS]\n       \
+        vibro branch --machine NAME|FILE [--label m/n] --vary PATH --to VALUE [OPTIONS]",
     after_help = "Examples:\n  \
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5\n  \
         vibro branch --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --vary gap --to 2.5 \\\n    \
@@ -33,18 +36,29 @@ use vibroimpact_study::{BranchPlan, DEFAULT_BRANCH_POINTS, Plan, Target, Task};
 pub(crate) struct Branch {
     #[command(flatten)]
     system: SystemArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
 
-    /// m impacts in n forcing periods, for example 2/1, or inf/n: the orbit at the system given
-    #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Branch")]
-    label: String,
+    /// m impacts in n forcing periods, for example 2/1, or inf/n: the orbit at the system given [default for a machine: the motion
+    /// from the start]
+    #[arg(
+        long,
+        value_name = "m/n",
+        allow_hyphen_values = true,
+        required_unless_present = "machine",
+        help_heading = "Branch"
+    )]
+    label: Option<String>,
 
     /// Which of several orbits, as `vibro orbit` numbers them [default: the stable one, else the fastest motion]
     #[arg(long, value_parser = whole::<u32>, value_name = "K", allow_hyphen_values = true, help_heading = "Branch")]
     orbit: Option<u32>,
 
-    /// The parameter that varies, from its value in the system
-    #[arg(long, value_parser = parameter(), value_name = "PARAMETER", help_heading = "Branch")]
-    vary: ParameterFlag,
+    /// The parameter that varies, from its value in the system; of a machine the path of a number, as stop.wall.gap
+    #[arg(long, value_parser = varied(), value_name = "PARAMETER|PATH", help_heading = "Branch")]
+    vary: Varied,
 
     /// The other end of its range
     #[arg(long, value_parser = number, value_name = "VALUE", allow_hyphen_values = true, help_heading = "Branch")]
@@ -91,13 +105,25 @@ pub(crate) struct Branch {
 
 pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let also = args.also.map(|Named(named, _)| named);
-    let asked = args.system.over(&[args.vary].into_iter().chain(also).collect::<Vec<_>>())?;
-    let vary = args.vary.parameter;
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let task = || {
+        if args.also.is_some() || args.orbit.is_some() || args.follow > 0 {
+            return Err(Failure::bad("--also, --orbit and --follow are not there for machines yet"));
+        }
+        let points = args.points;
+        Ok(MachineTask::Branch { label: args.label.clone(), vary: args.vary.path(), to: args.to, points })
+    };
+    if let Some(answer) = of_machine::asked(&args.machine, Some((&args.of_machine, None)), task, files, session) {
+        return answer;
+    }
+    let named = args.vary.parameter()?;
+    let asked = args.system.over(&[named].into_iter().chain(also).collect::<Vec<_>>())?;
+    let vary = named.parameter;
     if args.plot.is_none() && (args.no_diagram || args.show_virtual) {
         return Err(Failure::bad("--no-diagram and --virtual say how the figure is drawn\nhint: --plot FILE"));
     }
     let task = BranchPlan {
-        label: args.label.clone(),
+        label: args.label.clone().unwrap_or_default(),
         vary,
         to: args.to / asked.units.of(vary),
         also: args.also.map(|Named(ParameterFlag { parameter, .. }, Value(to))| Target {

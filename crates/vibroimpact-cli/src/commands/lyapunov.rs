@@ -1,15 +1,15 @@
 //! `vibro lyapunov`: the Lyapunov exponents of a motion, and sections of its attractor.
 
-use crate::args::{FigureArgs, StartArgs, SystemArgs, whole};
+use crate::args::{FigureArgs, MachineArgs, StartArgs, StartOfMachineArgs, SystemArgs, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact::chaos::{DEFAULT_IMPACTS, DEFAULT_TRANSIENT};
 use vibroimpact_report::Shown;
-use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, Plan, Task};
+use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, MachineTask, Plan, Task};
 
 /// The Lyapunov exponents of the motion from a start, with error bars, and the dimension of its attractor
 ///
@@ -21,7 +21,8 @@ use vibroimpact_study::{DEFAULT_POINTS, LyapunovPlan, Plan, Task};
 /// undefined; "grounds" says how the values were found.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro lyapunov --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]",
+    override_usage = "vibro lyapunov --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]\n       \
+        vibro lyapunov --machine NAME|FILE [--set PATH=VALUE] [--q A,B --qdot A,B --phase P] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5\n  \
         vibro lyapunov --inverse-beta 1.11 --gap 3 --restitution 0.5 --section section.csv --plot section.png"
@@ -31,6 +32,10 @@ pub(crate) struct Lyapunov {
     system: SystemArgs,
     #[command(flatten)]
     start: StartArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
 
     /// Impacts to measure over, 1000 to 10000000
     #[arg(long, value_parser = whole::<u64>, value_name = "N", default_value_t = DEFAULT_IMPACTS, allow_hyphen_values = true, help_heading = "Length")]
@@ -62,6 +67,16 @@ pub(crate) struct Lyapunov {
 }
 
 pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
+    let files = (args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let start = Some((&args.of_machine, args.start.phase));
+    let short = |given: u64, usual: u64| (given != usual).then(|| u32::try_from(given).unwrap_or(u32::MAX));
+    let task = || {
+        let (impacts, transient) = (short(args.impacts, DEFAULT_IMPACTS), short(args.transient, DEFAULT_TRANSIENT));
+        Ok(MachineTask::Lyapunov { impacts, transient })
+    };
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, session) {
+        return answer;
+    }
     let asked = args.system.asked()?;
     let shown = args.section.is_some() || args.plot.is_some();
     if args.points.is_some() && !shown {

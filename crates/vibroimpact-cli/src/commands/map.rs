@@ -1,14 +1,16 @@
 //! `vibro map`: the motions at each point of a plane of parameters.
 
-use crate::args::{ColourArgs, FieldsArgs, FigureArgs, RangedSystemArgs, StoreArgs, whole};
+use crate::args::{
+    ColourArgs, FieldsArgs, FigureArgs, MachineArgs, MachineAxesArgs, RangedSystemArgs, StoreArgs, whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{MapPlan, Plan, Task};
+use vibroimpact_study::{MachineTask, MapPlan, Plan, Task};
 
 /// Which motions exist at each point of a plane of parameters
 ///
@@ -19,7 +21,8 @@ use vibroimpact_study::{MapPlan, Plan, Task};
 /// summary.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro map --inverse-beta A:B:N --gap A:B:N --restitution E --starts N [OPTIONS]",
+    override_usage = "vibro map --inverse-beta A:B:N --gap A:B:N --restitution E --starts N [OPTIONS]\n       \
+        vibro map --machine NAME|FILE --axis PATH=A:B:N [--axis PATH=A:B:N] --starts N [OPTIONS]",
     after_help = "Examples:\n  \
         vibro map --inverse-beta 0.4:2:33 --gap 0:5:41 --restitution 0.5 --starts 20 --csv map.csv --plot map.png\n  \
         vibro map --beta 0.1:10:60:log --restitution 0.2:0.9:40 --gap 1 --starts 8 --plot restitution.png\n  \
@@ -28,6 +31,10 @@ use vibroimpact_study::{MapPlan, Plan, Task};
 pub(crate) struct Map {
     #[command(flatten)]
     plane: RangedSystemArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    machine_axes: MachineAxesArgs,
 
     /// Starts at each point, 1 to 1e9
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
@@ -70,6 +77,14 @@ pub(crate) struct Map {
 }
 
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let task = || {
+        let (axes, starts, seed) = (args.machine_axes.axes(), args.starts, args.seed);
+        Ok(MachineTask::Map { axes, starts, seed, impacts: args.impacts })
+    };
+    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, session) {
+        return answer;
+    }
     let Asked { system, units } = args.plane.asked()?;
     let axes = args.plane.axes()?;
     if axes.is_empty() {

@@ -1,13 +1,13 @@
 //! `vibro orbit`: the periodic orbits with a label, stable or not.
 
-use crate::args::{FigureArgs, SystemArgs};
+use crate::args::{FigureArgs, MachineArgs, SystemArgs};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{Plan, Task};
+use vibroimpact_study::{MachineTask, Plan, Task};
 
 /// All periodic orbits with m impacts in n forcing periods, stable or unstable
 ///
@@ -19,7 +19,8 @@ use vibroimpact_study::{Plan, Task};
 /// impact (for 0, which has no impacts, the time since phase 0). Only some of the inadmissible solutions are found.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro orbit --beta B --gap D --restitution E --label m/n [OPTIONS]",
+    override_usage = "vibro orbit --beta B --gap D --restitution E --label m/n [OPTIONS]\n       \
+        vibro orbit --machine NAME|FILE [--set PATH=VALUE] --label m/n [OPTIONS]",
     after_help = "Example: the unstable 1/1 beside the stable 1/2 it gave way to\n  \
         vibro orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/1\n  \
         vibro orbit --inverse-beta 1.11 --gap 2 --restitution 0.5 --label 1/2"
@@ -27,6 +28,8 @@ use vibroimpact_study::{Plan, Task};
 pub(crate) struct Orbit {
     #[command(flatten)]
     system: SystemArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
 
     /// m impacts in n forcing periods, for example 2/1; m and n from 1 to 10000; or inf/n; 0 is the steady motion without impacts
     #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Orbit")]
@@ -38,6 +41,11 @@ pub(crate) struct Orbit {
 }
 
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
+    let look = FigureArgs::default();
+    let task = || Ok(MachineTask::Orbit { label: args.label.clone() });
+    if let Some(answer) = of_machine::asked(&args.machine, None, task, (None, (None, &look), args.json), session) {
+        return answer;
+    }
     let asked = args.system.asked()?;
     let task = Task::Orbit { label: args.label.clone() };
     let plan = Plan::new(asked.system, task);

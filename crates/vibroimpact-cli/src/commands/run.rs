@@ -1,6 +1,7 @@
 //! `vibro run`: fills a store with the study of a plan in a file.
 
-use super::{simulate_machine, stored};
+use super::of_machine as of_machine_plan;
+use super::stored;
 use crate::args::{ColourArgs, FigureArgs, Tiles};
 use crate::commands::outputs::Outputs;
 use crate::failure::Failure;
@@ -89,7 +90,7 @@ fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), 
     args.colour.coloured(false)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let name = args.plan.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy());
-    simulate_machine::run(&name, plan, (outputs, None), session)
+    of_machine_plan::run(&name, plan, (outputs, None), session)
 }
 
 /// The default place of the store of a plan.

@@ -1,8 +1,8 @@
 //! `vibro settle`: the motion from one start after its transient.
 
-use crate::args::{FigureArgs, StartArgs, SystemArgs, number, whole};
+use crate::args::{FigureArgs, MachineArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use vibroimpact::verdict::{PaperRule, paper_rule};
 use vibroimpact_report::Shown;
 use vibroimpact_report::scene::View;
-use vibroimpact_study::{Plan, Results, Task};
+use vibroimpact_study::{MachineTask, Plan, Results, Task};
 
 /// What the motion from a start settles into, and on what grounds
 ///
@@ -19,7 +19,8 @@ use vibroimpact_study::{Plan, Results, Task};
 /// impacts and Floquet multipliers.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro settle --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]",
+    override_usage = "vibro settle --beta B --gap D --restitution E [--x X --v V --phase P] [OPTIONS]\n       \
+        vibro settle --machine NAME|FILE [--set PATH=VALUE] [--q A,B --qdot A,B --phase P] [OPTIONS]",
     after_help = "Examples:\n  \
         vibro settle --inverse-beta 1.8 --gap 0.25 --restitution 0.5\n  \
         vibro settle --inverse-beta 1.3 --gap 0.75 --restitution 0.5 --v 1 --plot steady.svg\n  \
@@ -32,6 +33,10 @@ pub(crate) struct Settle {
     system: SystemArgs,
     #[command(flatten)]
     start: StartArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
 
     /// Budget of impacts for the motion, 1 to 1000000; what is not settled by then is undecided [default: 20000]
     #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Start")]
@@ -102,6 +107,12 @@ enum Rule {
 }
 
 pub(super) fn run(args: &Settle, session: &Session) -> Result<(), Failure> {
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let start = Some((&args.of_machine, args.start.phase));
+    let task = || Ok(MachineTask::Settle { impacts: args.impacts });
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, session) {
+        return answer;
+    }
     let asked = args.system.asked()?;
     let start = args.start.plan(&asked.units);
     let plan = Plan::new(asked.system, Task::Settle { start, impacts: args.impacts });

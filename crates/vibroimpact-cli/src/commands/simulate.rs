@@ -1,8 +1,8 @@
 //! `vibro simulate`: the events of a motion.
 
-use crate::args::{FigureArgs, OfMachineArgs, StartArgs, SystemArgs, number, whole};
+use crate::args::{FigureArgs, MachineArgs, StartArgs, StartOfMachineArgs, SystemArgs, number, whole};
 use crate::commands::outputs::Outputs;
-use crate::commands::{respond, simulate_machine};
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::Args;
@@ -31,7 +31,9 @@ pub(crate) struct Simulate {
     #[command(flatten)]
     start: StartArgs,
     #[command(flatten)]
-    of_machine: OfMachineArgs,
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
 
     /// Stop after this number of impacts, 1 to 10000000 [default: 100, or 1000000 with --periods]
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
@@ -63,13 +65,13 @@ pub(crate) struct Simulate {
 }
 
 pub(super) fn run(args: &Simulate, session: &Session) -> Result<(), Failure> {
-    if let Some((name, machine)) = args.of_machine.asked(args.start.phase)? {
+    if let Some(name) = &args.machine.machine {
         let task = MachineTask::Simulate { impacts: args.impacts, periods: args.periods };
-        let plan = MachinePlan::new(machine, task);
+        let plan = MachinePlan::new(args.machine.source(Some((&args.of_machine, args.start.phase)))?, task);
         plan.check()?;
         let step = checked(args.step)?;
         let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
-        return simulate_machine::run(name, &plan, (outputs, step), session);
+        return of_machine::run(name, &plan, (outputs, step), session);
     }
     let asked = args.system.asked()?;
     let start = args.start.plan(&asked.units);

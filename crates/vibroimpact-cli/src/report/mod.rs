@@ -8,6 +8,7 @@ mod diagram;
 mod leading;
 mod lyapunov;
 pub(crate) mod machine;
+pub(crate) mod machine_answers;
 pub(crate) mod machine_events;
 mod map;
 mod margins;

@@ -1,10 +1,14 @@
 //! The object of a machine: its start, the events of its motion, and the reason why the list ends.
 
+use super::machine_motion::{Estimate, MotionObject, cycle, estimates, motion, multipliers};
 use crate::{MachineAnswer, PROGRAM};
 use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+use vibroimpact::chaos::Measured;
+use vibroimpact::continuation::{MachineBranchEvent, MachinePoint};
 use vibroimpact::events::{MachineEvent, MachineStart};
 use vibroimpact::machine::Machine;
-use vibroimpact_study::{MachinePlan, MachineResults, MachineSimulated};
+use vibroimpact_study::{MachineAxis, MachinePlan, MachineResults, MachineSimulated, MachineTask};
 
 /// The object that a command prints: the machine, the start, the fields of the command, and the plan.
 #[derive(Serialize)]
@@ -40,7 +44,7 @@ struct EndObject {
 }
 
 #[derive(Serialize)]
-struct EventObject<'a> {
+pub(super) struct EventObject<'a> {
     kind: &'static str,
     stop: &'a str,
     time: f64,
@@ -54,22 +58,236 @@ struct EventObject<'a> {
     with: Vec<&'a str>,
 }
 
+#[derive(Serialize)]
+struct Settled<'a> {
+    motion: MotionObject<'a>,
+    /// Events and time that were followed.
+    events: u64,
+    time: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    chaotic_transient: Option<Vec<Estimate>>,
+}
+
+#[derive(Serialize)]
+struct Shared<'a> {
+    #[serde(flatten)]
+    motion: MotionObject<'a>,
+    share: f64,
+    count: u64,
+}
+
+#[derive(Serialize)]
+struct Attractors<'a> {
+    motions: Vec<Shared<'a>>,
+    starts: u64,
+}
+
+#[derive(Serialize)]
+struct OrbitObject<'a> {
+    #[serde(flatten)]
+    motion: MotionObject<'a>,
+    physical: bool,
+}
+
+#[derive(Serialize)]
+struct Orbits<'a> {
+    orbits: Vec<OrbitObject<'a>>,
+}
+
+#[derive(Serialize)]
+struct Exponents<'a> {
+    exponents: Option<Vec<Estimate>>,
+    impacts_per_period: Option<Estimate>,
+    exact: bool,
+    motion: MotionObject<'a>,
+}
+
+#[derive(Serialize)]
+struct PointObject<'a> {
+    parameter: f64,
+    label: String,
+    cycle: Vec<EventObject<'a>>,
+    multipliers: Vec<[f64; 2]>,
+    stable: bool,
+    physical: bool,
+}
+
+#[derive(Serialize)]
+struct BranchEventObject<'a> {
+    kind: &'static str,
+    parameter: f64,
+    /// Number of the point, counted from 0.
+    point: usize,
+    label: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stop: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    appears: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turns: Option<bool>,
+}
+
+#[derive(Serialize)]
+struct Branched<'a> {
+    vary: &'a str,
+    points: Vec<PointObject<'a>>,
+    events: Vec<BranchEventObject<'a>>,
+}
+
+#[derive(Serialize)]
+struct Basin<'a> {
+    motions: Vec<Shared<'a>>,
+    starts: usize,
+    /// Starts beyond a rigid stop.
+    refused: usize,
+    axes: &'a [MachineAxis],
+    /// The number of the motion of each start, the first axis varying fastest; null beyond a rigid stop.
+    cells: &'a [Option<usize>],
+}
+
+#[derive(Serialize)]
+struct Mapped<'a> {
+    axes: &'a [MachineAxis],
+    /// How many points have each label.
+    labels: BTreeMap<&'a str, usize>,
+    points: usize,
+}
+
 impl Serialize for MachineAnswer {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Self { name, plan, machine, start, results } = self;
-        let MachineStart { q, qdot, phase } = start;
-        let start = StartObject { q, qdot, phase: *phase };
+        let Self { machine, results, .. } = self;
         match results {
-            MachineResults::Simulate(MachineSimulated { events, reason, time, .. }) => Document {
-                machine: name,
-                coordinates: &machine.parts().coordinates,
-                start,
-                result: Simulation { events: (events, machine), end: EndObject { reason, time: *time } },
-                plan,
-                program: PROGRAM,
+            MachineResults::Simulate(MachineSimulated { events, reason, time, .. }) => {
+                self.document(Simulation { events: (events, machine), end: EndObject { reason, time: *time } }, to)
             }
-            .serialize(to),
+            MachineResults::Settle(found) => self.document(
+                Settled {
+                    motion: motion(machine, &found.verdict),
+                    events: found.events,
+                    time: found.time,
+                    chaotic_transient: found.transient.as_ref().map(estimates),
+                },
+                to,
+            ),
+            MachineResults::Attractors(census) => {
+                let motions = census.by_share().into_iter().map(|found| Shared {
+                    motion: motion(machine, &found.verdict),
+                    share: census.share(found),
+                    count: found.count,
+                });
+                self.document(Attractors { motions: motions.collect(), starts: census.total() }, to)
+            }
+            MachineResults::Orbit(found) => {
+                let orbits = found.iter().map(|found| OrbitObject { motion: cycle(machine, found), physical: true });
+                self.document(Orbits { orbits: orbits.collect() }, to)
+            }
+            MachineResults::Lyapunov(found) => {
+                let spectrum = found.spectrum.as_ref();
+                let rate = spectrum.zip(machine.period()).map(|(spectrum, period)| Measured {
+                    value: spectrum.closings.value * period,
+                    error: spectrum.closings.error * period,
+                });
+                self.document(
+                    Exponents {
+                        exponents: spectrum.map(estimates),
+                        impacts_per_period: rate.map(Estimate::from),
+                        exact: found.exact,
+                        motion: motion(machine, &found.motion),
+                    },
+                    to,
+                )
+            }
+            MachineResults::Branch(found) => self.document(self.branch(&found.points), to),
+            MachineResults::Basin(found) => {
+                let mut counts = vec![0_u64; found.motions.len()];
+                found.cells.iter().flatten().for_each(|cell| counts[*cell] += 1);
+                let total: u64 = counts.iter().sum();
+                #[allow(clippy::cast_precision_loss)] // counts of starts
+                let motions = found.motions.iter().zip(counts).map(|(verdict, count)| Shared {
+                    motion: motion(machine, verdict),
+                    share: count as f64 / total.max(1) as f64,
+                    count,
+                });
+                self.document(
+                    Basin {
+                        motions: motions.collect(),
+                        starts: found.cells.len(),
+                        refused: found.cells.iter().filter(|cell| cell.is_none()).count(),
+                        axes: &found.axes,
+                        cells: &found.cells,
+                    },
+                    to,
+                )
+            }
+            MachineResults::Map(found) => {
+                let mut labels = BTreeMap::new();
+                for cell in &found.cells {
+                    let mut here: Vec<&str> = cell.iter().map(|(label, _)| label.as_str()).collect();
+                    here.sort_unstable();
+                    here.dedup();
+                    here.into_iter().for_each(|label| *labels.entry(label).or_insert(0) += 1);
+                }
+                self.document(Mapped { axes: &found.axes, labels, points: found.cells.len() }, to)
+            }
         }
+    }
+}
+
+impl MachineAnswer {
+    /// Writes the object with these fields.
+    fn document<S: Serializer, T: Serialize>(&self, result: T, to: S) -> Result<S::Ok, S::Error> {
+        let Self { name, plan, machine, start, .. } = self;
+        let MachineStart { q, qdot, phase } = start;
+        let coordinates = machine.parts().coordinates.as_slice();
+        let start = StartObject { q, qdot, phase: *phase };
+        Document { machine: name, coordinates, start, result, plan, program: PROGRAM }.serialize(to)
+    }
+
+    fn branch<'a>(&'a self, points: &'a [MachinePoint]) -> Branched<'a> {
+        let machine = &self.machine;
+        let vary = match &self.plan.task {
+            MachineTask::Branch { vary, .. } => vary.as_str(),
+            _ => "",
+        };
+        let events = points.iter().enumerate().filter_map(|(k, point)| {
+            let event = point.event?;
+            let (appears, turns) = match event {
+                MachineBranchEvent::Grazing { appears, turns, .. } => (Some(appears), Some(turns)),
+                _ => (None, None),
+            };
+            Some(BranchEventObject {
+                kind: event.name(),
+                parameter: point.value,
+                point: k,
+                label: point.cycle.label.to_string(),
+                stop: event.place().map(|place| machine.name_of(place)),
+                appears,
+                turns,
+            })
+        });
+        let of = |point: &'a MachinePoint| PointObject {
+            parameter: point.value,
+            label: point.cycle.label.to_string(),
+            cycle: point.cycle.events.iter().map(|event| event_object(machine, event)).collect(),
+            multipliers: multipliers(&point.cycle.multipliers),
+            stable: point.cycle.stable(),
+            physical: true,
+        };
+        Branched { vary, points: points.iter().map(of).collect(), events: events.collect() }
+    }
+}
+
+/// The object of an event.
+pub(super) fn event_object<'a>(machine: &'a Machine, event: &'a MachineEvent) -> EventObject<'a> {
+    EventObject {
+        kind: event.kind.name(),
+        stop: machine.name_of(event.place),
+        time: event.time,
+        phase: machine.parts().frequency.is_some().then_some(event.phase),
+        speed: event.speed,
+        q: &event.q,
+        qdot: &event.qdot,
+        with: event.with.iter().map(|place| machine.name_of(*place)).collect(),
     }
 }
 
@@ -77,15 +295,5 @@ fn each_event<S: Serializer>(
     (events, machine): &(&[MachineEvent], &Machine),
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
-    let forced = machine.parts().frequency.is_some();
-    serializer.collect_seq(events.iter().map(|event| EventObject {
-        kind: event.kind.name(),
-        stop: machine.name_of(event.place),
-        time: event.time,
-        phase: forced.then_some(event.phase),
-        speed: event.speed,
-        q: &event.q,
-        qdot: &event.qdot,
-        with: event.with.iter().map(|place| machine.name_of(*place)).collect(),
-    }))
+    serializer.collect_seq(events.iter().map(|event| event_object(machine, event)))
 }

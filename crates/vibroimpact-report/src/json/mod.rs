@@ -9,6 +9,7 @@ pub mod curve;
 pub mod diagram;
 pub mod lyapunov;
 mod machine;
+mod machine_motion;
 pub mod map;
 pub mod margins;
 pub mod motion;
@@ -168,3 +169,5 @@ impl Place {
         }
     }
 }
+
+pub use machine_motion::undecided;

@@ -5,14 +5,22 @@
 //! | a plan, its checks | [`MachinePlan`], [`MachineTask`], `plan` |
 //! | a plan as TOML and JSON | `text` |
 //! | the function that turns a plan into its result | [`run_machine`], [`MachineResults`], `run` |
+//! | what motions settle into, their exponents | `verdicts` |
+//! | orbits, and branches of them | [`MachineBranched`], `orbits` |
+//! | basins and maps | [`MachineBasin`], [`MachineMap`], `grid` |
 //! | the events of a motion | [`MachineSimulated`], `simulate` |
 
+mod grid;
+mod orbits;
 mod plan;
 mod run;
 mod simulate;
 mod text;
+mod verdicts;
 
-pub use plan::{MachinePlan, MachineTask};
+pub use grid::{MachineBasin, MachineMap};
+pub use orbits::MachineBranched;
+pub use plan::{MachineAxis, MachinePlan, MachineTask};
 pub use run::{MachineResults, run_machine};
 pub use simulate::MachineSimulated;
 pub use text::is_machine_plan;

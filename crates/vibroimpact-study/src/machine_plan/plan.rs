@@ -1,8 +1,10 @@
 //! A plan of a machine: everything on which a result depends, and nothing else.
 
 use super::simulate::check;
+use super::{grid, orbits, verdicts};
 use crate::machine::{MachineSource, NumberText, StartNumbers, StartText, VectorText};
-use crate::{PLAN_VERSION, PlanError};
+use crate::map::check_impacts;
+use crate::{DEFAULT_BRANCH_POINTS, PLAN_VERSION, PlanError, Span};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
@@ -52,6 +54,104 @@ pub enum MachineTask {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         periods: Option<f64>,
     },
+    /// What the motion settles into.
+    Settle {
+        /// Budget of events: 1 to 1000000. 20000 when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        impacts: Option<u32>,
+    },
+    /// The steady motions to which scattered starts lead, and their shares.
+    Attractors {
+        /// The number of starts.
+        starts: u64,
+        /// Which sequence of starts.
+        #[serde(default = "one")]
+        seed: u64,
+        /// Budget of events for each start: 1 to 1000000. 20000 when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        impacts: Option<u32>,
+    },
+    /// All Lyapunov exponents of the motion.
+    Lyapunov {
+        /// Events to measure over: 25 to 10000000. 20000 when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        impacts: Option<u32>,
+        /// Events to pass before: up to 1000000. 1000 when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        transient: Option<u32>,
+    },
+    /// The orbits with a label, stable or not, from many guesses.
+    Orbit {
+        /// The label m/n.
+        label: String,
+    },
+    /// A branch of orbits in one number.
+    Branch {
+        /// The label of the orbit at the machine; that of the motion from the start when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        label: Option<String>,
+        /// The path of the number that varies, from its value in the machine.
+        vary: String,
+        /// The other end of its range.
+        to: f64,
+        /// The largest number of points: 2 to 100000.
+        #[serde(default = "points")]
+        points: u32,
+    },
+    /// The motion to which each start of a grid leads.
+    Basin {
+        /// One to four of `q.COORDINATE`, `qdot.COORDINATE` and `phase`; the first varies fastest. The others are those of the
+        /// start.
+        axes: Vec<MachineAxis>,
+        /// Budget of events for each start: 1 to 1000000. 20000 when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        impacts: Option<u32>,
+    },
+    /// The motions at each point of a grid of numbers of the machine.
+    Map {
+        /// One to four paths; the first varies fastest.
+        axes: Vec<MachineAxis>,
+        /// The number of starts at each point.
+        starts: u64,
+        /// Which sequence of starts.
+        #[serde(default = "one")]
+        seed: u64,
+        /// Budget of events for each start: 1 to 1000000. 20000 when absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        impacts: Option<u32>,
+    },
+}
+
+/// An axis of a grid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineAxis {
+    /// The path of a number, or `q.COORDINATE`, `qdot.COORDINATE` or `phase` of the start.
+    pub vary: String,
+    /// Its values.
+    pub over: Span,
+}
+
+impl MachineAxis {
+    /// The values of all axes at point number `k` of their grid; the first axis varies fastest.
+    #[must_use]
+    pub fn at(axes: &[Self], mut k: u64) -> Vec<f64> {
+        let mut values = Vec::with_capacity(axes.len());
+        for axis in axes {
+            let count = u64::from(axis.over.count());
+            values.push(axis.over.at(u32::try_from(k % count).unwrap_or(0)));
+            k /= count;
+        }
+        values
+    }
+}
+
+const fn one() -> u64 {
+    1
+}
+
+const fn points() -> u32 {
+    DEFAULT_BRANCH_POINTS
 }
 
 impl MachinePlan {
@@ -112,6 +212,22 @@ impl MachinePlan {
         let (machine, _) = self.problem()?;
         match &self.task {
             MachineTask::Simulate { impacts, periods } => check(&machine, (*impacts, *periods)),
+            MachineTask::Settle { impacts } => check_impacts(*impacts),
+            MachineTask::Attractors { starts, impacts, .. } => verdicts::check_starts(*starts, *impacts),
+            MachineTask::Lyapunov { impacts, transient } => {
+                let most = impacts.unwrap_or(1_000).max(transient.unwrap_or(0));
+                if impacts.is_some_and(|impacts| impacts < 25) || most > 10_000_000 {
+                    return Err(PlanError::Impacts(u64::from(most.min(impacts.unwrap_or(most)))));
+                }
+                Ok(())
+            }
+            MachineTask::Orbit { label } => orbits::label(&machine, label).map(|_| ()),
+            MachineTask::Branch { label, vary, to, points } => {
+                orbits::label(&machine, label.as_deref().unwrap_or("1/1"))?;
+                orbits::check(self, vary, *to, *points)
+            }
+            MachineTask::Basin { axes, impacts } => grid::check_basin(&machine, axes, *impacts),
+            MachineTask::Map { axes, starts, impacts, .. } => grid::check_map(self, axes, (*starts, *impacts)),
         }
     }
 }

@@ -1,14 +1,34 @@
 //! The function that computes the result of a plan of a machine. The command and the Python package call it.
 
+use super::grid::{MachineBasin, MachineMap};
+use super::orbits::MachineBranched;
 use super::plan::{MachinePlan, MachineTask};
 use super::simulate::{MachineSimulated, simulate};
+use super::{grid, orbits, verdicts};
 use crate::{Control, RunError};
+use vibroimpact::chaos::MachineExponents;
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
 
 /// The result of a [`MachineTask`], one variant for each.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub enum MachineResults {
     /// The events of the motion.
     Simulate(MachineSimulated),
+    /// What the motion settles into.
+    Settle(MachineSettled),
+    /// The distinct motions and their counts.
+    Attractors(Census<MachineVerdict>),
+    /// The exponents.
+    Lyapunov(MachineExponents),
+    /// The orbits, the fastest last.
+    Orbit(Vec<MachineCycle>),
+    /// The branch.
+    Branch(MachineBranched),
+    /// The basin.
+    Basin(MachineBasin),
+    /// The map.
+    Map(MachineMap),
 }
 
 /// Checks a plan of a machine and computes its result.
@@ -18,9 +38,31 @@ pub enum MachineResults {
 pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineResults, RunError> {
     plan.check()?;
     let (machine, start) = plan.problem()?;
-    match plan.task {
+    Ok(match &plan.task {
         MachineTask::Simulate { impacts, periods } => {
-            Ok(MachineResults::Simulate(simulate(&machine, &start, (impacts, periods), control)?))
+            MachineResults::Simulate(simulate(&machine, &start, (*impacts, *periods), control)?)
         }
-    }
+        MachineTask::Settle { impacts } => {
+            MachineResults::Settle(verdicts::settle(&machine, &start, *impacts, control)?)
+        }
+        MachineTask::Attractors { starts, seed, impacts } => {
+            MachineResults::Attractors(verdicts::attractors(&machine, (*starts, *seed, *impacts), control)?)
+        }
+        MachineTask::Lyapunov { impacts, transient } => {
+            MachineResults::Lyapunov(verdicts::lyapunov(&machine, &start, (*impacts, *transient), control)?)
+        }
+        MachineTask::Orbit { label } => {
+            MachineResults::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?)
+        }
+        MachineTask::Branch { label, vary, to, points } => {
+            let label = label.as_deref().map(|label| orbits::label(&machine, label)).transpose()?;
+            MachineResults::Branch(orbits::branch(plan, (label, vary, *to, *points), control)?)
+        }
+        MachineTask::Basin { axes, impacts } => {
+            MachineResults::Basin(grid::basin((&machine, &start), axes, *impacts, control)?)
+        }
+        MachineTask::Map { axes, starts, seed, impacts } => {
+            MachineResults::Map(grid::map(plan, axes, (*starts, *seed, *impacts), control)?)
+        }
+    })
 }

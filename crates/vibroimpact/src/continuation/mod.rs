@@ -18,5 +18,5 @@ mod trace;
 
 pub use branches::{Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint, Touch};
 pub use curves::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
-pub use of_machine::{MachineBranch, MachineBranchError, MachineBranchEvent, MachinePoint};
+pub use of_machine::{MachineBranch, MachineBranchError, MachineBranchEvent, MachineFamily, MachinePoint};
 pub use regions::{Bound, Polygon, Region, RegionKind, RegionOptions, Vertex, region, region_while};

@@ -57,8 +57,3 @@ pub(crate) fn atan2(y: f64, x: f64) -> f64 {
 pub(crate) fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
 }
-
-/// The determinant of a square matrix.
-pub(crate) fn determinant(matrix: &Matrix) -> f64 {
-    Lu::new(matrix.values().to_vec(), matrix.rows()).map_or(0.0, |lu| lu.determinant())
-}

@@ -1,6 +1,8 @@
 //! Branches of machines of one coordinate against those of the oscillator.
 
-use vibroimpact::continuation::{Branch, BranchEvent, BranchOptions, Direction, MachineBranch, MachineBranchEvent};
+use vibroimpact::continuation::{
+    Branch, BranchEvent, BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily,
+};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
@@ -39,11 +41,11 @@ fn the_same_events() {
                 .unwrap()
                 .filter_map(|point| point.event.map(|event| (event, point.value)))
                 .collect();
-        let events: Vec<_> =
-            MachineBranch::new(&machine, &found, "stop.stop.gap", &range, direction, BranchOptions::default())
-                .unwrap()
-                .filter_map(|point| point.event.map(|event| (event, point.value)))
-                .collect();
+        let (family, gap) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
+        let events: Vec<_> = MachineBranch::new((&family, gap), &found, &range, direction, BranchOptions::default())
+            .unwrap()
+            .filter_map(|point| point.event.map(|event| (event, point.value)))
+            .collect();
         assert_eq!(events.len(), expected.len(), "{expected:?} {events:?}");
         for ((want, at), (event, value)) in expected.iter().zip(&events) {
             assert_eq!(want.name(), event.name());
@@ -97,7 +99,8 @@ fn simulation_beside_events() {
         for (path, range, direction) in
             [("stop.stop.gap", -0.2..=2.0, Direction::Down), ("frequency", 0.35..=1.6, Direction::Up)]
         {
-            let branch = MachineBranch::new(&machine, &found, path, &range, direction, limits).unwrap();
+            let (family, value) = MachineFamily::of_path(&machine, path).unwrap();
+            let branch = MachineBranch::new((&family, value), &found, &range, direction, limits).unwrap();
             let points: Vec<_> = branch.collect();
             for (k, point) in points.iter().enumerate() {
                 let Some(event) = point.event.filter(|event| !event.ends()) else { continue };

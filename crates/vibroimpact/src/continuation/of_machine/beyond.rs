@@ -49,7 +49,7 @@ fn with_ring(
     sizes: (f64, f64),
 ) -> MachineProblem {
     let old = &tracer.problem;
-    let equations = MachineEquations::new(machine, &old.equations.path, ring, sizes, old.equations.scale);
+    let equations = MachineEquations::new((machine, old.equations.family.clone()), ring, sizes, old.equations.scale);
     MachineProblem { equations, range: old.range }
 }
 
@@ -187,7 +187,7 @@ pub(super) fn replayed(
             if there < low || there > high {
                 continue;
             }
-            let Ok(moved) = machine.with(&equations.path, there) else { continue };
+            let Some(moved) = equations.family.at(there) else { continue };
             let frame = MachineFrame::new(&moved);
             let Some(cycle) = MachineCycle::near(&frame, &begin, ring.periods) else { continue };
             if cycle.label.periods != ring.periods {

@@ -3,25 +3,22 @@
 use super::beyond::{beyond, replayed};
 use super::change::{Difference, difference};
 use super::equations::MachineEquations;
+use super::family::MachineFamily;
 use super::point::{MachineBranchEvent, MachinePoint};
 use super::problem::{Judged, MINUS_ONE, MachineProblem, MachineSolution, PACE, PLUS_ONE, TORUS};
 use crate::continuation::branches::{BranchOptions, Direction};
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::step_length::StepLength;
 use crate::continuation::trace::tracer::{Step, Tracer};
-use crate::machine::{Machine, MachineError};
 use crate::orbit::{MachineCycle, MachineFrame, MachineRing};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 use thiserror::Error;
 
 /// Why a branch of a machine cannot begin.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MachineBranchError {
-    /// The path leads to no number of the machine.
-    #[error(transparent)]
-    Path(#[from] MachineError),
     /// The range is not two finite numbers in increasing order, or does not contain the value of the machine.
     #[error("the branch begins at {value}, which does not lie in the range from {low} to {high}")]
     OutOfRange {
@@ -55,30 +52,29 @@ pub struct MachineBranch {
 }
 
 impl MachineBranch {
-    /// The branch of `cycle`, a cycle of `machine`, in the number at `path` over `range`, beginning in `direction`. In the
+    /// The branch of `cycle`, a cycle of the machine of `family` at `value`, over `range`, beginning in `direction`. In the
     /// options the largest number of impacts is not used.
     ///
     /// # Errors
     /// [`MachineBranchError`] if the branch cannot begin.
     pub fn new(
-        machine: &Machine,
+        (family, value): (&MachineFamily, f64),
         cycle: &MachineCycle,
-        path: &str,
         range: &RangeInclusive<f64>,
         direction: Direction,
         options: BranchOptions,
     ) -> Result<Self, MachineBranchError> {
-        let value = machine.number(path)?;
         let (low, high) = (*range.start(), *range.end());
         if !(low.is_finite() && high.is_finite() && low < high && range.contains(&value)) {
             return Err(MachineBranchError::OutOfRange { value, low, high });
         }
+        let machine = &family.at(value).ok_or(MachineBranchError::NoCycle)?;
         let ring = cycle
             .strobes
             .first()
             .and_then(|begin| MachineRing::of(&MachineFrame::new(machine), begin, cycle.label.periods))
             .ok_or(MachineBranchError::NoCycle)?;
-        let equations = MachineEquations::new(machine, path, ring, cycle.sizes, 0.25 * (high - low));
+        let equations = MachineEquations::new((machine, family.clone()), ring, cycle.sizes, 0.25 * (high - low));
         let up = if direction == Direction::Up { 1.0 } else { -1.0 };
         let problem = MachineProblem { equations, range: (low, high) };
         let w = MachineEquations::join(machine, &problem.equations.ring, value);

@@ -1,5 +1,6 @@
 //! The equations of a cycle of a machine with one of its numbers among the unknowns.
 
+use super::family::MachineFamily;
 use crate::continuation::trace::equations::Equations;
 use crate::events::StateShape;
 use crate::machine::Machine;
@@ -9,8 +10,7 @@ use crate::orbit::{MachineFrame, MachineRing};
 /// number of the machine.
 #[derive(Clone, Debug)]
 pub(crate) struct MachineEquations {
-    pub(crate) machine: Machine,
-    pub(crate) path: String,
+    pub(crate) family: MachineFamily,
     pub(crate) ring: MachineRing,
     weights: Vec<f64>,
     pub(crate) scale: f64,
@@ -19,7 +19,12 @@ pub(crate) struct MachineEquations {
 impl MachineEquations {
     /// The equations for the signature of `ring`; `sizes` are the largest coordinates and velocities. A change of the
     /// number by `scale` has the same length as a change of all phases by one radian.
-    pub(crate) fn new(machine: &Machine, path: &str, ring: MachineRing, sizes: (f64, f64), scale: f64) -> Self {
+    pub(crate) fn new(
+        (machine, family): (&Machine, MachineFamily),
+        ring: MachineRing,
+        sizes: (f64, f64),
+        scale: f64,
+    ) -> Self {
         #[allow(clippy::cast_precision_loss)] // a few dozen
         let m = ring.len() as f64;
         let width = MachineFrame::new(machine).shape.size() + 1;
@@ -35,13 +40,13 @@ impl MachineEquations {
         };
         let mut weights: Vec<f64> = (0..ring.len() * width).map(|i| weight(i % width)).collect();
         weights.push(1.0 / (scale * scale));
-        Self { machine: machine.clone(), path: path.to_owned(), ring, weights, scale }
+        Self { family, ring, weights, scale }
     }
 
     /// The machine and the ring that belong to these unknowns; `None` if the number is not allowed.
     pub(crate) fn split(&self, w: &[f64]) -> Option<(Machine, MachineRing)> {
         let (value, unknowns) = w.split_last()?;
-        let machine = self.machine.with(&self.path, *value).ok()?;
+        let machine = self.family.at(*value)?;
         let ring = self.ring.with(&MachineFrame::new(&machine), unknowns);
         Some((machine, ring))
     }
@@ -151,7 +156,8 @@ mod tests {
             let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("{settled:?}") };
             let frame = MachineFrame::new(&machine);
             let ring = MachineRing::of(&frame, &cycle.strobes[0], cycle.label.periods).unwrap();
-            let equations = MachineEquations::new(&machine, "stop.stop.gap", ring.clone(), cycle.sizes, 0.5);
+            let (family, _) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
+            let equations = MachineEquations::new((&machine, family), ring.clone(), cycle.sizes, 0.5);
             let w = MachineEquations::join(&machine, &ring, 0.5);
             let (miss, rows) = equations.at(&w).unwrap();
             assert!(miss.iter().all(|miss| miss.abs() < 1e-12), "{miss:?}");

@@ -2,6 +2,7 @@
 //!
 //! | idea | file |
 //! |---|---|
+//! | a machine as a function of one number | [`MachineFamily`] |
 //! | the equations of all events, with a number of the machine among the unknowns | `equations` |
 //! | the problem that the tracer solves: test functions, admissible solutions | `problem` |
 //! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
@@ -13,8 +14,10 @@ mod beyond;
 mod branch;
 mod change;
 mod equations;
+mod family;
 mod point;
 mod problem;
 
 pub use branch::{MachineBranch, MachineBranchError};
+pub use family::MachineFamily;
 pub use point::{MachineBranchEvent, MachinePoint};

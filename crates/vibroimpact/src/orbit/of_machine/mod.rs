@@ -5,15 +5,18 @@
 //! | a machine and the structures of its regimes | `frame` |
 //! | the motion over a time, with its derivative | `lap` |
 //! | the events of a cycle as unknowns, and their equations | `ring` |
+//! | all with a label, from many guesses | [`find_machine_while`] |
 //! | a cycle, by Newton's method on the state between two events | [`MachineCycle`] |
 
 mod cycle;
+mod find;
 mod frame;
 mod lap;
 mod ring;
 
 pub use cycle::MachineCycle;
 pub(crate) use cycle::distance as machine_distance;
+pub use find::find_machine_while;
 pub(crate) use frame::MachineFrame;
 pub(crate) use lap::MachineLap;
 pub(crate) use ring::{MachineRing, RingEvent};

@@ -1,0 +1,135 @@
+//! Answers about machines as text.
+
+use core::fmt::Write;
+use vibroimpact::chaos::MachineSpectrum;
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
+use vibroimpact_report::MachineAnswer;
+use vibroimpact_report::json::undecided;
+use vibroimpact_report::number::short;
+use vibroimpact_study::{MachineResults, counted};
+
+/// The answer, with a line for each motion, event or exponent.
+pub(crate) fn text(answer: &MachineAnswer) -> String {
+    let machine = &answer.machine;
+    let mut text = String::new();
+    match &answer.results {
+        // it has a table of its own
+        MachineResults::Simulate(_) => {}
+        MachineResults::Settle(found) => {
+            text.push_str(&motion(machine, &found.verdict));
+            let _ =
+                writeln!(text, "  followed for {}, until time {}", counted(found.events, "event"), short(found.time));
+            if found.transient.is_some() {
+                text.push_str("  chaotic before: a transient that has ended\n");
+            }
+        }
+        MachineResults::Attractors(census) => {
+            let _ = writeln!(text, "{}", counted(census.total(), "start"));
+            for found in census.by_share() {
+                let _ = write!(text, "{:>6.1} %  {}", 100.0 * census.share(found), motion(machine, &found.verdict));
+            }
+        }
+        MachineResults::Orbit(found) => {
+            if found.is_empty() {
+                text.push_str("no such orbit found\n");
+            }
+            for cycle in found {
+                text.push_str(&described(machine, cycle));
+            }
+        }
+        MachineResults::Lyapunov(found) => {
+            match &found.spectrum {
+                Some(spectrum) => text.push_str(&exponents(spectrum)),
+                None => text.push_str("no exponents: the motion ended before\n"),
+            }
+            let how = if found.exact { "exact" } else { "measured" };
+            let _ = writeln!(text, "  {how}; the motion is {}", found.motion.label());
+        }
+        MachineResults::Branch(found) => {
+            for point in found.points.iter().filter(|point| point.event.is_some()) {
+                let event = point.event.map_or("", |event| event.name());
+                let place = point.event.and_then(|event| event.place());
+                let at = place.map_or_else(String::new, |place| format!(" at {}", machine.name_of(place)));
+                let _ = writeln!(text, "{:>16}  {event}{at}, {}", short(point.value), point.cycle.label);
+            }
+            let stable = found.points.iter().filter(|point| point.cycle.stable()).count();
+            let _ = writeln!(text, "{}, {stable} of them stable", counted(found.points.len() as u64, "point"));
+        }
+        MachineResults::Basin(found) => {
+            let total = found.cells.iter().flatten().count();
+            for (k, verdict) in found.motions.iter().enumerate() {
+                let count = found.cells.iter().filter(|cell| **cell == Some(k)).count();
+                #[allow(clippy::cast_precision_loss)] // counts of starts
+                let share = 100.0 * count as f64 / total.max(1) as f64;
+                let _ = write!(text, "{share:>6.1} %  {}", motion(machine, verdict));
+            }
+            let beyond = found.cells.len() - total;
+            if beyond > 0 {
+                let _ = writeln!(text, "{} beyond a rigid stop", counted(beyond as u64, "start"));
+            }
+        }
+        MachineResults::Map(found) => {
+            let mut labels = std::collections::BTreeMap::new();
+            for cell in &found.cells {
+                for (label, _) in cell {
+                    *labels.entry(label.as_str()).or_insert(0_u64) += 1;
+                }
+            }
+            for (label, count) in labels {
+                let _ = writeln!(text, "{label:>10}  at {}", counted(count, "point"));
+            }
+        }
+    }
+    text
+}
+
+fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
+    match verdict {
+        MachineVerdict::Periodic(cycle) => described(machine, cycle),
+        MachineVerdict::NoImpact => "0: no further event, for ever\n".to_owned(),
+        MachineVerdict::Stuck => "stuck: at rest on a stop, for ever\n".to_owned(),
+        MachineVerdict::Chaotic { spectrum, events } => {
+            format!("chaotic, seen over {}\n{}", counted(*events, "event"), exponents(spectrum))
+        }
+        MachineVerdict::Undecided { why, events, .. } => {
+            let why = match why {
+                MachineUndecided::Events => "the budget is used up".to_owned(),
+                why => undecided(*why).replace('_', " "),
+            };
+            format!("undecided after {}: {why}\n", counted(*events, "event"))
+        }
+    }
+}
+
+fn described(machine: &Machine, cycle: &MachineCycle) -> String {
+    let stable = if cycle.stable() { "stable" } else { "unstable" };
+    let mut text = format!("{}, {stable}, period {}\n", cycle.label, short(cycle.period));
+    let counts = machine.stops().iter().zip(&cycle.counts).map(|(stop, count)| format!("{} {count}", stop.name));
+    let _ = writeln!(text, "  closings: {}", counts.collect::<Vec<_>>().join(", "));
+    let multipliers = cycle.multipliers.iter().map(|multiplier| {
+        let size = short(multiplier.modulus());
+        if multiplier.im == 0.0 { short(multiplier.re) } else { format!("|{size}| complex") }
+    });
+    let _ = writeln!(text, "  multipliers: {}", multipliers.collect::<Vec<_>>().join(", "));
+    for event in &cycle.events {
+        let _ = writeln!(
+            text,
+            "  phase {:<12} {:<8} {:<12} speed {}",
+            short(event.phase),
+            event.kind.name(),
+            machine.name_of(event.place),
+            short(event.speed)
+        );
+    }
+    text
+}
+
+fn exponents(spectrum: &MachineSpectrum) -> String {
+    let mut text = String::new();
+    for (k, exponent) in spectrum.exponents.iter().enumerate() {
+        let _ = writeln!(text, "  exponent {}: {} +- {}", k + 1, short(exponent.value), short(exponent.error));
+    }
+    text
+}

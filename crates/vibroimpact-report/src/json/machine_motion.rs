@@ -1,0 +1,151 @@
+//! A steady motion of a machine in JSON: label, counts of each stop, multipliers, events.
+
+use super::machine::{EventObject, event_object};
+use serde::Serialize;
+use serde_json::{Map, Value};
+use vibroimpact::chaos::{MachineSpectrum, Measured};
+use vibroimpact::events::MachineEnd;
+use vibroimpact::machine::Machine;
+use vibroimpact::math::Multiplier;
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::verdict::{Count, MachineUndecided, MachineVerdict};
+
+/// The JSON object of a motion.
+#[derive(Serialize)]
+pub(super) struct MotionObject<'a> {
+    kind: &'static str,
+    label: String,
+    impacts: Option<u32>,
+    periods: Option<u32>,
+    /// Rests on stops, and holds of joints, in one period.
+    sticks: Option<usize>,
+    stable: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    counts: Option<Map<String, Value>>,
+    multipliers: Option<Vec<[f64; 2]>>,
+    cycle: Vec<EventObject<'a>>,
+    /// A state between two events from which the motion can be started.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    state: Option<StateObject<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lyapunov: Option<Estimate>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exponents: Option<Vec<Estimate>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seen_events: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'static str>,
+}
+
+#[derive(Serialize)]
+struct StateObject<'a> {
+    q: &'a [f64],
+    qdot: &'a [f64],
+    phase: f64,
+}
+
+/// A measured number; null where it is minus infinity.
+#[derive(Serialize)]
+pub(super) struct Estimate {
+    value: f64,
+    error: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'static str>,
+}
+
+impl From<Measured> for Estimate {
+    fn from(measured: Measured) -> Self {
+        let why = if measured.value == f64::NEG_INFINITY { Some("minus_infinity") } else { None };
+        Self { value: measured.value, error: measured.error, why }
+    }
+}
+
+/// All exponents.
+pub(super) fn estimates(spectrum: &MachineSpectrum) -> Vec<Estimate> {
+    spectrum.exponents.iter().map(|exponent| Estimate::from(*exponent)).collect()
+}
+
+fn empty<'a>(kind: &'static str, label: String) -> MotionObject<'a> {
+    MotionObject {
+        kind,
+        label,
+        impacts: None,
+        periods: None,
+        sticks: None,
+        stable: None,
+        counts: None,
+        multipliers: None,
+        cycle: Vec::new(),
+        state: None,
+        residual: None,
+        lyapunov: None,
+        exponents: None,
+        seen_events: None,
+        why: None,
+    }
+}
+
+/// The motion of a cycle.
+pub(super) fn cycle<'a>(machine: &'a Machine, cycle: &'a MachineCycle) -> MotionObject<'a> {
+    let impacts = match cycle.label.impacts {
+        Count::Finite(impacts) => Some(impacts),
+        Count::Infinite => None,
+    };
+    let counts = machine.stops().iter().zip(&cycle.counts);
+    let sticks = cycle.events.iter().filter(|event| matches!(event.kind.name(), "stick" | "hold")).count();
+    MotionObject {
+        impacts,
+        periods: Some(cycle.label.periods),
+        sticks: Some(sticks),
+        stable: Some(cycle.stable()),
+        counts: Some(counts.map(|(stop, count)| (stop.name.clone(), Value::from(*count))).collect()),
+        multipliers: Some(multipliers(&cycle.multipliers)),
+        cycle: cycle.events.iter().map(|event| event_object(machine, event)).collect(),
+        state: Some(StateObject { q: &cycle.state.q, qdot: &cycle.state.qdot, phase: cycle.state.phase }),
+        residual: Some(cycle.residual),
+        ..empty("periodic", cycle.label.to_string())
+    }
+}
+
+/// The real and the imaginary part of each.
+pub(super) fn multipliers(of: &[Multiplier]) -> Vec<[f64; 2]> {
+    of.iter().map(|multiplier| [multiplier.re, multiplier.im]).collect()
+}
+
+/// The motion of a verdict.
+pub(super) fn motion<'a>(machine: &'a Machine, verdict: &'a MachineVerdict) -> MotionObject<'a> {
+    let label = verdict.label();
+    match verdict {
+        MachineVerdict::Periodic(found) => cycle(machine, found),
+        MachineVerdict::NoImpact => MotionObject { stable: Some(true), ..empty("no_impact", label) },
+        MachineVerdict::Stuck => MotionObject { stable: Some(true), ..empty("stuck", label) },
+        MachineVerdict::Chaotic { spectrum, events } => MotionObject {
+            stable: Some(false),
+            lyapunov: spectrum.exponents.first().map(|first| Estimate::from(*first)),
+            exponents: Some(estimates(spectrum)),
+            seen_events: Some(*events),
+            ..empty("chaotic", label)
+        },
+        MachineVerdict::Undecided { why, spectrum, events } => MotionObject {
+            exponents: spectrum.as_ref().map(estimates),
+            seen_events: Some(*events),
+            why: Some(undecided(*why)),
+            ..empty("undecided", label)
+        },
+    }
+}
+
+/// Why a motion is undecided.
+#[must_use]
+pub const fn undecided(why: MachineUndecided) -> &'static str {
+    match why {
+        MachineUndecided::Events => "events",
+        MachineUndecided::Ended(MachineEnd::NoEventWithin) => "time_limit",
+        MachineUndecided::Ended(MachineEnd::SearchLimit) => "search_limit",
+        MachineUndecided::Ended(MachineEnd::Inconsistent) => "inconsistent",
+        MachineUndecided::Ended(MachineEnd::Collapse) => "collapse",
+        MachineUndecided::Ended(MachineEnd::Never | MachineEnd::Stuck) => "no_more_impacts",
+    }
+}

@@ -1,0 +1,86 @@
+//! Tables of machines: attractors, branches, basins and maps.
+
+use super::Table;
+use crate::number::Number;
+use vibroimpact::continuation::MachinePoint;
+use vibroimpact::machine::Machine;
+use vibroimpact::math::Multiplier;
+use vibroimpact::verdict::{Census, MachineVerdict};
+use vibroimpact_study::{MachineAxis, MachineBasin, MachineMap};
+
+/// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers.
+pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVerdict>) -> Table<'a> {
+    let stops = machine.stops().iter().map(|stop| format!("count.{}", stop.name));
+    let header = ["label", "share", "starts"].into_iter().map(str::to_owned).chain(stops).chain(numbered(machine));
+    let rows = census.by_share().into_iter().map(|found| {
+        let mut row = format!("{},{},{}", found.verdict.label(), Number(census.share(found)), found.count);
+        let (counts, multipliers) = match &found.verdict {
+            MachineVerdict::Periodic(cycle) => (Some(&cycle.counts), Some(&cycle.multipliers)),
+            _ => (None, None),
+        };
+        for k in 0..machine.stops().len() {
+            row.push_str(&counts.map_or_else(|| ",".to_owned(), |counts| format!(",{}", counts[k])));
+        }
+        push(&mut row, multipliers, machine.n());
+        row
+    });
+    Table::new(header.collect::<Vec<_>>().join(","), rows)
+}
+
+/// The names of the columns of multipliers.
+fn numbered(machine: &Machine) -> impl Iterator<Item = String> {
+    (1..=2 * machine.n()).flat_map(|k| [format!("multiplier_{k}_re"), format!("multiplier_{k}_im")])
+}
+
+fn push(row: &mut String, multipliers: Option<&Vec<Multiplier>>, n: usize) {
+    for k in 0..2 * n {
+        match multipliers.and_then(|all| all.get(k)) {
+            Some(multiplier) => row.push_str(&format!(",{},{}", Number(multiplier.re), Number(multiplier.im))),
+            None => row.push_str(",,"),
+        }
+    }
+}
+
+/// One row a point: the number, label, whether it is stable, event, stop of the event, fastest closing, multipliers.
+pub(crate) fn branch<'a>(machine: &'a Machine, vary: &str, points: &'a [MachinePoint]) -> Table<'a> {
+    let names = [vary, "label", "stable", "event", "stop", "fastest"].map(str::to_owned);
+    let header = names.into_iter().chain(numbered(machine)).collect::<Vec<_>>().join(",");
+    let rows = points.iter().map(|point| {
+        let event = point.event.map_or("", |event| event.name());
+        let stop = point.event.and_then(|event| event.place()).map_or("", |place| machine.name_of(place));
+        let cycle = &point.cycle;
+        let stable = cycle.stable();
+        let mut row =
+            format!("{},{},{stable},{event},{stop},{}", Number(point.value), cycle.label, Number(cycle.fastest()));
+        push(&mut row, Some(&cycle.multipliers), machine.n());
+        row
+    });
+    Table::new(header, rows)
+}
+
+fn heads(axes: &[MachineAxis]) -> Vec<&str> {
+    axes.iter().map(|axis| axis.vary.as_str()).collect()
+}
+
+/// The values at point `k`, each followed by a comma.
+fn values(axes: &[MachineAxis], k: usize) -> String {
+    MachineAxis::at(axes, k as u64).into_iter().map(|value| format!("{},", Number(value))).collect()
+}
+
+/// One row a start: what varies, and the label; `refused` beyond a rigid stop.
+pub(crate) fn basin(found: &MachineBasin) -> Table<'_> {
+    let rows = found.cells.iter().enumerate().map(|(k, cell)| {
+        let label = cell.map_or_else(|| "refused".to_owned(), |cell| found.motions[cell].label());
+        format!("{}{label}", values(&found.axes, k))
+    });
+    Table::new([heads(&found.axes), vec!["label"]].concat().join(","), rows)
+}
+
+/// One row a motion at a point: what varies, label, share.
+pub(crate) fn map(found: &MachineMap) -> Table<'_> {
+    let rows = found.cells.iter().enumerate().flat_map(|(k, cell)| {
+        let at = values(&found.axes, k);
+        cell.iter().map(move |(label, share)| format!("{at}{label},{}", Number(*share)))
+    });
+    Table::new([heads(&found.axes), vec!["label", "share"]].concat().join(","), rows)
+}

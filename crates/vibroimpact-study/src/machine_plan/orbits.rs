@@ -1,0 +1,83 @@
+//! Orbits of a machine with a label, and their branches.
+
+use super::plan::MachinePlan;
+use super::verdicts::settle;
+use crate::{Control, PlanError, RunError, Stopped};
+use vibroimpact::Label;
+use vibroimpact::continuation::{BranchOptions, Direction, MachineBranch, MachineFamily, MachinePoint};
+use vibroimpact::machine::Machine;
+use vibroimpact::orbit::{MachineCycle, find_machine_while};
+use vibroimpact::verdict::{MachineVerdict, scattered_machine_starts};
+
+/// Starts of the search for orbits.
+const STARTS: u64 = 48;
+
+/// A branch of a machine: its points, and which number varies.
+#[derive(Clone, Debug)]
+pub struct MachineBranched {
+    /// The points in order.
+    pub points: Vec<MachinePoint>,
+}
+
+/// The label of a task; a machine without forcing has none.
+pub(super) fn label(machine: &Machine, text: &str) -> Result<Label, PlanError> {
+    if machine.period().is_none() {
+        return Err(PlanError::NoPeriodUnforced);
+    }
+    Ok(text.parse()?)
+}
+
+/// The orbits with a label, from scattered starts.
+pub(super) fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> Result<Vec<MachineCycle>, RunError> {
+    let starts = (0..STARTS).map(|k| scattered_machine_starts(machine, 1, k));
+    let found = find_machine_while(machine, label, starts, || !control.stopping());
+    found.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
+}
+
+/// Checks the number that varies and its range.
+pub(super) fn check(plan: &MachinePlan, vary: &str, to: f64, points: u32) -> Result<(), PlanError> {
+    let from = plan.machine.number(vary).map_err(PlanError::from)?;
+    if !to.is_finite() || to == from {
+        return Err(PlanError::MachineRange { path: vary.to_owned(), from, to });
+    }
+    if !(2..=100_000).contains(&points) {
+        return Err(PlanError::BranchPoints { given: points, most: 100_000 });
+    }
+    plan.machine.with(vary, to)?.parts()?;
+    Ok(())
+}
+
+/// The branch of an orbit in one number, from its value in the machine to another one.
+pub(super) fn branch(
+    plan: &MachinePlan,
+    (label, vary, to, points): (Option<Label>, &str, f64, u32),
+    control: &Control<'_>,
+) -> Result<MachineBranched, RunError> {
+    let (machine, start) = plan.problem()?;
+    let from = plan.machine.number(vary).map_err(PlanError::from)?;
+    let cycle = match label {
+        None => match settle(&machine, &start, None, control)?.verdict {
+            MachineVerdict::Periodic(cycle) => cycle,
+            other => return Err(PlanError::NotPeriodic(other.label()).into()),
+        },
+        Some(label) => {
+            let found = orbits(&machine, label, control)?;
+            let stable = found.iter().rev().find(|cycle| cycle.stable());
+            let chosen = stable.or(found.last()).cloned();
+            chosen.ok_or(PlanError::NoMachineOrbit(label))?
+        }
+    };
+    let (source, path) = (plan.machine.clone(), vary.to_owned());
+    let family = MachineFamily::new(move |value| source.with(&path, value).ok()?.machine().ok());
+    let range = from.min(to)..=from.max(to);
+    let direction = if to > from { Direction::Up } else { Direction::Down };
+    let options = BranchOptions { points, ..BranchOptions::default() };
+    let mut branch = MachineBranch::new((&family, from), &cycle, &range, direction, options)
+        .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
+    let mut found = Vec::new();
+    while !control.stopping() {
+        let Some(point) = branch.next() else { return Ok(MachineBranched { points: found }) };
+        found.push(point);
+    }
+    Err(Stopped { done: found.len() as u64, total: u64::from(points) }.into())
+}
