@@ -12,8 +12,6 @@ from vibroimpact._palette import SERIES
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from vibroimpact._machine import MachineSimulation
-
 #: Number of equal steps, and largest numbers of lines, of impacts with a mark each, and of events with both sides.
 _STEPS, _LINES, _MARKED, _SIDES = 4000, 6, 2000, 20_000
 _HATCHES = ("///", "\\\\\\", "---", "...")
@@ -26,8 +24,8 @@ def _intervals(time: NDArray[Any], closed: NDArray[Any]) -> list[tuple[float, fl
     return [(float(time[a]), float(time[b])) for a, b in zip(edges[::2], edges[1::2])]
 
 
-def draw(motion: "MachineSimulation", axes: "Sequence[Axes] | None") -> "NDArray[Any]":
-    """Draw the coordinates, and the contact forces if there are any."""
+def draw(motion: Any, axes: "Sequence[Axes] | None") -> "NDArray[Any]":
+    """Draw the coordinates of a `MachineSimulation`, and the contact forces if there are any."""
     machine, until = motion.machine, motion.shown_until
     # with very many events their sides are not seen
     wave = motion.waveform(until / _STEPS or 1.0, events=len(motion) <= _SIDES)
@@ -78,7 +76,7 @@ def draw(motion: "MachineSimulation", axes: "Sequence[Axes] | None") -> "NDArray
     return drawn
 
 
-def _marked(motion: "MachineSimulation", stop: str, shown: int) -> list[int]:
+def _marked(motion: Any, stop: str, shown: int) -> list[int]:
     """The coordinates on which an impact is marked: those that its stop moves, if they are one or two, or else the one
     that it moves most."""
     names = motion.machine.coordinates[:shown]

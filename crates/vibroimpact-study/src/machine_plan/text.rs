@@ -124,7 +124,7 @@ mod tests {
         let good = "version = 1\n[machine]\nbodies = { a = 1 }\n[task.simulate]\nimpacts = 5\n";
         assert!(MachinePlan::from_text(good, no_files).is_ok());
         for (from, to, said) in [
-            ("impacts", "impact", "unknown field `impact`"),
+            ("impacts", "impact", "task: unexpected keys in table: impact"),
             ("[task.simulate]", "[task.settel]", "task: unknown"),
             ("version = 1", "version = 2", "the plan has version 2"),
             ("impacts = 5", "impacts = 0", "impacts = 0 lies outside"),

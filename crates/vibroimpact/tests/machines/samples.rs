@@ -98,7 +98,7 @@ fn samples_meet_the_events() {
                 }
                 // the surface of a damped stop may not have come back
                 MachineEventKind::Close => {
-                    assert!(before.gaps[event.place] < 1e-12 * size, "{}: {before:?}", case.name)
+                    assert!(before.gaps[event.place] < 1e-12 * size, "{}: {before:?}", case.name);
                 }
                 MachineEventKind::Stick => assert_eq!(after.states[event.place], ContactState::Resting),
                 MachineEventKind::Release => assert_eq!(before.states[event.place], ContactState::Resting),
