@@ -213,10 +213,10 @@ fn the_command_answers_as_the_library_does() {
     let line = "simulate --machine impact-damper --impacts 30";
     assert_eq!(printed(&format!("{line} --json")), answer.json() + "\n");
     let mut table = Vec::new();
-    answer.table(None).unwrap().write(&mut table).unwrap();
+    answer.table(None).unwrap().unwrap().write(&mut table).unwrap();
     assert_eq!(printed(&format!("{line} --csv -")).as_bytes(), table);
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("a.svg");
     printed(&format!("{line} --plot {}", svg.display()));
-    assert_eq!(fs::read_to_string(svg).unwrap(), answer.figure().unwrap().to_svg());
+    assert_eq!(fs::read_to_string(svg).unwrap(), answer.figure().unwrap().unwrap().to_svg());
 }
