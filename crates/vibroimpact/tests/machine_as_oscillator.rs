@@ -15,7 +15,7 @@ const EVENTS: usize = 50;
 /// The change of a state, in roundings of its terms.
 const CHANGE: f64 = 8.0;
 /// How often the sum of all changes the events may differ.
-const OFTEN: f64 = 4.0;
+const OFTEN: f64 = 2.0;
 /// Relative error of the duration of a chatter that is summed: that of a machine has two terms, not three.
 const SUMMED: f64 = 1e-10;
 
@@ -192,7 +192,7 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
     let (sums, determined) = allowed(system, &events);
     let machine = machine(osc);
     let start = MachineStart { q: vec![system.start.x], qdot: vec![system.start.v], phase: system.start.phase };
-    let limits = MachineLimits { time: 2000.0, ..MachineLimits::default() };
+    let limits = MachineLimits { time: 300.0, ..MachineLimits::default() };
     let mut own = MachineMotion::new(&machine, &start, limits).map_err(|error| error.to_string())?;
     let mut next = |tally: &mut Tally| -> Option<MachineEvent> {
         loop {

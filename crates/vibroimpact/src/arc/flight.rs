@@ -24,6 +24,8 @@ pub(super) struct GuardStart {
     pub(super) value: f64,
     /// Size of the terms of this value, for its rounding error.
     pub(super) size: f64,
+    /// The value less the terms of velocities and harmonics: what is added to them at any time.
+    pub(super) constant: f64,
     /// How many of its derivatives, from the value on, are zero there because the flight begins on it.
     pub(super) known: usize,
     /// The amplitudes of its harmonics, turned to the phase of the beginning.
@@ -48,7 +50,7 @@ pub(crate) struct MachineFlight {
     /// The set points of joints that hold.
     set: Vec<f64>,
     /// Sine and cosine of each harmonic at the beginning.
-    turns: Vec<(f64, f64)>,
+    pub(super) turns: Vec<(f64, f64)>,
 }
 
 /// The modes at one time.
@@ -92,9 +94,11 @@ impl MachineFlight {
                 let (known, recovery) = known(guard.kind);
                 let function = &guard.function;
                 let (mut sum, mut size) = (value(&function.signal), function.signal.constant.abs());
+                let mut moving = function.signal.swing(turns);
                 for i in 0..y.len() {
                     let (one, two) = (function.position[i] * y[i], function.velocity[i] * v[i]);
                     sum += one + two;
+                    moving += two;
                     size += one.abs() + two.abs();
                 }
                 if let Some(surface) = recovery {
@@ -102,7 +106,8 @@ impl MachineFlight {
                 }
                 let harmonics: Vec<(f64, f64)> = function.signal.turned(turns).collect();
                 size += harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
-                GuardStart { value: if known > 0 { 0.0 } else { sum }, size, known, harmonics, recovery }
+                let value = if known > 0 { 0.0 } else { sum };
+                GuardStart { value, size, constant: value - moving, known, harmonics, recovery }
             })
             .collect();
         let drive = Drive {

@@ -3,14 +3,29 @@
 //! A polynomial lies within the hull of its Bernstein coefficients: if all are positive, it has no zero. Halving the
 //! interval by de Casteljau's scheme brings them closer to the polynomial.
 
-/// Number of coefficients of a polynomial of the ninth degree.
-pub(super) const TERMS: usize = 10;
+use crate::regime::TERMS;
 
+const ORDER: usize = TERMS - 1;
 /// The interval is halved this many times at most.
 const DEPTH: u32 = 48;
 /// The length of the last interval.
 #[allow(clippy::cast_precision_loss)] // a power of two
 pub(super) const RESOLUTION: f64 = 1.0 / (1_u64 << DEPTH) as f64;
+
+/// $`\binom{k}{j} / \binom{9}{j}`$, row j.
+const FROM_POWERS: [[f64; TERMS]; TERMS] = {
+    let mut table = [[0.0; TERMS]; TERMS];
+    let mut j = 0;
+    while j < TERMS {
+        let mut k = j;
+        while k < TERMS {
+            table[j][k] = TO_BERNSTEIN[k][j];
+            k += 1;
+        }
+        j += 1;
+    }
+    table
+};
 
 /// $`\binom{j}{k} / \binom{9}{k}`$, row j.
 const TO_BERNSTEIN: [[f64; TERMS]; TERMS] = {
@@ -39,8 +54,11 @@ const TO_BERNSTEIN: [[f64; TERMS]; TERMS] = {
 
 fn bernstein(p: &[f64; TERMS]) -> [f64; TERMS] {
     let mut b = [0.0; TERMS];
-    for (value, row) in b.iter_mut().zip(&TO_BERNSTEIN) {
-        *value = p.iter().zip(row).map(|(p, factor)| p * factor).sum();
+    // column by column, so that vector instructions compute several values at once
+    for (p, row) in p.iter().zip(&FROM_POWERS) {
+        for (value, factor) in b.iter_mut().zip(row) {
+            *value += p * factor;
+        }
     }
     b
 }
@@ -55,19 +73,65 @@ pub(super) fn first_zero(p: &[f64; TERMS]) -> Option<f64> {
     if p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0 {
         return None;
     }
-    search(&bernstein(p), 0.0, 1.0, DEPTH)
+    search(p, &bernstein(p), 0.0, 1.0, DEPTH)
+}
+
+/// Whether the Bernstein coefficients change from positive to negative once: then there is one zero, and it is a crossing.
+fn crosses_once(b: &[f64; TERMS]) -> bool {
+    let first = b.iter().position(|value| *value <= 0.0).unwrap_or(TERMS);
+    b[first..].iter().all(|value| *value < 0.0)
+}
+
+/// The crossing of a polynomial that is positive at one point and negative at another, by Newton's method, from below.
+fn crossing(p: &[f64; TERMS], from: f64, width: f64, b: &[f64; TERMS]) -> f64 {
+    let (mut low, mut high) = (from, from + width);
+    // the zero of the line between the ends
+    let mut t = from + width * (b[0] / (b[0] - b[ORDER]));
+    for _ in 0..64 {
+        let (height, slope) = value(p, t);
+        if height > 0.0 {
+            low = t;
+        } else {
+            high = t;
+        }
+        if high - low <= 2.0 * RESOLUTION {
+            break;
+        }
+        let mut next = t - height / slope;
+        if !(next > low && next < high) {
+            next = 0.5 * (low + high);
+        }
+        let moved = (next - t).abs();
+        t = next;
+        if moved <= 0.25 * RESOLUTION {
+            // a point just before it
+            return (t - RESOLUTION).clamp(low, high);
+        }
+    }
+    low
+}
+
+/// Whether the polynomial is positive on [0, 1]; not decided by halving, so `false` may be wrong.
+pub(super) fn is_positive(p: &[f64; TERMS]) -> bool {
+    // all falling terms together cannot reach zero, or the hull is positive
+    p[0] > 0.0
+        && (p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0 || bernstein(p).iter().all(|value| *value > 0.0))
 }
 
 /// The same between two points, from the Bernstein coefficients there.
-fn search(b: &[f64; TERMS], from: f64, width: f64, depth: u32) -> Option<f64> {
+fn search(p: &[f64; TERMS], b: &[f64; TERMS], from: f64, width: f64, depth: u32) -> Option<f64> {
     if b.iter().all(|value| *value > 0.0) {
         return None;
     }
     if b[0] <= 0.0 || depth == 0 {
         return Some(from);
     }
+    if crosses_once(b) {
+        return Some(crossing(p, from, width, b));
+    }
     let (left, right) = halves(b);
-    search(&left, from, 0.5 * width, depth - 1).or_else(|| search(&right, from + 0.5 * width, 0.5 * width, depth - 1))
+    search(p, &left, from, 0.5 * width, depth - 1)
+        .or_else(|| search(p, &right, from + 0.5 * width, 0.5 * width, depth - 1))
 }
 
 /// The Bernstein coefficients on both halves.

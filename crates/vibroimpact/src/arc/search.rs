@@ -13,8 +13,10 @@
 //! told and have no effect.
 
 use super::flight::{MachineFlight, Modes};
-use super::polynomial::{TERMS, falls, first_zero, value};
+use super::polynomial::{falls, first_zero, value};
+use super::track::Track;
 use crate::math::dot;
+use crate::regime::{REACH, TERMS};
 
 /// What ends a flight.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,8 +35,6 @@ pub(crate) struct Touch {
     pub(crate) guard: usize,
 }
 
-/// The window in radians of the fastest rate: the bound of the remainder is about 1e-4 of the motion.
-const REACH: f64 = 1.6;
 const ORDER: usize = TERMS - 1;
 /// How exactly a first zero of a polynomial on [0, 1] is found.
 const RESOLUTION: f64 = super::polynomial::RESOLUTION;
@@ -48,20 +48,23 @@ pub(crate) struct Buffers {
     tenth: Vec<f64>,
     turned: Vec<(f64, f64)>,
     polynomials: Vec<GuardPolynomial>,
+    track: Track,
+    known: Vec<usize>,
+    touched: Vec<bool>,
 }
 
 /// A guard over a window, by powers of the part of the window that has passed.
 #[derive(Clone, Copy, Debug)]
-struct GuardPolynomial {
+pub(super) struct GuardPolynomial {
     /// Its coefficients, with the bound of the remainder in the last place. Zeros at the beginning that are known are not
     /// divided out.
-    p: [f64; TERMS],
+    pub(super) p: [f64; TERMS],
     /// How many of them there are.
-    known: usize,
+    pub(super) known: usize,
     /// A bound of the rounding error of its value.
-    error: f64,
+    pub(super) error: f64,
     /// The size of its terms.
-    size: f64,
+    pub(super) size: f64,
 }
 
 impl GuardPolynomial {
@@ -93,13 +96,32 @@ pub(crate) fn first_event(
     buffers: &mut Buffers,
     touches: &mut Vec<Touch>,
 ) -> Found {
-    let fastest = flight.structure.fastest();
-    let mut known: Vec<usize> = flight.guards.iter().map(|guard| guard.known).collect();
+    let (mut known, mut touched) = (core::mem::take(&mut buffers.known), core::mem::take(&mut buffers.touched));
+    known.clear();
+    known.extend(flight.guards.iter().map(|guard| guard.known));
     // a contact on which the flight begins does not count as a touch
-    let mut touched: Vec<bool> = flight.guards.iter().map(|guard| guard.known > 0).collect();
+    touched.clear();
+    touched.extend(flight.guards.iter().map(|guard| guard.known > 0));
+    let found = search(flight, until, steps, buffers, touches, &mut known, &mut touched);
+    (buffers.known, buffers.touched) = (known, touched);
+    found
+}
+
+fn search(
+    flight: &MachineFlight,
+    until: f64,
+    mut steps: u32,
+    buffers: &mut Buffers,
+    touches: &mut Vec<Touch>,
+    known: &mut [usize],
+    touched: &mut [bool],
+) -> Found {
+    let fastest = flight.structure.fastest();
+    let series = flight.structure.windows.first();
     let mut s = 0.0;
     let mut reach = 1.0;
-    for _ in 0..steps {
+    while steps > 0 {
+        steps -= 1;
         if s >= until {
             return Found::NoneBefore(until);
         }
@@ -108,19 +130,36 @@ pub(crate) fn first_event(
             known.fill(0);
         }
         flight.at(s, &mut buffers.modes);
+        if series.is_some() {
+            buffers.track.settle(flight, &buffers.modes);
+            // a guard that is positive is passed cheaply
+            if reach == 1.0
+                && fastest > 0.0
+                && known.iter().all(|known| *known == 0) && buffers.track.pass(flight, until, &mut steps) {
+                s = buffers.track.s;
+                touched.fill(false);
+                continue;
+            }
+        }
         let surfaces = flight.guards.iter().filter_map(|guard| guard.recovery);
         // a surface that has recovered does not shorten the window
-        let rate =
-            surfaces.filter(|surface| surface.rate * s < 40.0).fold(fastest, |rate, surface| rate.max(surface.rate));
-        let window =
-            (if rate > 0.0 { REACH / rate } else { f64::MAX.sqrt() } * reach).min((until - s) * 1.001 + 1e-300);
-        // without any rate and without end the guards are polynomials of low order; a window must still be finite
-        let window = if window.is_finite() { window } else { 1e150 };
-        expand(flight, window, s, buffers);
+        let rate = surfaces.filter(|surface| surface.rate * s < 40.0).fold(fastest, |rate, surface| {
+            rate.max(surface.rate * crate::system::decay(surface.rate * s / 9.0).0)
+        });
+        let window = (if rate > 0.0 { REACH / rate } else { 1e150 } * reach).min((until - s) * 1.001 + 1e-300);
+        match series {
+            Some(_) => {
+                buffers.track.energies(flight);
+            }
+            None => expand(flight, window, s, buffers),
+        }
         buffers.polynomials.clear();
         let mut first: Option<(f64, usize)> = None;
         for (g, known) in known.iter_mut().enumerate() {
-            let mut of = polynomial(flight, g, window, s, buffers, *known);
+            let mut of = match series {
+                Some(series) => buffers.track.polynomial(flight, g, series, window, *known, &buffers.modes),
+                None => polynomial(flight, g, window, s, buffers, *known),
+            };
             // contacts on which the flight begins are divided out; a derivative that is zero within rounding is zero,
             // and the next one decides
             while of.known > 0

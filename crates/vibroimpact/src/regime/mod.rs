@@ -10,6 +10,7 @@
 //! | the directions in which it is free | `complement` |
 //! | the constant force on its modes at a position | `rest_force` |
 //! | the structure in one regime, its guards | `structure` |
+//! | its motion over windows of one length | `window` |
 
 mod basis;
 mod complement;
@@ -19,9 +20,11 @@ mod normal;
 mod rest_force;
 mod signal;
 mod structure;
+mod window;
 
 pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::{GuardKind, Structure};
+pub(crate) use window::{GuardSeries, REACH, TERMS, Window};

@@ -7,6 +7,7 @@ use super::mode::Mode;
 use super::normal::{Normal, compliant};
 use super::rest_force::{RestContact, RestForce};
 use super::signal::{Observable, Signal};
+use super::window::{Moved, Window, windows};
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
 
@@ -71,6 +72,10 @@ pub(crate) struct Structure {
     pub(crate) rates: Vec<f64>,
     /// What is needed for the constant force on the modes at a given position.
     rest: RestForce,
+    /// Windows of useful lengths, the shortest first; none without modes.
+    pub(crate) windows: Vec<Window>,
+    /// The fastest rate of the free motion and of the forcing.
+    fastest: f64,
 }
 
 impl Structure {
@@ -327,14 +332,21 @@ impl Structure {
             across,
             rates: rates.clone(),
             rest,
+            windows: Vec::new(),
+            fastest: 0.0,
         };
+        structure.fastest = structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
         structure.guards = structure.all_guards(machine, normal);
+        if structure.dense.is_none() {
+            let moved = Moved { modes: &structure.modes, drive: &structure.drive, rates };
+            structure.windows = windows(moved, structure.guards.iter().map(|guard| &guard.function));
+        }
         Some(structure)
     }
 
     /// The fastest rate of the free motion and of the forcing.
-    pub(crate) fn fastest(&self) -> f64 {
-        self.modes.iter().map(|mode| mode.rate).fold(self.rates.last().copied().unwrap_or(0.0), f64::max)
+    pub(crate) const fn fastest(&self) -> f64 {
+        self.fastest
     }
 
     /// $`w\cdot x`$ and its rate.

@@ -1,0 +1,158 @@
+//! The state of a flight that goes on window by window: what is proven free of zeros is passed without the closed form.
+
+use super::flight::{MachineFlight, Modes};
+use super::search::GuardPolynomial;
+use crate::regime::{TERMS, Window};
+
+/// The state at one time: displacement, velocity and force of each mode, cosine and sine of each harmonic, time, one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Track {
+    pub(super) z: Vec<f64>,
+    /// The time, and that at which the state was computed by the closed form.
+    pub(super) s: f64,
+    settled: f64,
+    /// Windows since then.
+    windows: f64,
+    energies: Vec<f64>,
+    faint: Vec<f64>,
+}
+
+/// The state is computed anew after so many windows.
+const WINDOWS: f64 = 32.0;
+const ORDER: usize = TERMS - 1;
+
+impl Track {
+    /// Sets the state to that of the modes at their time.
+    pub(super) fn settle(&mut self, flight: &MachineFlight, modes: &Modes) {
+        self.z.clear();
+        for i in 0..modes.moved.len() {
+            self.z.extend([modes.moved[i], modes.v[i], flight.drive.steady[i] + flight.drive.ramp[i] * modes.s]);
+        }
+        for ((sin, cos), turned) in flight.turns.iter().zip(&modes.turned) {
+            self.z.extend([cos * turned.cos - sin * turned.sin, sin * turned.cos + cos * turned.sin]);
+        }
+        self.z.extend([modes.s, 1.0]);
+        (self.s, self.settled, self.windows) = (modes.s, modes.s, 0.0);
+    }
+
+    /// Whether the state is that of the closed form.
+    pub(super) fn is_settled(&self) -> bool {
+        self.windows == 0.0
+    }
+
+    /// The energies of all modes here, $`\sqrt{\dot y^2 + k(y - q/k)^2}`$.
+    pub(super) fn energies(&mut self, flight: &MachineFlight) -> &[f64] {
+        self.energies.clear();
+        self.energies.extend(flight.structure.modes.iter().zip(self.z.chunks_exact(3)).map(|(mode, z)| {
+            if mode.k > 0.0 {
+                let shifted = z[0] - z[2] / mode.k;
+                (z[1] * z[1] + mode.k * shifted * shifted).sqrt()
+            } else {
+                z[1].abs()
+            }
+        }));
+        &self.energies
+    }
+
+    /// The polynomial of a guard over a time `length` from a state of the closed form, with the first window of the structure;
+    /// the energies are those here.
+    pub(super) fn polynomial(
+        &self,
+        flight: &MachineFlight,
+        g: usize,
+        window: &Window,
+        length: f64,
+        known: usize,
+        modes: &Modes,
+    ) -> GuardPolynomial {
+        let (series, start) = (&window.guards[g], &flight.guards[g]);
+        let mut p = series.at(&self.z);
+        let part = length / window.length;
+        let (value, _, error) = flight.guard(g, modes);
+        p[0] = if known > 0 { 0.0 } else { value };
+        p[ORDER] = series.remainder(&self.energies, &self.z);
+        let mut power = 1.0;
+        for c in &mut p {
+            // in a window without end there are zeros times infinity
+            if *c != 0.0 {
+                *c *= power;
+            }
+            power *= part;
+        }
+        let mut size = p[0].abs();
+        if known > 0 {
+            size += (series.size(&self.z, 1) * part).max(series.size(&self.z, 2) * part * part);
+        }
+        if let Some(surface) = start.recovery {
+            let mut term = surface.size * crate::system::decay(surface.rate * self.s).0;
+            size += term;
+            let (mut bound, mut k) = (term, 1.0);
+            for c in &mut p[1..ORDER] {
+                term *= -surface.rate * length / k;
+                bound *= surface.rate * length / k;
+                *c += term;
+                k += 1.0;
+            }
+            p[ORDER] += bound * surface.rate * length / k;
+        }
+        GuardPolynomial { p, known, error, size }
+    }
+
+    /// Whether no guard has a zero in a part of a window from here.
+    fn clear(&mut self, flight: &MachineFlight, window: &Window, part: f64) -> bool {
+        self.energies(flight);
+        self.faint.clear();
+        self.faint.extend(window.faint.iter().map(|faint| faint.energy(&self.z)));
+        let modes = &flight.structure.modes;
+        window.guards.iter().zip(&flight.guards).all(|(series, start)| {
+            let mut p = series.at(&self.z);
+            let surface = start.recovery.map_or(0.0, |surface| surface.size);
+            p[0] += start.constant - surface - series.lowered(&self.faint);
+            p[0] -= series.rounding(modes, &self.z, self.windows, self.s - self.settled)
+                + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
+            p[ORDER] = -series.remainder(&self.energies, &self.z);
+            if part < 1.0 {
+                let mut power = part;
+                for c in &mut p[1..] {
+                    *c *= power;
+                    power *= part;
+                }
+            }
+            super::polynomial::is_positive(&p)
+        })
+    }
+
+    /// Goes on over windows that are free of zeros, until `until` or up to a window that may have one. Returns whether it has
+    /// moved.
+    pub(super) fn pass(&mut self, flight: &MachineFlight, until: f64, steps: &mut u32) -> bool {
+        let windows = &flight.structure.windows;
+        let (mut level, mut stay) = (0, 0_u32);
+        let from = self.s;
+        while *steps > 0 && self.s < until && self.windows < WINDOWS {
+            let window = &windows[level];
+            let left = until - self.s;
+            let part = if left < window.length { left / window.length } else { 1.0 };
+            *steps -= 1;
+            if self.clear(flight, window, part) {
+                if part < 1.0 {
+                    self.s = until;
+                    break;
+                }
+                window.pass(&mut self.z);
+                self.s += window.length;
+                self.windows += 1.0;
+                if stay > 0 {
+                    stay -= 1;
+                } else if level + 1 < windows.len() {
+                    level += 1;
+                }
+            } else if level > 0 {
+                level -= 1;
+                stay = 2;
+            } else {
+                break;
+            }
+        }
+        self.s > from
+    }
+}
