@@ -8,10 +8,13 @@
 use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::motion::{End, Event, EventKind, Motion};
+use vibroimpact::flight::SearchLimits;
 use vibroimpact::{Oscillator, Side, Start};
 
 const SYSTEMS: usize = 500;
 const EVENTS: usize = 50;
+/// Longer flights are not compared.
+const SEARCH: SearchLimits = SearchLimits { periods: 40.0, steps: 4000 };
 /// The change of a state, in roundings of its terms.
 const CHANGE: f64 = 8.0;
 /// How often the sum of all changes the events may differ.
@@ -111,16 +114,17 @@ fn allowed(system: &System, events: &[Event]) -> (Vec<[f64; 3]>, usize) {
             break;
         }
         let (starts, time) = if begin == 0 {
-            (around(osc, system.start, None), 0.0)
+            (around(osc, system.start, None, 0.0), 0.0)
         } else {
             let last = &events[begin - 1];
+            let flown = last.time - if begin > 1 { events[begin - 2].time } else { 0.0 };
             let at = osc.stop(last.side).unwrap().gap * last.side.sign();
             match last.kind {
                 // what follows is the end of a chatter, or a rest, which forgets what was before
                 _ if events.get(begin).is_none_or(|next| matches!(next.kind, EventKind::Stick { .. })) => continue,
                 EventKind::Impact { velocity_after, .. } => {
                     let v = velocity_after * last.side.sign();
-                    (around(osc, Start { x: at, v, phase: last.phase }, Some(last.side)), last.time)
+                    (around(osc, Start { x: at, v, phase: last.phase }, Some(last.side), flown), last.time)
                 }
                 EventKind::Release => {
                     // the phase of a release is the zero of a force
@@ -131,7 +135,7 @@ fn allowed(system: &System, events: &[Event]) -> (Vec<[f64; 3]>, usize) {
             }
         };
         for (start, late) in starts {
-            let motion = Motion::new(osc, start).filter(|event| !is_graze(event));
+            let motion = Motion::with_limits(osc, start, SEARCH).filter(|event| !is_graze(event));
             let mut changed = motion.take(determined - begin);
             for (k, event) in events.iter().enumerate().take(determined).skip(begin) {
                 let same = changed.next().filter(|other| {
@@ -156,14 +160,16 @@ fn turned(one: f64, other: f64) -> f64 {
     turn.min(core::f64::consts::TAU - turn)
 }
 
-/// States that differ by a few roundings from one, which lies on a stop or nowhere.
-fn around(osc: &Oscillator, start: Start, on: Option<Side>) -> Vec<(Start, f64)> {
+/// States that differ by a few roundings from one, which lies on a stop or nowhere. The time `flown` before has a rounding
+/// error too.
+fn around(osc: &Oscillator, start: Start, on: Option<Side>, flown: f64) -> Vec<(Start, f64)> {
     let size = start.x.abs() + osc.free_amplitude().min(1e3) + start.v.abs();
     let error = CHANGE * f64::EPSILON;
+    let turn = error * (4.0 + osc.beta() * flown);
     let inward = on.map_or(if start.x > 0.0 { -1.0 } else { 1.0 }, |side| -side.sign());
     let moved = |x: f64, v: f64, phase: f64| (Start { x: start.x + x, v: start.v + v, phase: start.phase + phase }, 0.0);
-    let mut all = vec![moved(inward * error * size, 0.0, 0.0), moved(0.0, 0.0, error * 4.0)];
-    all.extend([moved(0.0, inward * error * size, 0.0), moved(0.0, 0.0, -error * 4.0)]);
+    let mut all = vec![moved(inward * error * size, 0.0, 0.0), moved(0.0, 0.0, turn)];
+    all.extend([moved(0.0, inward * error * size, 0.0), moved(0.0, 0.0, -turn)]);
     // a slow rebound keeps its sign
     if start.v * inward > error * size {
         all.push(moved(0.0, -inward * error * size, 0.0));
@@ -184,7 +190,7 @@ struct Tally {
 
 fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
     let osc = &system.oscillator;
-    let mut motion = Motion::new(osc, system.start);
+    let mut motion = Motion::with_limits(osc, system.start, SEARCH);
     let all: Vec<Event> = motion.by_ref().take(EVENTS + 10).collect();
     let end = motion.end();
     tally.grazes[0] += all.iter().filter(|event| is_graze(event)).count();
@@ -245,11 +251,13 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
         }
         let rounding = OFTEN * f64::EPSILON;
         let terms = 1.0 + osc.free_amplitude().min(1e3) + osc.gap().abs();
+        // the time of the flight is rounded, and the speed goes with it
+        let pull = (event.time - last) * (1.0 + osc.gap().abs() + 2.0 * osc.damping() * want.2);
         let release = if event.kind == EventKind::Release { 8.0 / event.phase.cos().abs().max(1e-8) } else { 0.0 };
         let limits = [
             OFTEN * sums[k][0] + rounding * (event.time + release / osc.beta()) + slack,
             OFTEN * sums[k][1] + rounding * (8.0 + release + osc.beta() * event.time) + slack * osc.beta(),
-            OFTEN * sums[k][2] + rounding * terms,
+            OFTEN * sums[k][2] + rounding * (terms + pull),
         ];
         let differ =
             [(got.time - event.time).abs(), turned(got.phase, event.phase), (got.speed - want.2).abs()];

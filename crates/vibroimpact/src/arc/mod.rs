@@ -16,5 +16,5 @@ mod polynomial;
 mod search;
 mod track;
 
-pub(crate) use flight::{MachineFlight, Recovery};
+pub(crate) use flight::{Begin, MachineFlight, Recovery};
 pub(crate) use search::{Buffers, Found, Touch, first_event};

@@ -12,6 +12,9 @@ const DEPTH: u32 = 48;
 #[allow(clippy::cast_precision_loss)] // a power of two
 pub(super) const RESOLUTION: f64 = 1.0 / (1_u64 << DEPTH) as f64;
 
+/// A step of Newton's method of this length is followed by one below the resolution.
+const NEAR: f64 = 1e-9;
+
 /// $`\binom{k}{j} / \binom{9}{j}`$, row j.
 const FROM_POWERS: [[f64; TERMS]; TERMS] = {
     let mut table = [[0.0; TERMS]; TERMS];
@@ -87,26 +90,31 @@ fn crossing(p: &[f64; TERMS], from: f64, width: f64, b: &[f64; TERMS]) -> f64 {
     let (mut low, mut high) = (from, from + width);
     // the zero of the line between the ends
     let mut t = from + width * (b[0] / (b[0] - b[ORDER]));
-    for _ in 0..64 {
+    for round in 0..64 {
         let (height, slope) = value(p, t);
         if height > 0.0 {
-            low = t;
+            low = low.max(t);
         } else {
-            high = t;
+            high = high.min(t);
         }
         if high - low <= 2.0 * RESOLUTION {
             break;
         }
         let mut next = t - height / slope;
-        if !(next > low && next < high) {
+        if !(next > low && next < high) || round > 12 {
             next = 0.5 * (low + high);
         }
-        let moved = (next - t).abs();
-        t = next;
-        if moved <= 0.25 * RESOLUTION {
-            // a point just before it
-            return (t - RESOLUTION).clamp(low, high);
+        // near the zero: points on both sides of it, if the next step would be below the resolution
+        if (next - t).abs() <= NEAR {
+            let (before, behind) = (next - RESOLUTION, next + RESOLUTION);
+            if before > low && value(p, before).0 > 0.0 {
+                low = before;
+            }
+            if behind < high && value(p, behind).0 <= 0.0 {
+                high = behind;
+            }
         }
+        t = next;
     }
     low
 }

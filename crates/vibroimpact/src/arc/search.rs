@@ -36,6 +36,8 @@ pub(crate) struct Touch {
 }
 
 const ORDER: usize = TERMS - 1;
+/// Over this part of a radian of the fastest rate the modes move on by their rates, exact to rounding.
+const NEARBY: f64 = 1e-8;
 /// How exactly a first zero of a polynomial on [0, 1] is found.
 const RESOLUTION: f64 = super::polynomial::RESOLUTION;
 
@@ -51,6 +53,18 @@ pub(crate) struct Buffers {
     track: Track,
     known: Vec<usize>,
     touched: Vec<bool>,
+    /// Whether `modes` are those of the last flight at its first zero.
+    fresh: bool,
+}
+
+impl Buffers {
+    /// The modes of a flight at a time. Those at the first zero of the flight searched last are known.
+    pub(crate) fn modes_at(&mut self, flight: &MachineFlight, s: f64) -> &Modes {
+        if !(core::mem::take(&mut self.fresh) && self.modes.s == s) {
+            flight.at(s, &mut self.modes);
+        }
+        &self.modes
+    }
 }
 
 /// A guard over a window, by powers of the part of the window that has passed.
@@ -65,6 +79,8 @@ pub(super) struct GuardPolynomial {
     pub(super) error: f64,
     /// The size of its terms.
     pub(super) size: f64,
+    /// A point before which it is positive even with its remainder, if it may have a zero.
+    pub(super) from: Option<f64>,
 }
 
 impl GuardPolynomial {
@@ -102,8 +118,10 @@ pub(crate) fn first_event(
     // a contact on which the flight begins does not count as a touch
     touched.clear();
     touched.extend(flight.guards.iter().map(|guard| guard.known > 0));
+    buffers.fresh = false;
     let found = search(flight, until, steps, buffers, touches, &mut known, &mut touched);
     (buffers.known, buffers.touched) = (known, touched);
+    buffers.fresh = matches!(found, Found::Zero { s, .. } if s == buffers.modes.s);
     found
 }
 
@@ -173,7 +191,8 @@ fn search(
             if s > 0.0 && of.p[0] > 4.0 * of.error {
                 touched[g] = false;
             }
-            if let Some(t) = first_zero(&of.beside(-1.0))
+            of.from = first_zero(&of.beside(-1.0));
+            if let Some(t) = of.from
                 && first.is_none_or(|(least, _)| t < least)
             {
                 first = Some((t, g));
@@ -196,7 +215,7 @@ fn search(
             let depth = value(&without_remainder(&p), touch).0;
             if depth < -error - remainder {
                 let at =
-                    refine(flight, g, s + near * window, s + touch * window, RESOLUTION * window, &mut buffers.modes);
+                    refine(flight, g, (s + near * window, s + touch * window), None, RESOLUTION * window, &mut buffers.modes);
                 return Found::Zero { s: at, guards: vec![g] };
             }
             // one touch until the guard is clearly positive again
@@ -223,7 +242,7 @@ fn certain(flight: &MachineFlight, window: f64, s: f64, near: f64, buffers: &mut
     let mut brackets: Vec<(usize, f64, f64)> = Vec::new();
     let mut end = 1.0_f64;
     for (g, of) in buffers.polynomials.iter().enumerate() {
-        let Some(from) = first_zero(&of.beside(-1.0)) else { continue };
+        let Some(from) = of.from else { continue };
         if from > end {
             continue;
         }
@@ -257,7 +276,10 @@ fn certain(flight: &MachineFlight, window: f64, s: f64, near: f64, buffers: &mut
         let at = if of.known > 0 {
             on_polynomial(flight, g, &of.beside(0.0), window, (from, to), &mut buffers.modes)
         } else {
-            refine(flight, g, s + from * window, s + to * window, RESOLUTION * window, &mut buffers.modes)
+            let guess = crossing_of(&without_remainder(&of.p), from, to);
+            let guess = (s + guess.0 * window, guess.1 / (window * window));
+            let bracket = (s + from * window, s + to * window);
+            refine(flight, g, bracket, Some(guess), RESOLUTION * window, &mut buffers.modes)
         };
         best = best.min(at);
         zeros.push((g, at));
@@ -265,6 +287,27 @@ fn certain(flight: &MachineFlight, window: f64, s: f64, near: f64, buffers: &mut
     // the same time within rounding
     let guards = zeros.iter().filter(|(_, at)| *at <= best * (1.0 + 4.0 * f64::EPSILON)).map(|(g, _)| *g).collect();
     Some(Found::Zero { s: best, guards })
+}
+
+/// The zero of a falling polynomial between two points, nearly, and the size of its second derivative.
+fn crossing_of(p: &[f64; TERMS], from: f64, to: f64) -> (f64, f64) {
+    let mut t = 0.5 * (from + to);
+    for _ in 0..3 {
+        let (height, slope) = value(p, t);
+        let next = (t - height / slope).clamp(from, to.max(from));
+        let moved = (next - t).abs();
+        t = next;
+        if moved < 1e-7 {
+            break;
+        }
+    }
+    let mut curvature = 0.0;
+    let mut k = 9.0;
+    for c in p[2..].iter().rev() {
+        curvature = curvature * t + k * (k - 1.0) * c;
+        k -= 1.0;
+    }
+    (t, curvature.abs())
 }
 
 fn without_remainder(p: &[f64; TERMS]) -> [f64; TERMS] {
@@ -297,13 +340,22 @@ fn lowest(p: &[f64; TERMS], from: f64) -> (f64, f64) {
     (touch, (touch - from).max(1e-9) * 2.0)
 }
 
-/// The zero of a guard in a bracket in time, by Newton's method on the closed form.
-fn refine(flight: &MachineFlight, g: usize, from: f64, to: f64, resolution: f64, modes: &mut Modes) -> f64 {
+/// The zero of a guard in a bracket in time, by Newton's method on the closed form. `guess` are a first approximation, in
+/// the bracket, and the second derivative of the guard there. The modes are then those at the zero.
+fn refine(
+    flight: &MachineFlight,
+    g: usize,
+    (from, to): (f64, f64),
+    guess: Option<(f64, f64)>,
+    resolution: f64,
+    modes: &mut Modes,
+) -> f64 {
     let (mut low, mut high) = (from, to.max(from));
-    let mut s = 0.5 * (low + high);
+    let (mut s, curvature) = guess.unwrap_or((0.5 * (low + high), f64::INFINITY));
     // the ends are known to the resolution of the search on the polynomial
     let beside = 4.0 * resolution + 8.0 * f64::EPSILON * high;
     (low, high) = ((low - beside).max(0.0), high + beside);
+    let nearby = if flight.structure.dense.is_none() { NEARBY / flight.structure.fastest() } else { 0.0 };
     for _ in 0..100 {
         flight.at(s, modes);
         let (value, rate, _) = flight.guard(g, modes);
@@ -313,10 +365,17 @@ fn refine(flight: &MachineFlight, g: usize, from: f64, to: f64, resolution: f64,
             high = high.min(s);
         }
         let mut next = s - value / rate;
-        if !(next >= low && next <= high) {
+        let newton = next >= low && next <= high;
+        if !newton {
             next = 0.5 * (low + high);
         }
         let moved = (next - s).abs();
+        // the next step of the method would be below rounding, and the modes move on by their rates
+        if newton && moved <= nearby && 4.0 * curvature * moved * moved <= f64::EPSILON * s * rate.abs() {
+            flight.advance(next - s, modes);
+            modes.s = next;
+            return next;
+        }
         s = next;
         if moved <= f64::EPSILON * s || value == 0.0 || high - low <= f64::EPSILON * high {
             break;
@@ -355,7 +414,7 @@ fn on_polynomial(
         }
     }
     // the remainder is of the ninth order
-    if t < 0.01 { t * window } else { refine(flight, g, from * window, to * window, RESOLUTION * window, modes) }
+    if t < 0.01 { t * window } else { refine(flight, g, (from * window, to * window), None, RESOLUTION * window, modes) }
 }
 
 /// Expands all modes at the current time, with bounds of their ninth and tenth derivatives over the window.
@@ -469,7 +528,7 @@ fn polynomial(
         }
     }
     p[1] += function.signal.ramp;
-    for ((a, b), (turned, w)) in start.harmonics.iter().zip(buffers.modes.turned.iter().zip(&flight.structure.rates)) {
+    for ((a, b), (turned, w)) in flight.harmonics(g).iter().zip(buffers.modes.turned.iter().zip(&flight.structure.rates)) {
         if *a == 0.0 && *b == 0.0 {
             continue;
         }
@@ -502,5 +561,5 @@ fn polynomial(
         power *= window;
     }
     p[ORDER] = remainder;
-    GuardPolynomial { p, known, error, size: size + p[0].abs() }
+    GuardPolynomial { p, known, error, size: size + p[0].abs(), from: None }
 }

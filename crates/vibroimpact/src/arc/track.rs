@@ -95,7 +95,7 @@ impl Track {
             }
             p[ORDER] += bound * surface.rate * length / k;
         }
-        GuardPolynomial { p, known, error, size }
+        GuardPolynomial { p, known, error, size, from: None }
     }
 
     /// Whether no guard has a zero in a part of a window from here.

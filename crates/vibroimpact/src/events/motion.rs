@@ -2,12 +2,12 @@
 
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::impulses::impulses;
-use super::place::{Place, Structures};
+use super::place::{Place, Scratch, Structures};
 use super::resolve::resolve;
 use crate::arc::{Buffers, Found, MachineFlight, Recovery, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{Sum, add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, Normal, compliant};
+use crate::regime::{ContactState, GuardKind, Normal, Structure, compliant};
 use crate::system::phase;
 use std::collections::VecDeque;
 
@@ -39,6 +39,9 @@ pub struct MachineMotion<'a> {
     end: Option<MachineEnd>,
     buffers: Buffers,
     touches: Vec<Touch>,
+    /// The memory of the last flight.
+    spare: Option<MachineFlight>,
+    scratch: Scratch,
     /// Events since the time last advanced.
     crowd: u32,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
@@ -96,6 +99,8 @@ impl<'a> MachineMotion<'a> {
             end: None,
             buffers: Buffers::default(),
             touches: Vec::new(),
+            spare: None,
+            scratch: Scratch::default(),
             crowd: 0,
             largest_impact: 0.0,
         };
@@ -364,10 +369,23 @@ impl<'a> MachineMotion<'a> {
         if restitution >= 1.0 || rebound <= 0.0 {
             return;
         }
+        // the fastest rate of the free motion: the terms that are left out are of its square
+        let Some(free) = self.structures.get(self.machine, &self.normal, &self.place.states) else { return };
+        // the sum over bounces of free bodies under constant forces is exact at any speed: small is what is small beside
+        // the bounces before
+        if free.fastest() == 0.0 && rebound > SMALL * self.largest_impact {
+            return;
+        }
+        self.place.states[j] = ContactState::Resting;
+        let resting = self.structures.get(self.machine, &self.normal, &self.place.states);
         let mut states = self.place.states.clone();
-        states[j] = ContactState::Resting;
-        let Some(structure) = self.structures.get(self.machine, &self.normal, &states) else { return };
+        self.place.states[j] = ContactState::Open;
+        let Some(structure) = resting else { return };
         let Some(held) = structure.held.iter().position(|place| *place == j) else { return };
+        if self.is_far_from_rest(&structure, held, rebound, restitution, free.fastest()) {
+            return;
+        }
+        states[j] = ContactState::Resting;
         // the state at rest: the velocity of the gap taken away, the other constraints unchanged
         let mut there = self.place.clone();
         add_scaled(&mut there.v, rebound, &structure.across[held]);
@@ -382,16 +400,9 @@ impl<'a> MachineMotion<'a> {
         }
         let k = rebound / a;
         let r = 1.0 - restitution;
-        // the fastest rate of the free motion: the terms that are left out are of its square
-        let Some(free) = self.structures.get(self.machine, &self.normal, &self.place.states) else { return };
         let first = 2.0 * k / r;
         let second = -2.0 * (jerk / a * k + 0.5 * drag * k) / (3.0 * r);
         if second.abs() > SMALL || first * free.fastest().max(drag) > 10.0 * SMALL {
-            return;
-        }
-        // the sum over bounces of free bodies under constant forces is exact at any speed: small is what is small beside
-        // the bounces before
-        if free.fastest() == 0.0 && rebound > SMALL * self.largest_impact {
             return;
         }
         let duration = first * (1.0 + second);
@@ -413,10 +424,23 @@ impl<'a> MachineMotion<'a> {
         self.largest_impact = 0.0;
     }
 
+    /// Whether a chatter is far from its end, by the reaction at rest here: a first test without a flight.
+    fn is_far_from_rest(&self, structure: &Structure, held: usize, rebound: f64, restitution: f64, fastest: f64) -> bool {
+        if !self.machine.joints().is_empty() {
+            return false;
+        }
+        let mut v = self.place.v.clone();
+        add_scaled(&mut v, rebound, &structure.across[held]);
+        let (mobility, drag) = structure.mobility[held];
+        let a = mobility * structure.reaction_at(held, &self.place.x, &v, &self.place.turns(&self.normal));
+        let first = 2.0 * rebound / (a * (1.0 - restitution));
+        a <= 0.0 || first * fastest.max(drag) > 11.0 * SMALL
+    }
+
     /// Moves the state to a time after the beginning of a flight.
     fn move_to(&mut self, flight: &MachineFlight, s: f64) {
-        flight.at(s, &mut self.buffers.modes);
-        flight.state(&self.buffers.modes, &mut self.place.x, &mut self.place.v);
+        let modes = self.buffers.modes_at(flight, s);
+        flight.state(modes, &mut self.place.x, &mut self.place.v);
         for surface in &mut self.place.surfaces {
             if let Some(Recovery { size, rate, .. }) = surface {
                 *size *= crate::system::decay(*rate * s).0;
@@ -441,7 +465,7 @@ impl<'a> MachineMotion<'a> {
         let Some(structure) = self.structures.get(self.machine, &self.normal, &self.place.states) else {
             return self.end = Some(MachineEnd::Inconsistent);
         };
-        let flight = self.place.flight(&self.normal, structure.clone());
+        let flight = self.place.fly(&self.normal, structure.clone(), self.spare.take(), &mut self.scratch);
         // the first surface that reaches its holder changes its guard without an event
         let recovered = self
             .place
@@ -482,6 +506,7 @@ impl<'a> MachineMotion<'a> {
                 self.happen(&kinds);
             }
         }
+        self.spare = Some(flight);
     }
 
     /// What follows when these guards are zero.

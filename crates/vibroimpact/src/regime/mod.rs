@@ -25,6 +25,7 @@ mod window;
 pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
+pub(crate) use rest_force::RestBuffers;
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::{GuardKind, Structure};
-pub(crate) use window::{GuardSeries, REACH, TERMS, Window};
+pub(crate) use window::{REACH, TERMS, Window};

@@ -5,7 +5,7 @@ use super::complement::complement;
 use super::contact_state::ContactState;
 use super::mode::Mode;
 use super::normal::{Normal, compliant};
-use super::rest_force::{RestContact, RestForce};
+use super::rest_force::{RestBuffers, RestContact, RestForce};
 use super::signal::{Observable, Signal};
 use super::window::{Moved, Window, windows};
 use crate::machine::{Machine, Opening, StopLaw};
@@ -264,6 +264,7 @@ impl Structure {
             carried: carried.clone(),
             push,
             drift: basis.a[1].clone(),
+            drifts: basis.a[1].largest() > 0.0,
         };
         let (to_y_signal, to_z_signal) = (offset(&to_y), offset(&to_z));
 
@@ -454,26 +455,52 @@ impl Structure {
         v: &[f64],
         turns: &[(f64, f64)],
         gap: impl Fn(usize) -> f64,
-    ) -> Vec<f64> {
-        let (mut push, drift) = self.rest.at(x, v, turns, gap);
+        buffers: &mut RestBuffers,
+        force: &mut Vec<f64>,
+    ) {
+        self.rest.at(x, v, turns, gap, buffers);
+        let (push, drift) = buffers.push_and_drift();
         if self.dense.is_none() {
-            for (i, mode) in self.modes.iter().enumerate() {
-                // and the rate of a ramp in $`P_1`$
-                push[i] += self.slip[i].ramp - mode.k * drift[i];
+            for (push, slip) in push.iter_mut().zip(&self.slip) {
+                // the rate of a ramp in $`P_1`$
+                *push += slip.ramp;
+            }
+            for ((push, drift), mode) in push.iter_mut().zip(drift).zip(&self.modes) {
+                *push -= mode.k * drift;
             }
         }
-        push
+        core::mem::swap(push, force);
     }
 
-    /// The modal state from the mass-normalised one at the beginning of a flight; `at` is the value of a signal there.
-    pub(crate) fn modal(&self, x: &[f64], v: &[f64], at: impl Fn(&Signal) -> f64) -> (Vec<f64>, Vec<f64>) {
-        let of = |maps: &[Matrix; 2], signals: &[Signal]| -> Vec<f64> {
-            (0..self.modes.len()).map(|i| dot(maps[0].row(i), x) + dot(maps[1].row(i), v) - at(&signals[i])).collect()
+    /// The modal displacements and velocities from the mass-normalised state at the beginning of a flight; `at` is the value
+    /// of a signal there.
+    pub(crate) fn modal(&self, x: &[f64], v: &[f64], at: impl Fn(&Signal) -> f64, y: &mut Vec<f64>, rate: &mut Vec<f64>) {
+        let of = |maps: &[Matrix; 2], signals: &[Signal], i: usize| {
+            dot(maps[0].row(i), x) + dot(maps[1].row(i), v) - at(&signals[i])
         };
-        let y = of(&self.to_y, &self.to_y_signal);
-        let z = of(&self.to_z, &self.to_z_signal);
-        let rate = z.iter().zip(&self.slip).map(|(z, slip)| z + at(slip)).collect();
-        (y, rate)
+        y.clear();
+        y.extend((0..self.modes.len()).map(|i| of(&self.to_y, &self.to_y_signal, i)));
+        rate.clear();
+        rate.extend((0..self.modes.len()).map(|i| of(&self.to_z, &self.to_z_signal, i) + at(&self.slip[i])));
+    }
+
+    /// A reaction at a mass-normalised state, if no joint holds; `turns` are sine and cosine of the harmonics.
+    pub(crate) fn reaction_at(&self, held: usize, x: &[f64], v: &[f64], turns: &[(f64, f64)]) -> f64 {
+        let reaction = &self.reactions[held];
+        let at = |signal: &Signal| signal.constant + signal.swing(turns);
+        let mut sum = at(&reaction.signal);
+        for i in 0..self.modes.len() {
+            let (a, b) = (reaction.position[i], reaction.velocity[i]);
+            if a != 0.0 {
+                sum += a
+                    * (dot(self.to_y[0].row(i), x) + dot(self.to_y[1].row(i), v) - at(&self.to_y_signal[i]));
+            }
+            if b != 0.0 {
+                let z = dot(self.to_z[0].row(i), x) + dot(self.to_z[1].row(i), v) - at(&self.to_z_signal[i]);
+                sum += b * (z + at(&self.slip[i]));
+            }
+        }
+        sum
     }
 }
 
