@@ -201,11 +201,19 @@ impl MachineFlight {
             (modes.moved, modes.v) = (moved, v);
             return;
         }
+        if s == 0.0 {
+            modes.moved.resize(self.v.len(), 0.0);
+            modes.error.resize(self.v.len(), 0.0);
+            modes.v.extend_from_slice(&self.v);
+            return;
+        }
         let fastest = self.structure.rates.last().copied().unwrap_or(0.0);
         for (i, mode) in self.structure.modes.iter().enumerate() {
             let turn = s * mode.rate.max(fastest);
             let (moved, v, error) = if turn < SHORT_REACH {
-                self.by_series(i, s, SHORT_TERMS)
+                // the last term is below rounding
+                let terms = if turn < 1e-3 { 6 } else if turn < 0.03 { 9 } else { SHORT_TERMS };
+                self.by_series(i, s, terms)
             } else if turn < LONG_REACH && self.slow(i) {
                 self.by_series(i, s, LONG_TERMS)
             } else {

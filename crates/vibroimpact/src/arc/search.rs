@@ -13,7 +13,7 @@
 //! told and have no effect.
 
 use super::flight::{MachineFlight, Modes};
-use super::polynomial::{falls, first_zero, value};
+use super::polynomial::{falls, first_zero, is_positive, value};
 use super::track::Track;
 use crate::math::dot;
 use crate::regime::{REACH, TERMS};
@@ -84,6 +84,25 @@ pub(super) struct GuardPolynomial {
 }
 
 impl GuardPolynomial {
+    pub(super) fn new(p: [f64; TERMS], known: usize, error: f64, size: f64) -> Self {
+        let mut of = Self { p, known, error, size, from: None };
+        // contacts on which the flight begins are divided out; a derivative that is zero within rounding is zero, and the
+        // next one decides
+        while of.known > 0
+            && of.known < 4
+            && of.p[of.known] <= 0.0
+            && -of.p[of.known] <= 64.0 * f64::EPSILON * of.size
+        {
+            of.known += 1;
+        }
+        of
+    }
+
+    /// Whether it is positive over the window, by a quick test; `false` may be wrong.
+    pub(super) fn is_positive(&self) -> bool {
+        is_positive(&self.beside(-1.0))
+    }
+
     /// The polynomial with its bound of the remainder added or subtracted, and known zeros divided out.
     fn beside(&self, sign: f64) -> [f64; TERMS] {
         let mut q = self.p;
@@ -138,25 +157,52 @@ fn search(
     let series = flight.structure.windows.first();
     let mut s = 0.0;
     let mut reach = 1.0;
+    let mut on_track = false;
     while steps > 0 {
         steps -= 1;
         if s >= until {
             return Found::NoneBefore(until);
         }
+        let mut here = false;
+        if let Some(series) = series
+            && reach == 1.0
+            && fastest > 0.0
+        {
+            // windows without a zero are passed, and a plain zero is found, without the closed form
+            if !on_track {
+                flight.at(s, &mut buffers.modes);
+                buffers.track.settle(flight, &buffers.modes);
+                here = true;
+            }
+            on_track = false;
+            let blocked = buffers.track.pass(flight, until, &mut steps, &mut buffers.polynomials);
+            if buffers.track.s > s {
+                s = buffers.track.s;
+                touched.fill(false);
+                here = false;
+            }
+            let Some(part) = blocked else { continue };
+            let first = first_of(&mut buffers.polynomials);
+            let Some((near, _)) = first else {
+                // no zero after all
+                on_track = part >= 1.0;
+                buffers.track.step(series);
+                s = if on_track { buffers.track.s } else { until };
+                continue;
+            };
+            let standing = flight.guards.iter().any(|guard| guard.recovery.is_some());
+            if !standing && let Some(found) = certain(flight, series.length * part, s, near, buffers) {
+                return found;
+            }
+        }
         // after the beginning of the flight a contact on which it began is a guard as any other
         if s > 0.0 {
             known.fill(0);
         }
-        flight.at(s, &mut buffers.modes);
-        if series.is_some() {
-            buffers.track.settle(flight, &buffers.modes);
-            // a guard that is positive is passed cheaply
-            if reach == 1.0
-                && fastest > 0.0
-                && known.iter().all(|known| *known == 0) && buffers.track.pass(flight, until, &mut steps) {
-                s = buffers.track.s;
-                touched.fill(false);
-                continue;
+        if !here {
+            flight.at(s, &mut buffers.modes);
+            if series.is_some() {
+                buffers.track.settle(flight, &buffers.modes);
             }
         }
         let surfaces = flight.guards.iter().filter_map(|guard| guard.recovery);
@@ -172,34 +218,18 @@ fn search(
             None => expand(flight, window, s, buffers),
         }
         buffers.polynomials.clear();
-        let mut first: Option<(f64, usize)> = None;
         for (g, known) in known.iter_mut().enumerate() {
-            let mut of = match series {
+            let of = match series {
                 Some(series) => buffers.track.polynomial(flight, g, series, window, *known, &buffers.modes),
                 None => polynomial(flight, g, window, s, buffers, *known),
             };
-            // contacts on which the flight begins are divided out; a derivative that is zero within rounding is zero,
-            // and the next one decides
-            while of.known > 0
-                && of.known < 4
-                && of.p[of.known] <= 0.0
-                && -of.p[of.known] <= 64.0 * f64::EPSILON * of.size
-            {
-                of.known += 1;
-            }
             *known = of.known;
             if s > 0.0 && of.p[0] > 4.0 * of.error {
                 touched[g] = false;
             }
-            of.from = first_zero(&of.beside(-1.0));
-            if let Some(t) = of.from
-                && first.is_none_or(|(least, _)| t < least)
-            {
-                first = Some((t, g));
-            }
             buffers.polynomials.push(of);
         }
-        let Some((near, g)) = first else {
+        let Some((near, g)) = first_of(&mut buffers.polynomials) else {
             s += window;
             reach = (reach * 1.5).min(1.0);
             continue;
@@ -235,6 +265,20 @@ fn search(
         }
     }
     Found::NoneBefore(s)
+}
+
+/// The first point where one may be zero, and its guard.
+fn first_of(polynomials: &mut [GuardPolynomial]) -> Option<(f64, usize)> {
+    let mut first: Option<(f64, usize)> = None;
+    for (g, of) in polynomials.iter_mut().enumerate() {
+        of.from = first_zero(&of.beside(-1.0));
+        if let Some(t) = of.from
+            && first.is_none_or(|(least, _)| t < least)
+        {
+            first = Some((t, g));
+        }
+    }
+    first
 }
 
 /// The zero, if it is proven that there is exactly one near `near` for each guard that may be the first.
@@ -561,5 +605,5 @@ fn polynomial(
         power *= window;
     }
     p[ORDER] = remainder;
-    GuardPolynomial { p, known, error, size: size + p[0].abs(), from: None }
+    GuardPolynomial::new(p, known, error, size + p[0].abs())
 }

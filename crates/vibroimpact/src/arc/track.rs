@@ -35,11 +35,6 @@ impl Track {
         (self.s, self.settled, self.windows) = (modes.s, modes.s, 0.0);
     }
 
-    /// Whether the state is that of the closed form.
-    pub(super) fn is_settled(&self) -> bool {
-        self.windows == 0.0
-    }
-
     /// The energies of all modes here, $`\sqrt{\dot y^2 + k(y - q/k)^2}`$.
     pub(super) fn energies(&mut self, flight: &MachineFlight) -> &[f64] {
         self.energies.clear();
@@ -95,22 +90,32 @@ impl Track {
             }
             p[ORDER] += bound * surface.rate * length / k;
         }
-        GuardPolynomial { p, known, error, size, from: None }
+        GuardPolynomial::new(p, known, error, size)
     }
 
-    /// Whether no guard has a zero in a part of a window from here.
-    fn clear(&mut self, flight: &MachineFlight, window: &Window, part: f64) -> bool {
+    /// The polynomials of all guards over a part of a window from here. Faint modes lower them.
+    fn expand(&mut self, flight: &MachineFlight, window: &Window, part: f64, all: &mut Vec<GuardPolynomial>) {
         self.energies(flight);
         self.faint.clear();
         self.faint.extend(window.faint.iter().map(|faint| faint.energy(&self.z)));
         let modes = &flight.structure.modes;
-        window.guards.iter().zip(&flight.guards).all(|(series, start)| {
+        all.clear();
+        for (series, start) in window.guards.iter().zip(&flight.guards) {
             let mut p = series.at(&self.z);
-            let surface = start.recovery.map_or(0.0, |surface| surface.size);
-            p[0] += start.constant - surface - series.lowered(&self.faint);
-            p[0] -= series.rounding(modes, &self.z, self.windows, self.s - self.settled)
-                + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
-            p[ORDER] = -series.remainder(&self.energies, &self.z);
+            let mut known = 0;
+            let (mut error, mut size) = (0.0, 0.0);
+            if self.s == 0.0 && start.known > 0 {
+                known = start.known;
+                p[0] = 0.0;
+                size = series.size(&self.z, 1).max(series.size(&self.z, 2)) * part;
+            } else {
+                // a surface that stands back only adds to the gap
+                let surface = start.recovery.map_or(0.0, |surface| surface.size);
+                p[0] += start.constant - surface - series.lowered(&self.faint);
+                error = series.rounding(modes, &self.z, self.windows, self.s - self.settled)
+                    + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
+            }
+            p[ORDER] = series.remainder(&self.energies, &self.z);
             if part < 1.0 {
                 let mut power = part;
                 for c in &mut p[1..] {
@@ -118,29 +123,40 @@ impl Track {
                     power *= part;
                 }
             }
-            super::polynomial::is_positive(&p)
-        })
+            all.push(GuardPolynomial::new(p, known, error, size));
+        }
     }
 
-    /// Goes on over windows that are free of zeros, until `until` or up to a window that may have one. Returns whether it has
-    /// moved.
-    pub(super) fn pass(&mut self, flight: &MachineFlight, until: f64, steps: &mut u32) -> bool {
+    /// Goes on to the end of a window.
+    pub(super) fn step(&mut self, window: &Window) {
+        window.pass(&mut self.z);
+        self.s += window.length;
+        self.windows += 1.0;
+    }
+
+    /// Goes on over windows that are free of zeros, until `until` or up to a window that may have one. Of that, and of its
+    /// part before `until`, `all` receives the polynomials; `false` if there is none.
+    pub(super) fn pass(
+        &mut self,
+        flight: &MachineFlight,
+        until: f64,
+        steps: &mut u32,
+        all: &mut Vec<GuardPolynomial>,
+    ) -> Option<f64> {
         let windows = &flight.structure.windows;
         let (mut level, mut stay) = (0, 0_u32);
-        let from = self.s;
         while *steps > 0 && self.s < until && self.windows < WINDOWS {
             let window = &windows[level];
             let left = until - self.s;
             let part = if left < window.length { left / window.length } else { 1.0 };
             *steps -= 1;
-            if self.clear(flight, window, part) {
+            self.expand(flight, window, part, all);
+            if all.iter().all(GuardPolynomial::is_positive) {
                 if part < 1.0 {
                     self.s = until;
                     break;
                 }
-                window.pass(&mut self.z);
-                self.s += window.length;
-                self.windows += 1.0;
+                self.step(window);
                 if stay > 0 {
                     stay -= 1;
                 } else if level + 1 < windows.len() {
@@ -150,9 +166,9 @@ impl Track {
                 level -= 1;
                 stay = 2;
             } else {
-                break;
+                return Some(part);
             }
         }
-        self.s > from
+        None
     }
 }
