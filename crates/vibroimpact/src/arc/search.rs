@@ -53,6 +53,7 @@ pub(crate) struct Buffers {
     track: Track,
     known: Vec<usize>,
     touched: Vec<bool>,
+    brackets: Vec<(usize, f64, f64)>,
     /// Whether `modes` are those of the last flight at its first zero.
     fresh: bool,
 }
@@ -283,7 +284,21 @@ fn first_of(polynomials: &mut [GuardPolynomial]) -> Option<(f64, usize)> {
 
 /// The zero, if it is proven that there is exactly one near `near` for each guard that may be the first.
 fn certain(flight: &MachineFlight, window: f64, s: f64, near: f64, buffers: &mut Buffers) -> Option<Found> {
-    let mut brackets: Vec<(usize, f64, f64)> = Vec::new();
+    let mut brackets = core::mem::take(&mut buffers.brackets);
+    brackets.clear();
+    let found = proven(flight, window, s, near, buffers, &mut brackets);
+    buffers.brackets = brackets;
+    found
+}
+
+fn proven(
+    flight: &MachineFlight,
+    window: f64,
+    s: f64,
+    near: f64,
+    buffers: &mut Buffers,
+    brackets: &mut Vec<(usize, f64, f64)>,
+) -> Option<Found> {
     let mut end = 1.0_f64;
     for (g, of) in buffers.polynomials.iter().enumerate() {
         let Some(from) = of.from else { continue };
@@ -314,22 +329,24 @@ fn certain(flight: &MachineFlight, window: f64, s: f64, near: f64, buffers: &mut
         return None;
     }
     let mut best = f64::INFINITY;
-    let mut zeros = Vec::with_capacity(brackets.len());
-    for (g, from, to) in brackets {
+    for (g, from, to) in brackets.iter_mut() {
+        let (g, from, to) = (*g, from, *to);
         let of = buffers.polynomials[g];
         let at = if of.known > 0 {
-            on_polynomial(flight, g, &of.beside(0.0), window, (from, to), &mut buffers.modes)
+            on_polynomial(flight, g, &of.beside(0.0), window, (*from, to), &mut buffers.modes)
         } else {
-            let guess = crossing_of(&without_remainder(&of.p), from, to);
+            let guess = crossing_of(&without_remainder(&of.p), *from, to);
             let guess = (s + guess.0 * window, guess.1 / (window * window));
-            let bracket = (s + from * window, s + to * window);
+            let bracket = (s + *from * window, s + to * window);
             refine(flight, g, bracket, Some(guess), RESOLUTION * window, &mut buffers.modes)
         };
         best = best.min(at);
-        zeros.push((g, at));
+        // its time in the place of its bracket
+        *from = at;
     }
     // the same time within rounding
-    let guards = zeros.iter().filter(|(_, at)| *at <= best * (1.0 + 4.0 * f64::EPSILON)).map(|(g, _)| *g).collect();
+    let together = |at: f64| at <= best * (1.0 + 4.0 * f64::EPSILON);
+    let guards = brackets.iter().filter(|(_, at, _)| together(*at)).map(|(g, ..)| *g).collect();
     Some(Found::Zero { s: best, guards })
 }
 

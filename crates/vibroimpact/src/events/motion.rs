@@ -511,6 +511,13 @@ impl<'a> MachineMotion<'a> {
 
     /// What follows when these guards are zero.
     fn happen(&mut self, kinds: &[GuardKind]) {
+        if let [kind] = *kinds
+            && self.machine.joints().is_empty()
+            && !self.place.states.iter().any(|state| state.constrains())
+            && self.happen_alone(kind)
+        {
+            return;
+        }
         let stops = self.machine.stops().len();
         let before = self.place.states.clone();
         let turns = self.place.turns(&self.normal);
@@ -530,18 +537,7 @@ impl<'a> MachineMotion<'a> {
                     if self.place.states[j] != ContactState::Closed {
                         continue;
                     }
-                    self.place.states[j] = ContactState::Open;
-                    self.place.known.push((GuardKind::Gap(j), 1));
-                    let depth = -self.place.gap(&self.normal, &turns, j).0;
-                    if let (GuardKind::Force(_), StopLaw::Compliant { stiffness, damping, preload, .. }) =
-                        (*kind, &self.machine.stops()[j].law)
-                        && depth > 0.0
-                    {
-                        self.place.surfaces[j] = Some(recovery(*stiffness, *damping, *preload, depth));
-                        // the surface leaves the body with the velocity of the body
-                        self.place.known.retain(|(of, _)| *of != GuardKind::Gap(j));
-                        self.place.known.push((GuardKind::Gap(j), 2));
-                    }
+                    self.open(*kind, j, &turns);
                     fixed.push(j);
                 }
                 GuardKind::Reaction(j) => {
@@ -571,6 +567,68 @@ impl<'a> MachineMotion<'a> {
             }
         }
         self.change(&before, &closing, candidates, &fixed);
+    }
+}
+
+/// Events that change one stop and nothing else: no joint is there, and nothing rests. They are what most motions consist
+/// of; the general way above does the same with them.
+impl MachineMotion<'_> {
+    /// Whether the event at this guard was one of them.
+    fn happen_alone(&mut self, kind: GuardKind) -> bool {
+        let turns = self.place.turns(&self.normal);
+        match kind {
+            GuardKind::Gap(j) => {
+                let (gap, rate, ..) = self.place.gap(&self.normal, &turns, j);
+                let speed = (-rate).max(0.0);
+                let w = &self.normal.directions[j];
+                let square = dot(w, w);
+                match self.machine.stops()[j].law {
+                    StopLaw::Rigid { restitution } => {
+                        if restitution * speed <= 0.0 {
+                            return false;
+                        }
+                        // on the stop exactly, without the rounding error of the time
+                        add_scaled(&mut self.place.x, gap / square, w);
+                        let impulse = -((1.0 + restitution) * -speed) / square;
+                        add_scaled(&mut self.place.v, -impulse, w);
+                        self.largest_impact = self.largest_impact.max(speed);
+                        self.place.known.push((GuardKind::Gap(j), 1));
+                        self.announce(MachineEventKind::Impact, j, speed, Vec::new());
+                        self.complete(j);
+                    }
+                    StopLaw::Compliant { .. } => {
+                        if self.place.surfaces[j].take().is_none() {
+                            add_scaled(&mut self.place.x, gap / square, w);
+                            self.place.known.push((GuardKind::Depth(j), 1));
+                        }
+                        self.place.states[j] = ContactState::Closed;
+                        self.announce(MachineEventKind::Close, j, speed, Vec::new());
+                    }
+                }
+            }
+            GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
+                self.open(kind, j, &turns);
+                self.announce(MachineEventKind::Open, j, 0.0, Vec::new());
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// Opens a compliant stop.
+    fn open(&mut self, kind: GuardKind, j: usize, turns: &[(f64, f64)]) {
+        self.place.states[j] = ContactState::Open;
+        let depth = -self.place.gap(&self.normal, turns, j).0;
+        let mut known = 1;
+        if let (GuardKind::Force(_), StopLaw::Compliant { stiffness, damping, preload, .. }) =
+            (kind, &self.machine.stops()[j].law)
+            && depth > 0.0
+        {
+            self.place.surfaces[j] = Some(recovery(*stiffness, *damping, *preload, depth));
+            // the surface leaves the body with the velocity of the body
+            known = 2;
+        }
+        self.place.known.push((GuardKind::Gap(j), known));
     }
 }
 
