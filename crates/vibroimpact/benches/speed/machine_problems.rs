@@ -27,28 +27,28 @@ pub(crate) fn chain() -> Problem {
         .with_mass(1, 1.0)
         .with_link(&[1.0, -1.0], 1.0, 0.03)
         .with_link(&[0.0, 1.0], 1.0, 0.03)
-        .with_frequency(1.3)
+        .with_frequency(1.8)
         .with_force(1, 1, 0.0, 1.0)
         .with_rigid_stop("wall", &[1.0, 0.0], 0.2, 0.8);
     problem("chain", parts, &[-0.5, 0.1])
 }
 
-/// A mass on a spring that strikes a stiff damped stop: chaotic.
+/// A mass on a spring that strikes a stiff elastic stop: chaotic.
 pub(crate) fn soft() -> Problem {
-    let law = StopLaw::Compliant { stiffness: 40.0, damping: 0.2, preload: 0.0, opening: Opening::Force };
+    let law = StopLaw::Compliant { stiffness: 40.0, damping: 0.0, preload: 0.0, opening: Opening::Force };
     let parts = MachineParts::new(["x"])
         .with_mass(0, 1.0)
         .with_link(&[1.0], 1.0, 0.04)
         .with_frequency(2.7)
         .with_force(0, 1, 0.0, 1.0)
-        .with_stop("stop", &[1.0], 0.05, law);
+        .with_stop("stop", &[1.0], 0.0, law);
     problem("soft", parts, &[-0.5])
 }
 
 /// A cantilever of this many modes on a shaken base, whose tip strikes a rigid stop.
 pub(crate) fn beam(modes: usize) -> Problem {
     let names: Vec<String> = (1..=modes).map(|k| format!("mode{k}")).collect();
-    let mut parts = MachineParts::new(names).with_frequency(0.8);
+    let mut parts = MachineParts::new(names).with_frequency(1.3);
     let mut direction = vec![0.0; modes];
     for (i, tip) in direction.iter_mut().enumerate() {
         let odd = f64::from(u32::try_from(i).unwrap_or(0)) + 0.5;
@@ -65,7 +65,7 @@ pub(crate) fn beam(modes: usize) -> Problem {
         *tip = 2.0 * sign;
         parts = parts.with_force(i, 1, 0.0, 0.5 * 2.0 * sigma / k);
     }
-    problem("beam", parts.with_rigid_stop("stop", &direction, 0.5, 0.6), &[])
+    problem("beam", parts.with_rigid_stop("stop", &direction, 0.5, 0.95), &[])
 }
 
 /// A free ball between two walls, which move with different harmonics.
