@@ -41,6 +41,9 @@ const NEARBY: f64 = 1e-8;
 /// How exactly a first zero of a polynomial on [0, 1] is found.
 const RESOLUTION: f64 = super::polynomial::RESOLUTION;
 
+/// Up to this part of a window the remainder of the polynomial, of the ninth order, is below rounding.
+const NEAR: f64 = 0.01;
+
 /// Buffers of a search, kept from flight to flight.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Buffers {
@@ -332,11 +335,24 @@ fn proven(
     for (g, from, to) in brackets.iter_mut() {
         let (g, from, to) = (*g, from, *to);
         let of = buffers.polynomials[g];
+        // a first approximation: nearly exact by the series of all powers
+        let guess = || {
+            let (t, curvature) = crossing_of(&without_remainder(&of.p), *from, to);
+            match flight.structure.windows.first() {
+                Some(series) if flight.guards[g].recovery.is_none() => {
+                    buffers.track.sharp(flight, series, g, t * window / series.length)
+                }
+                _ => (s + t * window, curvature / (window * window)),
+            }
+        };
         let at = if of.known > 0 {
-            on_polynomial(flight, g, &of.beside(0.0), window, (*from, to), &mut buffers.modes)
+            let bracket = (*from, to);
+            on_polynomial(&of.beside(0.0), window, bracket).unwrap_or_else(|| {
+                let bracket = (*from * window, to * window);
+                refine(flight, g, bracket, Some(guess()), RESOLUTION * window, &mut buffers.modes)
+            })
         } else {
-            let guess = crossing_of(&without_remainder(&of.p), *from, to);
-            let guess = (s + guess.0 * window, guess.1 / (window * window));
+            let guess = guess();
             let bracket = (s + *from * window, s + to * window);
             refine(flight, g, bracket, Some(guess), RESOLUTION * window, &mut buffers.modes)
         };
@@ -416,6 +432,7 @@ fn refine(
     // the ends are known to the resolution of the search on the polynomial
     let beside = 4.0 * resolution + 8.0 * f64::EPSILON * high;
     (low, high) = ((low - beside).max(0.0), high + beside);
+    s = if s.is_nan() { 0.5 * (low + high) } else { s.clamp(low, high) };
     let nearby = if flight.structure.dense.is_none() { NEARBY / flight.structure.fastest() } else { 0.0 };
     for _ in 0..100 {
         flight.at(s, modes);
@@ -445,16 +462,15 @@ fn refine(
     s
 }
 
-/// The zero of a guard on which the flight began. Over a short time it is that of the polynomial itself, whose remainder
-/// is below rounding; else it is refined with the closed form.
+/// The zero of a guard on which the flight began, if it is so near that the remainder of the polynomial is below rounding.
 fn on_polynomial(
-    flight: &MachineFlight,
-    g: usize,
     q: &[f64; TERMS],
     window: f64,
     (from, to): (f64, f64),
-    modes: &mut Modes,
-) -> f64 {
+) -> Option<f64> {
+    if from > NEAR {
+        return None;
+    }
     let (mut low, mut high) = ((from - 4.0 * RESOLUTION).max(0.0), to + 4.0 * RESOLUTION);
     let mut t = 0.5 * (low + high);
     for _ in 0..100 {
@@ -474,8 +490,7 @@ fn on_polynomial(
             break;
         }
     }
-    // the remainder is of the ninth order
-    if t < 0.01 { t * window } else { refine(flight, g, (from * window, to * window), None, RESOLUTION * window, modes) }
+    (t < NEAR).then_some(t * window)
 }
 
 /// Expands all modes at the current time, with bounds of their ninth and tenth derivatives over the window.

@@ -2,7 +2,7 @@
 
 use super::flight::{MachineFlight, Modes};
 use super::search::GuardPolynomial;
-use crate::regime::{TERMS, Window};
+use crate::regime::{ALL, TERMS, Window};
 
 /// The state at one time: displacement, velocity and force of each mode, cosine and sine of each harmonic, time, one.
 #[derive(Clone, Debug, Default)]
@@ -125,6 +125,30 @@ impl Track {
             }
             all.push(GuardPolynomial::new(p, known, error, size));
         }
+    }
+
+    /// A zero of a guard near a part `t` of a window from here, by the series of all powers, and the second derivative there,
+    /// both in time.
+    pub(super) fn sharp(&self, flight: &MachineFlight, window: &Window, g: usize, t: f64) -> (f64, f64) {
+        let mut c: [f64; ALL] = window.guards[g].all(&self.z);
+        let start = &flight.guards[g];
+        c[0] = if self.s == 0.0 && start.known > 0 { 0.0 } else { c[0] + start.constant };
+        let (mut t, mut bend) = (t, 0.0);
+        for _ in 0..6 {
+            let (mut value, mut slope) = (0.0, 0.0);
+            bend = 0.0;
+            for c in c.iter().rev() {
+                bend = bend * t + slope;
+                slope = slope * t + value;
+                value = value * t + c;
+            }
+            let step = value / slope;
+            t -= step;
+            if step.abs() < 1e-8 || step.is_nan() {
+                break;
+            }
+        }
+        (self.s + t * window.length, 2.0 * bend.abs() / (window.length * window.length))
     }
 
     /// Goes on to the end of a window.

@@ -15,6 +15,10 @@ use crate::math::hypot;
 /// Number of coefficients of a polynomial of the ninth degree: eight powers, and the remainder.
 pub(crate) const TERMS: usize = 10;
 const ORDER: usize = TERMS - 1;
+/// Number of higher powers, with which the series is exact to about 1e-15 of the motion.
+const TAIL: usize = 11;
+/// Number of all powers.
+pub(crate) const ALL: usize = ORDER + TAIL;
 /// The window in radians of the fastest rate: the bound of the remainder is about 1e-4 of the motion.
 pub(crate) const REACH: f64 = 1.6;
 /// Each longer window leaves out modes until the fastest rate that remains is below this part of the one before.
@@ -52,6 +56,8 @@ struct Step {
 pub(crate) struct GuardSeries {
     /// The coefficients for each element of the state.
     rows: Vec<[f64; TERMS]>,
+    /// Those of higher powers, from the ninth on; in the shortest window only.
+    tail: Vec<[f64; TAIL]>,
     /// Remainder per energy of a mode, per force on it, and of the harmonics.
     energy: Vec<f64>,
     push: Vec<f64>,
@@ -243,15 +249,23 @@ impl GuardSeries {
         }
         let mut rows = vec![[0.0; TERMS]; row.len()];
         let (mut size, mut k) = (1.0, 1.0);
-        for order in 0..ORDER {
-            for (to, value) in rows.iter_mut().zip(&row) {
-                to[order] = size * value;
+        let mut tail = if faint.is_empty() { vec![[0.0; TAIL]; row.len()] } else { Vec::new() };
+        for order in 0..ALL {
+            if order < ORDER {
+                for (to, value) in rows.iter_mut().zip(&row) {
+                    to[order] = size * value;
+                }
+            }
+            if order >= ORDER {
+                for (to, value) in tail.iter_mut().zip(&row) {
+                    to[order - ORDER] = size * value;
+                }
             }
             row = of.derivative(&row);
             size *= length / k;
             k += 1.0;
         }
-        Self { rows, energy, push, constant, faint: lost }
+        Self { rows, tail, energy, push, constant, faint: lost }
     }
 
     /// The coefficients at a state, without the remainder, which is in the last place of none.
@@ -263,6 +277,20 @@ impl GuardSeries {
             }
         }
         p
+    }
+
+    /// The coefficients of all powers at a state.
+    pub(crate) fn all(&self, z: &[f64]) -> [f64; ALL] {
+        let mut all = [0.0; ALL];
+        all[..TERMS].copy_from_slice(&self.at(z));
+        let mut tail = [0.0; TAIL];
+        for (row, z) in self.tail.iter().zip(z) {
+            for (sum, factor) in tail.iter_mut().zip(row) {
+                *sum += z * factor;
+            }
+        }
+        all[ORDER..].copy_from_slice(&tail);
+        all
     }
 
     /// The size of the terms of a coefficient.
