@@ -3,7 +3,7 @@
 //! A polynomial lies within the hull of its Bernstein coefficients: if all are positive, it has no zero. Halving the
 //! interval by de Casteljau's scheme brings them closer to the polynomial.
 
-use crate::regime::TERMS;
+use crate::regime::{TERMS, bernstein};
 
 const ORDER: usize = TERMS - 1;
 /// The interval is halved this many times at most.
@@ -14,57 +14,6 @@ pub(super) const RESOLUTION: f64 = 1.0 / (1_u64 << DEPTH) as f64;
 
 /// A step of Newton's method of this length is followed by one below the resolution.
 const NEAR: f64 = 1e-9;
-
-/// $`\binom{k}{j} / \binom{9}{j}`$, row j.
-const FROM_POWERS: [[f64; TERMS]; TERMS] = {
-    let mut table = [[0.0; TERMS]; TERMS];
-    let mut j = 0;
-    while j < TERMS {
-        let mut k = j;
-        while k < TERMS {
-            table[j][k] = TO_BERNSTEIN[k][j];
-            k += 1;
-        }
-        j += 1;
-    }
-    table
-};
-
-/// $`\binom{j}{k} / \binom{9}{k}`$, row j.
-const TO_BERNSTEIN: [[f64; TERMS]; TERMS] = {
-    let mut table = [[0.0; TERMS]; TERMS];
-    let mut j = 0;
-    while j < TERMS {
-        let mut k = 0;
-        let mut value = 1.0;
-        let (mut top, mut bottom) = (j, TERMS - 1);
-        while k <= j {
-            table[j][k] = value;
-            if k < j {
-                #[allow(clippy::cast_precision_loss)]
-                {
-                    value = value * (top as f64) / (bottom as f64);
-                }
-                top -= 1;
-                bottom -= 1;
-            }
-            k += 1;
-        }
-        j += 1;
-    }
-    table
-};
-
-fn bernstein(p: &[f64; TERMS]) -> [f64; TERMS] {
-    let mut b = [0.0; TERMS];
-    // column by column, so that vector instructions compute several values at once
-    for (p, row) in p.iter().zip(&FROM_POWERS) {
-        for (value, factor) in b.iter_mut().zip(row) {
-            *value += p * factor;
-        }
-    }
-    b
-}
 
 /// A point of [0, 1] before which `p`, given by its coefficients in powers, is positive and near which it is not; `None`
 /// if it is positive on the whole interval.

@@ -93,14 +93,32 @@ impl Track {
         GuardPolynomial::new(p, known, error, size)
     }
 
-    /// The polynomials of all guards over a part of a window from here. Faint modes lower them.
-    fn expand(&mut self, flight: &MachineFlight, window: &Window, part: f64, all: &mut Vec<GuardPolynomial>) {
-        self.energies(flight);
+    /// What the constant terms of a guard are here, lowered by its surface and by faint modes, and the bound of the rounding
+    /// errors of the guard.
+    fn constant(&self, flight: &MachineFlight, window: &Window, g: usize) -> (f64, f64) {
+        let (series, start) = (&window.guards[g], &flight.guards[g]);
+        // a surface that stands back only adds to the gap
+        let surface = start.recovery.map_or(0.0, |surface| surface.size);
+        let faint: f64 = if window.faint.is_empty() { 0.0 } else { series.lowered(&self.faint) };
+        let error = series.rounding(&flight.structure.modes, &self.z, self.windows, self.s - self.settled)
+            + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
+        (start.constant - surface - faint, error)
+    }
+
+    /// Whether all guards are positive in the whole window, by their hulls.
+    fn clear(&mut self, flight: &MachineFlight, window: &Window) -> bool {
         self.faint.clear();
         self.faint.extend(window.faint.iter().map(|faint| faint.energy(&self.z)));
-        let modes = &flight.structure.modes;
+        window.guards.iter().enumerate().all(|(g, series)| {
+            let (constant, error) = self.constant(flight, window, g);
+            series.lowest(&self.z, constant - error, series.remainder(&self.energies, &self.z)) > 0.0
+        })
+    }
+
+    /// The polynomials of all guards over a part of the shortest window from here.
+    fn expand(&self, flight: &MachineFlight, window: &Window, part: f64, all: &mut Vec<GuardPolynomial>) {
         all.clear();
-        for (series, start) in window.guards.iter().zip(&flight.guards) {
+        for (g, (series, start)) in window.guards.iter().zip(&flight.guards).enumerate() {
             let mut p = series.at(&self.z);
             let mut known = 0;
             let (mut error, mut size) = (0.0, 0.0);
@@ -109,11 +127,9 @@ impl Track {
                 p[0] = 0.0;
                 size = series.size(&self.z, 1).max(series.size(&self.z, 2)) * part;
             } else {
-                // a surface that stands back only adds to the gap
-                let surface = start.recovery.map_or(0.0, |surface| surface.size);
-                p[0] += start.constant - surface - series.lowered(&self.faint);
-                error = series.rounding(modes, &self.z, self.windows, self.s - self.settled)
-                    + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
+                let (constant, bound) = self.constant(flight, window, g);
+                p[0] += constant;
+                error = bound;
             }
             p[ORDER] = series.remainder(&self.energies, &self.z);
             if part < 1.0 {
@@ -170,12 +186,21 @@ impl Track {
         let windows = &flight.structure.windows;
         let (mut level, mut stay) = (0, 0_u32);
         while *steps > 0 && self.s < until && self.windows < WINDOWS {
-            let window = &windows[level];
             let left = until - self.s;
+            while level > 0 && left < windows[level].length {
+                level -= 1;
+            }
+            let window = &windows[level];
             let part = if left < window.length { left / window.length } else { 1.0 };
             *steps -= 1;
-            self.expand(flight, window, part, all);
-            if all.iter().all(GuardPolynomial::is_positive) {
+            self.energies(flight);
+            let free = if self.s > 0.0 && part == 1.0 {
+                self.clear(flight, window)
+            } else {
+                self.expand(flight, window, part, all);
+                all.iter().all(GuardPolynomial::is_positive)
+            };
+            if free {
                 if part < 1.0 {
                     self.s = until;
                     break;
@@ -190,6 +215,9 @@ impl Track {
                 level -= 1;
                 stay = 2;
             } else {
+                if self.s > 0.0 && part == 1.0 {
+                    self.expand(flight, window, part, all);
+                }
                 return Some(part);
             }
         }

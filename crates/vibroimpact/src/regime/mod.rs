@@ -10,9 +10,11 @@
 //! | the directions in which it is free | `complement` |
 //! | the constant force on its modes at a position | `rest_force` |
 //! | the structure in one regime, its guards | `structure` |
+//! | polynomials in Bernstein's form | `bernstein` |
 //! | its motion over windows of one length | `window` |
 
 mod basis;
+mod bernstein;
 mod complement;
 mod contact_state;
 mod mode;
@@ -22,10 +24,11 @@ mod signal;
 mod structure;
 mod window;
 
+pub(crate) use bernstein::{TERMS, bernstein};
 pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::{GuardKind, Structure};
-pub(crate) use window::{ALL, REACH, TERMS, Window};
+pub(crate) use window::{ALL, REACH, Window};

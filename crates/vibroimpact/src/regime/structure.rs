@@ -72,6 +72,11 @@ pub(crate) struct Structure {
     pub(crate) rates: Vec<f64>,
     /// What is needed for the constant force on the modes at a given position.
     rest: RestForce,
+    /// Whether modal displacements are combinations of coordinates alone, and modal velocities of velocities alone: no damping
+    /// couples modes, and no constraint moves.
+    plain: bool,
+    /// The reactions as functions of the mass-normalised state.
+    pressing: Vec<Pressing>,
     /// Windows of useful lengths, the shortest first; none without modes.
     pub(crate) windows: Vec<Window>,
     /// The fastest rate of the free motion and of the forcing.
@@ -333,9 +338,18 @@ impl Structure {
             across,
             rates: rates.clone(),
             rest,
+            plain: false,
+            pressing: Vec::new(),
             windows: Vec::new(),
             fastest: 0.0,
         };
+        let still = |signals: &[Signal]| signals.iter().all(Signal::is_zero);
+        structure.plain = structure.to_y[1].largest() == 0.0
+            && structure.to_z[0].largest() == 0.0
+            && still(&structure.to_y_signal)
+            && still(&structure.to_z_signal)
+            && still(&structure.slip);
+        structure.pressing = structure.reactions.iter().map(|reaction| structure.pressing(reaction)).collect();
         structure.fastest = structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
         structure.guards = structure.all_guards(machine, normal);
         if structure.dense.is_none() {
@@ -475,33 +489,52 @@ impl Structure {
     /// The modal displacements and velocities from the mass-normalised state at the beginning of a flight; `at` is the value
     /// of a signal there.
     pub(crate) fn modal(&self, x: &[f64], v: &[f64], at: impl Fn(&Signal) -> f64, y: &mut Vec<f64>, rate: &mut Vec<f64>) {
+        y.clear();
+        rate.clear();
+        let modes = 0..self.modes.len();
+        if self.plain {
+            y.extend(modes.clone().map(|i| dot(self.to_y[0].row(i), x)));
+            rate.extend(modes.map(|i| dot(self.to_z[1].row(i), v)));
+            return;
+        }
         let of = |maps: &[Matrix; 2], signals: &[Signal], i: usize| {
             dot(maps[0].row(i), x) + dot(maps[1].row(i), v) - at(&signals[i])
         };
-        y.clear();
-        y.extend((0..self.modes.len()).map(|i| of(&self.to_y, &self.to_y_signal, i)));
-        rate.clear();
-        rate.extend((0..self.modes.len()).map(|i| of(&self.to_z, &self.to_z_signal, i) + at(&self.slip[i])));
+        y.extend(modes.clone().map(|i| of(&self.to_y, &self.to_y_signal, i)));
+        rate.extend(modes.map(|i| of(&self.to_z, &self.to_z_signal, i) + at(&self.slip[i])));
     }
 
-    /// A reaction at a mass-normalised state, if no joint holds; `turns` are sine and cosine of the harmonics.
-    pub(crate) fn reaction_at(&self, held: usize, x: &[f64], v: &[f64], turns: &[(f64, f64)]) -> f64 {
-        let reaction = &self.reactions[held];
-        let at = |signal: &Signal| signal.constant + signal.swing(turns);
-        let mut sum = at(&reaction.signal);
+    /// A linear function of the modes as one of the mass-normalised state.
+    fn pressing(&self, of: &Observable) -> Pressing {
+        let n = self.x.len();
+        let mut pressing = Pressing { x: vec![0.0; n], v: vec![0.0; n], signal: of.signal.clone() };
         for i in 0..self.modes.len() {
-            let (a, b) = (reaction.position[i], reaction.velocity[i]);
-            if a != 0.0 {
-                sum += a
-                    * (dot(self.to_y[0].row(i), x) + dot(self.to_y[1].row(i), v) - at(&self.to_y_signal[i]));
-            }
-            if b != 0.0 {
-                let z = dot(self.to_z[0].row(i), x) + dot(self.to_z[1].row(i), v) - at(&self.to_z_signal[i]);
-                sum += b * (z + at(&self.slip[i]));
-            }
+            let (a, b) = (of.position[i], of.velocity[i]);
+            add_scaled(&mut pressing.x, a, self.to_y[0].row(i));
+            add_scaled(&mut pressing.v, a, self.to_y[1].row(i));
+            add_scaled(&mut pressing.x, b, self.to_z[0].row(i));
+            add_scaled(&mut pressing.v, b, self.to_z[1].row(i));
+            pressing.signal.add(-a, &self.to_y_signal[i]);
+            pressing.signal.add(-b, &self.to_z_signal[i]);
+            pressing.signal.add(b, &self.slip[i]);
         }
-        sum
+        pressing
     }
+
+    /// A reaction at a mass-normalised state, if no joint holds, to rounding of its terms; `turns` are sine and cosine of the
+    /// harmonics.
+    pub(crate) fn reaction_at(&self, held: usize, x: &[f64], v: &[f64], turns: &[(f64, f64)]) -> f64 {
+        let Pressing { x: by_x, v: by_v, signal } = &self.pressing[held];
+        signal.constant + signal.swing(turns) + dot(by_x, x) + dot(by_v, v)
+    }
+}
+
+/// A linear function of the mass-normalised state.
+#[derive(Clone, Debug)]
+struct Pressing {
+    x: Vec<f64>,
+    v: Vec<f64>,
+    signal: Signal,
 }
 
 /// A closed stop.

@@ -8,12 +8,12 @@
 //! forcing, which is as slow as the forcing, and of a free part whose energy does not grow: an interval, by which the
 //! guard may be lower.
 
+use super::bernstein::{TERMS, bernstein};
 use super::mode::Mode;
 use super::signal::{Observable, Signal};
 use crate::math::hypot;
 
-/// Number of coefficients of a polynomial of the ninth degree: eight powers, and the remainder.
-pub(crate) const TERMS: usize = 10;
+/// Eight powers are expanded; the ninth is the remainder.
 const ORDER: usize = TERMS - 1;
 /// Number of higher powers, with which the series is exact to about 1e-15 of the motion.
 const TAIL: usize = 11;
@@ -56,8 +56,12 @@ struct Step {
 pub(crate) struct GuardSeries {
     /// The coefficients for each element of the state.
     rows: Vec<[f64; TERMS]>,
+    /// The same in Bernstein's form: all are positive only if the series is positive in the whole window.
+    hull: Vec<[f64; TERMS]>,
     /// Those of higher powers, from the ninth on; in the shortest window only.
     tail: Vec<[f64; TAIL]>,
+    /// Sizes of the factors of displacements and velocities.
+    factors: Vec<[f64; 2]>,
     /// Remainder per energy of a mode, per force on it, and of the harmonics.
     energy: Vec<f64>,
     push: Vec<f64>,
@@ -265,7 +269,25 @@ impl GuardSeries {
             size *= length / k;
             k += 1.0;
         }
-        Self { rows, tail, energy, push, constant, faint: lost }
+        // prescribed functions of time are rare: their elements are the last
+        let used = rows.iter().rposition(|row| row.iter().any(|value| *value != 0.0)).map_or(0, |last| last + 1);
+        rows.truncate(used);
+        tail.truncate(used);
+        let hull = rows.iter().map(bernstein).collect();
+        let factors = guard.position.iter().zip(&guard.velocity).map(|(a, b)| [a.abs(), b.abs()]).collect();
+        Self { rows, hull, tail, factors, energy, push, constant, faint: lost }
+    }
+
+    /// The least coefficient in Bernstein's form at a state, with `constant` added and the remainder taken away.
+    pub(crate) fn lowest(&self, z: &[f64], constant: f64, remainder: f64) -> f64 {
+        let mut b = [constant; TERMS];
+        for (row, z) in self.hull.iter().zip(z) {
+            for (sum, factor) in b.iter_mut().zip(row) {
+                *sum += z * factor;
+            }
+        }
+        b[ORDER] -= remainder;
+        b.iter().fold(f64::INFINITY, |least, value| if *value < least { *value } else { least })
     }
 
     /// The coefficients at a state, without the remainder, which is in the last place of none.
@@ -315,15 +337,14 @@ impl GuardSeries {
     /// A bound of the rounding errors of the value at a state that has passed `windows` windows, of a time `time`.
     pub(crate) fn rounding(&self, modes: &[Mode], z: &[f64], windows: f64, time: f64) -> f64 {
         let mut sum = 0.0;
-        let own = modes.iter().zip(z.chunks_exact(3));
-        for ((mode, z), rows) in own.zip(self.rows.chunks_exact(3)) {
-            let (a, b) = (rows[0][0].abs() + rows[2][0].abs() * mode.k, rows[1][0].abs());
+        for ((mode, z), [position, velocity]) in modes.iter().zip(z.chunks_exact(3)).zip(&self.factors) {
+            let (a, b) = (position, velocity);
             let memory = if mode.omega * time > 1.0 { 1.0 / mode.omega } else { time };
             sum += a * (z[0].abs() + memory * (z[1].abs() + memory * z[2].abs()));
             sum += b * (z[1].abs() + memory * z[2].abs() + mode.omega * z[0].abs());
         }
         let from = 3 * modes.len();
-        for (row, z) in self.rows[from..].iter().zip(&z[from..]) {
+        for (row, z) in self.rows.iter().zip(z).skip(from) {
             sum += (row[0] * z).abs();
         }
         32.0 * f64::EPSILON * (windows + 1.0) * sum
