@@ -16,7 +16,7 @@ use crate::math::hypot;
 /// Eight powers are expanded; the ninth is the remainder.
 const ORDER: usize = TERMS - 1;
 /// Number of higher powers, with which the series is exact to about 1e-15 of the motion.
-const TAIL: usize = 11;
+const TAIL: usize = 12;
 /// Number of all powers.
 pub(crate) const ALL: usize = ORDER + TAIL;
 /// The window in radians of the fastest rate: the bound of the remainder is about 1e-4 of the motion.
@@ -282,21 +282,19 @@ impl GuardSeries {
     pub(crate) fn lowest(&self, z: &[f64], constant: f64, remainder: f64) -> f64 {
         let mut b = [constant; TERMS];
         for (row, z) in self.hull.iter().zip(z) {
-            for (sum, factor) in b.iter_mut().zip(row) {
-                *sum += z * factor;
-            }
+            add(&mut b, *z, row);
         }
         b[ORDER] -= remainder;
-        b.iter().fold(f64::INFINITY, |least, value| if *value < least { *value } else { least })
+        let less = |one: f64, other: f64| if one < other { one } else { other };
+        let half = [less(b[0], b[5]), less(b[1], b[6]), less(b[2], b[7]), less(b[3], b[8]), less(b[4], b[9])];
+        less(less(less(half[0], half[1]), less(half[2], half[3])), half[4])
     }
 
     /// The coefficients at a state, without the remainder, which is in the last place of none.
     pub(crate) fn at(&self, z: &[f64]) -> [f64; TERMS] {
         let mut p = [0.0; TERMS];
         for (row, z) in self.rows.iter().zip(z) {
-            for (sum, factor) in p.iter_mut().zip(row) {
-                *sum += z * factor;
-            }
+            add(&mut p, *z, row);
         }
         p
     }
@@ -307,9 +305,7 @@ impl GuardSeries {
         all[..TERMS].copy_from_slice(&self.at(z));
         let mut tail = [0.0; TAIL];
         for (row, z) in self.tail.iter().zip(z) {
-            for (sum, factor) in tail.iter_mut().zip(row) {
-                *sum += z * factor;
-            }
+            add(&mut tail, *z, row);
         }
         all[ORDER..].copy_from_slice(&tail);
         all
@@ -348,6 +344,15 @@ impl GuardSeries {
             sum += (row[0] * z).abs();
         }
         32.0 * f64::EPSILON * (windows + 1.0) * sum
+    }
+}
+
+/// Adds a multiple of a row.
+#[inline(always)]
+#[allow(clippy::needless_range_loop)] // arrays of one length, so that vector instructions are used
+fn add<const N: usize>(sum: &mut [f64; N], factor: f64, row: &[f64; N]) {
+    for k in 0..N {
+        sum[k] += factor * row[k];
     }
 }
 
