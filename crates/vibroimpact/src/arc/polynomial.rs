@@ -18,6 +18,11 @@ const NEAR: f64 = 1e-9;
 /// A point of [0, 1] before which `p`, given by its coefficients in powers, is positive and near which it is not; `None`
 /// if it is positive on the whole interval.
 pub(super) fn first_zero(p: &[f64; TERMS]) -> Option<f64> {
+    first_zero_near(p, f64::NAN)
+}
+
+/// The same, with a point near which a zero is expected.
+pub(super) fn first_zero_near(p: &[f64; TERMS], guess: f64) -> Option<f64> {
     if p[0] <= 0.0 {
         return Some(0.0);
     }
@@ -25,7 +30,7 @@ pub(super) fn first_zero(p: &[f64; TERMS]) -> Option<f64> {
     if p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0 {
         return None;
     }
-    search(p, &bernstein(p), 0.0, 1.0, DEPTH)
+    search(p, &bernstein(p), (0.0, 1.0), DEPTH, guess)
 }
 
 /// Whether the Bernstein coefficients change from positive to negative once: then there is one zero, and it is a crossing.
@@ -35,10 +40,10 @@ fn crosses_once(b: &[f64; TERMS]) -> bool {
 }
 
 /// The crossing of a polynomial that is positive at one point and negative at another, by Newton's method, from below.
-fn crossing(p: &[f64; TERMS], from: f64, width: f64, b: &[f64; TERMS]) -> f64 {
+fn crossing(p: &[f64; TERMS], from: f64, width: f64, b: &[f64; TERMS], guess: f64) -> f64 {
     let (mut low, mut high) = (from, from + width);
-    // the zero of the line between the ends
-    let mut t = from + width * (b[0] / (b[0] - b[ORDER]));
+    // the zero of the line between the ends, if there is no better guess
+    let mut t = if guess > low && guess < high { guess } else { from + width * (b[0] / (b[0] - b[ORDER])) };
     for round in 0..64 {
         let (height, slope) = value(p, t);
         if height > 0.0 {
@@ -76,7 +81,7 @@ pub(super) fn is_positive(p: &[f64; TERMS]) -> bool {
 }
 
 /// The same between two points, from the Bernstein coefficients there.
-fn search(p: &[f64; TERMS], b: &[f64; TERMS], from: f64, width: f64, depth: u32) -> Option<f64> {
+fn search(p: &[f64; TERMS], b: &[f64; TERMS], (from, width): (f64, f64), depth: u32, guess: f64) -> Option<f64> {
     if b.iter().all(|value| *value > 0.0) {
         return None;
     }
@@ -84,11 +89,11 @@ fn search(p: &[f64; TERMS], b: &[f64; TERMS], from: f64, width: f64, depth: u32)
         return Some(from);
     }
     if crosses_once(b) {
-        return Some(crossing(p, from, width, b));
+        return Some(crossing(p, from, width, b, guess));
     }
     let (left, right) = halves(b);
-    search(p, &left, from, 0.5 * width, depth - 1)
-        .or_else(|| search(p, &right, from + 0.5 * width, 0.5 * width, depth - 1))
+    search(p, &left, (from, 0.5 * width), depth - 1, guess)
+        .or_else(|| search(p, &right, (from + 0.5 * width, 0.5 * width), depth - 1, guess))
 }
 
 /// The Bernstein coefficients on both halves.

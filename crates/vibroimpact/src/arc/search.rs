@@ -13,7 +13,7 @@
 //! told and have no effect.
 
 use super::flight::{MachineFlight, Modes};
-use super::polynomial::{falls, first_zero, is_positive, value};
+use super::polynomial::{falls, first_zero, first_zero_near, is_positive, value};
 use super::track::Track;
 use crate::math::dot;
 use crate::regime::{REACH, TERMS};
@@ -308,7 +308,7 @@ fn proven(
         if from > end {
             continue;
         }
-        match first_zero(&of.beside(1.0)) {
+        match first_zero_near(&of.beside(1.0), from) {
             Some(to) => {
                 // the guard itself falls from here to there
                 if !falls(&of.steep(), from, to.max(from)) {

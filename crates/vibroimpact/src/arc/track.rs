@@ -65,7 +65,7 @@ impl Track {
         let part = length / window.length;
         let (value, _, error) = flight.guard(g, modes);
         p[0] = if known > 0 { 0.0 } else { value };
-        p[ORDER] = series.remainder(&self.energies, &self.z);
+        p[ORDER] = series.bounds(&self.energies, &self.z, 0.0, 0.0).0;
         let mut power = 1.0;
         for c in &mut p {
             // in a window without end there are zeros times infinity
@@ -93,16 +93,16 @@ impl Track {
         GuardPolynomial::new(p, known, error, size)
     }
 
-    /// What the constant terms of a guard are here, lowered by its surface and by faint modes, and the bound of the rounding
-    /// errors of the guard.
-    fn constant(&self, flight: &MachineFlight, window: &Window, g: usize) -> (f64, f64) {
+    /// What the constant terms of a guard are here, lowered by its surface and by faint modes, and bounds of its remainder and
+    /// of its rounding errors.
+    fn constant(&self, flight: &MachineFlight, window: &Window, g: usize) -> (f64, f64, f64) {
         let (series, start) = (&window.guards[g], &flight.guards[g]);
         // a surface that stands back only adds to the gap
         let surface = start.recovery.map_or(0.0, |surface| surface.size);
         let faint: f64 = if window.faint.is_empty() { 0.0 } else { series.lowered(&self.faint) };
-        let error = series.rounding(&flight.structure.modes, &self.z, self.windows, self.s - self.settled)
-            + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
-        (start.constant - surface - faint, error)
+        let (remainder, rounding) = series.bounds(&self.energies, &self.z, self.windows, self.s - self.settled);
+        let error = rounding + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
+        (start.constant - surface - faint, remainder, error)
     }
 
     /// Whether all guards are positive in the whole window, by their hulls.
@@ -110,8 +110,8 @@ impl Track {
         self.faint.clear();
         self.faint.extend(window.faint.iter().map(|faint| faint.energy(&self.z)));
         window.guards.iter().enumerate().all(|(g, series)| {
-            let (constant, error) = self.constant(flight, window, g);
-            series.lowest(&self.z, constant - error, series.remainder(&self.energies, &self.z)) > 0.0
+            let (constant, remainder, error) = self.constant(flight, window, g);
+            series.lowest(&self.z, constant - error, remainder) > 0.0
         })
     }
 
@@ -120,6 +120,7 @@ impl Track {
         all.clear();
         for (g, (series, start)) in window.guards.iter().zip(&flight.guards).enumerate() {
             let mut p = series.at(&self.z);
+            let (constant, remainder, bound) = self.constant(flight, window, g);
             let mut known = 0;
             let (mut error, mut size) = (0.0, 0.0);
             if self.s == 0.0 && start.known > 0 {
@@ -127,11 +128,10 @@ impl Track {
                 p[0] = 0.0;
                 size = series.size(&self.z, 1).max(series.size(&self.z, 2)) * part;
             } else {
-                let (constant, bound) = self.constant(flight, window, g);
                 p[0] += constant;
                 error = bound;
             }
-            p[ORDER] = series.remainder(&self.energies, &self.z);
+            p[ORDER] = remainder;
             if part < 1.0 {
                 let mut power = part;
                 for c in &mut p[1..] {

@@ -247,7 +247,7 @@ impl<'a> MachineMotion<'a> {
         if let [j] = rigid[..]
             && self.place.states[j] == ContactState::Open
         {
-            self.complete(j);
+            self.complete(j, &turns);
         }
         Some(())
     }
@@ -363,9 +363,9 @@ impl<'a> MachineMotion<'a> {
 
     /// Sums the chatter on a stop that has just been struck, if its impacts accumulate so soon that the first two terms
     /// of the sum are exact to rounding (A. B. Nordmark and P. T. Piiroinen, doi:10.1007/s11071-008-9463-y).
-    fn complete(&mut self, j: usize) {
+    fn complete(&mut self, j: usize, turns: &[(f64, f64)]) {
         let StopLaw::Rigid { restitution } = self.machine.stops()[j].law else { return };
-        let rebound = self.place.gap(&self.normal, &self.place.turns(&self.normal), j).1;
+        let rebound = self.place.gap(&self.normal, turns, j).1;
         if restitution >= 1.0 || rebound <= 0.0 {
             return;
         }
@@ -378,13 +378,13 @@ impl<'a> MachineMotion<'a> {
         }
         self.place.states[j] = ContactState::Resting;
         let resting = self.structures.get(self.machine, &self.normal, &self.place.states);
-        let mut states = self.place.states.clone();
         self.place.states[j] = ContactState::Open;
         let Some(structure) = resting else { return };
         let Some(held) = structure.held.iter().position(|place| *place == j) else { return };
-        if self.is_far_from_rest(&structure, held, rebound, restitution, free.fastest()) {
+        if self.is_far_from_rest(&structure, held, (rebound, restitution), free.fastest(), turns) {
             return;
         }
+        let mut states = self.place.states.clone();
         states[j] = ContactState::Resting;
         // the state at rest: the velocity of the gap taken away, the other constraints unchanged
         let mut there = self.place.clone();
@@ -425,14 +425,22 @@ impl<'a> MachineMotion<'a> {
     }
 
     /// Whether a chatter is far from its end, by the reaction at rest here: a first test without a flight.
-    fn is_far_from_rest(&self, structure: &Structure, held: usize, rebound: f64, restitution: f64, fastest: f64) -> bool {
+    fn is_far_from_rest(
+        &mut self,
+        structure: &Structure,
+        held: usize,
+        (rebound, restitution): (f64, f64),
+        fastest: f64,
+        turns: &[(f64, f64)],
+    ) -> bool {
         if !self.machine.joints().is_empty() {
             return false;
         }
-        let mut v = self.place.v.clone();
-        add_scaled(&mut v, rebound, &structure.across[held]);
+        let v = &mut self.scratch.v;
+        v.clone_from(&self.place.v);
+        add_scaled(v, rebound, &structure.across[held]);
         let (mobility, drag) = structure.mobility[held];
-        let a = mobility * structure.reaction_at(held, &self.place.x, &v, &self.place.turns(&self.normal));
+        let a = mobility * structure.reaction_at(held, &self.place.x, v, turns);
         let first = 2.0 * rebound / (a * (1.0 - restitution));
         a <= 0.0 || first * fastest.max(drag) > 11.0 * SMALL
     }
@@ -594,7 +602,7 @@ impl MachineMotion<'_> {
                         self.largest_impact = self.largest_impact.max(speed);
                         self.place.known.push((GuardKind::Gap(j), 1));
                         self.announce(MachineEventKind::Impact, j, speed, Vec::new());
-                        self.complete(j);
+                        self.complete(j, &turns);
                     }
                     StopLaw::Compliant { .. } => {
                         if self.place.surfaces[j].take().is_none() {

@@ -34,6 +34,7 @@ impl Structures {
 pub(super) struct Scratch {
     turns: Vec<(f64, f64)>,
     set: Vec<f64>,
+    pub(super) v: Vec<f64>,
 }
 
 /// The state of a machine at one time.
@@ -80,7 +81,7 @@ impl Place {
         // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
         let stops = self.surfaces.len();
         let joints = 0..self.states.len() - stops;
-        let Scratch { turns, set } = scratch;
+        let Scratch { turns, set, .. } = scratch;
         set.clear();
         set.extend(joints.map(|joint| match self.states[stops + joint] {
             ContactState::Holding => dot(&normal.directions[stops + joint], &self.x),

@@ -60,14 +60,24 @@ pub(crate) struct GuardSeries {
     hull: Vec<[f64; TERMS]>,
     /// Those of higher powers, from the ninth on; in the shortest window only.
     tail: Vec<[f64; TAIL]>,
-    /// Sizes of the factors of displacements and velocities.
-    factors: Vec<[f64; 2]>,
-    /// Remainder per energy of a mode, per force on it, and of the harmonics.
-    energy: Vec<f64>,
-    push: Vec<f64>,
+    /// Of each mode.
+    weights: Vec<Weight>,
+    /// Modes without stiffness, and the sizes of the factors of their displacements and velocities.
+    loose: Vec<(usize, f64, f64)>,
+    /// The size of the harmonics, and the remainder of all of them.
+    swing: f64,
     constant: f64,
     /// What the energies of the free parts of faint modes can take away.
     faint: Vec<f64>,
+}
+
+/// What a mode adds to the remainder of a guard, and to the size of its terms, per energy and per force on it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Weight {
+    energy: f64,
+    push: f64,
+    size_of_energy: f64,
+    size_of_push: f64,
 }
 
 /// A mode that is not expanded.
@@ -224,10 +234,19 @@ impl GuardSeries {
             .zip(of.rates)
             .map(|((a, b), w)| hypot(*a, *b) * power(w * length))
             .sum();
-        let (mut energy, mut push) = (vec![0.0; of.modes.len()], vec![0.0; of.modes.len()]);
+        let swing = guard.signal.harmonics.iter().map(|(a, b)| hypot(*a, *b)).sum();
+        let mut weights = vec![Weight::default(); of.modes.len()];
+        let mut loose = Vec::new();
         let mut lost = Vec::with_capacity(faint.len());
         for i in 0..of.modes.len() {
             let (a, b) = (guard.position[i], guard.velocity[i]);
+            let mode = &of.modes[i];
+            if mode.k > 0.0 {
+                weights[i].size_of_energy = 2.0 * (a.abs() / mode.omega + b.abs());
+                weights[i].size_of_push = 2.0 * (a.abs() / mode.k + b.abs() / mode.omega);
+            } else {
+                loose.push((i, a.abs(), b.abs()));
+            }
             if let Some(faint) = is_faint(i) {
                 row[3 * i + 2] = a / faint.k;
                 for (h, (x, y)) in faint.response.iter().enumerate() {
@@ -243,8 +262,8 @@ impl GuardSeries {
             let bounds = Bounds::new(&of, i, length);
             let rate = 10.0 / length;
             let sum = |(ninth, tenth): (f64, f64)| a.abs() * ninth + b.abs() * rate * tenth;
-            energy[i] = sum(bounds.energy);
-            push[i] = sum(bounds.push);
+            weights[i].energy = sum(bounds.energy);
+            weights[i].push = sum(bounds.push);
             constant += sum(bounds.constant);
         }
         for faint in faint {
@@ -274,8 +293,7 @@ impl GuardSeries {
         rows.truncate(used);
         tail.truncate(used);
         let hull = rows.iter().map(bernstein).collect();
-        let factors = guard.position.iter().zip(&guard.velocity).map(|(a, b)| [a.abs(), b.abs()]).collect();
-        Self { rows, hull, tail, factors, energy, push, constant, faint: lost }
+        Self { rows, hull, tail, weights, loose, swing, constant, faint: lost }
     }
 
     /// The least coefficient in Bernstein's form at a state, with `constant` added and the remainder taken away.
@@ -316,34 +334,25 @@ impl GuardSeries {
         self.rows.iter().zip(z).map(|(row, z)| (row[order] * z).abs()).sum()
     }
 
-    /// A bound of the remainder over the window, for energies of the modes.
-    pub(crate) fn remainder(&self, energies: &[f64], z: &[f64]) -> f64 {
-        let mut sum = self.constant;
-        for (i, energy) in energies.iter().enumerate() {
-            sum += self.energy[i] * energy + self.push[i] * z[3 * i + 2].abs();
+    /// A bound of the remainder over the window, and of the rounding errors of the value at a state that has passed `windows`
+    /// windows in a time `time`; for energies of the modes.
+    pub(crate) fn bounds(&self, energies: &[f64], z: &[f64], windows: f64, time: f64) -> (f64, f64) {
+        let (mut remainder, mut size) = (self.constant, self.swing);
+        for ((weight, energy), z) in self.weights.iter().zip(energies).zip(z.chunks_exact(3)) {
+            let push = z[2].abs();
+            remainder += weight.energy * energy + weight.push * push;
+            size += weight.size_of_energy * energy + weight.size_of_push * push;
         }
-        sum
+        for (i, a, b) in &self.loose {
+            let z = &z[3 * i..];
+            size += a * (z[0].abs() + time * (z[1].abs() + time * z[2].abs())) + b * (z[1].abs() + time * z[2].abs());
+        }
+        (remainder, 32.0 * f64::EPSILON * (windows + 1.0) * size)
     }
 
     /// How far the free parts of faint modes can lower the guard.
     pub(crate) fn lowered(&self, energies: &[f64]) -> f64 {
         self.faint.iter().zip(energies).map(|(factor, energy)| factor * energy).sum()
-    }
-
-    /// A bound of the rounding errors of the value at a state that has passed `windows` windows, of a time `time`.
-    pub(crate) fn rounding(&self, modes: &[Mode], z: &[f64], windows: f64, time: f64) -> f64 {
-        let mut sum = 0.0;
-        for ((mode, z), [position, velocity]) in modes.iter().zip(z.chunks_exact(3)).zip(&self.factors) {
-            let (a, b) = (position, velocity);
-            let memory = if mode.omega * time > 1.0 { 1.0 / mode.omega } else { time };
-            sum += a * (z[0].abs() + memory * (z[1].abs() + memory * z[2].abs()));
-            sum += b * (z[1].abs() + memory * z[2].abs() + mode.omega * z[0].abs());
-        }
-        let from = 3 * modes.len();
-        for (row, z) in self.rows.iter().zip(z).skip(from) {
-            sum += (row[0] * z).abs();
-        }
-        32.0 * f64::EPSILON * (windows + 1.0) * sum
     }
 }
 
