@@ -6,9 +6,9 @@
 //! of events, the rest of the motion is not determined by its numbers and is not compared.
 
 use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::flight::SearchLimits;
 use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::motion::{End, Event, EventKind, Motion};
-use vibroimpact::flight::SearchLimits;
 use vibroimpact::{Oscillator, Side, Start};
 
 const SYSTEMS: usize = 500;
@@ -167,7 +167,8 @@ fn around(osc: &Oscillator, start: Start, on: Option<Side>, flown: f64) -> Vec<(
     let error = CHANGE * f64::EPSILON;
     let turn = error * (4.0 + osc.beta() * flown);
     let inward = on.map_or(if start.x > 0.0 { -1.0 } else { 1.0 }, |side| -side.sign());
-    let moved = |x: f64, v: f64, phase: f64| (Start { x: start.x + x, v: start.v + v, phase: start.phase + phase }, 0.0);
+    let moved =
+        |x: f64, v: f64, phase: f64| (Start { x: start.x + x, v: start.v + v, phase: start.phase + phase }, 0.0);
     let mut all = vec![moved(inward * error * size, 0.0, 0.0), moved(0.0, 0.0, turn)];
     all.extend([moved(0.0, inward * error * size, 0.0), moved(0.0, 0.0, -turn)]);
     // a slow rebound keeps its sign
@@ -259,12 +260,13 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
             OFTEN * sums[k][1] + rounding * (8.0 + release + osc.beta() * event.time) + slack * osc.beta(),
             OFTEN * sums[k][2] + rounding * (terms + pull),
         ];
-        let differ =
-            [(got.time - event.time).abs(), turned(got.phase, event.phase), (got.speed - want.2).abs()];
+        let differ = [(got.time - event.time).abs(), turned(got.phase, event.phase), (got.speed - want.2).abs()];
         for ((name, differ), limit) in ["time", "phase", "speed"].iter().zip(differ).zip(limits) {
             tally.worst = tally.worst.max(differ / limit);
             if !(differ <= limit) {
-                return Err(format!("event {k} of {determined}: {name} differs by {differ:e}, {limit:e} allowed: {got:?}, {event:?}"));
+                return Err(format!(
+                    "event {k} of {determined}: {name} differs by {differ:e}, {limit:e} allowed: {got:?}, {event:?}"
+                ));
             }
         }
         tally.events += 1;

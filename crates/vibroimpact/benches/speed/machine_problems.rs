@@ -91,12 +91,5 @@ fn problem(name: &'static str, parts: MachineParts, q: &[f64]) -> Problem {
 /// All, with beams of 2, 6 and 12 modes.
 pub(crate) fn all() -> Vec<Problem> {
     let named = |name: &'static str, problem: Problem| Problem { name, ..problem };
-    vec![
-        chain(),
-        soft(),
-        named("beam, 2 modes", beam(2)),
-        beam(6),
-        named("beam, 12 modes", beam(12)),
-        ball(),
-    ]
+    vec![chain(), soft(), named("beam, 2 modes", beam(2)), beam(6), named("beam, 12 modes", beam(12)), ball()]
 }

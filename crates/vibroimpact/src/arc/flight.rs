@@ -212,7 +212,13 @@ impl MachineFlight {
             let turn = s * mode.rate.max(fastest);
             let (moved, v, error) = if turn < SHORT_REACH {
                 // the last term is below rounding
-                let terms = if turn < 1e-3 { 6 } else if turn < 0.03 { 9 } else { SHORT_TERMS };
+                let terms = if turn < 1e-3 {
+                    6
+                } else if turn < 0.03 {
+                    9
+                } else {
+                    SHORT_TERMS
+                };
                 self.by_series(i, s, terms)
             } else if turn < LONG_REACH && self.slow(i) {
                 self.by_series(i, s, LONG_TERMS)

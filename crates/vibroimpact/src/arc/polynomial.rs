@@ -77,7 +77,8 @@ fn crossing(p: &[f64; TERMS], from: f64, width: f64, b: &[f64; TERMS], guess: f6
 pub(super) fn is_positive(p: &[f64; TERMS]) -> bool {
     // all falling terms together cannot reach zero, or the hull is positive
     p[0] > 0.0
-        && (p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0 || bernstein(p).iter().all(|value| *value > 0.0))
+        && (p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0
+            || bernstein(p).iter().all(|value| *value > 0.0))
 }
 
 /// The same between two points, from the Bernstein coefficients there.

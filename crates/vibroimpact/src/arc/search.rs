@@ -92,10 +92,7 @@ impl GuardPolynomial {
         let mut of = Self { p, known, error, size, from: None };
         // contacts on which the flight begins are divided out; a derivative that is zero within rounding is zero, and the
         // next one decides
-        while of.known > 0
-            && of.known < 4
-            && of.p[of.known] <= 0.0
-            && -of.p[of.known] <= 64.0 * f64::EPSILON * of.size
+        while of.known > 0 && of.known < 4 && of.p[of.known] <= 0.0 && -of.p[of.known] <= 64.0 * f64::EPSILON * of.size
         {
             of.known += 1;
         }
@@ -211,9 +208,9 @@ fn search(
         }
         let surfaces = flight.guards.iter().filter_map(|guard| guard.recovery);
         // a surface that has recovered does not shorten the window
-        let rate = surfaces.filter(|surface| surface.rate * s < 40.0).fold(fastest, |rate, surface| {
-            rate.max(surface.rate * crate::system::decay(surface.rate * s / 9.0).0)
-        });
+        let rate = surfaces
+            .filter(|surface| surface.rate * s < 40.0)
+            .fold(fastest, |rate, surface| rate.max(surface.rate * crate::system::decay(surface.rate * s / 9.0).0));
         let window = (if rate > 0.0 { REACH / rate } else { 1e150 } * reach).min((until - s) * 1.001 + 1e-300);
         match series {
             Some(_) => {
@@ -248,8 +245,14 @@ fn search(
             let (touch, after) = lowest(&p, near);
             let depth = value(&without_remainder(&p), touch).0;
             if depth < -error - remainder {
-                let at =
-                    refine(flight, g, (s + near * window, s + touch * window), None, RESOLUTION * window, &mut buffers.modes);
+                let at = refine(
+                    flight,
+                    g,
+                    (s + near * window, s + touch * window),
+                    None,
+                    RESOLUTION * window,
+                    &mut buffers.modes,
+                );
                 return Found::Zero { s: at, guards: vec![g] };
             }
             // one touch until the guard is clearly positive again
@@ -463,11 +466,7 @@ fn refine(
 }
 
 /// The zero of a guard on which the flight began, if it is so near that the remainder of the polynomial is below rounding.
-fn on_polynomial(
-    q: &[f64; TERMS],
-    window: f64,
-    (from, to): (f64, f64),
-) -> Option<f64> {
+fn on_polynomial(q: &[f64; TERMS], window: f64, (from, to): (f64, f64)) -> Option<f64> {
     if from > NEAR {
         return None;
     }
@@ -604,7 +603,9 @@ fn polynomial(
         }
     }
     p[1] += function.signal.ramp;
-    for ((a, b), (turned, w)) in flight.harmonics(g).iter().zip(buffers.modes.turned.iter().zip(&flight.structure.rates)) {
+    for ((a, b), (turned, w)) in
+        flight.harmonics(g).iter().zip(buffers.modes.turned.iter().zip(&flight.structure.rates))
+    {
         if *a == 0.0 && *b == 0.0 {
             continue;
         }

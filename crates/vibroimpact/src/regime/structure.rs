@@ -350,7 +350,8 @@ impl Structure {
             && still(&structure.to_z_signal)
             && still(&structure.slip);
         structure.pressing = structure.reactions.iter().map(|reaction| structure.pressing(reaction)).collect();
-        structure.fastest = structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
+        structure.fastest =
+            structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
         structure.guards = structure.all_guards(machine, normal);
         if structure.dense.is_none() {
             let moved = Moved { modes: &structure.modes, drive: &structure.drive, rates };
@@ -488,7 +489,14 @@ impl Structure {
 
     /// The modal displacements and velocities from the mass-normalised state at the beginning of a flight; `at` is the value
     /// of a signal there.
-    pub(crate) fn modal(&self, x: &[f64], v: &[f64], at: impl Fn(&Signal) -> f64, y: &mut Vec<f64>, rate: &mut Vec<f64>) {
+    pub(crate) fn modal(
+        &self,
+        x: &[f64],
+        v: &[f64],
+        at: impl Fn(&Signal) -> f64,
+        y: &mut Vec<f64>,
+        rate: &mut Vec<f64>,
+    ) {
         y.clear();
         rate.clear();
         let modes = 0..self.modes.len();

@@ -178,12 +178,7 @@ impl Window {
                 let w = of.rates[h];
                 let (kc, ks, _) = mode.forced(h, length, &free, &super::mode::Turned::of(w * length));
                 let (kc_rate, ks_rate) = (free.s - w * ks, w * kc);
-                forced.push([
-                    a * kc + b * ks,
-                    b * kc - a * ks,
-                    a * kc_rate + b * ks_rate,
-                    b * kc_rate - a * ks_rate,
-                ]);
+                forced.push([a * kc + b * ks, b * kc - a * ks, a * kc_rate + b * ks_rate, b * kc_rate - a * ks_rate]);
             }
         }
         Self {
@@ -227,13 +222,8 @@ impl GuardSeries {
         for (h, (a, b)) in guard.signal.harmonics.iter().enumerate() {
             (row[harmonics + 2 * h], row[harmonics + 2 * h + 1]) = (*a, *b);
         }
-        let mut constant: f64 = guard
-            .signal
-            .harmonics
-            .iter()
-            .zip(of.rates)
-            .map(|((a, b), w)| hypot(*a, *b) * power(w * length))
-            .sum();
+        let mut constant: f64 =
+            guard.signal.harmonics.iter().zip(of.rates).map(|((a, b), w)| hypot(*a, *b) * power(w * length)).sum();
         let swing = guard.signal.harmonics.iter().map(|(a, b)| hypot(*a, *b)).sum();
         let mut weights = vec![Weight::default(); of.modes.len()];
         let mut loose = Vec::new();
