@@ -5,6 +5,8 @@
 //! differ by a few roundings, and the changes of each later event are added up. Where such a change alters the sequence
 //! of events, the rest of the motion is not determined by its numbers and is not compared.
 
+#![allow(clippy::unwrap_used, reason = "a test")]
+
 use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::flight::SearchLimits;
 use vibroimpact::machine::{Machine, MachineParts};
@@ -263,7 +265,7 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
         let differ = [(got.time - event.time).abs(), turned(got.phase, event.phase), (got.speed - want.2).abs()];
         for ((name, differ), limit) in ["time", "phase", "speed"].iter().zip(differ).zip(limits) {
             tally.worst = tally.worst.max(differ / limit);
-            if !(differ <= limit) {
+            if differ > limit || differ.is_nan() {
                 return Err(format!(
                     "event {k} of {determined}: {name} differs by {differ:e}, {limit:e} allowed: {got:?}, {event:?}"
                 ));
@@ -273,10 +275,11 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
         last = event.time;
         k += 1;
     }
-    if k == events.len() && matches!(end, Some(End::Never(_) | End::Stuck(_))) {
-        if let Some(event) = next(tally) {
-            return Err(format!("after the last event, {end:?}: {event:?}"));
-        }
+    if k == events.len()
+        && matches!(end, Some(End::Never(_) | End::Stuck(_)))
+        && let Some(event) = next(tally)
+    {
+        return Err(format!("after the last event, {end:?}: {event:?}"));
     }
     Ok(())
 }

@@ -4,17 +4,22 @@
 //! |---|---|
 //! | the modes from a state, at any time | `flight` |
 //! | what drives the modes | `drive` |
-//! | the same where there are no modes | `dense` |
+//! | the same where there are no modes | `dense`, `dense_series` |
+//! | guards as polynomials over a window | `guard_polynomial` |
 //! | windows that are passed without the closed form | `track` |
 //! | first zeros of polynomials | `polynomial` |
+//! | proof of a zero, and its time | `zero` |
 //! | the first zero of any guard, which misses none | `search` |
 
 mod dense;
+mod dense_series;
 mod drive;
 mod flight;
+mod guard_polynomial;
 mod polynomial;
 mod search;
 mod track;
+mod zero;
 
 pub(crate) use flight::{Begin, MachineFlight, Recovery};
 pub(crate) use search::{Buffers, Found, Touch, first_event};

@@ -1,8 +1,8 @@
 //! The state of a flight that goes on window by window: what is proven free of zeros is passed without the closed form.
 
 use super::flight::{MachineFlight, Modes};
-use super::search::GuardPolynomial;
-use crate::regime::{ALL, TERMS, Window};
+use super::guard_polynomial::{GuardPolynomial, ORDER};
+use crate::regime::{ALL, Window};
 
 /// The state at one time: displacement, velocity and force of each mode, cosine and sine of each harmonic, time, one.
 #[derive(Clone, Debug, Default)]
@@ -19,7 +19,6 @@ pub(super) struct Track {
 
 /// The state is computed anew after so many windows.
 const WINDOWS: f64 = 32.0;
-const ORDER: usize = TERMS - 1;
 
 impl Track {
     /// Sets the state to that of the modes at their time.

@@ -31,4 +31,4 @@ pub(crate) use normal::{Normal, compliant};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::{GuardKind, Structure};
-pub(crate) use window::{ALL, REACH, Window};
+pub(crate) use window::{ALL, REACH, Window, derivative_bounds};

@@ -355,7 +355,8 @@ impl Structure {
         structure.guards = structure.all_guards(machine, normal);
         if structure.dense.is_none() {
             let moved = Moved { modes: &structure.modes, drive: &structure.drive, rates };
-            structure.windows = windows(moved, structure.guards.iter().map(|guard| &guard.function));
+            let guards: Vec<&Observable> = structure.guards.iter().map(|guard| &guard.function).collect();
+            structure.windows = windows(moved, &guards);
         }
         Some(structure)
     }

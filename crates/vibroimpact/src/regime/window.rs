@@ -136,7 +136,7 @@ impl Moved<'_> {
 }
 
 /// Windows of all useful lengths, the shortest first, in which no mode is faint.
-pub(crate) fn windows<'a>(of: Moved<'_>, guards: impl Iterator<Item = &'a Observable> + Clone) -> Vec<Window> {
+pub(crate) fn windows(of: Moved<'_>, guards: &[&Observable]) -> Vec<Window> {
     let mut order: Vec<usize> = (0..of.modes.len()).collect();
     order.sort_by(|i, j| of.modes[*i].rate.total_cmp(&of.modes[*j].rate));
     let mut all = Vec::new();
@@ -151,14 +151,14 @@ pub(crate) fn windows<'a>(of: Moved<'_>, guards: impl Iterator<Item = &'a Observ
         let rate = order[..kept].last().map_or(0.0, |i| of.modes[*i].rate).max(of.rate());
         if all.is_empty() || (rate > 0.0 && rate <= SLOWER * last) {
             last = rate;
-            all.push(Window::new(of, guards.clone(), &order[kept..], rate));
+            all.push(Window::new(of, guards, &order[kept..], rate));
         }
     }
     all
 }
 
 impl Window {
-    fn new<'a>(of: Moved<'_>, guards: impl Iterator<Item = &'a Observable>, faint: &[usize], rate: f64) -> Self {
+    fn new(of: Moved<'_>, guards: &[&Observable], faint: &[usize], rate: f64) -> Self {
         // without any rate the guards are polynomials of low order; a window must still be finite
         let length = if rate > 0.0 { REACH / rate } else { 1.0 };
         let faint: Vec<Faint> = faint.iter().map(|i| Faint::new(of, *i)).collect();
@@ -186,7 +186,7 @@ impl Window {
             steps,
             forced,
             turns: of.rates.iter().map(|w| crate::math::sin_cos(w * length)).collect(),
-            guards: guards.map(|guard| GuardSeries::new(of, guard, &faint, length)).collect(),
+            guards: guards.iter().map(|guard| GuardSeries::new(of, guard, &faint, length)).collect(),
             faint,
         }
     }
@@ -417,15 +417,17 @@ impl Bounds {
         let still = [0.0; ORDER];
         let loose = if mode.k > 0.0 { 0.0 } else { 1.0 };
         Self {
-            energy: bounds(mode, window, 1.0, 0.0, &still),
-            push: bounds(mode, window, 0.0, loose, &still),
-            constant: bounds(mode, window, 0.0, pushed[0], &pushed),
+            energy: derivative_bounds(mode, window, 1.0, 0.0, &still),
+            push: derivative_bounds(mode, window, 0.0, loose, &still),
+            constant: derivative_bounds(mode, window, 0.0, pushed[0], &pushed),
         }
     }
 }
 
-/// From $`|y^{(k+2)}| \le 2d\,|y^{(k+1)}| + k\,|y^{(k)}| + |p^{(k)}|`$.
-fn bounds(mode: &Mode, window: f64, energy: f64, push: f64, pushed: &[f64; ORDER]) -> (f64, f64) {
+/// Bounds of $`|y^{(9)}|H^9/9!`$ and $`|y^{(10)}|H^{10}/10!`$, from the energy at the beginning, a bound `push` of all forces
+/// and the bounds `pushed` of $`|p^{(k)}|H^k/k!`$, by
+/// $`|y^{(k+2)}| \le 2d\,|y^{(k+1)}| + k\,|y^{(k)}| + |p^{(k)}|`$.
+pub(crate) fn derivative_bounds(mode: &Mode, window: f64, energy: f64, push: f64, pushed: &[f64; ORDER]) -> (f64, f64) {
     let speed = energy + push * window;
     let square = window * window;
     let (mut one, mut two) = (0.0, speed * window);
