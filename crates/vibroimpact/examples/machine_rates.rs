@@ -40,7 +40,8 @@ fn motion<'a>(problem: &'a Problem, start: &MachineStart) -> MachineMotion<'a> {
 fn rate(problem: &Problem, count: usize) {
     let begin = Instant::now();
     let (mut events, mut time) = (0_u32, 0.0);
-    for event in motion(problem, &problem.start).take(count) {
+    let motion = MachineMotion::new(&problem.machine, &problem.start, MachineLimits::default()).expect("a legal start");
+    for event in motion.take(count) {
         events += 1;
         time = event.time;
     }

@@ -19,7 +19,7 @@ use super::flight::{MachineFlight, Modes};
 use super::guard_polynomial::{GuardPolynomial, ORDER, first_of};
 use super::polynomial::{RESOLUTION, value};
 use super::track::Track;
-use super::zero::{certain, lowest, refine, without_remainder};
+use super::zero::{certain, lowest, plain, refine, without_remainder};
 use crate::regime::REACH;
 
 /// What ends a flight.
@@ -123,6 +123,10 @@ fn search(
                 here = false;
             }
             let Some(part) = blocked else { continue };
+            let standing = flight.guards.iter().any(|guard| guard.recovery.is_some());
+            if !standing && let Some(found) = plain(flight, series, part, buffers) {
+                return found;
+            }
             let first = first_of(&mut buffers.polynomials);
             let Some((near, _)) = first else {
                 // no zero after all
@@ -131,7 +135,6 @@ fn search(
                 s = if on_track { buffers.track.s } else { until };
                 continue;
             };
-            let standing = flight.guards.iter().any(|guard| guard.recovery.is_some());
             if !standing && let Some(found) = certain(flight, series.length * part, s, near, buffers) {
                 return found;
             }
