@@ -8,6 +8,7 @@
 //! | guards as polynomials over a window | `guard_polynomial` |
 //! | windows that are passed without the closed form | `track` |
 //! | first zeros of polynomials | `polynomial` |
+//! | what a search finds, and its memory | `found` |
 //! | proof of a zero, and its time | `zero` |
 //! | the first zero of any guard, which misses none | `search` |
 
@@ -15,6 +16,7 @@ mod dense;
 mod dense_series;
 mod drive;
 mod flight;
+mod found;
 mod guard_polynomial;
 mod polynomial;
 mod search;
@@ -22,4 +24,5 @@ mod track;
 mod zero;
 
 pub(crate) use flight::{Begin, MachineFlight, Recovery};
-pub(crate) use search::{Buffers, Found, Touch, first_event};
+pub(crate) use found::{Buffers, Found, Touch};
+pub(crate) use search::first_event;

@@ -14,54 +14,12 @@
 //!
 //! Most windows have one length, and go on from one to the next without the closed form (`track`).
 
-use super::dense_series::DenseSeries;
-use super::flight::{MachineFlight, Modes};
+use super::flight::MachineFlight;
+use super::found::{Buffers, Found, Touch};
 use super::guard_polynomial::{GuardPolynomial, ORDER, first_of};
 use super::polynomial::{RESOLUTION, value};
-use super::track::Track;
 use super::zero::{certain, lowest, plain, refine, without_remainder};
 use crate::regime::REACH;
-
-/// What ends a flight.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Found {
-    /// The guards (by place) that become zero a time after the beginning. If there are several, they are zero at the
-    /// same time within rounding.
-    Zero { s: f64, guards: Vec<usize> },
-    /// No zero before this time.
-    NoneBefore(f64),
-}
-
-/// A guard that touches zero within rounding and is positive again.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Touch {
-    pub(crate) s: f64,
-    pub(crate) guard: usize,
-}
-
-/// Buffers of a search, kept from flight to flight.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Buffers {
-    pub(crate) modes: Modes,
-    dense: DenseSeries,
-    pub(super) polynomials: Vec<GuardPolynomial>,
-    pub(super) track: Track,
-    known: Vec<usize>,
-    touched: Vec<bool>,
-    pub(super) brackets: Vec<(usize, f64, f64)>,
-    /// Whether `modes` are those of the last flight at its first zero.
-    fresh: bool,
-}
-
-impl Buffers {
-    /// The modes of a flight at a time. Those at the first zero of the flight searched last are known.
-    pub(crate) fn modes_at(&mut self, flight: &MachineFlight, s: f64) -> &Modes {
-        if !(core::mem::take(&mut self.fresh) && self.modes.s == s) {
-            flight.at(s, &mut self.modes);
-        }
-        &self.modes
-    }
-}
 
 /// The first zero of a guard before the time `until`, in at most `steps` windows. `touches` receives what touches zero
 /// before.

@@ -1,9 +1,9 @@
 //! The zero of a guard: proof that there is one, and its time.
 
 use super::flight::{MachineFlight, Modes};
+use super::found::{Buffers, Found};
 use super::guard_polynomial::ORDER;
 use super::polynomial::{RESOLUTION, crosses_once, falls, first_zero_near, value};
-use super::search::{Buffers, Found};
 use crate::regime::{TERMS, Window, bernstein};
 
 /// Over this part of a radian of the fastest rate the modes move on by their rates, exact to rounding.
