@@ -443,3 +443,51 @@ pub(crate) fn derivative_bounds(mode: &Mode, window: f64, energy: f64, push: f64
     let _ = one;
     (two, three)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The series of a guard at one state, summed at the end of the window, is its value at the state there; and faint modes
+    /// lower it by no less than they move.
+    #[test]
+    fn the_series_and_the_passed_state_agree() {
+        let rates = [0.7, 1.4];
+        let signal = |ramp: f64, size: f64| {
+            let mut signal = Signal::zero(0, 2);
+            signal.ramp = ramp;
+            signal.harmonics = vec![(size, -0.3 * size), (0.2, 0.1 * size)];
+            signal
+        };
+        let modes: Vec<Mode> = [(0.0, 0.0), (0.0, 0.2), (1.0, 0.01), (2.2, 1.6), (400.0, 0.3)]
+            .iter()
+            .map(|(k, d)| Mode::new(*k, *d, &rates))
+            .collect();
+        let drive: Vec<Signal> =
+            [0.1, 0.0, 0.0, 0.3, 0.0].iter().enumerate().map(|(i, ramp)| signal(*ramp, 0.4 - 0.1 * i as f64)).collect();
+        let mut guard = Observable::zero(5, 0, 2);
+        guard.position = vec![0.5, -0.3, 1.0, 0.7, 0.2];
+        guard.velocity = vec![0.0, 0.1, 0.0, -0.2, 0.01];
+        guard.signal = signal(0.2, 0.6);
+        let of = Moved { modes: &modes, drive: &drive, rates: &rates };
+        let all = windows(of, &[&guard]);
+        assert_eq!(all.iter().map(|window| window.faint.len()).collect::<Vec<_>>(), [0, 1]);
+        let mut begin: Vec<f64> = (0..of.elements()).map(|i| 0.3 - 0.07 * (i % 9) as f64).collect();
+        let from = 15;
+        (begin[from], begin[from + 1], begin[from + 2], begin[from + 3]) = (0.6, 0.8, 0.28, -0.96);
+        (begin[from + 4], begin[from + 5]) = (0.9, 1.0);
+        let exact = &all[0].guards[0];
+        for _ in 0..40 {
+            let mut end = begin.clone();
+            all[0].pass(&mut end);
+            let sum: f64 = exact.all(&begin).iter().sum();
+            let value = exact.all(&end)[0];
+            assert!((sum - value).abs() < 1e-13 * (1.0 + value.abs()), "{sum} {value}");
+            // in the long window, the free part of the fast mode is within its bound
+            let (long, rough) = (&all[1], &all[1].guards[0]);
+            let lowered = rough.lowered(&[long.faint[0].energy(&begin)]);
+            assert!((rough.at(&begin)[0] - exact.at(&begin)[0]).abs() <= lowered * (1.0 + 1e-12), "{lowered}");
+            begin = end;
+        }
+    }
+}
