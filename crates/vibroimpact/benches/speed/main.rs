@@ -10,6 +10,7 @@
 //! | a chaotic motion measured and recognised | `chaos` |
 //! | a motion with complete chatter | `chatter` |
 //! | orbits found and followed | `branch` |
+//! | events of machines | `machine`, `machine_problems` |
 //!
 //! Where a throughput is given, an element is an impact (a flight, a start, a point of the map where the name says so).
 
@@ -20,6 +21,8 @@ mod chatter;
 mod first_contact;
 mod impact;
 mod lanes;
+mod machine;
+mod machine_problems;
 mod map;
 
 use criterion::Criterion;
@@ -45,5 +48,6 @@ fn main() {
     chaos::bench(&mut criterion);
     chatter::bench(&mut criterion);
     branch::bench(&mut criterion);
+    machine::bench(&mut criterion);
     criterion.final_summary();
 }

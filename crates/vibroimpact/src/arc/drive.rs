@@ -1,7 +1,7 @@
 //! What drives the modes during a flight: constants, ramps and harmonics, turned to the phase of its beginning.
 
 /// What drives the modes of a flight.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Drive {
     /// The constant part for each mode.
     pub(super) steady: Vec<f64>,

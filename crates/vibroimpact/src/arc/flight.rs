@@ -3,7 +3,7 @@
 use super::dense::{Dense, Steps};
 use super::drive::Drive;
 use crate::math::dot;
-use crate::regime::{GuardKind, Mode, Observable, Signal, Structure, Turned};
+use crate::regime::{GuardKind, Mode, Observable, RestBuffers, Signal, Structure, Turned};
 use std::sync::Arc;
 
 /// How the surface of a damped stop comes back after it has opened by force: $`s = a\,e^{-\kappa t} - b`$.
@@ -17,17 +17,29 @@ pub(crate) struct Recovery {
     pub(crate) offset: f64,
 }
 
+/// The state at the beginning of a flight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Begin<'a> {
+    /// Mass-normalised coordinates and velocities.
+    pub(crate) x: &'a [f64],
+    pub(crate) v: &'a [f64],
+    /// The set points of joints that hold.
+    pub(crate) set: &'a [f64],
+    /// Sine and cosine of each harmonic.
+    pub(crate) turns: &'a [(f64, f64)],
+}
+
 /// What a guard is at the beginning of a flight.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct GuardStart {
     /// Its value there.
     pub(super) value: f64,
     /// Size of the terms of this value, for its rounding error.
     pub(super) size: f64,
+    /// The value less the terms of velocities and harmonics: what is added to them at any time.
+    pub(super) constant: f64,
     /// How many of its derivatives, from the value on, are zero there because the flight begins on it.
     pub(super) known: usize,
-    /// The amplitudes of its harmonics, turned to the phase of the beginning.
-    pub(super) harmonics: Vec<(f64, f64)>,
     /// The surface of its stop.
     pub(super) recovery: Option<Recovery>,
 }
@@ -45,10 +57,13 @@ pub(crate) struct MachineFlight {
     rate: Vec<f64>,
     pub(super) drive: Drive,
     pub(super) guards: Vec<GuardStart>,
+    /// The amplitudes of the harmonics of the guards, turned to the phase of the beginning, guard after guard.
+    harmonics: Vec<(f64, f64)>,
     /// The set points of joints that hold.
     set: Vec<f64>,
     /// Sine and cosine of each harmonic at the beginning.
-    turns: Vec<(f64, f64)>,
+    pub(super) turns: Vec<(f64, f64)>,
+    rest: RestBuffers,
 }
 
 /// The modes at one time.
@@ -73,46 +88,97 @@ const SHORT_REACH: f64 = 0.25;
 
 impl MachineFlight {
     /// The flight from a mass-normalised state. `set` are the set points of joints, `turns` sine and cosine of each
-    /// harmonic at the beginning, `gap` is the gap of a closed stop with its wall at its mean place, and `known` tells how many derivatives of a guard are zero, and how its surface recovers.
+    /// harmonic at the beginning, `gap` is the gap of a closed stop with its wall at its mean place, and `known` tells how
+    /// many derivatives of a guard are zero, and how its surface recovers.
     pub(crate) fn new(
         structure: Arc<Structure>,
-        x: &[f64],
-        rate: &[f64],
-        set: Vec<f64>,
-        turns: &[(f64, f64)],
+        begin: Begin<'_>,
+        gap: impl Fn(usize) -> f64,
+        known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
+    ) -> Self {
+        let mut flight = Self {
+            structure,
+            origin: Vec::new(),
+            v: Vec::new(),
+            x: Vec::new(),
+            rate: Vec::new(),
+            drive: Drive::default(),
+            guards: Vec::new(),
+            harmonics: Vec::new(),
+            set: Vec::new(),
+            turns: Vec::new(),
+            rest: RestBuffers::default(),
+        };
+        flight.begin(begin, gap, known);
+        flight
+    }
+
+    /// Another flight in the place of this one, in its memory.
+    pub(crate) fn renew(
+        &mut self,
+        structure: Arc<Structure>,
+        begin: Begin<'_>,
+        gap: impl Fn(usize) -> f64,
+        known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
+    ) {
+        self.structure = structure;
+        self.begin(begin, gap, known);
+    }
+
+    fn begin(
+        &mut self,
+        Begin { x, v: rate, set, turns }: Begin<'_>,
         gap: impl Fn(usize) -> f64,
         mut known: impl FnMut(GuardKind) -> (usize, Option<Recovery>),
-    ) -> Self {
-        let value = |signal: &Signal| signal.steady(&set) + signal.swing(turns);
-        let (y, v) = structure.modal(x, rate, value);
-        let guards = structure
-            .guards
-            .iter()
-            .map(|guard| {
-                let (known, recovery) = known(guard.kind);
-                let function = &guard.function;
-                let (mut sum, mut size) = (value(&function.signal), function.signal.constant.abs());
-                for i in 0..y.len() {
-                    let (one, two) = (function.position[i] * y[i], function.velocity[i] * v[i]);
-                    sum += one + two;
-                    size += one.abs() + two.abs();
-                }
-                if let Some(surface) = recovery {
-                    sum += surface.size - surface.offset;
-                }
-                let harmonics: Vec<(f64, f64)> = function.signal.turned(turns).collect();
-                size += harmonics.iter().map(|(a, b)| a.abs() + b.abs()).sum::<f64>();
-                GuardStart { value: if known > 0 { 0.0 } else { sum }, size, known, harmonics, recovery }
-            })
-            .collect();
-        let drive = Drive {
-            steady: structure.rest_force(x, rate, turns, gap),
-            ramp: structure.drive.iter().map(|signal| signal.ramp).collect(),
-            harmonics: structure.drive.iter().flat_map(|signal| signal.turned(turns)).collect(),
-            rates: structure.rates.clone(),
-        };
-        let (x, rate, turns) = (x.to_vec(), rate.to_vec(), turns.to_vec());
-        Self { structure, origin: y, v, x, rate, drive, guards, set, turns }
+    ) {
+        let structure = &self.structure;
+        let value = |signal: &Signal| signal.steady(set) + signal.swing(turns);
+        structure.modal(x, rate, value, &mut self.origin, &mut self.v);
+        let (y, v) = (&self.origin, &self.v);
+        self.guards.clear();
+        self.harmonics.clear();
+        for guard in &structure.guards {
+            let (known, recovery) = known(guard.kind);
+            let function = &guard.function;
+            let mut moving = function.signal.swing(turns);
+            let (mut sum, mut size) = (function.signal.steady(set) + moving, function.signal.constant.abs());
+            for i in 0..y.len() {
+                let (one, two) = (function.position[i] * y[i], function.velocity[i] * v[i]);
+                sum += one + two;
+                moving += two;
+                size += one.abs() + two.abs();
+            }
+            if let Some(surface) = recovery {
+                sum += surface.size - surface.offset;
+            }
+            for (a, b) in function.signal.turned(turns) {
+                size += a.abs() + b.abs();
+                self.harmonics.push((a, b));
+            }
+            let value = if known > 0 { 0.0 } else { sum };
+            self.guards.push(GuardStart { value, size, constant: value - moving, known, recovery });
+        }
+        let drive = &mut self.drive;
+        structure.rest_force(x, rate, turns, gap, &mut self.rest, &mut drive.steady);
+        drive.ramp.clear();
+        drive.ramp.extend(structure.drive.iter().map(|signal| signal.ramp));
+        drive.harmonics.clear();
+        drive.harmonics.extend(structure.drive.iter().flat_map(|signal| signal.turned(turns)));
+        drive.rates.clone_from(&structure.rates);
+        self.x.clear();
+        self.x.extend_from_slice(x);
+        self.rate.clear();
+        self.rate.extend_from_slice(rate);
+        self.set.clear();
+        self.set.extend_from_slice(set);
+        self.turns.clear();
+        self.turns.extend_from_slice(turns);
+    }
+
+    /// The amplitudes of the harmonics of a guard, turned to the phase of the beginning.
+    pub(super) fn harmonics(&self, guard: usize) -> &[(f64, f64)] {
+        let count = self.drive.rates.len();
+        &self.harmonics[guard * count..(guard + 1) * count]
     }
 
     /// The structure and what drives it, if it has no modes.
@@ -135,11 +201,25 @@ impl MachineFlight {
             (modes.moved, modes.v) = (moved, v);
             return;
         }
+        if s == 0.0 {
+            modes.moved.resize(self.v.len(), 0.0);
+            modes.error.resize(self.v.len(), 0.0);
+            modes.v.extend_from_slice(&self.v);
+            return;
+        }
         let fastest = self.structure.rates.last().copied().unwrap_or(0.0);
         for (i, mode) in self.structure.modes.iter().enumerate() {
             let turn = s * mode.rate.max(fastest);
             let (moved, v, error) = if turn < SHORT_REACH {
-                self.by_series(i, s, SHORT_TERMS)
+                // the last term is below rounding
+                let terms = if turn < 1e-3 {
+                    6
+                } else if turn < 0.03 {
+                    9
+                } else {
+                    SHORT_TERMS
+                };
+                self.by_series(i, s, terms)
             } else if turn < LONG_REACH && self.slow(i) {
                 self.by_series(i, s, LONG_TERMS)
             } else {
@@ -229,6 +309,25 @@ impl MachineFlight {
         }
     }
 
+    /// Moves the modes on by a time so short that its third power is nothing beside rounding.
+    pub(super) fn advance(&self, s: f64, modes: &mut Modes) {
+        for i in 0..modes.moved.len() {
+            let mut push = self.drive.steady[i] + self.drive.ramp[i] * modes.s;
+            for ((a, b), turned) in self.drive.of(i).iter().zip(&modes.turned) {
+                push += a * turned.cos + b * turned.sin;
+            }
+            let mode = &self.structure.modes[i];
+            let a = push - 2.0 * mode.d * modes.v[i] - mode.k * modes.moved[i];
+            modes.moved[i] += (modes.v[i] + 0.5 * a * s) * s;
+            modes.v[i] += a * s;
+        }
+        for (turned, w) in modes.turned.iter_mut().zip(&self.drive.rates) {
+            let angle = w * s;
+            turned.versine += angle * (turned.sin + 0.5 * angle * turned.cos);
+            (turned.sin, turned.cos) = (turned.sin + angle * turned.cos, turned.cos - angle * turned.sin);
+        }
+    }
+
     /// The value of a guard, its rate, and a bound of its rounding error.
     pub(crate) fn guard(&self, g: usize, modes: &Modes) -> (f64, f64, f64) {
         let (function, start) = (&self.structure.guards[g].function, &self.guards[g]);
@@ -256,7 +355,7 @@ impl MachineFlight {
                     b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i] * mode.rate.max(1e-300) / HALF_ULP);
             }
         }
-        for ((a, b), (turned, w)) in start.harmonics.iter().zip(modes.turned.iter().zip(&self.structure.rates)) {
+        for ((a, b), (turned, w)) in self.harmonics(g).iter().zip(modes.turned.iter().zip(&self.structure.rates)) {
             value += b * turned.sin - a * turned.versine;
             rate += w * (b * turned.cos - a * turned.sin);
             error += (a.abs() + b.abs()) * w * modes.s * 0.5 + (b * turned.sin).abs() + (a * turned.versine).abs();

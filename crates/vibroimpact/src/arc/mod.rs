@@ -4,17 +4,27 @@
 //! |---|---|
 //! | the modes from a state, at any time | `flight` |
 //! | what drives the modes | `drive` |
-//! | the same where there are no modes | `dense` |
+//! | the same where there are no modes | `dense`, `dense_series` |
 //! | whether a flight ends at all | `never` |
+//! | guards as polynomials over a window | `guard_polynomial` |
+//! | windows that are passed without the closed form | `track` |
 //! | first zeros of polynomials | `polynomial` |
+//! | what a search finds, and its memory | `found` |
+//! | proof of a zero, and its time | `zero` |
 //! | the first zero of any guard, which misses none | `search` |
 
 mod dense;
+mod dense_series;
 mod drive;
 mod flight;
+mod found;
+mod guard_polynomial;
 mod never;
 mod polynomial;
 mod search;
+mod track;
+mod zero;
 
-pub(crate) use flight::{MachineFlight, Modes, Recovery};
-pub(crate) use search::{Buffers, Found, Touch, first_event};
+pub(crate) use flight::{Begin, MachineFlight, Modes, Recovery};
+pub(crate) use found::{Buffers, Found, Touch};
+pub(crate) use search::first_event;

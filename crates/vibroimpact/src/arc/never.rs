@@ -30,8 +30,9 @@ impl MachineFlight {
             let mut constant = start.value;
             let mut size = start.size;
             let (mut drift, mut transient) = (0.0, 0.0);
-            let mut waves = start.harmonics.clone();
-            for (a, _) in &start.harmonics {
+            let harmonics: Vec<(f64, f64)> = function.signal.turned(&self.turns).collect();
+            let mut waves = harmonics.clone();
+            for (a, _) in &harmonics {
                 constant -= a;
             }
             for (i, of) in steady.iter().enumerate() {

@@ -3,51 +3,26 @@
 //! A polynomial lies within the hull of its Bernstein coefficients: if all are positive, it has no zero. Halving the
 //! interval by de Casteljau's scheme brings them closer to the polynomial.
 
-/// Number of coefficients of a polynomial of the ninth degree.
-pub(super) const TERMS: usize = 10;
+use crate::regime::{TERMS, bernstein};
 
+const ORDER: usize = TERMS - 1;
 /// The interval is halved this many times at most.
 const DEPTH: u32 = 48;
 /// The length of the last interval.
 #[allow(clippy::cast_precision_loss)] // a power of two
 pub(super) const RESOLUTION: f64 = 1.0 / (1_u64 << DEPTH) as f64;
 
-/// $`\binom{j}{k} / \binom{9}{k}`$, row j.
-const TO_BERNSTEIN: [[f64; TERMS]; TERMS] = {
-    let mut table = [[0.0; TERMS]; TERMS];
-    let mut j = 0;
-    while j < TERMS {
-        let mut k = 0;
-        let mut value = 1.0;
-        let (mut top, mut bottom) = (j, TERMS - 1);
-        while k <= j {
-            table[j][k] = value;
-            if k < j {
-                #[allow(clippy::cast_precision_loss)]
-                {
-                    value = value * (top as f64) / (bottom as f64);
-                }
-                top -= 1;
-                bottom -= 1;
-            }
-            k += 1;
-        }
-        j += 1;
-    }
-    table
-};
-
-fn bernstein(p: &[f64; TERMS]) -> [f64; TERMS] {
-    let mut b = [0.0; TERMS];
-    for (value, row) in b.iter_mut().zip(&TO_BERNSTEIN) {
-        *value = p.iter().zip(row).map(|(p, factor)| p * factor).sum();
-    }
-    b
-}
+/// A step of Newton's method of this length is followed by one below the resolution.
+const NEAR: f64 = 1e-9;
 
 /// A point of [0, 1] before which `p`, given by its coefficients in powers, is positive and near which it is not; `None`
 /// if it is positive on the whole interval.
 pub(super) fn first_zero(p: &[f64; TERMS]) -> Option<f64> {
+    first_zero_near(p, f64::NAN)
+}
+
+/// The same, with a point near which a zero is expected.
+pub(super) fn first_zero_near(p: &[f64; TERMS], guess: f64) -> Option<f64> {
     if p[0] <= 0.0 {
         return Some(0.0);
     }
@@ -55,19 +30,71 @@ pub(super) fn first_zero(p: &[f64; TERMS]) -> Option<f64> {
     if p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0 {
         return None;
     }
-    search(&bernstein(p), 0.0, 1.0, DEPTH)
+    search(p, &bernstein(p), (0.0, 1.0), DEPTH, guess)
+}
+
+/// Whether the Bernstein coefficients change from positive to negative once: then there is one zero, and it is a crossing.
+pub(super) fn crosses_once(b: &[f64; TERMS]) -> bool {
+    let first = b.iter().position(|value| *value <= 0.0).unwrap_or(TERMS);
+    b[first..].iter().all(|value| *value < 0.0)
+}
+
+/// The crossing of a polynomial that is positive at one point and negative at another, by Newton's method, from below.
+fn crossing(p: &[f64; TERMS], from: f64, width: f64, b: &[f64; TERMS], guess: f64) -> f64 {
+    let (mut low, mut high) = (from, from + width);
+    // the zero of the line between the ends, if there is no better guess
+    let mut t = if guess > low && guess < high { guess } else { from + width * (b[0] / (b[0] - b[ORDER])) };
+    for round in 0..64 {
+        let (height, slope) = value(p, t);
+        if height > 0.0 {
+            low = low.max(t);
+        } else {
+            high = high.min(t);
+        }
+        if high - low <= 2.0 * RESOLUTION {
+            break;
+        }
+        let mut next = t - height / slope;
+        if !(next > low && next < high) || round > 12 {
+            next = 0.5 * (low + high);
+        }
+        // near the zero: points on both sides of it, if the next step would be below the resolution
+        if (next - t).abs() <= NEAR {
+            let (before, behind) = (next - RESOLUTION, next + RESOLUTION);
+            if before > low && value(p, before).0 > 0.0 {
+                low = before;
+            }
+            if behind < high && value(p, behind).0 <= 0.0 {
+                high = behind;
+            }
+        }
+        t = next;
+    }
+    low
+}
+
+/// Whether the polynomial is positive on [0, 1]; not decided by halving, so `false` may be wrong.
+pub(super) fn is_positive(p: &[f64; TERMS]) -> bool {
+    // all falling terms together cannot reach zero, or the hull is positive
+    p[0] > 0.0
+        && (p[0] + p[1..].iter().map(|c| c.min(0.0)).sum::<f64>() > 0.0
+            || bernstein(p).iter().all(|value| *value > 0.0))
 }
 
 /// The same between two points, from the Bernstein coefficients there.
-fn search(b: &[f64; TERMS], from: f64, width: f64, depth: u32) -> Option<f64> {
+fn search(p: &[f64; TERMS], b: &[f64; TERMS], (from, width): (f64, f64), depth: u32, guess: f64) -> Option<f64> {
     if b.iter().all(|value| *value > 0.0) {
         return None;
     }
     if b[0] <= 0.0 || depth == 0 {
         return Some(from);
     }
+    if crosses_once(b) {
+        return Some(crossing(p, from, width, b, guess));
+    }
     let (left, right) = halves(b);
-    search(&left, from, 0.5 * width, depth - 1).or_else(|| search(&right, from + 0.5 * width, 0.5 * width, depth - 1))
+    search(p, &left, (from, 0.5 * width), depth - 1, guess)
+        .or_else(|| search(p, &right, (from + 0.5 * width, 0.5 * width), depth - 1, guess))
 }
 
 /// The Bernstein coefficients on both halves.

@@ -3,13 +3,13 @@
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::impulses::impulses;
 use super::passage::Passage;
-use super::place::{Place, Structures};
+use super::place::{Place, Scratch, Structures};
 use super::resolve::resolve;
 use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Recovery, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{Sum, add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, Normal, compliant};
+use crate::regime::{ContactState, GuardKind, Normal, Structure, compliant};
 use crate::system::phase;
 use std::collections::VecDeque;
 
@@ -41,6 +41,9 @@ pub struct MachineMotion<'a> {
     end: Option<MachineEnd>,
     buffers: Buffers,
     touches: Vec<Touch>,
+    /// The memory of the last flight.
+    spare: Option<MachineFlight>,
+    scratch: Scratch,
     /// Events since the time last advanced.
     crowd: u32,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
@@ -256,7 +259,7 @@ impl<'a> MachineMotion<'a> {
         if let [j] = rigid[..]
             && self.place.states[j] == ContactState::Open
         {
-            self.complete(j);
+            self.complete(j, &turns);
         }
         Some(())
     }
@@ -376,16 +379,29 @@ impl<'a> MachineMotion<'a> {
 
     /// Sums the chatter on a stop that has just been struck, if its impacts accumulate so soon that the first two terms
     /// of the sum are exact to rounding (A. B. Nordmark and P. T. Piiroinen, doi:10.1007/s11071-008-9463-y).
-    fn complete(&mut self, j: usize) {
+    fn complete(&mut self, j: usize, turns: &[(f64, f64)]) {
         let StopLaw::Rigid { restitution } = self.machine.stops()[j].law else { return };
-        let rebound = self.place.gap(&self.normal, &self.place.turns(&self.normal), j).1;
+        let rebound = self.place.gap(&self.normal, turns, j).1;
         if restitution >= 1.0 || rebound <= 0.0 {
+            return;
+        }
+        // the fastest rate of the free motion: the terms that are left out are of its square
+        let Some(free) = self.structures.get(self.machine, &self.normal, &self.place.states) else { return };
+        // the sum over bounces of free bodies under constant forces is exact at any speed: small is what is small beside
+        // the bounces before
+        if free.fastest() == 0.0 && rebound > SMALL * self.largest_impact {
+            return;
+        }
+        self.place.states[j] = ContactState::Resting;
+        let resting = self.structures.get(self.machine, &self.normal, &self.place.states);
+        self.place.states[j] = ContactState::Open;
+        let Some(structure) = resting else { return };
+        let Some(held) = structure.held.iter().position(|place| *place == j) else { return };
+        if self.is_far_from_rest(&structure, held, (rebound, restitution), free.fastest(), turns) {
             return;
         }
         let mut states = self.place.states.clone();
         states[j] = ContactState::Resting;
-        let Some(structure) = self.structures.get(self.machine, &self.normal, &states) else { return };
-        let Some(held) = structure.held.iter().position(|place| *place == j) else { return };
         // the state at rest: the velocity of the gap taken away, the other constraints unchanged
         let mut there = self.place.clone();
         add_scaled(&mut there.v, rebound, &structure.across[held]);
@@ -400,16 +416,9 @@ impl<'a> MachineMotion<'a> {
         }
         let k = rebound / a;
         let r = 1.0 - restitution;
-        // the fastest rate of the free motion: the terms that are left out are of its square
-        let Some(free) = self.structures.get(self.machine, &self.normal, &self.place.states) else { return };
         let first = 2.0 * k / r;
         let second = -2.0 * (jerk / a * k + 0.5 * drag * k) / (3.0 * r);
         if second.abs() > SMALL || first * free.fastest().max(drag) > 10.0 * SMALL {
-            return;
-        }
-        // the sum over bounces of free bodies under constant forces is exact at any speed: small is what is small beside
-        // the bounces before
-        if free.fastest() == 0.0 && rebound > SMALL * self.largest_impact {
             return;
         }
         let duration = first * (1.0 + second);
@@ -437,13 +446,35 @@ impl<'a> MachineMotion<'a> {
         self.largest_impact = 0.0;
     }
 
+    /// Whether a chatter is far from its end, by the reaction at rest here: a first test without a flight.
+    fn is_far_from_rest(
+        &mut self,
+        structure: &Structure,
+        held: usize,
+        (rebound, restitution): (f64, f64),
+        fastest: f64,
+        turns: &[(f64, f64)],
+    ) -> bool {
+        if !self.machine.joints().is_empty() {
+            return false;
+        }
+        let v = &mut self.scratch.v;
+        v.clone_from(&self.place.v);
+        add_scaled(v, rebound, &structure.across[held]);
+        let (mobility, drag) = structure.mobility[held];
+        let a = mobility * structure.reaction_at(held, &self.place.x, v, turns);
+        let first = 2.0 * rebound / (a * (1.0 - restitution));
+        a <= 0.0 || first * fastest.max(drag) > 11.0 * SMALL
+    }
+
     /// Moves the state to a time after the beginning of a flight.
     fn move_to(&mut self, flight: &MachineFlight, s: f64) {
         if let Some(trail) = self.trail.as_mut().filter(|_| s > 0.0) {
             let (begin, place, flight) = (self.time, self.place.clone(), flight.clone());
             follow(trail, Stretch { begin, duration: s, place, flight });
         }
-        self.place.move_along(flight, s, self.machine.parts().frequency, &mut self.buffers.modes);
+        let modes = self.buffers.modes_at(flight, s);
+        self.place.move_along(flight, (modes, s), self.machine.parts().frequency);
         let before = self.time.value();
         self.time.add(s);
         if self.time.value() > before {
@@ -479,6 +510,8 @@ impl<'a> MachineMotion<'a> {
             end: None,
             buffers: Buffers::default(),
             touches: Vec::new(),
+            spare: None,
+            scratch: Scratch::default(),
             crowd: 0,
             largest_impact: 0.0,
             passage: None,
@@ -507,7 +540,7 @@ impl<'a> MachineMotion<'a> {
         let Some(structure) = self.structures.get(self.machine, &self.normal, &self.place.states) else {
             return self.end = Some(MachineEnd::Inconsistent);
         };
-        let flight = self.place.flight(&self.normal, structure.clone());
+        let flight = self.place.fly(&self.normal, structure.clone(), self.spare.take(), &mut self.scratch);
         // the first surface that reaches its holder changes its guard without an event
         let recovered = self
             .place
@@ -534,6 +567,10 @@ impl<'a> MachineMotion<'a> {
                     never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
                 }
             }
+        }
+        if never {
+            // the closed form holds as long as it is wanted
+            found = Found::NoneBefore(until);
         }
         for touch in &touches {
             if let GuardKind::Gap(j) = structure.guards[touch.guard].kind {
@@ -579,10 +616,18 @@ impl<'a> MachineMotion<'a> {
                 self.happen(&kinds);
             }
         }
+        self.spare = Some(flight);
     }
 
     /// What follows when these guards are zero.
     fn happen(&mut self, kinds: &[GuardKind]) {
+        if let [kind] = *kinds
+            && self.machine.joints().is_empty()
+            && !self.place.states.iter().any(|state| state.constrains())
+            && self.happen_alone(kind)
+        {
+            return;
+        }
         let stops = self.machine.stops().len();
         let before = self.place.states.clone();
         let turns = self.place.turns(&self.normal);
@@ -602,18 +647,7 @@ impl<'a> MachineMotion<'a> {
                     if self.place.states[j] != ContactState::Closed {
                         continue;
                     }
-                    self.place.states[j] = ContactState::Open;
-                    self.place.known.push((GuardKind::Gap(j), 1));
-                    let depth = -self.place.gap(&self.normal, &turns, j).0;
-                    if let (GuardKind::Force(_), StopLaw::Compliant { stiffness, damping, preload, .. }) =
-                        (*kind, &self.machine.stops()[j].law)
-                        && depth > 0.0
-                    {
-                        self.place.surfaces[j] = Some(recovery(*stiffness, *damping, *preload, depth));
-                        // the surface leaves the body with the velocity of the body
-                        self.place.known.retain(|(of, _)| *of != GuardKind::Gap(j));
-                        self.place.known.push((GuardKind::Gap(j), 2));
-                    }
+                    self.open(*kind, j, &turns);
                     fixed.push(j);
                 }
                 GuardKind::Reaction(j) => {
@@ -643,6 +677,79 @@ impl<'a> MachineMotion<'a> {
             }
         }
         self.change(&before, &closing, candidates, &fixed);
+    }
+}
+
+/// Events that change one stop and nothing else: no joint is there, and nothing rests. They are what most motions consist
+/// of; the general way above does the same with them.
+impl MachineMotion<'_> {
+    /// Whether the event at this guard was one of them.
+    fn happen_alone(&mut self, kind: GuardKind) -> bool {
+        let turns = self.place.turns(&self.normal);
+        match kind {
+            GuardKind::Gap(j) => {
+                let (gap, rate, ..) = self.place.gap(&self.normal, &turns, j);
+                let speed = (-rate).max(0.0);
+                let w = &self.normal.directions[j];
+                let square = dot(w, w);
+                match self.machine.stops()[j].law {
+                    StopLaw::Rigid { restitution } => {
+                        if restitution * speed <= 0.0 {
+                            return false;
+                        }
+                        // on the stop exactly, without the rounding error of the time
+                        add_scaled(&mut self.place.x, gap / square, w);
+                        let impulse = -((1.0 + restitution) * -speed) / square;
+                        add_scaled(&mut self.place.v, -impulse, w);
+                        self.largest_impact = self.largest_impact.max(speed);
+                        self.place.known.push((GuardKind::Gap(j), 1));
+                        self.record(&[(j, restitution)]);
+                        self.announce(MachineEventKind::Impact, j, speed, Vec::new());
+                        self.complete(j, &turns);
+                    }
+                    StopLaw::Compliant { .. } => {
+                        if self.place.surfaces[j].take().is_none() {
+                            add_scaled(&mut self.place.x, gap / square, w);
+                            self.place.known.push((GuardKind::Depth(j), 1));
+                        }
+                        self.place.states[j] = ContactState::Closed;
+                        self.record(&[]);
+                        self.announce(MachineEventKind::Close, j, speed, Vec::new());
+                    }
+                }
+            }
+            GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
+                self.open(kind, j, &turns);
+                self.record(&[]);
+                self.announce(MachineEventKind::Open, j, 0.0, Vec::new());
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// Records the state after an event and the rigid stops that push, with their restitution.
+    fn record(&mut self, pushed: &[(usize, f64)]) {
+        if let Some(passage) = &mut self.passage {
+            passage.pushed = pushed.to_vec();
+            passage.after = Some(self.place.clone());
+        }
+    }
+
+    /// Opens a compliant stop.
+    fn open(&mut self, kind: GuardKind, j: usize, turns: &[(f64, f64)]) {
+        self.place.states[j] = ContactState::Open;
+        let depth = -self.place.gap(&self.normal, turns, j).0;
+        let mut known = 1;
+        if let (GuardKind::Force(_), StopLaw::Compliant { stiffness, damping, preload, .. }) =
+            (kind, &self.machine.stops()[j].law)
+            && depth > 0.0
+        {
+            self.place.surfaces[j] = Some(recovery(*stiffness, *damping, *preload, depth));
+            // the surface leaves the body with the velocity of the body
+            known = 2;
+        }
+        self.place.known.push((GuardKind::Gap(j), known));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where a machine is: state, phase, and what its stops and joints do.
 
-use crate::arc::{MachineFlight, Modes, Recovery};
+use crate::arc::{Begin, MachineFlight, Modes, Recovery};
 use crate::machine::Machine;
 use crate::math::{dot, sin_cos};
 use crate::regime::{ContactState, GuardKind, Normal, Structure};
@@ -40,6 +40,14 @@ impl Structures {
     }
 }
 
+/// Vectors for the beginning of a flight, which are used again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch {
+    turns: Vec<(f64, f64)>,
+    set: Vec<f64>,
+    pub(super) v: Vec<f64>,
+}
+
 /// The state of a machine at one time.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
@@ -57,35 +65,63 @@ pub(crate) struct Place {
 impl Place {
     /// Sine and cosine of all harmonics.
     pub(crate) fn turns(&self, normal: &Normal) -> Vec<(f64, f64)> {
+        let mut turns = Vec::new();
+        self.turns_into(normal, &mut turns);
+        turns
+    }
+
+    fn turns_into(&self, normal: &Normal, turns: &mut Vec<(f64, f64)>) {
         let phase = |order: f64| if order == 1.0 { self.phase } else { phase::wrap(order * self.phase) };
-        normal.orders.iter().map(|order| sin_cos(phase(*order))).collect()
+        turns.clear();
+        turns.extend(normal.orders.iter().map(|order| sin_cos(phase(*order))));
     }
 
     /// The flight from here in the regime of `structure`.
     pub(crate) fn flight(&self, normal: &Normal, structure: Arc<Structure>) -> MachineFlight {
+        self.fly(normal, structure, None, &mut Scratch::default())
+    }
+
+    /// The same, in the memory of another flight.
+    pub(super) fn fly(
+        &self,
+        normal: &Normal,
+        structure: Arc<Structure>,
+        spare: Option<MachineFlight>,
+        scratch: &mut Scratch,
+    ) -> MachineFlight {
         // the time restarts with each flight, and the set points of joints that hold on a moving belt with it
         let stops = self.surfaces.len();
         let joints = 0..self.states.len() - stops;
-        let set = joints.map(|joint| match self.states[stops + joint] {
+        let Scratch { turns, set, .. } = scratch;
+        set.clear();
+        set.extend(joints.map(|joint| match self.states[stops + joint] {
             ContactState::Holding => dot(&normal.directions[stops + joint], &self.x),
             _ => 0.0,
-        });
-        let turns = self.turns(normal);
+        }));
+        self.turns_into(normal, turns);
         let gap = |stop: usize| {
             let at_zero = self.known.iter().any(|(kind, _)| *kind == GuardKind::Depth(stop));
-            let gap = if at_zero { 0.0 } else { self.gap(normal, &turns, stop).0 };
-            gap - normal.walls[stop].swing(&turns)
+            let gap = if at_zero { 0.0 } else { self.gap(normal, turns, stop).0 };
+            gap - normal.walls[stop].swing(turns)
         };
-        MachineFlight::new(structure, &self.x, &self.v, set.collect(), &turns, gap, |kind| {
+        let known = |kind| {
             let known = self.known.iter().find(|(of, _)| *of == kind).map_or(0, |(_, count)| *count);
             let surface = if let GuardKind::Gap(stop) = kind { self.surfaces[stop] } else { None };
             (known, surface)
-        })
+        };
+        let begin = Begin { x: &self.x, v: &self.v, set, turns };
+        match spare {
+            Some(mut flight) => {
+                flight.renew(structure, begin, gap, known);
+                flight
+            }
+            None => MachineFlight::new(structure, begin, gap, known),
+        }
     }
 
-    /// Moves to a time after the beginning of a flight that began here; `frequency` is that of the forcing.
-    pub(crate) fn move_along(&mut self, flight: &MachineFlight, s: f64, frequency: Option<f64>, modes: &mut Modes) {
-        flight.at(s, modes);
+    /// Moves to a time `s` after the beginning of a flight that began here, whose modes are these then; `frequency` is that
+    /// of the forcing.
+    pub(crate) fn move_along(&mut self, flight: &MachineFlight, (modes, s): (&Modes, f64), frequency: Option<f64>) {
         flight.state(modes, &mut self.x, &mut self.v);
         for surface in &mut self.surfaces {
             if let Some(Recovery { size, rate, .. }) = surface {

@@ -302,7 +302,9 @@ mod tests {
                 assert!(left <= passage.duration);
                 let flight = begin.flight(&normal, passage.structure.clone());
                 let mut end = begin.clone();
-                end.move_along(&flight, left, machine.parts().frequency, &mut crate::arc::Modes::default());
+                let mut modes = crate::arc::Modes::default();
+                flight.at(left, &mut modes);
+                end.move_along(&flight, (&modes, left), machine.parts().frequency);
                 let last = shape.transition(&passage.structure, &normal, &begin, left);
                 return Some((shape.values(&end), last.times(&derivative), kinds));
             }

@@ -110,13 +110,26 @@ impl Matrix {
         (0..self.rows).map(|i| dot(self.row(i), vector)).collect()
     }
 
+    /// The image of a vector, into another one.
+    pub(crate) fn apply_into(&self, vector: &[f64], image: &mut Vec<f64>) {
+        image.clear();
+        image.extend((0..self.rows).map(|i| dot(self.row(i), vector)));
+    }
+
+    /// The image of a vector under the transpose, into another one.
+    pub(crate) fn apply_transposed_into(&self, vector: &[f64], image: &mut Vec<f64>) {
+        image.clear();
+        image.resize(self.columns, 0.0);
+        for (i, factor) in vector.iter().enumerate() {
+            add_scaled(image, *factor, self.row(i));
+        }
+    }
+
     /// The image of a vector under the transpose.
     #[must_use]
     pub fn apply_transposed(&self, vector: &[f64]) -> Vec<f64> {
-        let mut image = vec![0.0; self.columns];
-        for (i, factor) in vector.iter().enumerate() {
-            add_scaled(&mut image, *factor, self.row(i));
-        }
+        let mut image = Vec::new();
+        self.apply_transposed_into(vector, &mut image);
         image
     }
 

@@ -11,8 +11,11 @@
 //! | the constant force on its modes at a position | `rest_force` |
 //! | the structure in one regime, its guards | `structure` |
 //! | small changes of its state, their motion, and the gradients of guards | `change` |
+//! | polynomials in Bernstein's form | `bernstein` |
+//! | its motion over windows of one length | `window` |
 
 mod basis;
+mod bernstein;
 mod change;
 mod complement;
 mod contact_state;
@@ -21,9 +24,13 @@ mod normal;
 mod rest_force;
 mod signal;
 mod structure;
+mod window;
 
+pub(crate) use bernstein::{TERMS, bernstein};
 pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
+pub(crate) use rest_force::RestBuffers;
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::{GuardKind, Structure};
+pub(crate) use window::{ALL, REACH, Window, derivative_bounds};

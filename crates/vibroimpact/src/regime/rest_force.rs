@@ -19,6 +19,25 @@ pub(super) struct RestForce {
     /// $`B_2 + 2dA_2`$ and $`A_2`$.
     pub(super) push: Matrix,
     pub(super) drift: Matrix,
+    /// Whether the last is not zero.
+    pub(super) drifts: bool,
+}
+
+/// Vectors that are used again.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RestBuffers {
+    swung: Vec<f64>,
+    mean: Vec<f64>,
+    on_free: Vec<f64>,
+    push: Vec<f64>,
+    drift: Vec<f64>,
+}
+
+impl RestBuffers {
+    /// The force on each mode, and the displacements that belong to velocities, or none.
+    pub(super) fn push_and_drift(&mut self) -> (&mut Vec<f64>, &[f64]) {
+        (&mut self.push, &self.drift)
+    }
 }
 
 /// A closed stop: its place, stiffness, constant force at gap 0, direction, and direction in the free directions.
@@ -32,25 +51,37 @@ pub(super) struct RestContact {
 }
 
 impl RestForce {
-    /// The force on each mode at the position `x`, and the displacement of each mode that belongs to the velocities `v`
-    /// alone. `gap` is the gap of a closed stop with its wall at its mean place. Harmonics of walls and of what they carry
-    /// along are counted from their mean, as they are in what drives the modes; `turns` are their sines and cosines.
+    /// The force on each mode at the position `x`, into `push`, and the displacement of each mode that belongs to the
+    /// velocities `v` alone, into `drift`, which stays empty if there is none. `gap` is the gap of a closed stop with its
+    /// wall at its mean place. Harmonics of walls and of what they carry along are counted from their mean, as they are in
+    /// what drives the modes; `turns` are their sines and cosines.
     pub(super) fn at(
         &self,
         x: &[f64],
         v: &[f64],
         turns: &[(f64, f64)],
         gap: impl Fn(usize) -> f64,
-    ) -> (Vec<f64>, Vec<f64>) {
-        let swung: Vec<f64> = self.carried.iter().map(|signal| signal.swing(turns)).collect();
-        let mean: Vec<f64> = x.iter().zip(&swung).map(|(x, swung)| x - swung).collect();
-        let pulled = self.stiffness.apply(&mean);
-        let left: Vec<f64> = self.force.iter().zip(&pulled).map(|(force, pulled)| force - pulled).collect();
-        let mut on_free = self.free.apply_transposed(&left);
-        for contact in &self.contacts {
-            let gap = gap(contact.place) + dot(&contact.direction, &swung);
-            add_scaled(&mut on_free, contact.stiffness * gap + contact.force, &contact.share);
+        buffers: &mut RestBuffers,
+    ) {
+        let RestBuffers { swung, mean, on_free, push, drift } = buffers;
+        swung.clear();
+        swung.extend(self.carried.iter().map(|signal| signal.swing(turns)));
+        mean.clear();
+        mean.extend(x.iter().zip(swung.iter()).map(|(x, swung)| x - swung));
+        on_free.clear();
+        on_free.resize(self.free.columns(), 0.0);
+        for (i, force) in self.force.iter().enumerate() {
+            add_scaled(on_free, force - dot(self.stiffness.row(i), mean), self.free.row(i));
         }
-        (self.push.apply(&on_free), self.drift.apply(&self.free.apply_transposed(v)))
+        for contact in &self.contacts {
+            let gap = gap(contact.place) + dot(&contact.direction, swung);
+            add_scaled(on_free, contact.stiffness * gap + contact.force, &contact.share);
+        }
+        self.push.apply_into(on_free, push);
+        drift.clear();
+        if self.drifts {
+            self.free.apply_transposed_into(v, on_free);
+            self.drift.apply_into(on_free, drift);
+        }
     }
 }

@@ -20,6 +20,14 @@ impl Signal {
         Self { constant: 0.0, ramp: 0.0, set: vec![0.0; joints], harmonics: vec![(0.0, 0.0); harmonics] }
     }
 
+    /// Whether it is zero at all times.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.constant == 0.0
+            && self.ramp == 0.0
+            && self.set.iter().all(|factor| *factor == 0.0)
+            && self.harmonics.iter().all(|pair| *pair == (0.0, 0.0))
+    }
+
     /// Adds a multiple of another one.
     pub(crate) fn add(&mut self, factor: f64, other: &Self) {
         self.constant += factor * other.constant;

@@ -5,8 +5,9 @@ use super::complement::complement;
 use super::contact_state::ContactState;
 use super::mode::Mode;
 use super::normal::{Normal, compliant};
-use super::rest_force::{RestContact, RestForce};
+use super::rest_force::{RestBuffers, RestContact, RestForce};
 use super::signal::{Observable, Signal};
+use super::window::{Moved, Window, windows};
 use crate::machine::{Machine, Opening, StopLaw};
 use crate::math::{Matrix, add_scaled, dot};
 
@@ -71,6 +72,15 @@ pub(crate) struct Structure {
     pub(crate) rates: Vec<f64>,
     /// What is needed for the constant force on the modes at a given position.
     rest: RestForce,
+    /// Whether modal displacements are combinations of coordinates alone, and modal velocities of velocities alone: no damping
+    /// couples modes, and no constraint moves.
+    plain: bool,
+    /// The reactions as functions of the mass-normalised state.
+    pressing: Vec<Pressing>,
+    /// Windows of useful lengths, the shortest first; none without modes.
+    pub(crate) windows: Vec<Window>,
+    /// The fastest rate of the free motion and of the forcing.
+    fastest: f64,
 }
 
 impl Structure {
@@ -259,6 +269,7 @@ impl Structure {
             carried: carried.clone(),
             push,
             drift: basis.a[1].clone(),
+            drifts: basis.a[1].largest() > 0.0,
         };
         let (to_y_signal, to_z_signal) = (offset(&to_y), offset(&to_z));
 
@@ -327,14 +338,32 @@ impl Structure {
             across,
             rates: rates.clone(),
             rest,
+            plain: false,
+            pressing: Vec::new(),
+            windows: Vec::new(),
+            fastest: 0.0,
         };
+        let still = |signals: &[Signal]| signals.iter().all(Signal::is_zero);
+        structure.plain = structure.to_y[1].largest() == 0.0
+            && structure.to_z[0].largest() == 0.0
+            && still(&structure.to_y_signal)
+            && still(&structure.to_z_signal)
+            && still(&structure.slip);
+        structure.pressing = structure.reactions.iter().map(|reaction| structure.pressing(reaction)).collect();
+        structure.fastest =
+            structure.modes.iter().map(|mode| mode.rate).fold(rates.last().copied().unwrap_or(0.0), f64::max);
         structure.guards = structure.all_guards(machine, normal);
+        if structure.dense.is_none() {
+            let moved = Moved { modes: &structure.modes, drive: &structure.drive, rates };
+            let guards: Vec<&Observable> = structure.guards.iter().map(|guard| &guard.function).collect();
+            structure.windows = windows(moved, &guards);
+        }
         Some(structure)
     }
 
     /// The fastest rate of the free motion and of the forcing.
-    pub(crate) fn fastest(&self) -> f64 {
-        self.modes.iter().map(|mode| mode.rate).fold(self.rates.last().copied().unwrap_or(0.0), f64::max)
+    pub(crate) const fn fastest(&self) -> f64 {
+        self.fastest
     }
 
     /// $`w\cdot x`$ and its rate.
@@ -442,27 +471,79 @@ impl Structure {
         v: &[f64],
         turns: &[(f64, f64)],
         gap: impl Fn(usize) -> f64,
-    ) -> Vec<f64> {
-        let (mut push, drift) = self.rest.at(x, v, turns, gap);
+        buffers: &mut RestBuffers,
+        force: &mut Vec<f64>,
+    ) {
+        self.rest.at(x, v, turns, gap, buffers);
+        let (push, drift) = buffers.push_and_drift();
         if self.dense.is_none() {
-            for (i, mode) in self.modes.iter().enumerate() {
-                // and the rate of a ramp in $`P_1`$
-                push[i] += self.slip[i].ramp - mode.k * drift[i];
+            for (push, slip) in push.iter_mut().zip(&self.slip) {
+                // the rate of a ramp in $`P_1`$
+                *push += slip.ramp;
+            }
+            for ((push, drift), mode) in push.iter_mut().zip(drift).zip(&self.modes) {
+                *push -= mode.k * drift;
             }
         }
-        push
+        core::mem::swap(push, force);
     }
 
-    /// The modal state from the mass-normalised one at the beginning of a flight; `at` is the value of a signal there.
-    pub(crate) fn modal(&self, x: &[f64], v: &[f64], at: impl Fn(&Signal) -> f64) -> (Vec<f64>, Vec<f64>) {
-        let of = |maps: &[Matrix; 2], signals: &[Signal]| -> Vec<f64> {
-            (0..self.modes.len()).map(|i| dot(maps[0].row(i), x) + dot(maps[1].row(i), v) - at(&signals[i])).collect()
+    /// The modal displacements and velocities from the mass-normalised state at the beginning of a flight; `at` is the value
+    /// of a signal there.
+    pub(crate) fn modal(
+        &self,
+        x: &[f64],
+        v: &[f64],
+        at: impl Fn(&Signal) -> f64,
+        y: &mut Vec<f64>,
+        rate: &mut Vec<f64>,
+    ) {
+        y.clear();
+        rate.clear();
+        let modes = 0..self.modes.len();
+        if self.plain {
+            y.extend(modes.clone().map(|i| dot(self.to_y[0].row(i), x)));
+            rate.extend(modes.map(|i| dot(self.to_z[1].row(i), v)));
+            return;
+        }
+        let of = |maps: &[Matrix; 2], signals: &[Signal], i: usize| {
+            dot(maps[0].row(i), x) + dot(maps[1].row(i), v) - at(&signals[i])
         };
-        let y = of(&self.to_y, &self.to_y_signal);
-        let z = of(&self.to_z, &self.to_z_signal);
-        let rate = z.iter().zip(&self.slip).map(|(z, slip)| z + at(slip)).collect();
-        (y, rate)
+        y.extend(modes.clone().map(|i| of(&self.to_y, &self.to_y_signal, i)));
+        rate.extend(modes.map(|i| of(&self.to_z, &self.to_z_signal, i) + at(&self.slip[i])));
     }
+
+    /// A linear function of the modes as one of the mass-normalised state.
+    fn pressing(&self, of: &Observable) -> Pressing {
+        let n = self.x.len();
+        let mut pressing = Pressing { x: vec![0.0; n], v: vec![0.0; n], signal: of.signal.clone() };
+        for i in 0..self.modes.len() {
+            let (a, b) = (of.position[i], of.velocity[i]);
+            add_scaled(&mut pressing.x, a, self.to_y[0].row(i));
+            add_scaled(&mut pressing.v, a, self.to_y[1].row(i));
+            add_scaled(&mut pressing.x, b, self.to_z[0].row(i));
+            add_scaled(&mut pressing.v, b, self.to_z[1].row(i));
+            pressing.signal.add(-a, &self.to_y_signal[i]);
+            pressing.signal.add(-b, &self.to_z_signal[i]);
+            pressing.signal.add(b, &self.slip[i]);
+        }
+        pressing
+    }
+
+    /// A reaction at a mass-normalised state, if no joint holds, to rounding of its terms; `turns` are sine and cosine of the
+    /// harmonics.
+    pub(crate) fn reaction_at(&self, held: usize, x: &[f64], v: &[f64], turns: &[(f64, f64)]) -> f64 {
+        let Pressing { x: by_x, v: by_v, signal } = &self.pressing[held];
+        signal.constant + signal.swing(turns) + dot(by_x, x) + dot(by_v, v)
+    }
+}
+
+/// A linear function of the mass-normalised state.
+#[derive(Clone, Debug)]
+struct Pressing {
+    x: Vec<f64>,
+    v: Vec<f64>,
+    signal: Signal,
 }
 
 /// A closed stop.

@@ -54,7 +54,9 @@ impl<'a> MachineFrame<'a> {
     pub(crate) fn moved(&self, place: &Place, structure: &Arc<Structure>, s: f64) -> Place {
         let flight = place.flight(&self.normal, structure.clone());
         let mut moved = place.clone();
-        moved.move_along(&flight, s, self.machine.parts().frequency, &mut Modes::default());
+        let mut modes = Modes::default();
+        flight.at(s, &mut modes);
+        moved.move_along(&flight, (&modes, s), self.machine.parts().frequency);
         moved
     }
 

@@ -158,7 +158,7 @@ fn settle_in<'a>(
         if !go_on() {
             return Ok(None);
         }
-        let begin = motion.place().clone();
+        let (begin, before) = (motion.place().clone(), motion.time());
         let Some(passage) = motion.step() else { break };
         let time = motion.time();
         let interval = passage.time();
@@ -174,7 +174,8 @@ fn settle_in<'a>(
                     events,
                 },
             };
-            return settled(verdict, events, time, &record);
+            let decided = matches!(verdict, MachineVerdict::NoImpact | MachineVerdict::Stuck);
+            return settled(verdict, events, if decided { before } else { time }, &record);
         }
         let (x, v) = MachineFrame::sizes(&begin);
         sizes.push_back((x, v));

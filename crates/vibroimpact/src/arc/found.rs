@@ -1,0 +1,47 @@
+//! What a search for the first event finds, and what it keeps from flight to flight.
+
+use super::dense_series::DenseSeries;
+use super::flight::{MachineFlight, Modes};
+use super::guard_polynomial::GuardPolynomial;
+use super::track::Track;
+
+/// What ends a flight.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Found {
+    /// The guards (by place) that become zero a time after the beginning. If there are several, they are zero at the
+    /// same time within rounding.
+    Zero { s: f64, guards: Vec<usize> },
+    /// No zero before this time.
+    NoneBefore(f64),
+}
+
+/// A guard that touches zero within rounding and is positive again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Touch {
+    pub(crate) s: f64,
+    pub(crate) guard: usize,
+}
+
+/// Buffers of a search, kept from flight to flight.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Buffers {
+    pub(crate) modes: Modes,
+    pub(super) dense: DenseSeries,
+    pub(super) polynomials: Vec<GuardPolynomial>,
+    pub(super) track: Track,
+    pub(super) known: Vec<usize>,
+    pub(super) touched: Vec<bool>,
+    pub(super) brackets: Vec<(usize, f64, f64)>,
+    /// Whether `modes` are those of the last flight at its first zero.
+    pub(super) fresh: bool,
+}
+
+impl Buffers {
+    /// The modes of a flight at a time. Those at the first zero of the flight searched last are known.
+    pub(crate) fn modes_at(&mut self, flight: &MachineFlight, s: f64) -> &Modes {
+        if !(core::mem::take(&mut self.fresh) && self.modes.s == s) {
+            flight.at(s, &mut self.modes);
+        }
+        &self.modes
+    }
+}

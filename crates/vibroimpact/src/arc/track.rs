@@ -1,0 +1,225 @@
+//! The state of a flight that goes on window by window: what is proven free of zeros is passed without the closed form.
+
+use super::flight::{MachineFlight, Modes};
+use super::guard_polynomial::{GuardPolynomial, ORDER};
+use crate::regime::{ALL, Window};
+
+/// The state at one time: displacement, velocity and force of each mode, cosine and sine of each harmonic, time, one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Track {
+    pub(super) z: Vec<f64>,
+    /// The time, and that at which the state was computed by the closed form.
+    pub(super) s: f64,
+    settled: f64,
+    /// Windows since then.
+    windows: f64,
+    energies: Vec<f64>,
+    faint: Vec<f64>,
+}
+
+/// The state is computed anew after so many windows.
+const WINDOWS: f64 = 32.0;
+
+impl Track {
+    /// Sets the state to that of the modes at their time.
+    pub(super) fn settle(&mut self, flight: &MachineFlight, modes: &Modes) {
+        self.z.clear();
+        for i in 0..modes.moved.len() {
+            self.z.extend([modes.moved[i], modes.v[i], flight.drive.steady[i] + flight.drive.ramp[i] * modes.s]);
+        }
+        for ((sin, cos), turned) in flight.turns.iter().zip(&modes.turned) {
+            self.z.extend([cos * turned.cos - sin * turned.sin, sin * turned.cos + cos * turned.sin]);
+        }
+        self.z.extend([modes.s, 1.0]);
+        (self.s, self.settled, self.windows) = (modes.s, modes.s, 0.0);
+    }
+
+    /// The energies of all modes here, $`\sqrt{\dot y^2 + k(y - q/k)^2}`$.
+    pub(super) fn energies(&mut self, flight: &MachineFlight) -> &[f64] {
+        self.energies.clear();
+        self.energies.extend(flight.structure.modes.iter().zip(self.z.chunks_exact(3)).map(|(mode, z)| {
+            if mode.k > 0.0 {
+                let shifted = z[0] - z[2] / mode.k;
+                (z[1] * z[1] + mode.k * shifted * shifted).sqrt()
+            } else {
+                z[1].abs()
+            }
+        }));
+        &self.energies
+    }
+
+    /// The polynomial of a guard over a time `length` from a state of the closed form, with the first window of the structure;
+    /// the energies are those here.
+    pub(super) fn polynomial(
+        &self,
+        flight: &MachineFlight,
+        g: usize,
+        window: &Window,
+        length: f64,
+        known: usize,
+        modes: &Modes,
+    ) -> GuardPolynomial {
+        let (series, start) = (&window.guards[g], &flight.guards[g]);
+        let mut p = series.at(&self.z);
+        let part = length / window.length;
+        let (value, _, error) = flight.guard(g, modes);
+        p[0] = if known > 0 { 0.0 } else { value };
+        p[ORDER] = series.bounds(&self.energies, &self.z, 0.0, 0.0).0;
+        let mut power = 1.0;
+        for c in &mut p {
+            // in a window without end there are zeros times infinity
+            if *c != 0.0 {
+                *c *= power;
+            }
+            power *= part;
+        }
+        let mut size = p[0].abs();
+        if known > 0 {
+            size += (series.size(&self.z, 1) * part).max(series.size(&self.z, 2) * part * part);
+        }
+        if let Some(surface) = start.recovery {
+            let mut term = surface.size * crate::system::decay(surface.rate * self.s).0;
+            size += term;
+            let (mut bound, mut k) = (term, 1.0);
+            for c in &mut p[1..ORDER] {
+                term *= -surface.rate * length / k;
+                bound *= surface.rate * length / k;
+                *c += term;
+                k += 1.0;
+            }
+            p[ORDER] += bound * surface.rate * length / k;
+        }
+        GuardPolynomial::new(p, known, error, size)
+    }
+
+    /// What the constant terms of a guard are here, lowered by its surface and by faint modes, and bounds of its remainder and
+    /// of its rounding errors.
+    fn constant(&self, flight: &MachineFlight, window: &Window, g: usize) -> (f64, f64, f64) {
+        let (series, start) = (&window.guards[g], &flight.guards[g]);
+        // a surface that stands back only adds to the gap
+        let surface = start.recovery.map_or(0.0, |surface| surface.size);
+        let faint: f64 = if window.faint.is_empty() { 0.0 } else { series.lowered(&self.faint) };
+        let (remainder, rounding) = series.bounds(&self.energies, &self.z, self.windows, self.s - self.settled);
+        let error = rounding + 8.0 * f64::EPSILON * (start.size + start.constant.abs() + surface);
+        (start.constant - surface - faint, remainder, error)
+    }
+
+    /// Whether all guards are positive in the whole window, by their hulls.
+    fn clear(&mut self, flight: &MachineFlight, window: &Window) -> bool {
+        self.faint.clear();
+        self.faint.extend(window.faint.iter().map(|faint| faint.energy(&self.z)));
+        window.guards.iter().enumerate().all(|(g, series)| {
+            let (constant, remainder, error) = self.constant(flight, window, g);
+            series.lowest(&self.z, constant - error, remainder) > 0.0
+        })
+    }
+
+    /// The polynomials of all guards over a part of the shortest window from here.
+    fn expand(&self, flight: &MachineFlight, window: &Window, part: f64, all: &mut Vec<GuardPolynomial>) {
+        all.clear();
+        for (g, (series, start)) in window.guards.iter().zip(&flight.guards).enumerate() {
+            let mut p = series.at(&self.z);
+            let (constant, remainder, bound) = self.constant(flight, window, g);
+            let mut known = 0;
+            let (mut error, mut size) = (0.0, 0.0);
+            if self.s == 0.0 && start.known > 0 {
+                known = start.known;
+                p[0] = 0.0;
+                size = series.size(&self.z, 1).max(series.size(&self.z, 2)) * part;
+            } else {
+                p[0] += constant;
+                error = bound;
+            }
+            p[ORDER] = remainder;
+            if part < 1.0 {
+                let mut power = part;
+                for c in &mut p[1..] {
+                    *c *= power;
+                    power *= part;
+                }
+            }
+            all.push(GuardPolynomial::new(p, known, error, size));
+        }
+    }
+
+    /// A zero of a guard near a part `t` of a window from here, by the series of all powers, and the second derivative there,
+    /// both in time.
+    pub(super) fn sharp(&self, flight: &MachineFlight, window: &Window, g: usize, t: f64) -> (f64, f64) {
+        let mut c: [f64; ALL] = window.guards[g].all(&self.z);
+        let start = &flight.guards[g];
+        c[0] = if self.s == 0.0 && start.known > 0 { 0.0 } else { c[0] + start.constant };
+        let (mut t, mut bend) = (t, 0.0);
+        for _ in 0..6 {
+            let (mut value, mut slope) = (0.0, 0.0);
+            bend = 0.0;
+            for c in c.iter().rev() {
+                bend = bend * t + slope;
+                slope = slope * t + value;
+                value = value * t + c;
+            }
+            let step = value / slope;
+            t -= step;
+            if step.abs() < 1e-8 || step.is_nan() {
+                break;
+            }
+        }
+        (self.s + t * window.length, 2.0 * bend.abs() / (window.length * window.length))
+    }
+
+    /// Goes on to the end of a window.
+    pub(super) fn step(&mut self, window: &Window) {
+        window.pass(&mut self.z);
+        self.s += window.length;
+        self.windows += 1.0;
+    }
+
+    /// Goes on over windows that are free of zeros, until `until` or up to a window that may have one. Of that, and of its
+    /// part before `until`, `all` receives the polynomials; `false` if there is none.
+    pub(super) fn pass(
+        &mut self,
+        flight: &MachineFlight,
+        until: f64,
+        steps: &mut u32,
+        all: &mut Vec<GuardPolynomial>,
+    ) -> Option<f64> {
+        let windows = &flight.structure.windows;
+        let (mut level, mut stay) = (0, 0_u32);
+        while *steps > 0 && self.s < until && self.windows < WINDOWS {
+            let left = until - self.s;
+            while level > 0 && left < windows[level].length {
+                level -= 1;
+            }
+            let window = &windows[level];
+            let part = if left < window.length { left / window.length } else { 1.0 };
+            *steps -= 1;
+            self.energies(flight);
+            let free = if self.s > 0.0 && part == 1.0 {
+                self.clear(flight, window)
+            } else {
+                self.expand(flight, window, part, all);
+                all.iter().all(GuardPolynomial::is_positive)
+            };
+            if free {
+                if part < 1.0 {
+                    self.s = until;
+                    break;
+                }
+                self.step(window);
+                if stay > 0 {
+                    stay -= 1;
+                } else if level + 1 < windows.len() {
+                    level += 1;
+                }
+            } else if level > 0 {
+                level -= 1;
+                stay = 2;
+            } else {
+                if self.s > 0.0 && part == 1.0 {
+                    self.expand(flight, window, part, all);
+                }
+                return Some(part);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,493 @@
+//! A structure over windows of one length: how its state moves through one, and the Taylor series of its guards.
+//!
+//! The modes, the forces that drive them and the harmonics together form a state $`z`$ with $`\dot z = Az`$. So the state at
+//! the end of a window, $`e^{AH}z`$, and the coefficients of a guard $`g\cdot z`$ in powers of the part of the window that
+//! has passed, $`g A^k z\,H^k/k!`$, are products with numbers that are computed once.
+//!
+//! **Faint modes.** In a long window the fast modes are not expanded. Such a mode is the sum of its steady response to the
+//! forcing, which is as slow as the forcing, and of a free part whose energy does not grow: an interval, by which the
+//! guard may be lower.
+
+use super::bernstein::{TERMS, bernstein};
+use super::mode::Mode;
+use super::signal::{Observable, Signal};
+use crate::math::hypot;
+
+/// Eight powers are expanded; the ninth is the remainder.
+const ORDER: usize = TERMS - 1;
+/// Number of higher powers, with which the series is exact to about 1e-15 of the motion.
+const TAIL: usize = 12;
+/// Number of all powers.
+pub(crate) const ALL: usize = ORDER + TAIL;
+/// The window in radians of the fastest rate: the bound of the remainder is about 1e-4 of the motion.
+pub(crate) const REACH: f64 = 1.6;
+/// Each longer window leaves out modes until the fastest rate that remains is below this part of the one before.
+const SLOWER: f64 = 0.7;
+/// A faint mode is so many times faster than all harmonics, at least.
+const FAR: f64 = 2.0;
+
+/// A structure over windows of one length.
+#[derive(Clone, Debug)]
+pub(crate) struct Window {
+    pub(crate) length: f64,
+    steps: Vec<Step>,
+    /// Mode after mode, for each harmonic: displacement from cosine and sine, velocity from cosine and sine.
+    forced: Vec<[f64; 4]>,
+    /// Sine and cosine of the turn of each harmonic.
+    turns: Vec<(f64, f64)>,
+    pub(crate) guards: Vec<GuardSeries>,
+    pub(crate) faint: Vec<Faint>,
+}
+
+/// How a mode moves through a window.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    c: f64,
+    s: f64,
+    ks: f64,
+    s_rate: f64,
+    step: f64,
+    /// What a ramp adds to displacement, velocity and force.
+    ramp: [f64; 3],
+}
+
+/// The series of a guard, and the bound of its remainder.
+#[derive(Clone, Debug)]
+pub(crate) struct GuardSeries {
+    /// The coefficients for each element of the state.
+    rows: Vec<[f64; TERMS]>,
+    /// The same in Bernstein's form: all are positive only if the series is positive in the whole window.
+    hull: Vec<[f64; TERMS]>,
+    /// Those of higher powers, from the ninth on; in the shortest window only.
+    tail: Vec<[f64; TAIL]>,
+    /// Of each mode.
+    weights: Vec<Weight>,
+    /// Modes without stiffness, and the sizes of the factors of their displacements and velocities.
+    loose: Vec<(usize, f64, f64)>,
+    /// The size of the harmonics, and the remainder of all of them.
+    swing: f64,
+    constant: f64,
+    /// What the energies of the free parts of faint modes can take away.
+    faint: Vec<f64>,
+}
+
+/// What a mode adds to the remainder of a guard, and to the size of its terms, per energy and per force on it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Weight {
+    energy: f64,
+    push: f64,
+    size_of_energy: f64,
+    size_of_push: f64,
+}
+
+/// A mode that is not expanded.
+#[derive(Clone, Debug)]
+pub(crate) struct Faint {
+    mode: usize,
+    k: f64,
+    rates: Vec<f64>,
+    /// Its steady response to each harmonic, as factors of cosine and sine.
+    response: Vec<(f64, f64)>,
+}
+
+/// What moves a structure: its modes, the forces on them and the harmonics.
+#[derive(Clone, Copy)]
+pub(crate) struct Moved<'a> {
+    pub(crate) modes: &'a [Mode],
+    pub(crate) drive: &'a [Signal],
+    pub(crate) rates: &'a [f64],
+}
+
+impl Moved<'_> {
+    /// Number of elements of the state: displacement, velocity and force of each mode, cosine and sine of each harmonic,
+    /// the time, and one.
+    pub(crate) const fn elements(&self) -> usize {
+        3 * self.modes.len() + 2 * self.rates.len() + 2
+    }
+
+    /// The functional that has the derivative of a functional of the state.
+    fn derivative(&self, of: &[f64]) -> Vec<f64> {
+        let mut to = vec![0.0; of.len()];
+        let (at_time, at_one) = (of.len() - 2, of.len() - 1);
+        let harmonics = 3 * self.modes.len();
+        to[at_one] = of[at_time];
+        for (i, mode) in self.modes.iter().enumerate() {
+            let (y, v, q) = (of[3 * i], of[3 * i + 1], of[3 * i + 2]);
+            to[3 * i] -= mode.k * v;
+            to[3 * i + 1] += y - 2.0 * mode.d * v;
+            to[3 * i + 2] += v;
+            to[at_one] += q * self.drive[i].ramp;
+            for (h, (a, b)) in self.drive[i].harmonics.iter().enumerate() {
+                to[harmonics + 2 * h] += v * a;
+                to[harmonics + 2 * h + 1] += v * b;
+            }
+        }
+        for (h, w) in self.rates.iter().enumerate() {
+            let (c, s) = (of[harmonics + 2 * h], of[harmonics + 2 * h + 1]);
+            to[harmonics + 2 * h] += w * s;
+            to[harmonics + 2 * h + 1] -= w * c;
+        }
+        to
+    }
+
+    fn rate(&self) -> f64 {
+        self.rates.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// Windows of all useful lengths, the shortest first, in which no mode is faint.
+pub(crate) fn windows(of: Moved<'_>, guards: &[&Observable]) -> Vec<Window> {
+    let mut order: Vec<usize> = (0..of.modes.len()).collect();
+    order.sort_by(|i, j| of.modes[*i].rate.total_cmp(&of.modes[*j].rate));
+    let mut all = Vec::new();
+    let mut last = f64::INFINITY;
+    for kept in (0..=order.len()).rev() {
+        if let Some(left) = order.get(kept) {
+            let mode = &of.modes[*left];
+            if mode.k <= 0.0 || mode.omega < FAR * of.rate() || of.drive[*left].ramp != 0.0 {
+                break;
+            }
+        }
+        let rate = order[..kept].last().map_or(0.0, |i| of.modes[*i].rate).max(of.rate());
+        if all.is_empty() || (rate > 0.0 && rate <= SLOWER * last) {
+            last = rate;
+            all.push(Window::new(of, guards, &order[kept..], rate));
+        }
+    }
+    all
+}
+
+impl Window {
+    fn new(of: Moved<'_>, guards: &[&Observable], faint: &[usize], rate: f64) -> Self {
+        // without any rate the guards are polynomials of low order; a window must still be finite
+        let length = if rate > 0.0 { REACH / rate } else { 1.0 };
+        let faint: Vec<Faint> = faint.iter().map(|i| Faint::new(of, *i)).collect();
+        let (mut steps, mut forced) = (Vec::new(), Vec::new());
+        for (i, mode) in of.modes.iter().enumerate() {
+            let free = mode.free(length);
+            let ramp = of.drive[i].ramp;
+            steps.push(Step {
+                c: 1.0 - free.one_minus_c,
+                s: free.s,
+                ks: mode.k * free.s,
+                s_rate: free.s_rate,
+                step: free.step,
+                ramp: [ramp * free.ramp, ramp * free.step, ramp * length],
+            });
+            for (h, (a, b)) in of.drive[i].harmonics.iter().enumerate() {
+                let w = of.rates[h];
+                let (kc, ks, _) = mode.forced(h, length, &free, &super::mode::Turned::of(w * length));
+                let (kc_rate, ks_rate) = (free.s - w * ks, w * kc);
+                forced.push([a * kc + b * ks, b * kc - a * ks, a * kc_rate + b * ks_rate, b * kc_rate - a * ks_rate]);
+            }
+        }
+        Self {
+            length,
+            steps,
+            forced,
+            turns: of.rates.iter().map(|w| crate::math::sin_cos(w * length)).collect(),
+            guards: guards.iter().map(|guard| GuardSeries::new(of, guard, &faint, length)).collect(),
+            faint,
+        }
+    }
+
+    /// The state at the end of a window.
+    pub(crate) fn pass(&self, z: &mut [f64]) {
+        let (modes, rest) = z.split_at_mut(3 * self.steps.len());
+        let count = self.turns.len();
+        for (i, (mode, step)) in modes.chunks_exact_mut(3).zip(&self.steps).enumerate() {
+            let (y, v, q) = (mode[0], mode[1], mode[2]);
+            let mut moved = step.c * y + step.s * v + step.step * q + step.ramp[0];
+            let mut rate = step.s_rate * v - step.ks * y + step.s * q + step.ramp[1];
+            for (f, turn) in self.forced[i * count..].iter().zip(rest.chunks_exact(2)).take(count) {
+                moved += f[0] * turn[0] + f[1] * turn[1];
+                rate += f[2] * turn[0] + f[3] * turn[1];
+            }
+            (mode[0], mode[1], mode[2]) = (moved, rate, q + step.ramp[2]);
+        }
+        for (turn, (sin, cos)) in rest.chunks_exact_mut(2).zip(&self.turns) {
+            (turn[0], turn[1]) = (turn[0] * cos - turn[1] * sin, turn[1] * cos + turn[0] * sin);
+        }
+        rest[2 * count] += self.length;
+    }
+}
+
+impl GuardSeries {
+    fn new(of: Moved<'_>, guard: &Observable, faint: &[Faint], length: f64) -> Self {
+        let harmonics = 3 * of.modes.len();
+        let is_faint = |i: usize| faint.iter().find(|faint| faint.mode == i);
+        let mut row = vec![0.0; of.elements()];
+        let count = of.rates.len();
+        row[harmonics + 2 * count] = guard.signal.ramp;
+        for (h, (a, b)) in guard.signal.harmonics.iter().enumerate() {
+            (row[harmonics + 2 * h], row[harmonics + 2 * h + 1]) = (*a, *b);
+        }
+        let mut constant: f64 =
+            guard.signal.harmonics.iter().zip(of.rates).map(|((a, b), w)| hypot(*a, *b) * power(w * length)).sum();
+        let swing = guard.signal.harmonics.iter().map(|(a, b)| hypot(*a, *b)).sum();
+        let mut weights = vec![Weight::default(); of.modes.len()];
+        let mut loose = Vec::new();
+        let mut lost = Vec::with_capacity(faint.len());
+        for i in 0..of.modes.len() {
+            let (a, b) = (guard.position[i], guard.velocity[i]);
+            let mode = &of.modes[i];
+            if mode.k > 0.0 {
+                weights[i].size_of_energy = 2.0 * (a.abs() / mode.omega + b.abs());
+                weights[i].size_of_push = 2.0 * (a.abs() / mode.k + b.abs() / mode.omega);
+            } else {
+                loose.push((i, a.abs(), b.abs()));
+            }
+            if let Some(faint) = is_faint(i) {
+                row[3 * i + 2] = a / faint.k;
+                for (h, (x, y)) in faint.response.iter().enumerate() {
+                    let w = of.rates[h];
+                    row[harmonics + 2 * h] += a * x + b * w * y;
+                    row[harmonics + 2 * h + 1] += a * y - b * w * x;
+                    let size = hypot(a * x, a * y) + w * hypot(b * x, b * y);
+                    constant += size * power(w * length);
+                }
+                continue;
+            }
+            (row[3 * i], row[3 * i + 1]) = (a, b);
+            let bounds = Bounds::new(&of, i, length);
+            let rate = 10.0 / length;
+            let sum = |(ninth, tenth): (f64, f64)| a.abs() * ninth + b.abs() * rate * tenth;
+            weights[i].energy = sum(bounds.energy);
+            weights[i].push = sum(bounds.push);
+            constant += sum(bounds.constant);
+        }
+        for faint in faint {
+            let (a, b) = (guard.position[faint.mode].abs(), guard.velocity[faint.mode].abs());
+            lost.push(a / faint.k.sqrt() + b);
+        }
+        let mut rows = vec![[0.0; TERMS]; row.len()];
+        let (mut size, mut k) = (1.0, 1.0);
+        let mut tail = if faint.is_empty() { vec![[0.0; TAIL]; row.len()] } else { Vec::new() };
+        for order in 0..ALL {
+            if order < ORDER {
+                for (to, value) in rows.iter_mut().zip(&row) {
+                    to[order] = size * value;
+                }
+            }
+            if order >= ORDER {
+                for (to, value) in tail.iter_mut().zip(&row) {
+                    to[order - ORDER] = size * value;
+                }
+            }
+            row = of.derivative(&row);
+            size *= length / k;
+            k += 1.0;
+        }
+        // prescribed functions of time are rare: their elements are the last
+        let used = rows.iter().rposition(|row| row.iter().any(|value| *value != 0.0)).map_or(0, |last| last + 1);
+        rows.truncate(used);
+        tail.truncate(used);
+        let hull = rows.iter().map(bernstein).collect();
+        Self { rows, hull, tail, weights, loose, swing, constant, faint: lost }
+    }
+
+    /// The least coefficient in Bernstein's form at a state, with `constant` added and the remainder taken away.
+    pub(crate) fn lowest(&self, z: &[f64], constant: f64, remainder: f64) -> f64 {
+        let mut b = [constant; TERMS];
+        for (row, z) in self.hull.iter().zip(z) {
+            add(&mut b, *z, row);
+        }
+        b[ORDER] -= remainder;
+        let less = |one: f64, other: f64| if one < other { one } else { other };
+        let half = [less(b[0], b[5]), less(b[1], b[6]), less(b[2], b[7]), less(b[3], b[8]), less(b[4], b[9])];
+        less(less(less(half[0], half[1]), less(half[2], half[3])), half[4])
+    }
+
+    /// The coefficients at a state, without the remainder, which is in the last place of none.
+    pub(crate) fn at(&self, z: &[f64]) -> [f64; TERMS] {
+        let mut p = [0.0; TERMS];
+        for (row, z) in self.rows.iter().zip(z) {
+            add(&mut p, *z, row);
+        }
+        p
+    }
+
+    /// The coefficients of all powers at a state.
+    pub(crate) fn all(&self, z: &[f64]) -> [f64; ALL] {
+        let mut all = [0.0; ALL];
+        all[..TERMS].copy_from_slice(&self.at(z));
+        let mut tail = [0.0; TAIL];
+        for (row, z) in self.tail.iter().zip(z) {
+            add(&mut tail, *z, row);
+        }
+        all[ORDER..].copy_from_slice(&tail);
+        all
+    }
+
+    /// The size of the terms of a coefficient.
+    pub(crate) fn size(&self, z: &[f64], order: usize) -> f64 {
+        self.rows.iter().zip(z).map(|(row, z)| (row[order] * z).abs()).sum()
+    }
+
+    /// A bound of the remainder over the window, and of the rounding errors of the value at a state that has passed `windows`
+    /// windows in a time `time`; for energies of the modes.
+    pub(crate) fn bounds(&self, energies: &[f64], z: &[f64], windows: f64, time: f64) -> (f64, f64) {
+        let (mut remainder, mut size) = (self.constant, self.swing);
+        for ((weight, energy), z) in self.weights.iter().zip(energies).zip(z.chunks_exact(3)) {
+            let push = z[2].abs();
+            remainder += weight.energy * energy + weight.push * push;
+            size += weight.size_of_energy * energy + weight.size_of_push * push;
+        }
+        for (i, a, b) in &self.loose {
+            let z = &z[3 * i..];
+            size += a * (z[0].abs() + time * (z[1].abs() + time * z[2].abs())) + b * (z[1].abs() + time * z[2].abs());
+        }
+        (remainder, 32.0 * f64::EPSILON * (windows + 1.0) * size)
+    }
+
+    /// How far the free parts of faint modes can lower the guard.
+    pub(crate) fn lowered(&self, energies: &[f64]) -> f64 {
+        self.faint.iter().zip(energies).map(|(factor, energy)| factor * energy).sum()
+    }
+}
+
+/// Adds a multiple of a row.
+#[inline(always)]
+#[allow(clippy::needless_range_loop)] // arrays of one length, so that vector instructions are used
+fn add<const N: usize>(sum: &mut [f64; N], factor: f64, row: &[f64; N]) {
+    for k in 0..N {
+        sum[k] += factor * row[k];
+    }
+}
+
+/// $`x^9/9!`$.
+fn power(x: f64) -> f64 {
+    let (mut product, mut k) = (1.0, 1.0);
+    for _ in 0..ORDER {
+        product *= x / k;
+        k += 1.0;
+    }
+    product
+}
+
+impl Faint {
+    fn new(of: Moved<'_>, mode: usize) -> Self {
+        let own = &of.modes[mode];
+        let response = of.drive[mode].harmonics.iter().zip(of.rates).map(|((a, b), w)| {
+            let z = ((own.omega - w) * (own.omega + w), 2.0 * own.d * w);
+            let norm = z.0 * z.0 + z.1 * z.1;
+            ((a * z.0 - b * z.1) / norm, (b * z.0 + a * z.1) / norm)
+        });
+        Self { mode, k: own.k, rates: of.rates.to_vec(), response: response.collect() }
+    }
+
+    /// $`\sqrt{\dot u^2 + ku^2}`$ of the free part $`u`$ at a state.
+    pub(crate) fn energy(&self, z: &[f64]) -> f64 {
+        let harmonics = &z[z.len() - 2 - 2 * self.rates.len()..];
+        let (mut u, mut rate) = (z[3 * self.mode] - z[3 * self.mode + 2] / self.k, z[3 * self.mode + 1]);
+        for (h, (x, y)) in self.response.iter().enumerate() {
+            let (cos, sin) = (harmonics[2 * h], harmonics[2 * h + 1]);
+            u -= x * cos + y * sin;
+            rate -= self.rates[h] * (y * cos - x * sin);
+        }
+        (rate * rate + self.k * u * u).sqrt()
+    }
+}
+
+/// Bounds of $`|y^{(9)}|H^9/9!`$ and $`|y^{(10)}|H^{10}/10!`$ of a mode over a window of length $`H`$, per energy at its
+/// beginning, per constant force on a mode without stiffness, and by ramps and harmonics.
+struct Bounds {
+    energy: (f64, f64),
+    push: (f64, f64),
+    constant: (f64, f64),
+}
+
+impl Bounds {
+    fn new(of: &Moved<'_>, i: usize, window: f64) -> Self {
+        let mode = &of.modes[i];
+        let ramp = of.drive[i].ramp.abs();
+        // |p^(k)| window^k / k!
+        let mut pushed = [0.0; ORDER];
+        for ((a, b), w) in of.drive[i].harmonics.iter().zip(of.rates) {
+            let mut size = hypot(*a, *b);
+            let mut k = 1.0;
+            for place in &mut pushed {
+                *place += size;
+                size *= w * window / k;
+                k += 1.0;
+            }
+        }
+        pushed[0] += ramp * window;
+        pushed[1] += ramp * window;
+        let still = [0.0; ORDER];
+        let loose = if mode.k > 0.0 { 0.0 } else { 1.0 };
+        Self {
+            energy: derivative_bounds(mode, window, 1.0, 0.0, &still),
+            push: derivative_bounds(mode, window, 0.0, loose, &still),
+            constant: derivative_bounds(mode, window, 0.0, pushed[0], &pushed),
+        }
+    }
+}
+
+/// Bounds of $`|y^{(9)}|H^9/9!`$ and $`|y^{(10)}|H^{10}/10!`$, from the energy at the beginning, a bound `push` of all forces
+/// and the bounds `pushed` of $`|p^{(k)}|H^k/k!`$, by
+/// $`|y^{(k+2)}| \le 2d\,|y^{(k+1)}| + k\,|y^{(k)}| + |p^{(k)}|`$.
+pub(crate) fn derivative_bounds(mode: &Mode, window: f64, energy: f64, push: f64, pushed: &[f64; ORDER]) -> (f64, f64) {
+    let speed = energy + push * window;
+    let square = window * window;
+    let (mut one, mut two) = (0.0, speed * window);
+    let mut three = 0.5 * square * (2.0 * mode.d * speed + mode.omega * speed + push);
+    let mut k = 1.0;
+    for place in &pushed[1..] {
+        // from w_k, w_{k+1} to w_{k+2}
+        (one, two) = (two, three);
+        three = (2.0 * mode.d * window * (k + 1.0) * two + mode.k * square * one + square * place)
+            / ((k + 1.0) * (k + 2.0));
+        k += 1.0;
+    }
+    let _ = one;
+    (two, three)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The series of a guard at one state, summed at the end of the window, is its value at the state there; and faint modes
+    /// lower it by no less than they move.
+    #[test]
+    fn the_series_and_the_passed_state_agree() {
+        let rates = [0.7, 1.4];
+        let signal = |ramp: f64, size: f64| {
+            let mut signal = Signal::zero(0, 2);
+            signal.ramp = ramp;
+            signal.harmonics = vec![(size, -0.3 * size), (0.2, 0.1 * size)];
+            signal
+        };
+        let modes: Vec<Mode> = [(0.0, 0.0), (0.0, 0.2), (1.0, 0.01), (2.2, 1.6), (400.0, 0.3)]
+            .iter()
+            .map(|(k, d)| Mode::new(*k, *d, &rates))
+            .collect();
+        let drive: Vec<Signal> =
+            [0.1, 0.0, 0.0, 0.3, 0.0].iter().enumerate().map(|(i, ramp)| signal(*ramp, 0.4 - 0.1 * i as f64)).collect();
+        let mut guard = Observable::zero(5, 0, 2);
+        guard.position = vec![0.5, -0.3, 1.0, 0.7, 0.2];
+        guard.velocity = vec![0.0, 0.1, 0.0, -0.2, 0.01];
+        guard.signal = signal(0.2, 0.6);
+        let of = Moved { modes: &modes, drive: &drive, rates: &rates };
+        let all = windows(of, &[&guard]);
+        assert_eq!(all.iter().map(|window| window.faint.len()).collect::<Vec<_>>(), [0, 1]);
+        let mut begin: Vec<f64> = (0..of.elements()).map(|i| 0.3 - 0.07 * (i % 9) as f64).collect();
+        let from = 15;
+        (begin[from], begin[from + 1], begin[from + 2], begin[from + 3]) = (0.6, 0.8, 0.28, -0.96);
+        (begin[from + 4], begin[from + 5]) = (0.9, 1.0);
+        let exact = &all[0].guards[0];
+        for _ in 0..40 {
+            let mut end = begin.clone();
+            all[0].pass(&mut end);
+            let sum: f64 = exact.all(&begin).iter().sum();
+            let value = exact.all(&end)[0];
+            assert!((sum - value).abs() < 1e-13 * (1.0 + value.abs()), "{sum} {value}");
+            // in the long window, the free part of the fast mode is within its bound
+            let (long, rough) = (&all[1], &all[1].guards[0]);
+            let lowered = rough.lowered(&[long.faint[0].energy(&begin)]);
+            assert!((rough.at(&begin)[0] - exact.at(&begin)[0]).abs() <= lowered * (1.0 + 1e-12), "{lowered}");
+            begin = end;
+        }
+    }
+}
