@@ -5,6 +5,8 @@ mod branches;
 mod case;
 #[cfg(test)]
 mod samples;
+#[cfg(test)]
+mod verdicts;
 
 use case::{Case, cases};
 use std::fmt::Write as _;

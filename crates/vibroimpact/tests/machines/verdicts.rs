@@ -1,0 +1,153 @@
+//! Verdicts on machines of one coordinate against those on the oscillator.
+
+use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
+use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
+use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
+use vibroimpact::{Oscillator, Start};
+
+/// Random systems: the same labels, cycles and multipliers, and exponents within their error bars. What one of them leaves
+/// undecided, and motions without damping, whose verdicts the oscillator decides by rules of its own, are not compared.
+#[test]
+fn the_same_motions() {
+    let mut state = 11_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
+    };
+    let options = SettleOptions { chaos_over: 1_000, chaos_after: 500, max_impacts: 6_000, ..SettleOptions::default() };
+    let (mut periodic, mut chaotic, mut others, mut differ) = (0, 0, 0, Vec::new());
+    for case in 0..500 {
+        let (inverse, gap) = (0.3 + 2.0 * random(), -0.5 + 2.5 * random());
+        let (eps, zeta) = (0.95 * random(), 0.005 + 0.3 * random() * random());
+        let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(zeta).unwrap();
+        let parts = MachineParts::new(["mass"])
+            .with_mass(0, 1.0)
+            .with_link(&[1.0], 1.0, 2.0 * zeta)
+            .with_frequency(osc.beta())
+            .with_force(0, 1, 0.0, 1.0)
+            .with_rigid_stop("stop", &[1.0], gap, eps);
+        let machine = Machine::new(parts).unwrap();
+        let (x, v, phase) = (gap - 2.0 * random(), 2.0 * random() - 1.0, 6.0 * random());
+        let expected = settle(&osc, Start { x, v, phase }, &options).verdict;
+        let start = MachineStart { q: vec![x], qdot: vec![v], phase };
+        let found = settle_machine(&machine, &start, &options).unwrap().verdict;
+        let system = || format!("case {case}: 1/beta {inverse} gap {gap} eps {eps} zeta {zeta} from {x} {v} {phase}");
+        match (&expected, &found) {
+            (Verdict::Periodic(a), MachineVerdict::Periodic(b)) if a.label == b.label => {
+                periodic += 1;
+                assert!((a.fastest() - b.fastest()).abs() < 1e-9 * (1.0 + a.fastest()), "{}", system());
+                // a chatter that is summed has a derivative to about 1e-5, which is 0 for the oscillator
+                let within = if a.rests.is_empty() { 1e-8 } else { 1e-3 };
+                for (one, two) in a.multipliers.iter().zip(&b.multipliers) {
+                    assert!((one.modulus() - two.modulus()).abs() < within, "{} {one:?} {two:?}", system());
+                }
+            }
+            (Verdict::Chaotic(a), MachineVerdict::Chaotic { spectrum, .. }) => {
+                chaotic += 1;
+                let (a, b) = (a.spectrum.exponents[0], spectrum.exponents[0]);
+                // three standard errors of each, over different lengths
+                assert!((a.value - b.value).abs() < 2.0 * (a.error + b.error), "{} {a:?} {b:?}", system());
+            }
+            _ if expected.label() == found.label() => others += 1,
+            (Verdict::Undecided(_), _) | (_, MachineVerdict::Undecided { .. }) => {}
+            _ => differ.push(format!("{}: {} {}", system(), expected.label(), found.label())),
+        }
+    }
+    assert!(differ.is_empty(), "{differ:#?}");
+    assert!(periodic > 300 && others > 10 && chaotic > 4, "{periodic} {chaotic} {others}");
+}
+
+/// The multipliers of a cycle multiply to the product of all $`e^2`$ and $`\exp(-\int \mathrm{tr} M^{-1}C\,dt)`$; an
+/// undamped soft stop changes no volume.
+#[test]
+fn products_of_multipliers() {
+    let mut state = 23_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
+    };
+    let mut cycles = 0;
+    for case in 0..700 {
+        let n = 1 + case % 3;
+        let names: Vec<String> = (0..n).map(|i| format!("q{i}")).collect();
+        let mut parts = MachineParts::new(names.iter().map(String::as_str)).with_frequency(0.4 + random());
+        let mut trace = 0.0;
+        for i in 0..n {
+            let mass = 0.5 + random();
+            parts = parts.with_mass(i, mass);
+            let (mut ground, mut link) = (vec![0.0; n], vec![0.0; n]);
+            ground[i] = 1.0;
+            let c = 0.01 + 0.04 * random();
+            parts = parts.with_link(&ground, 0.4 + random(), c).with_force(i, 1, random() - 0.5, random());
+            trace += c / mass;
+            if i > 0 {
+                (link[i - 1], link[i]) = (1.0, -1.0);
+                let (c, before) = (0.01 + 0.04 * random(), parts.mass[(i - 1, i - 1)]);
+                parts = parts.with_link(&link, 0.4 + random(), c);
+                trace += c / mass + c / before;
+            }
+        }
+        let mut direction = vec![0.0; n];
+        direction[0] = 1.0;
+        let (gap, restitution, soft) = (0.2 + random(), 0.7 + 0.3 * random(), case % 2 == 1);
+        let law = StopLaw::Compliant {
+            stiffness: 5.0 + 40.0 * random(),
+            damping: 0.0,
+            preload: 0.0,
+            opening: Opening::Force,
+        };
+        parts = if soft {
+            parts.with_stop("stop", &direction, gap, law)
+        } else {
+            parts.with_rigid_stop("stop", &direction, gap, restitution)
+        };
+        let machine = Machine::new(parts).unwrap();
+        let options = SettleOptions { chaos_over: 0, max_impacts: 1_000, ..SettleOptions::default() };
+        let settled = settle_machine(&machine, &MachineStart::default(), &options).unwrap();
+        let MachineVerdict::Periodic(cycle) = settled.verdict else { continue };
+        if cycle.events.iter().any(|event| event.kind.name() == "stick") {
+            continue;
+        }
+        let closings = i32::try_from(cycle.counts.iter().sum::<u32>()).unwrap();
+        let loss = if soft { 1.0 } else { (restitution * restitution).powi(closings) };
+        let expected = loss * (-trace * cycle.period).exp();
+        // of complex numbers: the moduli, and the sign is positive
+        let product: f64 = cycle.multipliers.iter().map(|multiplier| multiplier.modulus()).product();
+        assert!(
+            (product - expected).abs() < 1e-11 * (1.0 + expected),
+            "case {case} {}: {product} {expected}",
+            cycle.label
+        );
+        cycles += 1;
+    }
+    assert!(cycles >= 500, "{cycles}");
+}
+
+/// A free pair between two elastic walls keeps its energy over a million events, and its momentum in every impact
+/// of one body on the other.
+#[test]
+fn energy_and_momentum() {
+    let parts = MachineParts::new(["a", "b"])
+        .with_mass(0, 1.0)
+        .with_mass(1, 1.618)
+        .with_rigid_stop("between", &[1.0, -1.0], 0.0, 1.0)
+        .with_rigid_stop("left", &[-1.0, 0.0], 1.0, 1.0)
+        .with_rigid_stop("right", &[0.0, 1.0], 1.0, 1.0);
+    let machine = Machine::new(parts).unwrap();
+    let start = MachineStart { q: vec![-0.3, 0.4], qdot: vec![0.7, -0.2], phase: 0.0 };
+    let (mut v, mut seen) = (start.qdot.clone(), 0_u32);
+    let energy = |v: &[f64]| 0.5 * (v[0] * v[0] + 1.618 * v[1] * v[1]);
+    let before = energy(&v);
+    let motion = MachineMotion::new(&machine, &start, MachineLimits::default()).unwrap();
+    for event in motion.take(1_000_000) {
+        if event.place == 0 {
+            let change = (event.qdot[0] - v[0]) + 1.618 * (event.qdot[1] - v[1]);
+            assert!(change.abs() < 4e-15, "{change}");
+        }
+        v = event.qdot;
+        seen += 1;
+    }
+    assert_eq!(seen, 1_000_000);
+    // rounding errors add up as a random walk: a thousand of them
+    assert!((energy(&v) / before - 1.0).abs() < 1e-12, "{}", energy(&v) / before - 1.0);
+}
