@@ -4,6 +4,8 @@
 mod branches;
 mod case;
 #[cfg(test)]
+mod closed_forms;
+#[cfg(test)]
 mod samples;
 #[cfg(test)]
 mod verdicts;
