@@ -365,9 +365,9 @@ mod tests {
                 }
                 let (mut x, mut v) = (vec![0.0; 2], vec![0.0; 2]);
                 if j < 2 {
-                    x[j] = 1.0
+                    x[j] = 1.0;
                 } else {
-                    v[j - 2] = 1.0
+                    v[j - 2] = 1.0;
                 }
                 let mut direction = normal.to_normal(&x);
                 direction.extend(normal.to_normal(&v));

@@ -48,8 +48,15 @@ pub(crate) struct MachineMeasure {
     count: u32,
     closings: f64,
     time: Sum,
-    /// For each block: the sums of the logarithms and of the closings, and the time.
-    blocks: Vec<(Vec<f64>, f64, f64)>,
+    blocks: Vec<Block>,
+}
+
+/// The sums over a block.
+#[derive(Clone, Debug)]
+struct Block {
+    logs: Vec<f64>,
+    closings: f64,
+    time: f64,
 }
 
 impl MachineMeasure {
@@ -97,8 +104,8 @@ impl MachineMeasure {
         self.count += 1;
         if self.count == self.per_block {
             let logs = core::mem::replace(&mut self.logs, vec![LogSum::default(); self.frame.len()]);
-            let sums = logs.into_iter().map(LogSum::value).collect();
-            self.blocks.push((sums, self.closings, self.time.value()));
+            let logs = logs.into_iter().map(LogSum::value).collect();
+            self.blocks.push(Block { logs, closings: self.closings, time: self.time.value() });
             (self.count, self.closings, self.time) = (0, 0.0, Sum::default());
         }
     }
@@ -138,8 +145,9 @@ impl MachineMeasure {
         if self.blocks.len() < FEWEST {
             return None;
         }
-        let of = |value: &dyn Fn(&(Vec<f64>, f64, f64)) -> f64| {
-            let values: Vec<(f64, f64)> = self.blocks.iter().map(|block| (value(block) / block.2, block.2)).collect();
+        let of = |value: &dyn Fn(&Block) -> f64| {
+            let values: Vec<(f64, f64)> =
+                self.blocks.iter().map(|block| (value(block) / block.time, block.time)).collect();
             if values.iter().any(|(value, _)| !value.is_finite()) {
                 return Measured {
                     value: values.iter().fold(f64::INFINITY, |least, (v, _)| least.min(*v)),
@@ -148,10 +156,10 @@ impl MachineMeasure {
             }
             mean(&values)
         };
-        let mut exponents: Vec<Measured> = (0..self.frame.len()).map(|k| of(&|block| block.0[k])).collect();
+        let mut exponents: Vec<Measured> = (0..self.frame.len()).map(|k| of(&|block| block.logs[k])).collect();
         exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
-        let time = self.blocks.iter().map(|block| block.2).sum();
-        Some(MachineSpectrum { exponents, closings: of(&|block| block.1), time })
+        let time = self.blocks.iter().map(|block| block.time).sum();
+        Some(MachineSpectrum { exponents, closings: of(&|block| block.closings), time })
     }
 
     /// The exponents, and whether the motion is chaotic by this measurement: it is by the whole, and its last fifth
@@ -159,7 +167,7 @@ impl MachineMeasure {
     pub(crate) fn chaos(&self) -> Option<(MachineSpectrum, bool)> {
         let spectrum = self.spectrum()?;
         let last: f64 =
-            self.blocks.iter().rev().take(FEWEST).map(|block| block.0.first().copied().unwrap_or(0.0)).sum();
+            self.blocks.iter().rev().take(FEWEST).map(|block| block.logs.first().copied().unwrap_or(0.0)).sum();
         let chaotic = spectrum.chaotic() && last > 0.0;
         Some((spectrum, chaotic))
     }

@@ -65,13 +65,7 @@ impl Structure {
         let n = normal.n;
         let mut result = Matrix::zeros(2 * n, 2 * n);
         for j in 0..2 * n {
-            let (mut x, mut v) = (vec![0.0; n], vec![0.0; n]);
-            if j < n {
-                x[j] = 1.0
-            } else {
-                v[j - n] = 1.0
-            }
-            let mut change = self.modal_change(normal, &x, &v);
+            let mut change = self.unit_change(normal, j);
             if self.moved(&mut change, s).is_none() {
                 self.stepped(&mut change, s);
             }
@@ -111,19 +105,15 @@ impl Structure {
         }
     }
 
+    /// The change of the modes that belongs to a unit of component `j` of the state.
+    fn unit_change(&self, normal: &Normal, j: usize) -> ModalChange {
+        let n = normal.n;
+        let unit = |from: usize| (0..n).map(|i| if from + i == j { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
+        self.modal_change(normal, &unit(0), &unit(n))
+    }
+
     /// The gradient of a linear function of the state: by coordinates and, after them, by velocities.
     pub(crate) fn gradient(&self, normal: &Normal, of: &Observable) -> Vec<f64> {
-        let n = normal.n;
-        (0..2 * n)
-            .map(|j| {
-                let (mut x, mut v) = (vec![0.0; n], vec![0.0; n]);
-                if j < n {
-                    x[j] = 1.0
-                } else {
-                    v[j - n] = 1.0
-                }
-                self.changed(of, &self.modal_change(normal, &x, &v))
-            })
-            .collect()
+        (0..2 * normal.n).map(|j| self.changed(of, &self.unit_change(normal, j))).collect()
     }
 }

@@ -2,6 +2,7 @@
 
 #[cfg(test)]
 mod branches;
+#[cfg(test)]
 mod case;
 #[cfg(test)]
 mod closed_forms;

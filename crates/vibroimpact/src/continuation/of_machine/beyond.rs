@@ -199,7 +199,7 @@ pub(super) fn replayed(
             }
             let w = MachineEquations::join(&moved, &next, there);
             let problem = with_ring(tracer, &moved, next, cycle.sizes);
-            if let Some(tracer) = begun(problem, w, there, up, *options)
+            if let Some(tracer) = begun(problem, &w, there, up, *options)
                 && tracer.here.known.physical()
             {
                 return Some(tracer);

@@ -78,7 +78,7 @@ impl MachineBranch {
         let up = if direction == Direction::Up { 1.0 } else { -1.0 };
         let problem = MachineProblem { equations, range: (low, high) };
         let w = MachineEquations::join(machine, &problem.equations.ring, value);
-        let tracer = begun(problem, w, value, up, options).ok_or(MachineBranchError::NoCycle)?;
+        let tracer = begun(problem, &w, value, up, options).ok_or(MachineBranchError::NoCycle)?;
         let first = Self::point(&tracer.here, None).ok_or(MachineBranchError::NoCycle)?;
         let begin = Some(tracer.here.clone());
         Ok(Self { options, tracer, begin, passed: Vec::new(), count: 0, pending: VecDeque::from([first]), over: false })
@@ -274,14 +274,14 @@ pub(super) fn last(w: &[f64]) -> f64 {
 /// The tracer from the solution near `w` with this value of the number; the number changes in direction `up` first.
 pub(super) fn begun(
     problem: MachineProblem,
-    w: Vec<f64>,
+    w: &[f64],
     value: f64,
     up: f64,
     options: BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let mut row = vec![0.0; w.len()];
     *row.last_mut()? = 1.0;
-    let (w, _) = correct(&problem, &w, &row, value)?;
+    let (w, _) = correct(&problem, w, &row, value)?;
     *row.last_mut()? = up;
     let along = tangent(&problem, &w, &row)?;
     traced(problem, w, along, options)

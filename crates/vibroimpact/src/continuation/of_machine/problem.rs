@@ -81,13 +81,12 @@ impl MachineProblem {
         // the product over all pairs changes its sign where a product of two multipliers is 1
         let mut torus = 1.0;
         for (i, a) in multipliers.iter().enumerate() {
-            for (j, b) in multipliers.iter().enumerate().skip(i + 1) {
+            for b in &multipliers[i + 1..] {
                 let (re, im) = (a.re * b.re - a.im * b.im - 1.0, a.re * b.im + a.im * b.re);
                 // two factors that are conjugate are positive together
                 let conjugate = a.im != 0.0 && b.im != 0.0 && !(a.re == b.re && a.im == -b.im);
                 let factor = if im == 0.0 && !conjugate { re } else { crate::math::hypot(re, im) };
                 torus *= factor.clamp(-1e3, 1e3);
-                let _ = j;
             }
         }
         let pace = tangent.last().map_or(0.0, |last| last / self.equations.scale);

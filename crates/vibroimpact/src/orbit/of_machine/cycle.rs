@@ -131,11 +131,11 @@ impl MachineCycle {
         if residual > CLOSED {
             return None;
         }
-        Self::closed(frame, (&begin, n), lap, residual)
+        Self::closed(frame, (&begin, n), &lap, residual)
     }
 
     /// The cycle whose motion over `n` periods is `lap`, over its smallest period.
-    fn closed(frame: &MachineFrame<'_>, (begin, n): (&Place, u32), lap: MachineLap, residual: f64) -> Option<Self> {
+    fn closed(frame: &MachineFrame<'_>, (begin, n): (&Place, u32), lap: &MachineLap, residual: f64) -> Option<Self> {
         let one = frame.machine.period()?;
         let mut strobes = vec![begin.clone()];
         for k in 1..n {
@@ -148,7 +148,7 @@ impl MachineCycle {
             }
             strobes.push(next);
         }
-        Some(Self::of(frame, (begin, n), &lap, residual, strobes))
+        Some(Self::of(frame, (begin, n), lap, residual, strobes))
     }
 
     /// The cycle that begins at a state between two events, whose motion over `n` periods is `lap`.

@@ -111,7 +111,7 @@ pub fn settle_machine(
 ) -> Result<MachineSettled, MachineError> {
     let frame = MachineFrame::new(machine);
     // it is never stopped
-    Ok(settle_in(frame, start, options, || true)?.unwrap_or_else(|| MachineSettled {
+    Ok(settle_in(frame, start, options, || true)?.unwrap_or(MachineSettled {
         verdict: MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: None, events: 0 },
         events: 0,
         time: 0.0,
