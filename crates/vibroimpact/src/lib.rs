@@ -1,4 +1,4 @@
-//! Vibro-impact dynamics: oscillators with rigid stops.
+//! Vibro-impact dynamics: oscillators with rigid stops, and machines with stops and friction.
 //!
 //! A mass on a spring, driven harmonically, strikes a rigid stop:
 //!
@@ -47,6 +47,8 @@
 //! | how orbits change with a parameter, and the events on the way | [`continuation`] |
 //! | Lyapunov exponents, dimension, sections of an attractor | [`chaos`] |
 //! | impact speeds, impulses, energies, amplitudes, spectrum | [`quantities`] |
+//! | machines of several coordinates, with any stops and friction, and their events | [`machine`], [`events`] |
+//! | what machines settle into, their cycles, branches and exponents | [`verdict::settle_machine`], [`orbit::MachineCycle`], [`continuation::MachineBranch`], [`chaos::machine_exponents_while`] |
 //! | the points of the 1971 paper | [`scenario`] |
 //!
 //! # Units

@@ -134,3 +134,27 @@ fn simulation_beside_events() {
     }
     assert!(confirmed.values().sum::<i32>() >= 20, "{confirmed:?}");
 }
+
+/// At a flip the cycle of twice the period begins: on the stable side of the flip it is what motions settle into.
+#[test]
+fn doubled_beside_a_flip() {
+    let osc = Oscillator::from_inverse_beta(1.11, 1.5, 0.5).unwrap();
+    let machine = of(&osc);
+    let settled = settle_machine(&machine, &MachineStart::default(), &SettleOptions::default()).unwrap();
+    let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!() };
+    let (family, gap) = MachineFamily::of_path(&machine, "stop.stop.gap").unwrap();
+    let range = 1.0..=3.0;
+    let mut branch =
+        MachineBranch::new((&family, gap), &cycle, &range, Direction::Up, BranchOptions::default()).unwrap();
+    let flip = branch.find(|point| point.event == Some(MachineBranchEvent::Flip)).unwrap();
+    let (value, doubled) = flip.doubled(&family, 0.5).unwrap();
+    assert_eq!(doubled.label.to_string(), "2/2");
+    assert!(doubled.stable() && value > flip.value && doubled.residual < 1e-11);
+    // followed back, it ends on the branch from which it came
+    let range = 1.0..=3.0;
+    let back =
+        MachineBranch::new((&family, value), &doubled, &range, Direction::Down, BranchOptions::default()).unwrap();
+    let end = back.last().unwrap();
+    assert_eq!(end.event, Some(MachineBranchEvent::Halving));
+    assert!((end.value - flip.value).abs() < 1e-7, "{} {}", end.value, flip.value);
+}

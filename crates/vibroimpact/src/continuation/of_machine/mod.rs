@@ -8,6 +8,7 @@
 //! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
 //! | how the events of a motion differ from those of a signature | `change` |
 //! | the branch beyond such a change | `beyond` |
+//! | the cycle of twice the period beside a flip | `switch` |
 //! | the branch | [`MachineBranch`] |
 
 mod beyond;
@@ -17,6 +18,7 @@ mod equations;
 mod family;
 mod point;
 mod problem;
+mod switch;
 
 pub use branch::{MachineBranch, MachineBranchError};
 pub use family::MachineFamily;

@@ -19,7 +19,7 @@ use core::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Two halves of a cycle that differ by less are the same.
-const ALIKE: f64 = 1e-5;
+const ALIKE: f64 = 3e-4;
 
 /// An event of a signature.
 #[derive(Clone, Debug, PartialEq)]
@@ -246,7 +246,7 @@ impl MachineRing {
         product
     }
 
-    /// Whether the second half of the events repeats the first, to within 1e-5 of the sizes of the motion.
+    /// Whether the second half of the events repeats the first, to within 3e-4 of the sizes of the motion.
     pub(crate) fn is_twice(&self, sizes: (f64, f64)) -> bool {
         let half = self.len() / 2;
         self.len().is_multiple_of(2)
