@@ -87,8 +87,8 @@ pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineAxis, MachineBasin, MachineBranched, MachineMap, MachinePlan, MachineResults, MachineSimulated, MachineTask,
-    is_machine_plan, run_machine,
+    MachineAxis, MachineBasin, MachineBranched, MachineFollowed, MachineMap, MachinePlan, MachineResults,
+    MachineSimulated, MachineTask, is_machine_plan, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

@@ -107,11 +107,11 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
     let also = args.also.map(|Named(named, _)| named);
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let task = || {
-        if args.also.is_some() || args.orbit.is_some() || args.follow > 0 {
-            return Err(Failure::bad("--also, --orbit and --follow are not there for machines yet"));
+        if args.also.is_some() || args.orbit.is_some() {
+            return Err(Failure::bad("--also and --orbit are not there for machines yet"));
         }
-        let points = args.points;
-        Ok(MachineTask::Branch { label: args.label.clone(), vary: args.vary.path(), to: args.to, points })
+        let (points, follow) = (args.points, args.follow);
+        Ok(MachineTask::Branch { label: args.label.clone(), vary: args.vary.path(), to: args.to, points, follow })
     };
     if let Some(answer) = of_machine::asked(&args.machine, Some((&args.of_machine, None)), task, files, session) {
         return answer;

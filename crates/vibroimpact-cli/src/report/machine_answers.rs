@@ -2,6 +2,7 @@
 
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
+use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
@@ -48,14 +49,11 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             let _ = writeln!(text, "  {how}; the motion is {}", found.motion.label());
         }
         MachineResults::Branch(found) => {
-            for point in found.points.iter().filter(|point| point.event.is_some()) {
-                let event = point.event.map_or("", |event| event.name());
-                let place = point.event.and_then(|event| event.place());
-                let at = place.map_or_else(String::new, |place| format!(" at {}", machine.name_of(place)));
-                let _ = writeln!(text, "{:>16}  {event}{at}, {}", short(point.value), point.cycle.label);
+            text.push_str(&branch(machine, &found.points));
+            for followed in &found.followed {
+                let _ = writeln!(text, "from the flip at {}:", short(followed.flip));
+                text.push_str(&branch(machine, &followed.points));
             }
-            let stable = found.points.iter().filter(|point| point.cycle.stable()).count();
-            let _ = writeln!(text, "{}, {stable} of them stable", counted(found.points.len() as u64, "point"));
         }
         MachineResults::Basin(found) => {
             let total = found.cells.iter().flatten().count();
@@ -82,6 +80,20 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             }
         }
     }
+    text
+}
+
+/// The events of a branch, and how many points it has.
+fn branch(machine: &Machine, points: &[MachinePoint]) -> String {
+    let mut text = String::new();
+    for point in points.iter().filter(|point| point.event.is_some()) {
+        let event = point.event.map_or("", |event| event.name());
+        let place = point.event.and_then(|event| event.place());
+        let at = place.map_or_else(String::new, |place| format!(" at {}", machine.name_of(place)));
+        let _ = writeln!(text, "{:>16}  {event}{at}, {}", short(point.value), point.cycle.label);
+    }
+    let stable = points.iter().filter(|point| point.cycle.stable()).count();
+    let _ = writeln!(text, "{}, {stable} of them stable", counted(points.len() as u64, "point"));
     text
 }
 

@@ -130,8 +130,24 @@ struct BranchEventObject<'a> {
 #[derive(Serialize)]
 struct Branched<'a> {
     vary: &'a str,
+    #[serde(flatten)]
+    main: PointsObject<'a>,
+    /// The branches of twice the period that begin at flips.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    followed: Vec<FollowedObject<'a>>,
+}
+
+#[derive(Serialize)]
+struct PointsObject<'a> {
     points: Vec<PointObject<'a>>,
     events: Vec<BranchEventObject<'a>>,
+}
+
+#[derive(Serialize)]
+struct FollowedObject<'a> {
+    flip: f64,
+    #[serde(flatten)]
+    branch: PointsObject<'a>,
 }
 
 #[derive(Serialize)]
@@ -197,7 +213,18 @@ impl Serialize for MachineAnswer {
                     to,
                 )
             }
-            MachineResults::Branch(found) => self.document(self.branch(&found.points), to),
+            MachineResults::Branch(found) => {
+                let vary = match &self.plan.task {
+                    MachineTask::Branch { vary, .. } => vary.as_str(),
+                    _ => "",
+                };
+                let followed = found
+                    .followed
+                    .iter()
+                    .map(|followed| FollowedObject { flip: followed.flip, branch: self.points(&followed.points) });
+                let followed = followed.collect();
+                self.document(Branched { vary, main: self.points(&found.points), followed }, to)
+            }
             MachineResults::Basin(found) => {
                 let mut counts = vec![0_u64; found.motions.len()];
                 found.cells.iter().flatten().for_each(|cell| counts[*cell] += 1);
@@ -243,12 +270,8 @@ impl MachineAnswer {
         Document { machine: name, coordinates, start, result, plan, program: PROGRAM }.serialize(to)
     }
 
-    fn branch<'a>(&'a self, points: &'a [MachinePoint]) -> Branched<'a> {
+    fn points<'a>(&'a self, points: &'a [MachinePoint]) -> PointsObject<'a> {
         let machine = &self.machine;
-        let vary = match &self.plan.task {
-            MachineTask::Branch { vary, .. } => vary.as_str(),
-            _ => "",
-        };
         let events = points.iter().enumerate().filter_map(|(k, point)| {
             let event = point.event?;
             let (appears, turns) = match event {
@@ -273,7 +296,7 @@ impl MachineAnswer {
             stable: point.cycle.stable(),
             physical: true,
         };
-        Branched { vary, points: points.iter().map(of).collect(), events: events.collect() }
+        PointsObject { points: points.iter().map(of).collect(), events: events.collect() }
     }
 }
 

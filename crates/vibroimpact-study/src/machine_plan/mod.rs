@@ -19,7 +19,7 @@ mod text;
 mod verdicts;
 
 pub use grid::{MachineBasin, MachineMap};
-pub use orbits::MachineBranched;
+pub use orbits::{MachineBranched, MachineFollowed};
 pub use plan::{MachineAxis, MachinePlan, MachineTask};
 pub use run::{MachineResults, run_machine};
 pub use simulate::MachineSimulated;

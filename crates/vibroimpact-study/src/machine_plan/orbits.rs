@@ -3,8 +3,11 @@
 use super::plan::MachinePlan;
 use super::verdicts::settle;
 use crate::{Control, PlanError, RunError, Stopped};
+use std::collections::VecDeque;
 use vibroimpact::Label;
-use vibroimpact::continuation::{BranchOptions, Direction, MachineBranch, MachineFamily, MachinePoint};
+use vibroimpact::continuation::{
+    BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
+};
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
 use vibroimpact::verdict::{MachineVerdict, scattered_machine_starts};
@@ -16,6 +19,17 @@ const STARTS: u64 = 48;
 #[derive(Clone, Debug)]
 pub struct MachineBranched {
     /// The points in order.
+    pub points: Vec<MachinePoint>,
+    /// The branches of twice the period that begin at flips.
+    pub followed: Vec<MachineFollowed>,
+}
+
+/// A branch of twice the period that begins at a flip.
+#[derive(Clone, Debug)]
+pub struct MachineFollowed {
+    /// The value of the number at the flip.
+    pub flip: f64,
+    /// The points in order, away from the flip.
     pub points: Vec<MachinePoint>,
 }
 
@@ -50,7 +64,8 @@ pub(super) fn check(plan: &MachinePlan, vary: &str, to: f64, points: u32) -> Res
 /// The branch of an orbit in one number, from its value in the machine to another one.
 pub(super) fn branch(
     plan: &MachinePlan,
-    (label, vary, to, points): (Option<Label>, &str, f64, u32),
+    (label, vary, to): (Option<Label>, &str, f64),
+    (points, follow): (u32, u32),
     control: &Control<'_>,
 ) -> Result<MachineBranched, RunError> {
     let (machine, start) = plan.problem()?;
@@ -72,12 +87,37 @@ pub(super) fn branch(
     let range = from.min(to)..=from.max(to);
     let direction = if to > from { Direction::Up } else { Direction::Down };
     let options = BranchOptions { points, ..BranchOptions::default() };
-    let mut branch = MachineBranch::new((&family, from), &cycle, &range, direction, options)
-        .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
-    let mut found = Vec::new();
-    while !control.stopping() {
-        let Some(point) = branch.next() else { return Ok(MachineBranched { points: found }) };
-        found.push(point);
+    let trace = |value: f64, cycle: &MachineCycle, direction: Direction| {
+        let mut branch = MachineBranch::new((&family, value), cycle, &range, direction, options)
+            .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
+        let mut found = Vec::new();
+        while !control.stopping() {
+            let Some(point) = branch.next() else { return Ok(found) };
+            found.push(point);
+        }
+        Err(RunError::from(Stopped { done: found.len() as u64, total: u64::from(points) }))
+    };
+    let main = trace(from, &cycle, direction)?;
+    // flips of branches that begin at flips are followed in turn
+    let mut waiting: VecDeque<MachinePoint> = flips(&main);
+    let mut followed = Vec::new();
+    while let (Some(flip), true) = (waiting.pop_front(), followed.len() < follow as usize) {
+        let scale = 0.25 * (range.end() - range.start());
+        let Some((value, doubled)) = flip.doubled(&family, scale).filter(|(value, _)| range.contains(value)) else {
+            continue;
+        };
+        let away = if value > flip.value { Direction::Up } else { Direction::Down };
+        let Ok(points) = trace(value, &doubled, away) else { continue };
+        waiting.extend(flips(&points));
+        followed.push(MachineFollowed { flip: flip.value, points });
     }
-    Err(Stopped { done: found.len() as u64, total: u64::from(points) }.into())
+    if control.stopping() {
+        return Err(Stopped { done: main.len() as u64, total: u64::from(points) }.into());
+    }
+    Ok(MachineBranched { points: main, followed })
+}
+
+/// The flips among some points.
+fn flips(points: &[MachinePoint]) -> VecDeque<MachinePoint> {
+    points.iter().filter(|point| point.event == Some(MachineBranchEvent::Flip)).cloned().collect()
 }

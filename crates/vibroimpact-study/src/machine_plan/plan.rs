@@ -97,6 +97,9 @@ pub enum MachineTask {
         /// The largest number of points: 2 to 100000.
         #[serde(default = "points")]
         points: u32,
+        /// How many of the branches of twice the period that begin at flips are followed: 0 to 100.
+        #[serde(default, skip_serializing_if = "is_zero")]
+        follow: u32,
     },
     /// The motion to which each start of a grid leads.
     Basin {
@@ -148,6 +151,11 @@ impl MachineAxis {
 
 const fn one() -> u64 {
     1
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)] // serde wants it
+const fn is_zero(count: &u32) -> bool {
+    *count == 0
 }
 
 const fn points() -> u32 {
@@ -222,7 +230,10 @@ impl MachinePlan {
                 Ok(())
             }
             MachineTask::Orbit { label } => orbits::label(&machine, label).map(|_| ()),
-            MachineTask::Branch { label, vary, to, points } => {
+            MachineTask::Branch { label, vary, to, points, follow } => {
+                if *follow > 100 {
+                    return Err(PlanError::Follow { given: *follow, most: 100 });
+                }
                 orbits::label(&machine, label.as_deref().unwrap_or("1/1"))?;
                 orbits::check(self, vary, *to, *points)
             }

@@ -54,9 +54,9 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
         MachineTask::Orbit { label } => {
             MachineResults::Orbit(orbits::orbits(&machine, orbits::label(&machine, label)?, control)?)
         }
-        MachineTask::Branch { label, vary, to, points } => {
+        MachineTask::Branch { label, vary, to, points, follow } => {
             let label = label.as_deref().map(|label| orbits::label(&machine, label)).transpose()?;
-            MachineResults::Branch(orbits::branch(plan, (label, vary, *to, *points), control)?)
+            MachineResults::Branch(orbits::branch(plan, (label, vary, *to), (*points, *follow), control)?)
         }
         MachineTask::Basin { axes, impacts } => {
             MachineResults::Basin(grid::basin((&machine, &start), axes, *impacts, control)?)
