@@ -141,7 +141,12 @@ fn described(machine: &Machine, cycle: &MachineCycle) -> String {
 fn exponents(spectrum: &MachineSpectrum) -> String {
     let mut text = String::new();
     for (k, exponent) in spectrum.exponents.iter().enumerate() {
-        let _ = writeln!(text, "  exponent {}: {} +- {}", k + 1, short(exponent.value), short(exponent.error));
+        let value = if exponent.value == f64::NEG_INFINITY {
+            "minus infinity".to_owned()
+        } else {
+            format!("{} +- {}", short(exponent.value), short(exponent.error))
+        };
+        let _ = writeln!(text, "  exponent {}: {value}", k + 1);
     }
     text
 }

@@ -2,7 +2,8 @@
 //!
 //! After a time each mode consists of its steady response, which is known, and of a transient whose energy
 //! $`\dot y^2 + ky^2`$ does not grow. So each guard lies above its steady part less bounds of the transients. If this is
-//! positive for every guard, there is no event for ever. A mode without stiffness drifts; its drift must not close a guard.
+//! positive for every guard, there is no event for ever. A mode without stiffness drifts, or is accelerated by a constant
+//! force; this must not close a guard.
 //!
 //! Without damping the transients do not decay. If all frequencies are commensurable, the flight repeats after their common
 //! period, so one such period without an event means that there is none for ever.
@@ -29,7 +30,7 @@ impl MachineFlight {
             }
             let mut constant = start.value;
             let mut size = start.size;
-            let (mut drift, mut transient) = (0.0, 0.0);
+            let (mut drift, mut acceleration, mut transient) = (0.0, 0.0, 0.0);
             let harmonics: Vec<(f64, f64)> = function.signal.turned(&self.turns).collect();
             let mut waves = harmonics.clone();
             for (a, _) in &harmonics {
@@ -39,7 +40,8 @@ impl MachineFlight {
                 let (alpha, beta) = (function.position[i], function.velocity[i]);
                 constant += alpha * of.middle - beta * self.v[i];
                 size += (alpha * of.middle).abs() + (beta * self.v[i]).abs();
-                drift += alpha * of.drift;
+                drift += alpha * of.drift + beta * of.acceleration;
+                acceleration += alpha * of.acceleration;
                 constant += beta * of.drift;
                 transient += (alpha * of.swing).abs() + (beta * of.speed).abs();
                 for ((wave, (a, b)), w) in waves.iter_mut().zip(&of.waves).zip(rates) {
@@ -50,8 +52,8 @@ impl MachineFlight {
             let swing: f64 = waves.iter().map(|(a, b)| (a * a + b * b).sqrt()).sum();
             let error = 64.0 * f64::EPSILON * (size + swing + transient);
             // nothing changes: a contact that is only touched
-            let constant_for_ever = swing + transient + drift.abs() <= error && constant >= -error;
-            drift >= 0.0 && constant - swing - transient > error || constant_for_ever
+            let constant_for_ever = swing + transient + drift.abs() + acceleration.abs() <= error && constant >= -error;
+            drift >= 0.0 && acceleration >= 0.0 && constant - swing - transient > error || constant_for_ever
         })
     }
 
@@ -72,7 +74,7 @@ impl MachineFlight {
     fn steady(&self, i: usize, modes: &Modes) -> Option<Steady> {
         let mode = &self.structure.modes[i];
         let push = self.drive.steady[i];
-        if self.drive.ramp[i] != 0.0 || mode.k == 0.0 && push != 0.0 {
+        if self.drive.ramp[i] != 0.0 || mode.k == 0.0 && mode.d > 0.0 && push != 0.0 {
             return None;
         }
         let mut middle = if mode.k > 0.0 { push / mode.k } else { 0.0 };
@@ -103,10 +105,11 @@ impl MachineFlight {
             middle = y;
             (v.abs() / (2.0 * mode.d), v.abs())
         } else {
-            (middle, drift) = (y - v * modes.s, v);
+            (middle, drift) = (y, v);
             (0.0, 0.0)
         };
-        Some(Steady { middle, waves, swing, speed, drift })
+        let acceleration = if mode.k == 0.0 { push } else { 0.0 };
+        Some(Steady { middle, waves, swing, speed, drift, acceleration })
     }
 }
 
@@ -117,4 +120,6 @@ struct Steady {
     swing: f64,
     speed: f64,
     drift: f64,
+    /// Of a free body under a constant force.
+    acceleration: f64,
 }

@@ -43,7 +43,10 @@ const FEWEST: usize = 5;
 pub(crate) struct MachineMeasure {
     /// Orthonormal tangent vectors.
     frame: Vec<Vec<f64>>,
+    size: usize,
     logs: Vec<LogSum>,
+    /// Which of them are minus infinity in this block.
+    lost: Vec<bool>,
     per_block: u32,
     count: u32,
     closings: f64,
@@ -65,7 +68,9 @@ impl MachineMeasure {
         let unit = |k: usize| (0..size).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
         Self {
             frame: (0..exponents).map(unit).collect(),
+            size,
             logs: vec![LogSum::default(); exponents],
+            lost: vec![false; exponents],
             per_block: (steps / 25).max(1),
             count: 0,
             closings: 0.0,
@@ -87,34 +92,48 @@ impl MachineMeasure {
 
     /// Adds a step with this derivative, time and number of closings.
     pub(crate) fn add(&mut self, derivative: &Matrix, time: f64, closings: f64) {
-        for k in 0..self.frame.len() {
-            let mut moved = derivative.apply(&self.frame[k]);
-            let before = dot(&moved, &moved).sqrt();
-            let length = self.orthonormal(k, &mut moved);
+        let moved: Vec<Vec<f64>> = self.frame.iter().map(|vector| derivative.apply(vector)).collect();
+        self.frame.clear();
+        for (k, mut vector) in moved.into_iter().enumerate() {
+            let before = dot(&vector, &vector).sqrt();
+            let length = self.orthonormal(&mut vector);
             // what rounding leaves of a vector that lies in the span of those before is nothing
-            let length = if length > 1e-13 * before { length } else { 0.0 };
-            self.logs[k].multiply(length);
-            if length == 0.0 {
-                self.replace(k, &mut moved);
+            if length > 1e-13 * before && length > 0.0 {
+                let last = self.frame.len();
+                self.logs[k].multiply(length);
+                self.logs.swap(last, k);
+                self.lost.swap(last, k);
+                self.frame.push(vector);
             }
-            self.frame[k] = moved;
+        }
+        // neighbours in these directions have become the same motion: their stretches, also those before, are minus
+        // infinity, and come last
+        let kept = self.frame.len();
+        for lost in &mut self.lost[kept..] {
+            *lost = true;
+        }
+        while self.frame.len() < self.logs.len() {
+            let vector = self.any();
+            self.frame.push(vector);
         }
         self.time.add(time);
         self.closings += closings;
         self.count += 1;
         if self.count == self.per_block {
             let logs = core::mem::replace(&mut self.logs, vec![LogSum::default(); self.frame.len()]);
-            let logs = logs.into_iter().map(LogSum::value).collect();
+            let lost = core::mem::replace(&mut self.lost, vec![false; logs.len()]);
+            let value = |(log, lost): (LogSum, bool)| if lost { f64::NEG_INFINITY } else { log.value() };
+            let logs = logs.into_iter().zip(lost).map(value).collect();
             self.blocks.push(Block { logs, closings: self.closings, time: self.time.value() });
             (self.count, self.closings, self.time) = (0, 0.0, Sum::default());
         }
     }
 
-    /// Makes a vector orthogonal to the first `k` of the frame and of length 1; returns its length before.
-    fn orthonormal(&self, k: usize, vector: &mut [f64]) -> f64 {
+    /// Makes a vector orthogonal to the frame and of length 1; returns its length before.
+    fn orthonormal(&self, vector: &mut [f64]) -> f64 {
         // twice, because once leaves rounding errors of the original length
         for _ in 0..2 {
-            for other in &self.frame[..k] {
+            for other in &self.frame {
                 add_scaled(vector, -dot(other, vector), other);
             }
         }
@@ -125,19 +144,18 @@ impl MachineMeasure {
         length
     }
 
-    /// Any direction that is orthogonal to the first `k`.
-    fn replace(&self, k: usize, vector: &mut Vec<f64>) {
-        let size = vector.len();
-        let mut best = (0.0, Vec::new());
-        for i in 0..size {
-            let mut unit = vec![0.0; size];
+    /// Any direction that is orthogonal to the frame.
+    fn any(&self) -> Vec<f64> {
+        let mut best = (0.0, vec![0.0; self.size]);
+        for i in 0..self.size {
+            let mut unit = vec![0.0; self.size];
             unit[i] = 1.0;
-            let length = self.orthonormal(k, &mut unit);
+            let length = self.orthonormal(&mut unit);
             if length > best.0 {
                 best = (length, unit);
             }
         }
-        *vector = best.1;
+        best.1
     }
 
     /// The exponents of all complete blocks; `None` if there are too few.

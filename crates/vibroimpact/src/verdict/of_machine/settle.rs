@@ -132,6 +132,8 @@ pub fn settle_machine_while(
     settle_in(MachineFrame::new(machine), start, options, go_on)
 }
 
+/// How many events of a machine stand for one impact of the longest period that is searched for.
+const EVENTS_PER_IMPACT: u32 = 8;
 /// The number of latest steps whose size distances are relative to.
 const RECENT: usize = 64;
 
@@ -141,6 +143,8 @@ fn settle_in<'a>(
     options: &SettleOptions,
     go_on: impl Fn() -> bool,
 ) -> Result<Option<MachineSettled>, MachineError> {
+    // chatters and contacts take many events in each period
+    let options = &SettleOptions { longest: options.longest.saturating_mul(EVENTS_PER_IMPACT), ..*options };
     let mut motion = MachineMotion::new(frame.machine, start, MachineLimits::default())?;
     let system = Recorded::new(frame);
     let mut record: Record<Recorded<'a>> = Record::default();
