@@ -4,6 +4,7 @@ use super::super::record::{Diverging, Recurring};
 use crate::events::{MachineEvent, MachineEventKind, Passage, Place, step_derivative};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum};
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, machine_distance};
+use crate::regime::GuardKind;
 use core::cell::Cell;
 use std::sync::Arc;
 
@@ -26,6 +27,12 @@ pub(crate) struct Step {
 }
 
 impl Step {
+    /// Whether a stop on which the structure rested is left.
+    pub(crate) fn releases(&self) -> bool {
+        let kind = |guard: &usize| self.passage.structure.guards.get(*guard).map(|guard| guard.kind);
+        matches!(self.passage.guards.first().and_then(kind), Some(GuardKind::Reaction(_)))
+    }
+
     /// The number of closings among the events of a step.
     pub(crate) fn closings(events: &[MachineEvent]) -> u32 {
         let closes = |event: &&MachineEvent| matches!(event.kind, MachineEventKind::Impact | MachineEventKind::Close);
@@ -95,6 +102,17 @@ impl Recurring for Recorded<'_> {
 }
 
 impl Recorded<'_> {
+    /// The cycle of a motion that returns to a state after a time.
+    pub(crate) fn same(&self, step: &Arc<Step>, after: f64) -> Option<MachineCycle> {
+        let periods = self.periods(after).round();
+        if !(1.0..=LONGEST).contains(&periods) {
+            return None;
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // checked to be small
+        let cycle = MachineCycle::near(&self.frame, &step.end, periods as u32)?;
+        self.captured(step, &cycle).then_some(cycle)
+    }
+
     /// Whether the motion from `place` is captured by a stable cycle: it is near at the phase of the states of the cycle,
     /// and its next period follows the linear law of the cycle so closely that the remainder cannot undo the contraction.
     pub(crate) fn captures(&self, place: &Place, cycle: &MachineCycle) -> Option<bool> {
@@ -150,6 +168,8 @@ impl Diverging for MachineSpectrum {
     }
 }
 
+/// The longest period of a cycle that is searched for from a release, in forcing periods.
+const LONGEST: f64 = 10_000.0;
 /// The distance from a cycle below which capture is tested.
 const NEAR: f64 = 1e-3;
 /// The distance below which the two differ only by rounding errors.

@@ -2,7 +2,7 @@
 
 use super::super::attractors::SteadyMotion;
 use super::super::options::SettleOptions;
-use super::super::record::{Record, Shown};
+use super::super::record::{Record, Recurring, Shown};
 use super::returns::{Recorded, Step};
 use crate::events::{MachineEnd, MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::MachineSpectrum;
@@ -134,6 +134,8 @@ pub fn settle_machine_while(
 
 /// How many events of a machine stand for one impact of the longest period that is searched for.
 const EVENTS_PER_IMPACT: u32 = 8;
+/// Two releases at states that differ by less are the same.
+const FORGOTTEN: f64 = 1e-9;
 /// The number of latest steps whose size distances are relative to.
 const RECENT: usize = 64;
 
@@ -150,6 +152,7 @@ fn settle_in<'a>(
     let mut record: Record<Recorded<'a>> = Record::default();
     let mut sizes: std::collections::VecDeque<(f64, f64)> = std::collections::VecDeque::new();
     let mut events = 0_u64;
+    let mut release: Option<(Arc<Step>, f64)> = None;
     let settled = |verdict, events, time, record: &Record<Recorded<'a>>| {
         let transient = match &verdict {
             MachineVerdict::Chaotic { .. } | MachineVerdict::Undecided { .. } => None,
@@ -187,8 +190,18 @@ fn settle_in<'a>(
             sizes.pop_front();
         }
         system.sizes.set(sizes.iter().fold((0.0, 0.0), |(a, b), (x, v)| (x.max(a), v.max(b))));
-        let step = Step { begin, closings: Step::closings(&seen), passage, end: motion.place().clone() };
-        record.push(options, Arc::new(step), interval);
+        let step = Arc::new(Step { begin, closings: Step::closings(&seen), passage, end: motion.place().clone() });
+        record.push(options, step.clone(), interval);
+        // a rest can make a motion forget its past: it is the same from one release to another, however far apart
+        if step.releases() {
+            if let Some((earlier, then)) = &release
+                && system.distance(&step, earlier) < FORGOTTEN
+                && let Some(cycle) = system.same(&step, time - then)
+            {
+                return settled(MachineVerdict::Periodic(cycle), events, time, &record);
+            }
+            release = Some((step, time));
+        }
         if record.count().is_multiple_of(64) {
             system.frame.keep(&motion);
         }
