@@ -5,7 +5,7 @@
 //! | the label m/n | [`Label`] |
 //! | the possible verdicts | [`Verdict`] |
 //! | from a start to a verdict | [`settle`], `follow` |
-//! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence` |
+//! | the latest returns, recurrence, chaos: for the oscillator and for machines | `record`, `recurrence`, `recurring` |
 //! | the same for machines | `of_machine` |
 //! | many starts side by side | [`settle_many`] |
 //! | neighbourhoods of cycles that no motion leaves | `trapping_region` |
@@ -23,6 +23,7 @@ mod outcome;
 mod paper_rule;
 mod record;
 mod recurrence;
+mod recurring;
 mod settle;
 mod trapping_region;
 

@@ -4,45 +4,7 @@
 
 use super::options::SettleOptions;
 use super::recurrence::{Candidate, candidates};
-
-/// A system whose motions are recorded.
-pub(crate) trait Recurring {
-    /// A return.
-    type Return: Clone;
-    /// A confirmed cycle.
-    type Cycle: Clone;
-    /// A measurement of the Lyapunov exponents in progress.
-    type Measure: Clone;
-    /// The exponents.
-    type Spectrum: Clone + Diverging;
-
-    /// The distance of two returns, relative to the motion; infinite if they are of different kinds.
-    fn distance(&self, a: &Self::Return, b: &Self::Return) -> f64;
-    /// The number of forcing periods in a time.
-    fn periods(&self, time: f64) -> f64;
-    /// The cycle near a return that takes `m` returns and `n` forcing periods.
-    fn cycle(&self, last: &Self::Return, m: u32, n: u32) -> Option<Self::Cycle>;
-    /// Whether a cycle attracts its neighbourhood.
-    fn stable(cycle: &Self::Cycle) -> bool;
-    /// Whether the motion is captured by this stable cycle: it is near, and follows its linear law.
-    fn captured(&self, last: &Self::Return, cycle: &Self::Cycle) -> bool;
-    /// A measurement from a return on, over this number of further ones.
-    fn measure(&self, from: &Self::Return, over: u32) -> Self::Measure;
-    /// Adds the next return, `interval` after the last one; whether the measurement is complete.
-    fn add(&self, measure: &mut Self::Measure, next: &Self::Return, interval: f64) -> bool;
-    /// The number of returns that are still missing.
-    fn left(measure: &Self::Measure) -> u32;
-    /// The exponents so far, and whether they show chaos.
-    fn chaos(&self, measure: &Self::Measure) -> Option<(Self::Spectrum, bool)>;
-}
-
-/// Exponents that tell whether neighbours separate.
-pub(crate) trait Diverging {
-    /// Whether the largest exponent exceeds its error bar.
-    fn diverges(&self) -> bool;
-    /// Whether neighbours separate, over the whole run, by more than on the way from one cycle to another.
-    fn chaotic(&self) -> bool;
-}
+use super::recurring::{Diverging, Recurring};
 
 /// The record of a motion.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Recurrence of impacts, which suggests a period, and the test whether a motion is captured by a cycle.
 
-use super::record::{Diverging, Recurring};
+use super::recurring::{Diverging, Recurring};
 use crate::lyapunov::{Measure, Spectrum};
 use crate::motion::ImpactState;
 use crate::orbit::{Cycle, Lap, cycle_distance, flight_limits, shoot};

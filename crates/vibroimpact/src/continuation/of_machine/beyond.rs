@@ -5,7 +5,7 @@
 //! impact gains speed or the gap opens. At any other change the motion is continuous, and the cycle beyond is found by
 //! Newton's method from the last one at a number a little beyond, or before if the branch turns back.
 
-use super::branch::{begun, last, traced};
+use super::beginning::{begun, last, traced};
 use super::change::Difference;
 use super::equations::MachineEquations;
 use super::problem::{MachineProblem, MachineSolution};

@@ -6,11 +6,13 @@
 //! | the equations of all events, with a number of the machine among the unknowns | `equations` |
 //! | the problem that the tracer solves: test functions, admissible solutions | `problem` |
 //! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
+//! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip | `switch` |
 //! | the branch | [`MachineBranch`] |
 
+mod beginning;
 mod beyond;
 mod branch;
 mod change;

@@ -1,6 +1,6 @@
 //! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
 
-use super::super::record::{Diverging, Recurring};
+use super::super::recurring::{Diverging, Recurring};
 use crate::events::{MachineEvent, MachineEventKind, Passage, Place, step_derivative};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum};
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, machine_distance};

@@ -2,7 +2,8 @@
 
 use super::super::attractors::SteadyMotion;
 use super::super::options::SettleOptions;
-use super::super::record::{Record, Recurring, Shown};
+use super::super::record::{Record, Shown};
+use super::super::recurring::Recurring;
 use super::returns::{Recorded, Step};
 use crate::events::{MachineEnd, MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::MachineSpectrum;

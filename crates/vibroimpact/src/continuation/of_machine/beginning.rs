@@ -1,0 +1,41 @@
+//! Where a tracer begins: at a value of the number, or at a solution with a tangent.
+
+use super::problem::MachineProblem;
+use crate::continuation::branches::BranchOptions;
+use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::trace::step_length::StepLength;
+use crate::continuation::trace::tracer::Tracer;
+
+/// The value of the number, the last unknown.
+pub(super) fn last(w: &[f64]) -> f64 {
+    w.last().copied().unwrap_or(f64::NAN)
+}
+
+/// The tracer from the solution near `w` with this value of the number; the number changes in direction `up` first.
+pub(super) fn begun(
+    problem: MachineProblem,
+    w: &[f64],
+    value: f64,
+    up: f64,
+    options: BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let mut row = vec![0.0; w.len()];
+    *row.last_mut()? = 1.0;
+    let (w, _) = correct(&problem, w, &row, value)?;
+    *row.last_mut()? = up;
+    let along = tangent(&problem, &w, &row)?;
+    traced(problem, w, along, options)
+}
+
+/// The tracer from a solution along a tangent.
+pub(super) fn traced(
+    problem: MachineProblem,
+    w: Vec<f64>,
+    mut along: Vec<f64>,
+    options: BranchOptions,
+) -> Option<Tracer<MachineProblem>> {
+    let length = problem.length(&along);
+    along.iter_mut().for_each(|t| *t /= length);
+    let step = StepLength { now: options.first, longest: options.longest, shortest: options.shortest };
+    Tracer::new(problem, w, along, step)
+}
