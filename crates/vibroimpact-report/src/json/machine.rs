@@ -1,5 +1,6 @@
 //! The object of a machine: its start, the events of its motion, and the reason why the list ends.
 
+use super::machine_event::{EventObject, event_object};
 use super::machine_motion::{Estimate, MotionObject, cycle, estimates, motion, multipliers};
 use crate::{MachineAnswer, PROGRAM};
 use serde::{Serialize, Serializer};
@@ -41,21 +42,6 @@ struct Simulation<'a> {
 struct EndObject {
     reason: &'static str,
     time: f64,
-}
-
-#[derive(Serialize)]
-pub(super) struct EventObject<'a> {
-    kind: &'static str,
-    stop: &'a str,
-    time: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    phase: Option<f64>,
-    speed: f64,
-    q: &'a [f64],
-    qdot: &'a [f64],
-    /// Other stops that take part at the same time.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    with: Vec<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -297,20 +283,6 @@ impl MachineAnswer {
             physical: true,
         };
         PointsObject { points: points.iter().map(of).collect(), events: events.collect() }
-    }
-}
-
-/// The object of an event.
-pub(super) fn event_object<'a>(machine: &'a Machine, event: &'a MachineEvent) -> EventObject<'a> {
-    EventObject {
-        kind: event.kind.name(),
-        stop: machine.name_of(event.place),
-        time: event.time,
-        phase: machine.parts().frequency.is_some().then_some(event.phase),
-        speed: event.speed,
-        q: &event.q,
-        qdot: &event.qdot,
-        with: event.with.iter().map(|place| machine.name_of(*place)).collect(),
     }
 }
 

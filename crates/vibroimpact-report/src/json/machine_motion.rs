@@ -1,6 +1,6 @@
 //! A steady motion of a machine in JSON: label, counts of each stop, multipliers, events.
 
-use super::machine::{EventObject, event_object};
+use super::machine_event::{EventObject, event_object};
 use serde::Serialize;
 use serde_json::{Map, Value};
 use vibroimpact::chaos::{MachineSpectrum, Measured};

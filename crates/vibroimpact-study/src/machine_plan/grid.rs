@@ -1,8 +1,9 @@
 //! Basins over coordinates, and maps over numbers, of a machine.
 
-use super::plan::{MachineAxis, MachinePlan};
+use super::axis::MachineAxis;
 use super::verdicts::{check_starts, each_verdict, number};
 use crate::limits::MOST_CELLS;
+use crate::machine::MachineSource;
 use crate::map::check_impacts;
 use crate::{Control, PlanError, RunError};
 use vibroimpact::events::MachineStart;
@@ -76,13 +77,13 @@ pub(super) fn check_basin(machine: &Machine, axes: &[MachineAxis], impacts: Opti
 }
 
 pub(super) fn check_map(
-    plan: &MachinePlan,
+    source: &MachineSource,
     axes: &[MachineAxis],
     (starts, impacts): (u64, Option<u32>),
 ) -> Result<(), PlanError> {
     check_axes(axes, starts)?;
     for axis in axes {
-        plan.machine.number(&axis.vary)?;
+        source.number(&axis.vary)?;
     }
     check_starts(starts, impacts)
 }
@@ -117,13 +118,13 @@ pub(super) fn basin(
 
 /// Settles scattered starts at every point of a grid of numbers.
 pub(super) fn map(
-    plan: &MachinePlan,
+    source: &MachineSource,
     axes: &[MachineAxis],
     (starts, seed, impacts): (u64, u64, Option<u32>),
     control: &Control<'_>,
 ) -> Result<MachineMap, RunError> {
     let problem = |k: u64| {
-        let mut source = plan.machine.clone();
+        let mut source = source.clone();
         for (axis, value) in axes.iter().zip(MachineAxis::at(axes, k / starts)) {
             source = source.with(&axis.vary, value).ok()?;
         }

@@ -7,9 +7,11 @@
 //! | the function that turns a plan into its result | [`run_machine`], [`MachineResults`], `run` |
 //! | what motions settle into, their exponents | `verdicts` |
 //! | orbits, and branches of them | [`MachineBranched`], `orbits` |
+//! | an axis of a grid | [`MachineAxis`] |
 //! | basins and maps | [`MachineBasin`], [`MachineMap`], `grid` |
 //! | the events of a motion | [`MachineSimulated`], `simulate` |
 
+mod axis;
 mod grid;
 mod orbits;
 mod plan;
@@ -18,9 +20,10 @@ mod simulate;
 mod text;
 mod verdicts;
 
+pub use axis::MachineAxis;
 pub use grid::{MachineBasin, MachineMap};
 pub use orbits::{MachineBranched, MachineFollowed};
-pub use plan::{MachineAxis, MachinePlan, MachineTask};
+pub use plan::{MachinePlan, MachineTask};
 pub use run::{MachineResults, run_machine};
 pub use simulate::MachineSimulated;
 pub use text::is_machine_plan;

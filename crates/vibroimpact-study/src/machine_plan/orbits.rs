@@ -1,13 +1,14 @@
 //! Orbits of a machine with a label, and their branches.
 
-use super::plan::MachinePlan;
 use super::verdicts::settle;
+use crate::machine::MachineSource;
 use crate::{Control, PlanError, RunError, Stopped};
 use std::collections::VecDeque;
 use vibroimpact::Label;
 use vibroimpact::continuation::{
     BranchOptions, Direction, MachineBranch, MachineBranchEvent, MachineFamily, MachinePoint,
 };
+use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::orbit::{MachineCycle, find_machine_while};
 use vibroimpact::verdict::{MachineVerdict, scattered_machine_starts};
@@ -49,40 +50,40 @@ pub(super) fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> 
 }
 
 /// Checks the number that varies and its range.
-pub(super) fn check(plan: &MachinePlan, vary: &str, to: f64, points: u32) -> Result<(), PlanError> {
-    let from = plan.machine.number(vary).map_err(PlanError::from)?;
+pub(super) fn check(source: &MachineSource, vary: &str, to: f64, points: u32) -> Result<(), PlanError> {
+    let from = source.number(vary).map_err(PlanError::from)?;
     if !to.is_finite() || to == from {
         return Err(PlanError::MachineRange { path: vary.to_owned(), from, to });
     }
     if !(2..=100_000).contains(&points) {
         return Err(PlanError::BranchPoints { given: points, most: 100_000 });
     }
-    plan.machine.with(vary, to)?.parts()?;
+    source.with(vary, to)?.parts()?;
     Ok(())
 }
 
 /// The branch of an orbit in one number, from its value in the machine to another one.
 pub(super) fn branch(
-    plan: &MachinePlan,
+    source: &MachineSource,
+    (machine, start): (&Machine, &MachineStart),
     (label, vary, to): (Option<Label>, &str, f64),
     (points, follow): (u32, u32),
     control: &Control<'_>,
 ) -> Result<MachineBranched, RunError> {
-    let (machine, start) = plan.problem()?;
-    let from = plan.machine.number(vary).map_err(PlanError::from)?;
+    let from = source.number(vary).map_err(PlanError::from)?;
     let cycle = match label {
-        None => match settle(&machine, &start, None, control)?.verdict {
+        None => match settle(machine, start, None, control)?.verdict {
             MachineVerdict::Periodic(cycle) => cycle,
             other => return Err(PlanError::NotPeriodic(other.label()).into()),
         },
         Some(label) => {
-            let found = orbits(&machine, label, control)?;
+            let found = orbits(machine, label, control)?;
             let stable = found.iter().rev().find(|cycle| cycle.stable());
             let chosen = stable.or(found.last()).cloned();
             chosen.ok_or(PlanError::NoMachineOrbit(label))?
         }
     };
-    let (source, path) = (plan.machine.clone(), vary.to_owned());
+    let (source, path) = (source.clone(), vary.to_owned());
     let family = MachineFamily::new(move |value| source.with(&path, value).ok()?.machine().ok());
     let range = from.min(to)..=from.max(to);
     let direction = if to > from { Direction::Up } else { Direction::Down };

@@ -1,10 +1,11 @@
 //! A plan of a machine: everything on which a result depends, and nothing else.
 
+use super::axis::MachineAxis;
 use super::simulate::check;
 use super::{grid, orbits, verdicts};
 use crate::machine::{MachineSource, NumberText, StartNumbers, StartText, VectorText};
 use crate::map::check_impacts;
-use crate::{DEFAULT_BRANCH_POINTS, PLAN_VERSION, PlanError, Span};
+use crate::{DEFAULT_BRANCH_POINTS, PLAN_VERSION, PlanError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
@@ -125,30 +126,6 @@ pub enum MachineTask {
     },
 }
 
-/// An axis of a grid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineAxis {
-    /// The path of a number, or `q.COORDINATE`, `qdot.COORDINATE` or `phase` of the start.
-    pub vary: String,
-    /// Its values.
-    pub over: Span,
-}
-
-impl MachineAxis {
-    /// The values of all axes at point number `k` of their grid; the first axis varies fastest.
-    #[must_use]
-    pub fn at(axes: &[Self], mut k: u64) -> Vec<f64> {
-        let mut values = Vec::with_capacity(axes.len());
-        for axis in axes {
-            let count = u64::from(axis.over.count());
-            values.push(axis.over.at(u32::try_from(k % count).unwrap_or(0)));
-            k /= count;
-        }
-        values
-    }
-}
-
 const fn one() -> u64 {
     1
 }
@@ -235,10 +212,10 @@ impl MachinePlan {
                     return Err(PlanError::Follow { given: *follow, most: 100 });
                 }
                 orbits::label(&machine, label.as_deref().unwrap_or("1/1"))?;
-                orbits::check(self, vary, *to, *points)
+                orbits::check(&self.machine, vary, *to, *points)
             }
             MachineTask::Basin { axes, impacts } => grid::check_basin(&machine, axes, *impacts),
-            MachineTask::Map { axes, starts, impacts, .. } => grid::check_map(self, axes, (*starts, *impacts)),
+            MachineTask::Map { axes, starts, impacts, .. } => grid::check_map(&self.machine, axes, (*starts, *impacts)),
         }
     }
 }

@@ -56,13 +56,19 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
         }
         MachineTask::Branch { label, vary, to, points, follow } => {
             let label = label.as_deref().map(|label| orbits::label(&machine, label)).transpose()?;
-            MachineResults::Branch(orbits::branch(plan, (label, vary, *to), (*points, *follow), control)?)
+            MachineResults::Branch(orbits::branch(
+                &plan.machine,
+                (&machine, &start),
+                (label, vary, *to),
+                (*points, *follow),
+                control,
+            )?)
         }
         MachineTask::Basin { axes, impacts } => {
             MachineResults::Basin(grid::basin((&machine, &start), axes, *impacts, control)?)
         }
         MachineTask::Map { axes, starts, seed, impacts } => {
-            MachineResults::Map(grid::map(plan, axes, (*starts, *seed, *impacts), control)?)
+            MachineResults::Map(grid::map(&plan.machine, axes, (*starts, *seed, *impacts), control)?)
         }
     })
 }
