@@ -9,6 +9,9 @@ use vibroimpact::verdict::MachineVerdict;
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{Control, MachinePlan, MachineResults, MachineTask, PlanError, run_machine};
 
+/// The largest number of characters of a title over an axis of ordinary width.
+const TITLE: usize = 45;
+
 /// A plan of a machine and its result. Its [`Serialize`](serde::Serialize) form is the JSON object that the command
 /// prints with `--json`.
 #[derive(Clone, Debug)]
@@ -49,14 +52,23 @@ impl MachineAnswer {
         self.plan.machine.title.clone().unwrap_or_else(|| self.name.clone())
     }
 
+    /// The title of a figure of ordinary width: a long title is cut at its first colon, or replaced by the name.
+    fn short_title(&self) -> String {
+        let title = self.title();
+        let part = title.split_once(": ").map_or(title.as_str(), |(part, _)| part);
+        let fits = [title.as_str(), part, &self.name].into_iter().find(|text| text.chars().count() <= TITLE);
+        vibroimpact_plot::plain(fits.unwrap_or(&self.name))
+    }
+
     /// The figure that the command draws with `--plot`; `None` for a task without one.
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn.
     pub fn figure(&self) -> Result<Option<Figure>, AnswerError> {
-        let title = vibroimpact_plot::plain(&self.title());
+        let title = self.short_title();
         Ok(Some(match &self.results {
             MachineResults::Simulate(found) => {
+                let title = vibroimpact_plot::plain(&self.title());
                 figure::machine_waveform::figure(&self.machine, &self.start, found, title)?
             }
             MachineResults::Settle(found) => {
