@@ -14,6 +14,7 @@ mod error;
 mod grid;
 mod lyapunov;
 mod machine;
+mod machine_answers;
 mod margins;
 mod motion;
 mod orbits;
@@ -42,6 +43,8 @@ mod _core {
     use crate::lyapunov::lyapunov;
     #[pymodule_export]
     use crate::machine::{MachineFile, machine_names, machine_waveform, simulate_machine};
+    #[pymodule_export]
+    use crate::machine_answers::machine_answer;
     #[pymodule_export]
     use crate::margins::{margins, varied_parameters};
     #[pymodule_export]

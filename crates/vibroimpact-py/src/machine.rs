@@ -13,10 +13,10 @@ use vibroimpact_study::{MachinePlan, MachineResults, MachineTask, PlanError, run
 /// A machine file that describes a machine.
 #[pyclass(frozen, module = "vibroimpact._core")]
 #[derive(Debug)]
-pub(crate) struct MachineFile(MachineSource);
+pub(crate) struct MachineFile(pub(crate) MachineSource);
 
 /// Coordinates, velocities and phase.
-type Start = (Vec<f64>, Vec<f64>, f64);
+pub(crate) type Start = (Vec<f64>, Vec<f64>, f64);
 
 fn checked(source: MachineSource) -> Result<MachineFile, Trouble> {
     source.machine()?;
@@ -130,7 +130,7 @@ pub(crate) struct Fields<'py> {
     plan: String,
 }
 
-fn start((q, qdot, phase): Start) -> MachineStart {
+pub(crate) fn start((q, qdot, phase): Start) -> MachineStart {
     MachineStart { q, qdot, phase }
 }
 

@@ -57,6 +57,11 @@ pub enum ReportError {
         /// The largest allowed number of points.
         most: f64,
     },
+    /// A motion of a machine that is no cycle, where one period of a cycle would be drawn.
+    #[error(
+        "the figure has one period of a cycle, and the motion is {0}\nhint: `vibro simulate --machine --plot` draws any motion"
+    )]
+    NoCycle(String),
     /// A motion without multipliers.
     #[error("the motion `{0}` has no multipliers\nhint: periodic motions have, and those without impacts")]
     NoMultipliers(String),

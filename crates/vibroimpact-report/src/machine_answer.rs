@@ -1,11 +1,16 @@
 //! A plan of a machine, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
 use crate::answer::AnswerError;
-use crate::{Table, figure, table};
+use crate::{ReportError, Table, figure, table};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
+use vibroimpact::orbit::MachineCycle;
+use vibroimpact::verdict::MachineVerdict;
 use vibroimpact_plot::Figure;
-use vibroimpact_study::{Control, MachinePlan, MachineResults, MachineTask, run_machine};
+use vibroimpact_study::{Control, MachinePlan, MachineResults, MachineTask, PlanError, run_machine};
+
+/// The largest number of characters of a title over an axis of ordinary width.
+const TITLE: usize = 45;
 
 /// A plan of a machine and its result. Its [`Serialize`](serde::Serialize) form is the JSON object that the command
 /// prints with `--json`.
@@ -47,18 +52,52 @@ impl MachineAnswer {
         self.plan.machine.title.clone().unwrap_or_else(|| self.name.clone())
     }
 
+    /// The title of a figure of ordinary width: a long title is cut at its first colon, or replaced by the name.
+    fn short_title(&self) -> String {
+        let title = self.title();
+        let part = title.split_once(": ").map_or(title.as_str(), |(part, _)| part);
+        let fits = [title.as_str(), part, &self.name].into_iter().find(|text| text.chars().count() <= TITLE);
+        vibroimpact_plot::plain(fits.unwrap_or(&self.name))
+    }
+
     /// The figure that the command draws with `--plot`; `None` for a task without one.
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn.
     pub fn figure(&self) -> Result<Option<Figure>, AnswerError> {
-        Ok(match &self.results {
+        let title = self.short_title();
+        Ok(Some(match &self.results {
             MachineResults::Simulate(found) => {
                 let title = vibroimpact_plot::plain(&self.title());
-                Some(figure::machine_waveform::figure(&self.machine, &self.start, found, title)?)
+                figure::machine_waveform::figure(&self.machine, &self.start, found, title)?
             }
-            _ => None,
-        })
+            MachineResults::Settle(found) => {
+                let MachineVerdict::Periodic(cycle) = &found.verdict else {
+                    return Err(ReportError::NoCycle(figure::label(&found.verdict.label())).into());
+                };
+                self.one_period(cycle, title)?
+            }
+            MachineResults::Branch(found) => {
+                let MachineTask::Branch { vary, to, .. } = &self.plan.task else { return Ok(None) };
+                let from = self.plan.machine.number(vary).map_err(PlanError::from).map_err(ReportError::from)?;
+                figure::branch::of_machine(found, (vary, (from, *to)), title)
+            }
+            MachineResults::Basin(found) => figure::basin::of_machine(found, title)?,
+            MachineResults::Map(found) => figure::map::of_machine(found, title)?,
+            MachineResults::Attractors(_) | MachineResults::Lyapunov(_) | MachineResults::Orbit(_) => return Ok(None),
+        }))
+    }
+
+    /// The waveform of one period of a cycle.
+    fn one_period(&self, cycle: &MachineCycle, title: String) -> Result<Figure, AnswerError> {
+        let periods = Some(f64::from(cycle.label.periods));
+        let task = MachineTask::Simulate { impacts: None, periods };
+        let plan = MachinePlan { task, ..self.plan.clone() }.starting(&cycle.state);
+        let MachineResults::Simulate(found) = run_machine(&plan, &Control::default())? else {
+            return Err(ReportError::NoCycle(cycle.label.to_string()).into()); // the task of the plan is to simulate
+        };
+        let title = format!("{title}: {}", figure::label(&cycle.label.to_string()));
+        Ok(figure::machine_waveform::figure(&self.machine, &cycle.state, &found, title)?)
     }
 
     /// The table that the command writes with `--csv`, with points a time `step` apart; a hundredth of the forcing period

@@ -29,8 +29,8 @@ pub(crate) struct RangedSystemArgs {
     gap: Option<MaybeLength>,
 
     /// Restitution: rebound speed over arrival speed, 0 to 1
-    #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
-    restitution: Ranged,
+    #[arg(long, value_name = "VALUES", allow_hyphen_values = true, required = true)]
+    restitution: Option<Ranged>,
 
     /// Damping ratio zeta, 0 or more [default: 0]
     #[arg(long, value_name = "VALUES", allow_hyphen_values = true)]
@@ -51,6 +51,9 @@ pub(crate) struct RangedSystemArgs {
     machine: PhysicalArgs,
 }
 
+/// The restitution without its flag, which is optional only with a machine of several coordinates.
+const ABSENT: Ranged = Ranged::At(f64::NAN);
+
 impl RangedSystemArgs {
     /// The given parameters, in the order of the flags.
     fn given(&self) -> impl Iterator<Item = (Parameter, &Ranged)> {
@@ -58,7 +61,7 @@ impl RangedSystemArgs {
             (Parameter::Beta, self.beta.as_ref()),
             (Parameter::InverseBeta, self.inverse_beta.as_ref()),
             (Parameter::Gap, self.gap.as_ref().and_then(MaybeLength::plain)),
-            (Parameter::Restitution, Some(&self.restitution)),
+            (Parameter::Restitution, self.restitution.as_ref()),
             (Parameter::Damping, self.damping.as_ref()),
             (Parameter::SecondGap, self.second_gap.as_ref().and_then(MaybeLength::plain)),
             (Parameter::SecondRestitution, self.second_restitution.as_ref()),
@@ -75,7 +78,8 @@ impl RangedSystemArgs {
         if !second && self.second_restitution.is_some() {
             return Err(Failure::bad("the second stop has a restitution but no gap\nhint: --second-gap D2"));
         }
-        let second_restitution = match (&self.second_restitution, &self.restitution) {
+        let restitution = self.restitution.as_ref().unwrap_or(&ABSENT);
+        let second_restitution = match (&self.second_restitution, restitution) {
             (None, Ranged::Over(_)) if second => {
                 return Err(Failure::bad(
                     "the restitution varies and that of the second stop is not given\nhint: --second-restitution E2",
@@ -93,14 +97,14 @@ impl RangedSystemArgs {
                     flag(parameter)
                 )));
             }
-            let restitutions = (Some(self.restitution.first()), Some(second_restitution));
+            let restitutions = (Some(restitution.first()), Some(second_restitution));
             return super::physical::asked(&machine.plan(restitutions, &[])?, true);
         }
         let system = SystemPlan {
             beta: first(&self.beta),
             inverse_beta: first(&self.inverse_beta),
             gap: plain(&self.gap).unwrap_or(0.0),
-            restitution: self.restitution.first(),
+            restitution: restitution.first(),
             damping: first(&self.damping).unwrap_or(0.0),
             second_stop: plain(&self.second_gap).map(|gap| SecondStop { gap, restitution: second_restitution }),
             machine: None,

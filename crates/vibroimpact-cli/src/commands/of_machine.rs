@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use crate::report::{machine_answers, machine_events};
 use crate::session::Session;
 use std::path::Path;
+use vibroimpact_report::figure::plane::Sides;
 use vibroimpact_report::machine_answer;
 use vibroimpact_study::{MachinePlan, MachineResults, MachineTask};
 
@@ -37,9 +38,24 @@ pub(super) fn run(
     (outputs, step): (Outputs, Option<f64>),
     session: &Session,
 ) -> Result<(), Failure> {
+    let none = |what: &str| Failure::bad(format!("of a machine this command has no {what} yet"));
+    // before the computation
+    match &plan.task {
+        MachineTask::Basin { axes, .. } | MachineTask::Map { axes, .. } if outputs.drawn() => {
+            Sides::of_machine(axes)?;
+        }
+        MachineTask::Attractors { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { .. }
+            if outputs.drawn() =>
+        {
+            return Err(none("figure"));
+        }
+        MachineTask::Settle { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { .. } if outputs.tabled() => {
+            return Err(none("table"));
+        }
+        _ => {}
+    }
     let answer = session.watched(None, |control| machine_answer(name, plan, control))?;
     let (json, table, files) = (outputs.json(), outputs.table_on_stdout(), outputs.any_file());
-    let none = |what: &str| Failure::bad(format!("of a machine this command has no {what} yet"));
     outputs.write(
         session,
         || answer.table(step)?.ok_or_else(|| none("table")),

@@ -69,6 +69,11 @@ impl Outputs {
         self.picture.is_some()
     }
 
+    /// Whether a table was requested.
+    pub(super) const fn tabled(&self) -> bool {
+        self.csv.is_some()
+    }
+
     /// Whether a table or a figure was requested.
     pub(super) const fn any_file(&self) -> bool {
         self.csv.is_some() || self.picture.is_some()

@@ -1,6 +1,7 @@
 //! Answers about machines as text.
 
 use core::fmt::Write;
+use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;
@@ -69,11 +70,11 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             }
         }
         MachineResults::Map(found) => {
-            let mut labels = std::collections::BTreeMap::new();
+            let mut labels = BTreeMap::new();
             for cell in &found.cells {
-                for (label, _) in cell {
-                    *labels.entry(label.as_str()).or_insert(0_u64) += 1;
-                }
+                // two motions of one label are at one point
+                let here: BTreeSet<&str> = cell.iter().map(|(label, _)| label.as_str()).collect();
+                here.into_iter().for_each(|label| *labels.entry(label).or_insert(0_u64) += 1);
             }
             for (label, count) in labels {
                 let _ = writeln!(text, "{label:>10}  at {}", counted(count, "point"));

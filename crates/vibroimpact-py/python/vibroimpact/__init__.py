@@ -44,6 +44,17 @@ from vibroimpact._cycle import Cycle
 from vibroimpact._grid import basin, orbit_diagram, region_map
 from vibroimpact._lyapunov import Lyapunov, Measured, lyapunov
 from vibroimpact._machine import Machine, MachineSimulation, MachineWaveform
+from vibroimpact._machine_answers import (
+    MachineAttractors,
+    MachineBasin,
+    MachineBranch,
+    MachineCycle,
+    MachineLyapunov,
+    MachineMap,
+    MachineMotion,
+    MachineOrbits,
+    MachineSettled,
+)
 from vibroimpact._margins import MarginEnd, Margins, MotionBox, Nearest, ParameterMargin, margins
 from vibroimpact._motion import Motion
 from vibroimpact._orbits import EarlierContact, Orbit, orbits
@@ -65,6 +76,15 @@ __all__ = [
     "EarlierContact",
     "Lyapunov",
     "Machine",
+    "MachineAttractors",
+    "MachineBasin",
+    "MachineBranch",
+    "MachineCycle",
+    "MachineLyapunov",
+    "MachineMap",
+    "MachineMotion",
+    "MachineOrbits",
+    "MachineSettled",
     "MachineSimulation",
     "MachineWaveform",
     "MarginEnd",

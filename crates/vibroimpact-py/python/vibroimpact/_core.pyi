@@ -36,6 +36,7 @@ __all__ = [
     "StoppedError",
     "lyapunov",
     "MachineFile",
+    "machine_answer",
     "machine_names",
     "machine_waveform",
     "simulate_machine",
@@ -158,6 +159,14 @@ class MachineFile:
     def __eq__(self, other: object, /) -> bool: ...
 
 def simulate_machine(file: MachineFile, start: _MachineStart, impacts: int | None, periods: float | None) -> _Fields: ...
+def machine_answer(
+    file: MachineFile,
+    start: _MachineStart,
+    task: str,
+    total: int,
+    threads: int,
+    progress: _Progress,
+) -> tuple[str, list[list[tuple[str, float]]] | None]: ...
 def machine_waveform(file: MachineFile, start: _MachineStart, until: float, step: float, events: bool) -> _Fields: ...
 def machine_names() -> list[str]: ...
 def simulate(osc: Oscillator, start: _Start, impacts: int | None, periods: float | None) -> _Fields: ...

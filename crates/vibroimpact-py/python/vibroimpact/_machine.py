@@ -11,9 +11,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact import _core
+from vibroimpact import _core, _machine_answers
 from vibroimpact._core import QuestionError
-from vibroimpact._whole import SIMULATED, maybe
+from vibroimpact._machine_answers import (
+    MachineAttractors,
+    MachineAxes,
+    MachineBasin,
+    MachineBranch,
+    MachineLyapunov,
+    MachineMap,
+    MachineOrbits,
+    MachineSettled,
+)
+from vibroimpact._progress import Progress
+from vibroimpact._whole import BRANCH, BUDGET, POINT_STARTS, SEED, SIMULATED, STARTS, TRANSIENT, maybe, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -273,11 +284,204 @@ class Machine:
         >>> float(wave.force[:, 0].max().round())          # 9950.37 N in closed form
         9950.0
         """
-        start = self._file.start(_vector(q), _vector(qdot), None if phase is None else float(phase))
+        start = self._start(q, qdot, phase)
         fields = _core.simulate_machine(self._file, start, maybe("impacts", impacts, SIMULATED), periods)
         kind, stop = (np.array(fields.pop(name), dtype=np.str_) for name in ("kind", "stop"))
         with_ = tuple(tuple(names) for names in fields.pop("with_"))
         return MachineSimulation(machine=self, start=start, kind=kind, stop=stop, with_=with_, **fields)
+
+    def _start(
+        self, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None
+    ) -> tuple[list[float], list[float], float]:
+        return self._file.start(_vector(q), _vector(qdot), None if phase is None else float(phase))
+
+    def settle(
+        self, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
+        impacts: int | None = None,
+    ) -> MachineSettled:
+        """Decide what a motion settles into: a cycle, chaos, no further event, or rest on a stop.
+
+        Parameters
+        ----------
+        q, qdot, phase : array, array, float
+            Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
+        impacts : int
+            Budget of events, 1 to 1e6. A motion that has not settled by then is undecided. Default: 20 000.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> found = vi.Machine.named("two-mass-hammer").settle()
+        >>> found.motion, found.motion.counts, len(found.motion.multipliers)
+        (<MachineMotion 1/1, stable>, {'anvil': 1}, 4)
+        """
+        task = {"settle": {"impacts": maybe("impacts", impacts, BUDGET)}}
+        return _machine_answers.settled(_machine_answers.ask(self._file, self._start(q, qdot, phase), task)[0])
+
+    def attractors(
+        self, starts: int = 200, *, seed: int = 1, impacts: int | None = None, threads: int = 0,
+        progress: Progress = None,
+    ) -> MachineAttractors:
+        """Find the steady motions to which scattered starts lead, and their shares of the starts.
+
+        Parameters
+        ----------
+        starts : int
+            Number of starts, 1 to 1e9.
+        seed : int
+            Seed of the sequence of starts.
+        impacts : int
+            Budget of events for each start, 1 to 1e6. Default: 20 000.
+        threads : int
+            Number of threads; 0 for one per core. The result does not depend on it.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> vi.Machine.named("two-mass-hammer").attractors(20)
+        <MachineAttractors of 20 starts: 1/1 100 %>
+        """
+        starts = whole("starts", starts, STARTS)
+        budget = maybe("impacts", impacts, BUDGET)
+        task = {"attractors": {"starts": starts, "seed": whole("seed", seed, SEED), "impacts": budget}}
+        found, _ = _machine_answers.ask(self._file, self._start(), task, starts, threads, progress)
+        return _machine_answers.attractors(found)
+
+    def lyapunov(
+        self, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
+        impacts: int | None = None, transient: int | None = None,
+    ) -> MachineLyapunov:
+        """All Lyapunov exponents of a motion, per unit of time, with error bars.
+
+        Parameters
+        ----------
+        q, qdot, phase : array, array, float
+            Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
+        impacts : int
+            Events to measure over, 25 to 1e7. Default: 20 000.
+        transient : int
+            Events to pass before. Default: 1000.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> found = vi.Machine.named("two-mass-hammer").lyapunov(impacts=2000)
+        >>> len(found.exponents), found.exponents[0].value < 0, found.motion.label
+        (4, True, '1/1')
+        """
+        task = {"lyapunov": {
+            "impacts": maybe("impacts", impacts, SIMULATED), "transient": maybe("transient", transient, TRANSIENT),
+        }}
+        return _machine_answers.lyapunov(_machine_answers.ask(self._file, self._start(q, qdot, phase), task)[0])
+
+    def orbit(self, label: str) -> MachineOrbits:
+        """The orbits with a label m/n, stable or not, from many guesses; m counts closings of all stops.
+
+        >>> import vibroimpact as vi
+        >>> vi.Machine.named("two-mass-hammer").orbit("1/1")[-1].stable
+        True
+        """
+        return _machine_answers.orbits(_machine_answers.ask(self._file, self._start(), {"orbit": {"label": label}})[0])
+
+    def branch(
+        self, vary: str, to: float, *, label: str | None = None, points: int = 5000,
+        q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
+    ) -> MachineBranch:
+        """Follow an orbit in one number of the machine through folds and grazing, from its value to another one.
+
+        Parameters
+        ----------
+        vary : str
+            The path of the number, such as "frequency" or "stop.wall.gap".
+        to : float
+            The other end of its range.
+        label : str
+            The label m/n of the orbit at the machine. Default: that of the motion from the start.
+        points : int
+            The largest number of points, 2 to 100 000.
+        q, qdot, phase : array, array, float
+            Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> found = vi.Machine.named("two-mass-hammer").branch("frequency", 1.05)
+        >>> found.event_kind.tolist(), found.event_stop[0]
+        (['grazing', 'fold', 'end of range'], 'anvil')
+        """
+        points = whole("points", points, BRANCH)
+        task = {"branch": {"label": label, "vary": vary, "to": float(to), "points": points}}
+        return _machine_answers.branch(_machine_answers.ask(self._file, self._start(q, qdot, phase), task)[0])
+
+    def basin(
+        self, axes: MachineAxes, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
+        impacts: int | None = None, threads: int = 0, progress: Progress = None,
+    ) -> MachineBasin:
+        """Settle every start of a grid.
+
+        Parameters
+        ----------
+        axes : dict
+            One to four of "q.COORDINATE", "qdot.COORDINATE" and "phase", each with (a, b, n): n values from a to b.
+        q, qdot, phase : array, array, float
+            Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
+        impacts : int
+            Budget of events for each start, 1 to 1e6. Default: 20 000.
+        threads : int
+            Number of threads; 0 for one per core. The result does not depend on it.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> found = vi.Machine.named("two-mass-hammer").basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)})
+        >>> found.labels[:, 0].tolist()                     # the anvil is at 0.5
+        ['1/1', '1/1', '1/1', '1/1', 'refused']
+        >>> found.xarray().sel({"q.head": 0, "qdot.head": 1}).item()
+        '1/1'
+        """
+        over = _machine_answers.spans(axes)
+        task = {"basin": {"axes": over, "impacts": maybe("impacts", impacts, BUDGET)}}
+        start, total = self._start(q, qdot, phase), _machine_answers.size(over)
+        return _machine_answers.basin(_machine_answers.ask(self._file, start, task, total, threads, progress)[0])
+
+    def map(
+        self, axes: MachineAxes, starts: int, *, seed: int = 1, impacts: int | None = None, threads: int = 0,
+        progress: Progress = None,
+    ) -> MachineMap:
+        """Settle scattered starts at each point of a grid of numbers of the machine.
+
+        Parameters
+        ----------
+        axes : dict
+            One to four paths of numbers, each with (a, b, n): n values from a to b.
+        starts : int
+            Number of starts at each point.
+        seed : int
+            Seed of the sequence of starts.
+        impacts : int
+            Budget of events for each start, 1 to 1e6. Default: 20 000.
+        threads : int
+            Number of threads; 0 for one per core. The result does not depend on it.
+        progress : bool or callable
+            True for a progress bar, or a function called with the amounts done and in total.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> found = vi.Machine.named("two-mass-hammer").map({"frequency": (0.8, 1.2, 3)}, starts=2)
+        >>> found.labels[:, 0].tolist()
+        ['3/1', '2/1', '1/1']
+        """
+        over, starts = _machine_answers.spans(axes), whole("starts", starts, POINT_STARTS)
+        task = {"map": {"axes": over, "starts": starts, "seed": whole("seed", seed, SEED),
+                        "impacts": maybe("impacts", impacts, BUDGET)}}
+        total = starts * _machine_answers.size(over)
+        found, cells = _machine_answers.ask(self._file, self._start(), task, total, threads, progress)
+        return _machine_answers.mapped(found, cells or [])
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)

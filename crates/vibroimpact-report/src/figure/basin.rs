@@ -1,12 +1,13 @@
 //! The figure of a basin: each start in the colour of the motion to which it leads. Over one axis it is a strip of starts.
 
-use crate::figure::plane::{Plane, PlaneAxis};
+use crate::figure::plane::{Plane, PlaneAxis, Sides};
 use crate::figure::{title, variant};
-use crate::{Asked, ReportError, Units};
+use crate::{Asked, ReportError};
+use vibroimpact::verdict::MachineVerdict;
 use vibroimpact_plot::{
     ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Raster, Rect, Rects, class_style, legend_group,
 };
-use vibroimpact_study::{Axis, Basin, counted};
+use vibroimpact_study::{Basin, MachineBasin, counted};
 
 /// Maximum number of motions with an entry of their own in the legend.
 const NAMED: usize = 12;
@@ -27,24 +28,35 @@ pub struct BasinMotion {
 pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
     let motion = |m: usize| BasinMotion { label: found.motions[m].verdict.label().into_owned(), share: found.share(m) };
     let motions: Vec<BasinMotion> = (0..found.motions.len()).map(motion).collect();
-    draw(&found.plan.axes, &asked.units, &motions, found.cells.clone(), title(asked))
+    draw(&Sides::of(&found.plan.axes, &asked.units)?, &motions, found.cells.clone(), title(asked))
+}
+
+/// The figure of `vibro basin --machine`, as [`figure`]; the names of the axes are the paths. Starts beyond a rigid stop
+/// are left blank.
+///
+/// # Errors
+/// As [`figure`].
+pub fn of_machine(found: &MachineBasin, title: String) -> Result<Figure, ReportError> {
+    let sides = Sides::of_machine(&found.axes)?;
+    let started = found.cells.iter().flatten().count().max(1);
+    let motion = |(m, verdict): (usize, &MachineVerdict)| BasinMotion {
+        label: verdict.label(),
+        share: found.cells.iter().filter(|cell| **cell == Some(m)).count() as f64 / started as f64,
+    };
+    let motions: Vec<BasinMotion> = found.motions.iter().enumerate().map(motion).collect();
+    let cell = |cell: &Option<usize>| cell.and_then(|m| u16::try_from(m).ok()).unwrap_or(u16::MAX);
+    draw(&sides, &motions, found.cells.iter().map(cell).collect(), title)
 }
 
 /// Draws a basin over one or two axes. `cells` has the index of the motion of each start; other numbers are left blank.
 ///
 /// # Errors
-/// As [`figure`], and [`ReportError::Plot`] if the number of cells is not the number of starts.
-pub fn draw(
-    axes: &[Axis],
-    units: &Units,
-    motions: &[BasinMotion],
-    cells: Vec<u16>,
-    title: String,
-) -> Result<Figure, ReportError> {
+/// [`ReportError::Plot`] if the number of cells is not the number of starts.
+pub fn draw(sides: &Sides, motions: &[BasinMotion], cells: Vec<u16>, title: String) -> Result<Figure, ReportError> {
     let (colours, legend) = colours(motions);
-    let figure = match axes {
-        [axis] => Figure::new(strip(&PlaneAxis::of(axis, units)?, &cells, &colours)),
-        axes => Figure::new(panel(&Plane::of(axes, units)?, cells, colours)?).size(680.0, 620.0),
+    let figure = match sides {
+        Sides::Line(side) => Figure::new(strip(side, &cells, &colours)),
+        Sides::Plane(plane) => Figure::new(panel(plane, cells, colours)?).size(680.0, 620.0),
     };
     Ok(figure.title(title).legend(legend))
 }
@@ -105,16 +117,16 @@ fn panel(plane: &Plane, cells: Vec<u16>, colours: Vec<Colour>) -> Result<Panel, 
 mod tests {
     use super::*;
     use vibroimpact_plot::Mark;
-    use vibroimpact_study::{Coordinate, Span};
+    use vibroimpact_study::{Span, Values};
 
     #[test]
     fn starts_over_one_axis_are_bars_of_full_height() {
-        let axis = Axis { vary: Coordinate::X, over: "0:2:3".parse::<Span>().unwrap().into() };
+        let side = PlaneAxis::new("x", &Values::Span("0:2:3".parse::<Span>().unwrap())).unwrap();
         let motion = |label: &str, share| BasinMotion { label: label.to_owned(), share };
         // two motions of one label, and a start that was not computed
         let motions = [motion("1/1", 0.3), motion("1/1", 0.4)];
         let cells = vec![1, u16::MAX, 0];
-        let figure = draw(&[axis], &Units::default(), &motions, cells, String::new()).unwrap();
+        let figure = draw(&Sides::Line(side), &motions, cells, String::new()).unwrap();
         let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("bars") };
         let bars: Vec<_> = rects.rects.iter().map(|rect| (rect.class, rect.x, rect.y)).collect();
         assert_eq!(bars, [(1, (-0.5, 0.5), (0.0, 1.0)), (0, (1.5, 2.5), (0.0, 1.0))]);

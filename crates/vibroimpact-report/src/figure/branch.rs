@@ -2,15 +2,14 @@
 //! orbits are solid and unstable ones dashed. Events are marked, and the orbit diagram from simulation is behind.
 
 use crate::figure::diagram::{backdrop, ordinate};
-use crate::figure::styles::BRANCH_MARKS;
-use crate::figure::tracks::{Curves, Followed as What, Look, curves};
+use crate::figure::styles::{BRANCH_MARKS, MACHINE_BRANCH_MARKS};
+use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
 use crate::figure::{along, label, title_without, variant};
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
-use vibroimpact::continuation::{BranchEvent, SolutionPoint};
-use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke};
+use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke, plain};
 use vibroimpact_study::diagram::{Diagram, Show};
-use vibroimpact_study::{Cut, Followed, Span, counted};
+use vibroimpact_study::{Cut, Followed, MachineBranched, Span, counted};
 
 /// Colour of the orbit diagram from simulation.
 const GREY: Colour = Colour::hex(0xb0_b0b0);
@@ -57,7 +56,6 @@ pub fn figure(
         FigureAxis::new(along(cut, &asked.units)).range(from.min(to) * unit, from.max(to) * unit),
         ordinate(show, asked),
     );
-    let mut legend = Legend::below();
     if let Some(diagram) = behind {
         let (a, b) = diagram.plan.over.ends();
         let over = Span::new(a * unit, b * unit, diagram.plan.over.count())?;
@@ -65,10 +63,33 @@ pub fn figure(
             panel.add(dots);
         }
     }
-    let curves: Vec<Curves> = followed.iter().map(|branch| curves(&branch.points, what)).collect();
-    let colours = colours(followed);
+    let tracks: Vec<Track> = followed.iter().map(|branch| Track::of(&branch.points, what)).collect();
+    let mut legend = draw(&mut panel, &tracks, show_virtual, (unit, &size));
+    if behind.is_some() {
+        // a dot of the cloud is too small for the legend
+        legend = legend.points(&Points::new([], [], GREY).size(7.0), "simulation");
+    }
+    Ok(Figure::new(panel)
+        .size(680.0, 520.0)
+        .title(title_without(asked, &cut.parameters().collect::<Vec<_>>()))
+        .legend(legend))
+}
+
+/// The figure of `vibro branch --machine`: the speeds of the closings of all stops over the number at a path.
+#[must_use]
+pub fn of_machine(found: &MachineBranched, (path, (from, to)): (&str, (f64, f64)), title: String) -> Figure {
+    let mut panel =
+        Panel::new(FigureAxis::new(plain(path)).range(from.min(to), from.max(to)), FigureAxis::new("speed of closing"));
+    let legend = draw(&mut panel, &[Track::of_machine(&found.points)], false, (1.0, &|_| 1.0));
+    Figure::new(panel).size(680.0, 520.0).title(title).legend(legend)
+}
+
+/// Draws branches with their events, with the units of both axes, and returns the legend.
+fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool, (unit, size): (f64, &dyn Fn(f64) -> f64)) -> Legend {
+    let mut legend = Legend::below();
+    let colours = colours(tracks);
     let mut looks: Vec<Look> = Vec::new();
-    for ((label, look), (xs, ys)) in curves.into_iter().flatten() {
+    for ((label, look), (xs, ys)) in tracks.iter().flat_map(Track::curves) {
         if look == Look::Virtual && !show_virtual {
             continue;
         }
@@ -97,18 +118,11 @@ pub fn figure(
         let (width, dash) = pen(look);
         legend = legend.line(Stroke::new(Colour::BLACK).width(width).dash(dash), name);
     }
-    for (kind, points) in marks(followed, show_virtual, what, (unit, &size)) {
+    for (kind, points) in marks(tracks, show_virtual, (unit, size)) {
         legend = legend.points(&points, kind);
         panel.add(points);
     }
-    if behind.is_some() {
-        // a dot of the cloud is too small for the legend
-        legend = legend.points(&Points::new([], [], GREY).size(7.0), "simulation");
-    }
-    Ok(Figure::new(panel)
-        .size(680.0, 520.0)
-        .title(title_without(asked, &cut.parameters().collect::<Vec<_>>()))
-        .legend(legend))
+    legend
 }
 
 const fn pen(look: Look) -> (f64, Dash) {
@@ -120,14 +134,13 @@ const fn pen(look: Look) -> (f64, Dash) {
 }
 
 /// A colour for each label, in the order of first appearance on the branches.
-fn colours(followed: &[Followed]) -> Vec<(String, Colour)> {
+fn colours(tracks: &[Track]) -> Vec<(String, Colour)> {
     // without black, which is used for marks, and yellow, which is too light for a thin line
     const USABLE: usize = 6;
     let mut labels: Vec<String> = Vec::new();
-    for point in followed.iter().flat_map(|branch| &branch.points) {
-        let label = point.cycle.label.to_string();
-        if !labels.contains(&label) {
-            labels.push(label);
+    for point in tracks.iter().flat_map(|track| &track.points) {
+        if !labels.contains(&point.label) {
+            labels.push(point.label.clone());
         }
     }
     let colour = |k: usize| if k < NAMED { variant(SERIES[k % USABLE], k / USABLE) } else { OTHERS };
@@ -136,18 +149,16 @@ fn colours(followed: &[Followed]) -> Vec<(String, Colour)> {
 
 /// The marks of events, by kind.
 fn marks(
-    followed: &[Followed],
+    tracks: &[Track],
     show_virtual: bool,
-    what: What<'_>,
     (unit, size): (f64, &dyn Fn(f64) -> f64),
 ) -> BTreeMap<&'static str, Points> {
     let mut places: BTreeMap<&'static str, (Shape, Vec<f64>, Vec<f64>)> = BTreeMap::new();
-    for point in followed.iter().flat_map(|branch| &branch.points) {
-        let Some((shape, ordinates)) = point.event.and_then(|event| mark(point, &event, what)) else { continue };
-        if !point.physical && !show_virtual {
+    for (track, point) in tracks.iter().flat_map(|track| track.points.iter().map(move |point| (track, point))) {
+        let Some((kind, shape, ordinates)) = point.event.and_then(|event| mark(track, point, event)) else { continue };
+        if point.look == Look::Virtual && !show_virtual {
             continue;
         }
-        let kind = point.event.map_or("", |event| event.name());
         let (_, xs, ys) = places.entry(kind).or_insert((shape, Vec::new(), Vec::new()));
         xs.extend(ordinates.iter().map(|_| point.value * unit));
         ys.extend(ordinates.iter().map(|ordinate| ordinate * size(point.value)));
@@ -160,10 +171,10 @@ fn marks(
     places.into_iter().map(|(kind, place)| (kind, style(place))).collect()
 }
 
-/// The shape of the mark of an event, and its ordinates: those of all impacts or states, or velocity zero where an
-/// impact appears or disappears.
-fn mark(point: &SolutionPoint, event: &BranchEvent, what: What<'_>) -> Option<(Shape, Vec<f64>)> {
-    let (_, shape, at_zero) = BRANCH_MARKS.iter().find(|(name, ..)| *name == event.name())?;
-    let ordinates = if *at_zero && matches!(what, What::Velocity) { vec![0.0] } else { what.ordinates(point) };
-    Some((*shape, ordinates))
+/// The name and the shape of the mark of an event, and its ordinates: those of all impacts or states, or velocity zero
+/// where an impact appears or disappears.
+fn mark(track: &Track, point: &TrackPoint, event: &str) -> Option<(&'static str, Shape, Vec<f64>)> {
+    let (kind, shape, at_zero) = BRANCH_MARKS.iter().chain(&MACHINE_BRANCH_MARKS).find(|(name, ..)| *name == event)?;
+    let ordinates = if *at_zero && !track.positions { vec![0.0] } else { point.ordinates() };
+    Some((kind, *shape, ordinates))
 }

@@ -1,11 +1,12 @@
 //! The figure of a map: each point of the parameter plane in the colours of its coexisting motions.
 
-use crate::figure::plane::{Plane, varied};
-use crate::figure::point_motion::{group, points};
+use crate::figure::coloured::Value;
+use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
+use crate::figure::point_motion::{PointMotion, group, points};
 use crate::figure::{shares, title_without};
 use crate::{Asked, ReportError};
 use vibroimpact_plot::{ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_text};
-use vibroimpact_study::{MapPoint, RegionMap};
+use vibroimpact_study::{MachineMap, MapPoint, RegionMap};
 
 /// With more points than this, coexisting motions would be too small to be visible, and only the most frequent one is
 /// drawn.
@@ -19,11 +20,34 @@ pub fn figure(found: &RegionMap, asked: &Asked) -> Result<Figure, ReportError> {
     let axes = &found.plan.axes;
     if let [axis] = axes.as_slice() {
         let points = points(found, None, &asked.units);
-        return shares::draw(axis, &points, &asked.units, title_without(asked, &varied(axes)));
+        return Ok(shares::draw(&PlaneAxis::of(axis, &asked.units)?, &points, title_without(asked, &varied(axes))));
     }
     let cell = |point: &MapPoint| groups(point.motions.iter().map(|motion| motion.verdict.label()));
     let cells: Vec<Vec<usize>> = found.points.iter().map(cell).collect();
     draw(&Plane::of(axes, &asked.units)?, &cells, title_without(asked, &varied(axes)))
+}
+
+/// The figure of `vibro map --machine`, as [`figure`]; the names of the axes are the paths.
+///
+/// # Errors
+/// As [`figure`].
+pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportError> {
+    match Sides::of_machine(&found.axes)? {
+        Sides::Line(side) => {
+            let motion = |(label, share): &(String, f64)| PointMotion {
+                group: group(label),
+                share: *share,
+                value: Value::Undefined,
+            };
+            let points: Vec<Vec<PointMotion>> =
+                found.cells.iter().map(|cell| cell.iter().map(motion).collect()).collect();
+            Ok(shares::draw(&side, &points, title))
+        }
+        Sides::Plane(plane) => {
+            let cell = |cell: &Vec<(String, f64)>| groups(cell.iter().map(|(label, _)| label.as_str().into()));
+            draw(&plane, &found.cells.iter().map(cell).collect::<Vec<_>>(), title)
+        }
+    }
 }
 
 /// Draws a map. `cells` has the distinct groups of the motions at each point, the most frequent first.

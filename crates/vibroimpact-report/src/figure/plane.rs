@@ -2,8 +2,8 @@
 
 use crate::figure::named;
 use crate::{ReportError, Units};
-use vibroimpact_plot::FigureAxis;
-use vibroimpact_study::{Axis as Along, Coordinate, Parameter, Values};
+use vibroimpact_plot::{FigureAxis, plain};
+use vibroimpact_study::{Axis as Along, Coordinate, MachineAxis, Parameter, Values};
 
 /// Maximum number of points along one axis of a figure.
 const MOST: usize = 16_384;
@@ -42,6 +42,45 @@ impl Plane {
     }
 }
 
+/// The one or two axes of a figure.
+#[derive(Clone, Debug)]
+pub enum Sides {
+    /// The abscissa only.
+    Line(PlaneAxis),
+    /// Both.
+    Plane(Plane),
+}
+
+impl Sides {
+    /// The axes of a plan in the given units.
+    ///
+    /// # Errors
+    /// As [`PlaneAxis::of`], and [`ReportError::Axes`] if there are not one or two axes.
+    pub fn of(axes: &[Along], units: &Units) -> Result<Self, ReportError> {
+        match axes {
+            [axis] => Ok(Self::Line(PlaneAxis::of(axis, units)?)),
+            axes => Ok(Self::Plane(Plane::of(axes, units)?)),
+        }
+    }
+
+    /// The axes of a plan of a machine; their names are the paths.
+    ///
+    /// # Errors
+    /// [`ReportError::Axes`] if there are not one or two axes, and [`ReportError::Values`] for more than 16384 values.
+    pub fn of_machine(axes: &[MachineAxis]) -> Result<Self, ReportError> {
+        match axes {
+            [axis] => Ok(Self::Line(PlaneAxis::of_machine(axis)?)),
+            [x, y] => Ok(Self::Plane(Plane { x: PlaneAxis::of_machine(x)?, y: PlaneAxis::of_machine(y)? })),
+            axes => Err(ReportError::Axes(axes.len())),
+        }
+    }
+}
+
+/// Refuses an axis that is too long.
+const fn short_enough(given: usize) -> Result<(), ReportError> {
+    if given > MOST { Err(ReportError::Values { given, most: MOST }) } else { Ok(()) }
+}
+
 impl PlaneAxis {
     /// An axis with rising or falling values.
     ///
@@ -61,10 +100,7 @@ impl PlaneAxis {
     /// [`ReportError::Order`] as for [`Self::new`], [`ReportError::Values`] for more than 16384 values, and
     /// [`ReportError::Plan`] if a value overflows in these units.
     pub fn of(axis: &Along, units: &Units) -> Result<Self, ReportError> {
-        let given = axis.over.count();
-        if given > MOST {
-            return Err(ReportError::Values { given, most: MOST });
-        }
+        short_enough(axis.over.count())?;
         let name = match axis.vary {
             Coordinate::Parameter(parameter) => named(parameter, units),
             Coordinate::X => units.named("*ξ*_0", "m"),
@@ -72,6 +108,16 @@ impl PlaneAxis {
             Coordinate::Phase => "phase *φ*".to_owned(),
         };
         Self::new(name, &units.shown(axis)?)
+    }
+
+    /// The axis of a plan of a machine; its name is the path.
+    ///
+    /// # Errors
+    /// [`ReportError::Values`] for more than 16384 values.
+    pub fn of_machine(axis: &MachineAxis) -> Result<Self, ReportError> {
+        let values = Values::Span(axis.over);
+        short_enough(values.count())?;
+        Self::new(plain(&axis.vary), &values)
     }
 
     /// The number of values.

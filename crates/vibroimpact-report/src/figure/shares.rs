@@ -2,16 +2,11 @@
 
 use crate::figure::plane::PlaneAxis;
 use crate::figure::point_motion::PointMotion;
-use crate::{ReportError, Units};
 use vibroimpact_plot::{Figure, FigureAxis, GROUPS, Legend, Panel, Rect, Rects, class_style, legend_text};
-use vibroimpact_study::Axis;
 
 /// Draws the shares of the groups of motions at each value of an axis, from the first group of the legend upwards.
-///
-/// # Errors
-/// [`ReportError::Order`], and [`ReportError::Plan`] if a value overflows in these units.
-pub fn draw(axis: &Axis, points: &[Vec<PointMotion>], units: &Units, title: String) -> Result<Figure, ReportError> {
-    let side = PlaneAxis::of(axis, units)?;
+#[must_use]
+pub fn draw(side: &PlaneAxis, points: &[Vec<PointMotion>], title: String) -> Figure {
     let mut rects = Rects::new(GROUPS.map(class_style).to_vec());
     let mut present = [false; GROUPS.len()];
     for (k, motions) in points.iter().enumerate() {
@@ -30,7 +25,7 @@ pub fn draw(axis: &Axis, points: &[Vec<PointMotion>], units: &Units, title: Stri
         legend = legend.patch(class_style(group), legend_text(group));
     }
     let panel = Panel::new(side.axis(), FigureAxis::new("share of starts").range(0.0, 1.0)).with(rects);
-    Ok(Figure::new(panel).title(title).legend(legend))
+    Figure::new(panel).title(title).legend(legend)
 }
 
 #[cfg(test)]
@@ -38,14 +33,14 @@ mod tests {
     use super::*;
     use crate::figure::coloured::Value;
     use vibroimpact_plot::Mark;
-    use vibroimpact_study::{Parameter, Span};
+    use vibroimpact_study::{Span, Values};
 
     #[test]
     fn bars_are_stacked_in_the_order_of_the_legend() {
-        let axis = Axis::parameter(Parameter::Gap, "0:1:2".parse::<Span>().unwrap());
+        let side = PlaneAxis::new("gap", &Values::Span("0:1:2".parse::<Span>().unwrap())).unwrap();
         let motion = |group, share| PointMotion { group, share, value: Value::Undefined };
         let points = [vec![motion(2, 0.75), motion(1, 0.25)], vec![motion(1, 0.5), motion(2, 0.25), motion(1, 0.25)]];
-        let figure = draw(&axis, &points, &Units::default(), String::new()).unwrap();
+        let figure = draw(&side, &points, String::new());
         let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("bars") };
         let bars: Vec<_> = rects.rects.iter().map(|rect| (rect.class, rect.x, rect.y)).collect();
         let (first, second) = ((-0.5, 0.5), (0.5, 1.5));

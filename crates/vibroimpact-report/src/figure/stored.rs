@@ -1,7 +1,7 @@
 //! The figure of a store, equal to that of the command for the same question.
 
 use crate::figure::coloured::{self, Coloured, Value, has_field};
-use crate::figure::plane::{Plane, PlaneAxis, varied};
+use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
 use crate::figure::point_motion::{PointMotion, group};
 use crate::figure::{basin, diagram, map, shares, title_without};
 use crate::{Asked, ReportError, Units};
@@ -28,7 +28,7 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             let title = title_without(&asked, &varied(&plan.axes));
             let points = points::<A, E>(store, &plan.axes, colour.map(|colour| colour.quantity))?;
             Ok(match (plan.axes.as_slice(), colour) {
-                ([axis], None) => shares::draw(axis, &points, &asked.units, title)?,
+                ([axis], None) => shares::draw(&PlaneAxis::of(axis, &asked.units)?, &points, title),
                 ([axis], Some(colour)) => coloured::draw_dots(axis, &points, colour.quantity, &asked.units, title)?,
                 (axes, colour) => {
                     let plane = Plane::of(axes, &asked.units)?;
@@ -180,7 +180,7 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         label: label_of(code).unwrap_or_default(),
         share: count as f64 / total,
     };
-    Ok(basin::draw(axes, &units, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
+    Ok(basin::draw(&Sides::of(axes, &units)?, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
 }
 
 /// Both exponents over one axis, with the line of zero.

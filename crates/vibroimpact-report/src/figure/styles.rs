@@ -23,6 +23,17 @@ pub const BRANCH_MARKS: [(&str, Shape, bool); 9] = [
     ("chatter", Shape::Cross, true),
 ];
 
+/// The marks of further events along branches of machines, as [`BRANCH_MARKS`].
+pub const MACHINE_BRANCH_MARKS: [(&str, Shape, bool); 7] = [
+    ("torus", Shape::Plus, false),
+    ("corner", Shape::Cross, false),
+    ("sticking begins", Shape::Cross, false),
+    ("sticking ends", Shape::Cross, false),
+    ("holding begins", Shape::Cross, false),
+    ("holding ends", Shape::Cross, false),
+    ("change", Shape::Cross, false),
+];
+
 /// The marks of points of codimension two on curves. Ends of a curve have no mark.
 pub const CURVE_MARKS: [(CurveEvent, Shape); 10] = [
     (CurveEvent::Cusp, Shape::TriangleDown),
@@ -50,7 +61,7 @@ pub const BOUND_STYLES: [(Bound, Colour, Dash, &str); 5] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact::continuation::BranchEvent;
+    use vibroimpact::continuation::{BranchEvent, MachineBranchEvent};
     use vibroimpact::{Label, Side};
 
     /// A renamed event would lose its mark without an error.
@@ -71,5 +82,26 @@ mod tests {
             BranchEvent::Chatter { side, phase, before },
         ];
         assert_eq!(BRANCH_MARKS.map(|(name, ..)| name), events.map(|event| event.name()));
+        let (stop, joint, place) = (0, 0, 0);
+        let further = [
+            MachineBranchEvent::Torus,
+            MachineBranchEvent::Corner { first: 0, second: 1 },
+            MachineBranchEvent::Sticking { stop, begins: true },
+            MachineBranchEvent::Sticking { stop, begins: false },
+            MachineBranchEvent::Holding { joint, begins: true },
+            MachineBranchEvent::Holding { joint, begins: false },
+            MachineBranchEvent::Change { place },
+        ];
+        assert_eq!(MACHINE_BRANCH_MARKS.map(|(name, ..)| name), further.map(|event| event.name()));
+        // the events that branches of oscillators have too
+        for event in [
+            MachineBranchEvent::Fold,
+            MachineBranchEvent::Flip,
+            MachineBranchEvent::BranchPoint,
+            MachineBranchEvent::Grazing { stop, appears: true, turns: false },
+            MachineBranchEvent::LossOfContact { stop },
+        ] {
+            assert!(BRANCH_MARKS.iter().any(|(name, ..)| *name == event.name()), "{event:?}");
+        }
     }
 }

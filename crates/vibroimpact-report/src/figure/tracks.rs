@@ -1,9 +1,10 @@
 //! The impacts of a branch, or its states at phase 0, as curves. Each impact is followed from point to point, and a
-//! curve changes its look where the stability changes.
+//! curve changes its look where the stability changes. Branches of oscillators and of machines have the same points here.
 
 use std::collections::BTreeMap;
 use vibroimpact::Oscillator;
-use vibroimpact::continuation::{BranchEvent, SolutionPoint};
+use vibroimpact::continuation::{BranchEvent, MachineBranchEvent, MachinePoint, SolutionPoint};
+use vibroimpact::events::MachineEventKind;
 use vibroimpact::motion::Strobes;
 use vibroimpact::orbit::{Cycle, RestSpan};
 use vibroimpact::system::phase;
@@ -19,6 +20,159 @@ pub(crate) enum Look {
 
 /// The curves with each label and look: abscissae and ordinates, separated by `NaN`.
 pub(crate) type Curves = BTreeMap<(String, Look), (Vec<f64>, Vec<f64>)>;
+
+/// A point of a branch, as a figure needs it.
+pub(crate) struct TrackPoint {
+    /// The value of what varies.
+    pub(crate) value: f64,
+    pub(crate) label: String,
+    pub(crate) look: Look,
+    /// The name of the event at this point.
+    pub(crate) event: Option<&'static str>,
+    /// Two numbers that identify each impact or state; the second one is the ordinate.
+    list: Vec<(f64, f64)>,
+    /// Identifies the impacts or states across points.
+    places: Vec<(usize, usize)>,
+    /// Whether the list may begin with another impact or state at the next point.
+    turns: bool,
+    /// Whether other impacts with the same label may follow.
+    changes: bool,
+}
+
+/// A branch, as a figure needs it.
+pub(crate) struct Track {
+    pub(crate) points: Vec<TrackPoint>,
+    /// Whether its ordinates are positions, and not speeds.
+    pub(crate) positions: bool,
+}
+
+impl TrackPoint {
+    /// The ordinates of all impacts or states.
+    pub(crate) fn ordinates(&self) -> Vec<f64> {
+        self.list.iter().map(|(_, ordinate)| *ordinate).collect()
+    }
+
+    fn of(point: &SolutionPoint, what: Followed<'_>) -> Self {
+        let list = what.list(point);
+        let places = match what {
+            Followed::Velocity => places(&point.cycle),
+            Followed::Position(_) => (0..list.len()).map(|k| (0, k)).collect(),
+        };
+        // a cycle with sticking may have other impacts with the same label
+        let changes = matches!(point.event, Some(BranchEvent::Grazing { .. } | BranchEvent::SoftLanding { .. }))
+            && !point.cycle.rests.is_empty();
+        Self {
+            value: point.value,
+            label: point.cycle.label.to_string(),
+            look: match (point.physical, point.cycle.stable()) {
+                (false, _) => Look::Virtual,
+                (true, true) => Look::Stable,
+                (true, false) => Look::Unstable,
+            },
+            event: point.event.map(|event| event.name()),
+            list,
+            places,
+            turns: what.turns(&point.cycle),
+            changes,
+        }
+    }
+
+    /// The closings of stops, with their speeds.
+    fn of_machine(point: &MachinePoint) -> Self {
+        let (mut list, mut places, mut place) = (Vec::new(), Vec::new(), (0, 0));
+        for event in &point.cycle.events {
+            match event.kind {
+                MachineEventKind::Impact | MachineEventKind::Close => {
+                    list.push((event.phase, event.speed));
+                    places.push(place);
+                    place.1 += 1;
+                }
+                MachineEventKind::Stick => place = (place.0 + 1, 0),
+                _ => {}
+            }
+        }
+        let rests = place.0 > 0;
+        let changed = matches!(
+            point.event,
+            Some(
+                MachineBranchEvent::Grazing { .. }
+                    | MachineBranchEvent::Sticking { .. }
+                    | MachineBranchEvent::Corner { .. }
+                    | MachineBranchEvent::Change { .. }
+            )
+        );
+        Self {
+            value: point.value,
+            label: point.cycle.label.to_string(),
+            look: if point.cycle.stable() { Look::Stable } else { Look::Unstable },
+            event: point.event.map(|event| event.name()),
+            list,
+            places,
+            turns: !rests,
+            changes: changed && rests,
+        }
+    }
+}
+
+impl Track {
+    /// A branch of an oscillator.
+    pub(crate) fn of(points: &[SolutionPoint], what: Followed<'_>) -> Self {
+        let positions = matches!(what, Followed::Position(_));
+        Self { points: points.iter().map(|point| TrackPoint::of(point, what)).collect(), positions }
+    }
+
+    /// A branch of a machine.
+    pub(crate) fn of_machine(points: &[MachinePoint]) -> Self {
+        Self { points: points.iter().map(TrackPoint::of_machine).collect(), positions: false }
+    }
+
+    /// The square of the distance between two impacts or states.
+    fn apart(&self, a: &(f64, f64), b: &(f64, f64)) -> f64 {
+        let first = if self.positions { a.0 - b.0 } else { phase::difference(a.0, b.0) };
+        first.powi(2) + (a.1 - b.1).powi(2)
+    }
+
+    /// The ordinates of all impacts or states over the parameter, in nondimensional units.
+    pub(crate) fn curves(&self) -> Curves {
+        let mut curves = Curves::new();
+        let mut rest = self.points.as_slice();
+        while let Some(first) = rest.first() {
+            let other = rest.iter().position(|point| point.label != first.label).unwrap_or(rest.len());
+            let end = rest.iter().position(|point| point.changes).map_or(other, |k| other.min(k + 1));
+            let (run, others) = rest.split_at(end);
+            for ordinates in self.ordinates(run) {
+                add(&mut curves, &first.label, run, &ordinates);
+            }
+            rest = others;
+        }
+        curves
+    }
+
+    /// The ordinate of each impact or state at all points of a run; `NaN` where it is not listed.
+    fn ordinates(&self, run: &[TrackPoint]) -> Vec<Vec<f64>> {
+        let mut tracks: BTreeMap<(usize, usize), Vec<f64>> = BTreeMap::new();
+        let mut before: Option<Vec<(f64, f64)>> = None;
+        for (n, point) in run.iter().enumerate() {
+            let mut here = point.list.clone();
+            if point.turns {
+                // the list begins with the fastest impact, which may change from point to point; choose the closest shift
+                let off = |shift: &usize| -> f64 {
+                    let before = before.iter().flatten();
+                    before.zip(here.iter().cycle().skip(*shift)).map(|(a, b)| self.apart(a, b)).sum()
+                };
+                let shift = (0..here.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+                here.rotate_left(shift);
+            }
+            for (place, one) in point.places.iter().zip(&here) {
+                tracks.entry(*place).or_insert_with(|| vec![f64::NAN; run.len()])[n] = one.1;
+            }
+            if !here.is_empty() {
+                before = Some(here);
+            }
+        }
+        tracks.into_values().collect()
+    }
+}
 
 /// The quantity that is followed along a branch.
 #[derive(Clone, Copy)]
@@ -46,75 +200,10 @@ impl Followed<'_> {
         states.map(|state| (state.v, state.x)).collect()
     }
 
-    /// The square of the distance between two of them.
-    fn apart(self, a: &(f64, f64), b: &(f64, f64)) -> f64 {
-        let first = match self {
-            Self::Velocity => phase::difference(a.0, b.0),
-            Self::Position(_) => a.0 - b.0,
-        };
-        first.powi(2) + (a.1 - b.1).powi(2)
-    }
-
     /// Whether the list may begin with another impact or state at the next point.
     fn turns(self, cycle: &Cycle) -> bool {
         matches!(self, Self::Position(_)) || cycle.rests.is_empty()
     }
-
-    /// The ordinates at a point.
-    pub(crate) fn ordinates(self, point: &SolutionPoint) -> Vec<f64> {
-        self.list(point).into_iter().map(|(_, ordinate)| ordinate).collect()
-    }
-}
-
-/// The ordinates of all impacts or states over the parameter, in nondimensional units.
-pub(crate) fn curves(points: &[SolutionPoint], what: Followed<'_>) -> Curves {
-    let mut curves = Curves::new();
-    let mut rest = points;
-    while let Some(first) = rest.first() {
-        let label = first.cycle.label;
-        let other = rest.iter().position(|point| point.cycle.label != label).unwrap_or(rest.len());
-        // a cycle with sticking may have other impacts with the same label
-        let changes = |point: &SolutionPoint| {
-            matches!(point.event, Some(BranchEvent::Grazing { .. } | BranchEvent::SoftLanding { .. }))
-                && !point.cycle.rests.is_empty()
-        };
-        let end = rest.iter().position(changes).map_or(other, |k| other.min(k + 1));
-        let (run, others) = rest.split_at(end);
-        for track in tracks(run, what) {
-            add(&mut curves, &label.to_string(), run, &track);
-        }
-        rest = others;
-    }
-    curves
-}
-
-/// The ordinate of each impact or state at all points of a run; `NaN` where it is not listed.
-fn tracks(run: &[SolutionPoint], what: Followed<'_>) -> Vec<Vec<f64>> {
-    let mut tracks: BTreeMap<(usize, usize), Vec<f64>> = BTreeMap::new();
-    let mut before: Option<Vec<(f64, f64)>> = None;
-    for (n, point) in run.iter().enumerate() {
-        let mut here = what.list(point);
-        if what.turns(&point.cycle) {
-            // the list begins with the fastest impact, which may change from point to point; choose the closest shift
-            let off = |shift: &usize| -> f64 {
-                let before = before.iter().flatten();
-                before.zip(here.iter().cycle().skip(*shift)).map(|(a, b)| what.apart(a, b)).sum()
-            };
-            let shift = (0..here.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
-            here.rotate_left(shift);
-        }
-        let places = match what {
-            Followed::Velocity => places(&point.cycle),
-            Followed::Position(_) => (0..here.len()).map(|k| (0, k)).collect(),
-        };
-        for (place, one) in places.into_iter().zip(&here) {
-            tracks.entry(place).or_insert_with(|| vec![f64::NAN; run.len()])[n] = one.1;
-        }
-        if !here.is_empty() {
-            before = Some(here);
-        }
-    }
-    tracks.into_values().collect()
 }
 
 /// Identifies the impacts of a cycle across values of the parameter: the number of phases of sticking before the impact
@@ -139,7 +228,7 @@ fn places(cycle: &Cycle) -> Vec<(usize, usize)> {
 const NOTHING: f64 = 1e-9;
 
 /// Divides a track where its look changes. Consecutive parts share a point.
-fn add(curves: &mut Curves, label: &str, run: &[SolutionPoint], track: &[f64]) {
+fn add(curves: &mut Curves, label: &str, run: &[TrackPoint], track: &[f64]) {
     let mut last = None;
     for (k, pair) in run.windows(2).enumerate() {
         let look = between(&pair[0], &pair[1]);
@@ -155,13 +244,8 @@ fn add(curves: &mut Curves, label: &str, run: &[SolutionPoint], track: &[f64]) {
 }
 
 /// The look of the part between two points. If one of them is an event, the other one decides.
-fn between(a: &SolutionPoint, b: &SolutionPoint) -> Look {
-    let point = if b.event.is_some() && a.event.is_none() { a } else { b };
-    match (point.physical, point.cycle.stable()) {
-        (false, _) => Look::Virtual,
-        (true, true) => Look::Stable,
-        (true, false) => Look::Unstable,
-    }
+fn between(a: &TrackPoint, b: &TrackPoint) -> Look {
+    if b.event.is_some() && a.event.is_none() { a.look } else { b.look }
 }
 
 #[cfg(test)]
@@ -183,7 +267,7 @@ mod tests {
         let points: Vec<SolutionPoint> = branch.collect();
         let [one, two] = [points.first(), points.last()].map(|point| places(&point.unwrap().cycle));
         assert!(one.len() != two.len() && one.iter().filter(|place| place.1 == 0).count() == 2, "{one:?}");
-        let curves = curves(&points, Followed::Velocity);
+        let curves = Track::of(&points, Followed::Velocity).curves();
         let (_, ys) = &curves[&("inf/1".to_owned(), Look::Stable)];
         let steps: Vec<f64> = ys.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|s| !s.is_nan()).collect();
         assert!(steps.len() > 500 && steps.iter().all(|step| *step < 0.05), "{:?}", steps.len());
@@ -199,7 +283,7 @@ mod tests {
             let (range, options) = (gap..=to, BranchOptions::default());
             let branch = Branch::new(&osc, &orbit.cycle, Parameter::Gap, range, Direction::Up, options).unwrap();
             let points: Vec<SolutionPoint> = branch.collect();
-            let curves = curves(&points, Followed::Velocity);
+            let curves = Track::of(&points, Followed::Velocity).curves();
             for (xs, ys) in curves.values() {
                 for pair in xs.iter().zip(ys).collect::<Vec<_>>().windows(2) {
                     let step = (pair[1].1 - pair[0].1).abs();

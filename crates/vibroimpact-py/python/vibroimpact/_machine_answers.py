@@ -1,0 +1,516 @@
+"""What is computed for a machine besides its events: settled motions, exponents, orbits, branches, basins and maps."""
+
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact import _core
+from vibroimpact._lyapunov import Measured
+from vibroimpact._progress import Progress, watched
+from vibroimpact._whole import THREADS, whole
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_Floats = NDArray[np.float64]
+_Start: TypeAlias = tuple[list[float], list[float], float]
+#: What varies by path: `(a, b, n)`, or the text "A:B:N" or "A:B:N:log".
+MachineAxes: TypeAlias = Mapping[str, "str | tuple[float, float, int]"]
+
+
+def ask(
+    file: _core.MachineFile,
+    start: _Start,
+    task: Mapping[str, Any],
+    total: int = 1,
+    threads: int = 1,
+    progress: Progress = None,
+    what: str = "starts",
+) -> tuple[dict[str, Any], list[list[tuple[str, float]]] | None]:
+    """The JSON object of the command for a task, and the points of a map."""
+    with watched(progress, what) as tell:
+        threads = whole("threads", threads, THREADS)
+        text, cells = _core.machine_answer(file, start, json.dumps(task), total, threads, tell)
+    return json.loads(text), cells
+
+
+def _measured(given: Mapping[str, Any]) -> Measured:
+    value, error = given["value"], given["error"]
+    if value is None:
+        value = -math.inf if given.get("why") == "minus_infinity" else math.nan
+    return Measured(value, math.nan if error is None else error)
+
+
+def _all_measured(given: Sequence[Mapping[str, Any]] | None) -> tuple[Measured, ...] | None:
+    return None if given is None else tuple(_measured(one) for one in given)
+
+
+def _complex(pairs: Sequence[Sequence[float | None]]) -> NDArray[np.complex128]:
+    """Complex numbers of pairs; null is infinite."""
+    numbers = [complex(*(math.inf if part is None else part for part in pair)) for pair in pairs]
+    return np.array(numbers, dtype=np.complex128)
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineCycle:
+    """The events of a cycle of a machine as columns, beginning with the fastest closing.
+
+    Attributes
+    ----------
+    kind, stop : ndarray of str
+        Kind of each event, and name of the stop or joint.
+    time, phase, speed : ndarray
+        Time since the first event, phase of the forcing, speed of closing.
+    q, qdot : ndarray, events x coordinates
+        Coordinates, and velocities after the event.
+    """
+
+    kind: NDArray[np.str_]
+    stop: NDArray[np.str_]
+    time: _Floats
+    phase: _Floats
+    speed: _Floats
+    q: _Floats
+    qdot: _Floats
+
+    def __repr__(self) -> str:
+        return f"<MachineCycle of {len(self)} events>"
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+def _cycle(events: Sequence[Mapping[str, Any]], width: int) -> MachineCycle:
+    def floats(name: str) -> _Floats:
+        return np.array([event.get(name, math.nan) for event in events], dtype=np.float64)
+
+    def rows(name: str) -> _Floats:
+        return np.array([event[name] for event in events], dtype=np.float64).reshape(len(events), width)
+
+    kind, stop = (np.array([event[name] for event in events], dtype=np.str_) for name in ("kind", "stop"))
+    return MachineCycle(kind, stop, floats("time"), floats("phase"), floats("speed"), rows("q"), rows("qdot"))
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineMotion:
+    """A steady motion of a machine.
+
+    Attributes
+    ----------
+    label : str
+        m/n for m closings of stops in n forcing periods, or "0", "stuck", "chaotic" or "undecided".
+    kind : str
+        "periodic", "no_impact", "stuck", "chaotic" or "undecided".
+    stable : bool or None
+        Whether small changes of the start die out; None if that is not known.
+    impacts, periods, sticks : int or None
+        Closings, forcing periods, and rests and holds of a cycle.
+    counts : dict
+        The closings of each stop in one period.
+    multipliers : ndarray of complex128
+        All Floquet multipliers of a cycle, two for each coordinate, the largest first.
+    cycle : MachineCycle
+        The events of a cycle.
+    state : (list, list, float) or None
+        Coordinates, velocities and phase between two events of a cycle.
+    exponents : tuple of Measured or None
+        Lyapunov exponents of a chaotic or undecided motion, if they were measured.
+    why : str or None
+        Why a motion is undecided.
+    """
+
+    label: str
+    kind: str
+    stable: bool | None
+    impacts: int | None
+    periods: int | None
+    sticks: int | None
+    counts: dict[str, int]
+    multipliers: NDArray[np.complex128]
+    cycle: MachineCycle
+    state: tuple[list[float], list[float], float] | None
+    exponents: tuple[Measured, ...] | None
+    why: str | None
+    _object: dict[str, Any]
+
+    def __repr__(self) -> str:
+        stability = "" if self.stable is None else ", stable" if self.stable else ", unstable"
+        return f"<MachineMotion {self.label}{stability}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object of the motion in the JSON of the command."""
+        return dict(self._object)
+
+
+def _motion(given: dict[str, Any], width: int) -> MachineMotion:
+    state = given.get("state")
+    return MachineMotion(
+        **{name: given[name] for name in ("label", "kind", "stable", "impacts", "periods", "sticks")},
+        counts=given.get("counts", {}),
+        multipliers=_complex(given["multipliers"] or []),
+        cycle=_cycle(given["cycle"], width),
+        state=state and (state["q"], state["qdot"], state["phase"]),
+        exponents=_all_measured(given.get("exponents")),
+        why=given.get("why"),
+        _object=given,
+    )
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineSettled:
+    """What a motion of a machine settles into.
+
+    Attributes
+    ----------
+    motion : MachineMotion
+        The steady motion.
+    events, time : int, float
+        Events and time that were followed.
+    chaotic_transient : tuple of Measured or None
+        Exponents of a chaotic transient that has ended.
+    plan : str
+        The plan as JSON.
+    """
+
+    motion: MachineMotion
+    events: int
+    time: float
+    chaotic_transient: tuple[Measured, ...] | None
+    plan: str
+
+    def __repr__(self) -> str:
+        return f"<MachineSettled {self.motion!r} after {self.events} events>"
+
+
+def settled(found: Mapping[str, Any]) -> MachineSettled:
+    """Of the JSON object."""
+    return MachineSettled(
+        _motion(found["motion"], len(found["coordinates"])), found["events"], found["time"],
+        _all_measured(found.get("chaotic_transient")), json.dumps(found["plan"]),
+    )
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineAttractors:
+    """The steady motions to which scattered starts lead, the most frequent first. It is a sequence of them.
+
+    Attributes
+    ----------
+    motions : tuple of MachineMotion
+        The motions.
+    share, count : ndarray
+        Share of the starts, and number of them.
+    starts : int
+        Number of starts.
+    plan : str
+        The plan as JSON.
+    """
+
+    motions: tuple[MachineMotion, ...]
+    share: _Floats
+    count: NDArray[np.int64]
+    starts: int
+    plan: str
+
+    def __repr__(self) -> str:
+        shares = ", ".join(f"{m.label} {100 * share:.3g} %" for m, share in zip(self.motions, self.share))
+        return f"<MachineAttractors of {self.starts} starts: {shares}>"
+
+    def __iter__(self) -> Iterator[MachineMotion]:
+        return iter(self.motions)
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+    def __getitem__(self, k: int) -> MachineMotion:
+        return self.motions[k]
+
+
+def _shared(found: Mapping[str, Any]) -> tuple[tuple[MachineMotion, ...], _Floats, NDArray[np.int64]]:
+    width, motions = len(found["coordinates"]), found["motions"]
+    share = np.array([motion.pop("share") for motion in motions], dtype=np.float64)
+    count = np.array([motion.pop("count") for motion in motions], dtype=np.int64)
+    return tuple(_motion(motion, width) for motion in motions), share, count
+
+
+def attractors(found: Mapping[str, Any]) -> MachineAttractors:
+    """Of the JSON object."""
+    return MachineAttractors(*_shared(found), found["starts"], json.dumps(found["plan"]))
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineLyapunov:
+    """The Lyapunov exponents of a motion of a machine, two for each coordinate, the largest first.
+
+    Attributes
+    ----------
+    exponents : tuple of Measured or None
+        The exponents per unit of time with error bars; None if the motion ended before.
+    impacts_per_period : Measured or None
+        Number of closings in a forcing period.
+    exact : bool
+        Whether the exponents are those of a cycle or of a motion without impacts, and not measured.
+    motion : MachineMotion
+        The motion.
+    plan : str
+        The plan as JSON.
+    """
+
+    exponents: tuple[Measured, ...] | None
+    impacts_per_period: Measured | None
+    exact: bool
+    motion: MachineMotion
+    plan: str
+
+    def __repr__(self) -> str:
+        first = f"{self.exponents[0].value:.5g} +- {self.exponents[0].error:.1g}" if self.exponents else "unknown"
+        return f"<MachineLyapunov, largest {first}, {self.motion.label}>"
+
+
+def lyapunov(found: Mapping[str, Any]) -> MachineLyapunov:
+    """Of the JSON object."""
+    rate = found["impacts_per_period"]
+    return MachineLyapunov(
+        _all_measured(found["exponents"]), rate and _measured(rate), found["exact"],
+        _motion(found["motion"], len(found["coordinates"])), json.dumps(found["plan"]),
+    )
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineOrbits:
+    """The orbits of a machine with a label, stable or not, the fastest last. It is a sequence of them.
+
+    Attributes
+    ----------
+    orbits : tuple of MachineMotion
+        The orbits.
+    plan : str
+        The plan as JSON.
+    """
+
+    orbits: tuple[MachineMotion, ...]
+    plan: str
+
+    def __repr__(self) -> str:
+        return f"<MachineOrbits: {', '.join(map(repr, self.orbits)) or 'none found'}>"
+
+    def __iter__(self) -> Iterator[MachineMotion]:
+        return iter(self.orbits)
+
+    def __len__(self) -> int:
+        return len(self.orbits)
+
+    def __getitem__(self, k: int) -> MachineMotion:
+        return self.orbits[k]
+
+
+def orbits(found: Mapping[str, Any]) -> MachineOrbits:
+    """Of the JSON object."""
+    width = len(found["coordinates"])
+    return MachineOrbits(tuple(_motion(orbit, width) for orbit in found["orbits"]), json.dumps(found["plan"]))
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineBranch:
+    """A branch of orbits of a machine over one number; each point is one step along it.
+
+    Attributes
+    ----------
+    vary : str
+        The path of the number.
+    parameter : ndarray
+        Its value at each point.
+    label : ndarray of str
+        m/n at each point.
+    stable : ndarray of bool
+        Whether the orbit is stable.
+    speed : ndarray
+        The largest speed of a closing at each point.
+    multipliers : ndarray of complex128, points x (two for each coordinate)
+        Floquet multipliers.
+    cycles : tuple of MachineCycle
+        The events at each point.
+    event_kind, event_label, event_stop : ndarray of str
+        The events of the branch: "fold", "flip", "torus", "branch point", "grazing", ... or why the branch ends; the label
+        there, and the stop or joint, if there is one.
+    event_parameter, event_point : ndarray
+        Value of the number at each event, and the index of the point.
+    plan : str
+        The plan as JSON.
+    """
+
+    vary: str
+    parameter: _Floats
+    label: NDArray[np.str_]
+    stable: NDArray[np.bool_]
+    speed: _Floats
+    multipliers: NDArray[np.complex128]
+    cycles: tuple[MachineCycle, ...]
+    event_kind: NDArray[np.str_]
+    event_parameter: _Floats
+    event_point: NDArray[np.int64]
+    event_label: NDArray[np.str_]
+    event_stop: NDArray[np.str_]
+    plan: str
+
+    def __repr__(self) -> str:
+        return f"<MachineBranch over {self.vary}, {len(self)} points, {len(self.event_kind)} events>"
+
+    def __len__(self) -> int:
+        return len(self.parameter)
+
+
+def branch(found: Mapping[str, Any]) -> MachineBranch:
+    """Of the JSON object."""
+    width, points, events = len(found["coordinates"]), found["points"], found["events"]
+
+    def words(of: Sequence[Mapping[str, Any]], name: str) -> NDArray[np.str_]:
+        return np.array([one.get(name, "") for one in of], dtype=np.str_)
+
+    def closing(point: Mapping[str, Any]) -> float:
+        return max((event["speed"] for event in point["cycle"] if event["kind"] in ("impact", "close")), default=0.0)
+
+    flat = [pair for point in points for pair in point["multipliers"]]
+    return MachineBranch(
+        vary=found["vary"],
+        parameter=np.array([point["parameter"] for point in points], dtype=np.float64),
+        label=words(points, "label"),
+        stable=np.array([point["stable"] for point in points], dtype=np.bool_),
+        speed=np.array([closing(point) for point in points], dtype=np.float64),
+        multipliers=_complex(flat).reshape(len(points), 2 * width),
+        cycles=tuple(_cycle(point["cycle"], width) for point in points),
+        event_kind=words(events, "kind"),
+        event_parameter=np.array([event["parameter"] for event in events], dtype=np.float64),
+        event_point=np.array([event["point"] for event in events], dtype=np.int64),
+        event_label=words(events, "label"),
+        event_stop=words(events, "stop"),
+        plan=json.dumps(found["plan"]),
+    )
+
+
+def spans(axes: MachineAxes) -> list[dict[str, str]]:
+    """The axes of a plan."""
+    if not isinstance(axes, Mapping):
+        raise TypeError("the axes are a dict of (a, b, n) by path")
+    found = []
+    for path, over in axes.items():
+        if not isinstance(over, str):
+            try:
+                first, last, count = over
+                over = f"{float(first)!r}:{float(last)!r}:{whole('n', count, THREADS)}"
+            except (TypeError, ValueError):
+                raise TypeError(f"the axis {path} is (a, b, n) or a text A:B:N, not {over!r}") from None
+        found.append({"vary": path, "over": over})
+    return found
+
+
+def size(axes: Sequence[Mapping[str, str]]) -> int:
+    """The number of points of the grid."""
+    return math.prod(len(_core.span_values(axis["over"])) for axis in axes)
+
+
+def _coordinates(found: Mapping[str, Any]) -> dict[str, _Floats]:
+    return {axis["vary"]: _core.span_values(axis["over"]) for axis in found["axes"]}
+
+
+def _in_axes(values: NDArray[Any], axes: Mapping[str, _Floats]) -> NDArray[Any]:
+    """Values in the order of the grid, whose first axis varies fastest, as an array with the axes in their order."""
+    counts = [len(of) for of in axes.values()]
+    further = range(len(counts), len(counts) + values.ndim - 1)
+    return values.reshape(*reversed(counts), *values.shape[1:]).transpose(*reversed(range(len(counts))), *further)
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineBasin:
+    """The motion to which each start of a grid leads.
+
+    Attributes
+    ----------
+    axes : dict of ndarray
+        The values along each axis by path.
+    motions : tuple of MachineMotion
+        The motions, in the order of their first start.
+    share, count : ndarray
+        Share and number of the starts that lead to each.
+    cells : ndarray of int, shaped by the axes
+        The index of the motion of each start; -1 beyond a rigid stop.
+    labels : ndarray of str, shaped by the axes
+        Its label; "refused" beyond a rigid stop.
+    plan : str
+        The plan as JSON.
+    """
+
+    axes: dict[str, _Floats]
+    motions: tuple[MachineMotion, ...]
+    share: _Floats
+    count: NDArray[np.int64]
+    cells: NDArray[np.int64]
+    labels: NDArray[np.str_]
+    plan: str
+
+    def __repr__(self) -> str:
+        shape = " x ".join(str(n) for n in self.cells.shape)
+        return f"<MachineBasin of {shape} starts over {', '.join(self.axes)}, {len(self.motions)} motions>"
+
+    def xarray(self) -> "xr.DataArray":
+        """The labels as a DataArray whose coordinates are the paths."""
+        import xarray as xr
+
+        return xr.DataArray(self.labels, coords=self.axes, dims=list(self.axes), name="label", attrs={"plan": self.plan})
+
+
+def basin(found: Mapping[str, Any]) -> MachineBasin:
+    """Of the JSON object."""
+    axes, (motions, share, count) = _coordinates(found), _shared(found)
+    flat = np.array([-1 if cell is None else cell for cell in found["cells"]], dtype=np.int64)
+    cells = _in_axes(flat, axes)
+    labels = np.array([*(motion.label for motion in motions), "refused"], dtype=np.str_)[cells]
+    return MachineBasin(axes, motions, share, count, cells, labels, json.dumps(found["plan"]))
+
+
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineMap:
+    """The motions at each point of a grid of numbers of a machine.
+
+    Attributes
+    ----------
+    axes : dict of ndarray
+        The values along each axis by path.
+    labels : ndarray of str, shaped by the axes, and by the motions of a point
+        Labels at each point, the most frequent first; empty texts after the last one.
+    share : ndarray, of the same shape
+        Share of the starts that lead to each; NaN after the last one.
+    plan : str
+        The plan as JSON.
+    """
+
+    axes: dict[str, _Floats]
+    labels: NDArray[np.str_]
+    share: _Floats
+    plan: str
+
+    def __repr__(self) -> str:
+        shape = " x ".join(str(n) for n in self.labels.shape[:-1])
+        return f"<MachineMap of {shape} points over {', '.join(self.axes)}>"
+
+    def xarray(self) -> "xr.Dataset":
+        """`label` and `share` as a Dataset whose coordinates are the paths."""
+        import xarray as xr
+
+        dims = [*self.axes, "motion"]
+        variables = {"label": (dims, self.labels), "share": (dims, self.share)}
+        return xr.Dataset(variables, coords=self.axes, attrs={"plan": self.plan})
+
+
+def mapped(found: Mapping[str, Any], cells: list[list[tuple[str, float]]]) -> MachineMap:
+    """Of the JSON object, and the points."""
+    axes, most = _coordinates(found), max((len(cell) for cell in cells), default=0)
+    rows = [cell + [("", math.nan)] * (most - len(cell)) for cell in cells]
+    labels = np.array([[label for label, _ in row] for row in rows], dtype=np.str_).reshape(len(cells), most)
+    share = np.array([[share for _, share in row] for row in rows], dtype=np.float64).reshape(len(cells), most)
+    return MachineMap(axes, _in_axes(labels, axes), _in_axes(share, axes), json.dumps(found["plan"]))

@@ -1,0 +1,112 @@
+"""What is computed for machines besides their events, compared with the command and with closed forms."""
+
+import json
+import math
+import subprocess
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+HAMMER = vi.Machine.named("two-mass-hammer")
+
+
+def test_a_settled_motion_has_columns() -> None:
+    found = HAMMER.settle(q=[0.1, 0])
+    motion, cycle = found.motion, found.motion.cycle
+    assert (motion.label, motion.kind, motion.stable, motion.counts) == ("1/1", "periodic", True, {"anvil": 1})
+    assert motion.multipliers.shape == (4,) and motion.multipliers.dtype == np.complex128
+    assert np.all(np.abs(motion.multipliers) < 1)
+    # a rigid stop: the determinant of the monodromy matrix is restitution^2 times that of damping
+    damping = np.trace(np.linalg.solve(np.diag([1, 0.5]), 0.1 * np.array([[2, -1], [-1, 1]])))
+    restitution = HAMMER.number("stop.anvil.restitution")
+    expected = restitution**2 * math.exp(-damping * (HAMMER.period or math.nan))
+    assert abs(np.prod(motion.multipliers) - expected) < 1e-9 * expected
+    assert cycle.kind.tolist() == ["impact"] and cycle.stop.tolist() == ["anvil"]
+    assert cycle.q.shape == cycle.qdot.shape == (1, 2) and abs(cycle.q[0, 1] - HAMMER.number("stop.anvil.gap")) < 1e-12
+    assert json.loads(found.plan)["start"] == {"q": [0.1, 0.0], "qdot": [0.0, 0.0]}
+    # one period from its state leads back to it
+    q, qdot, phase = motion.state or ([], [], 0.0)
+    wave = HAMMER.simulate(q=q, qdot=qdot, phase=phase, periods=1).waveform(events=True)
+    assert np.allclose(wave.q[-1], q, atol=1e-9) and np.allclose(wave.qdot[-1], qdot, atol=1e-9)
+
+
+def test_attractors_orbits_and_exponents_agree() -> None:
+    found = HAMMER.attractors(12, seed=3, threads=1)
+    assert found.starts == 12 == found.count.sum() and abs(found.share.sum() - 1) < 1e-12
+    orbits = HAMMER.orbit("1/1")
+    stable = [orbit for orbit in orbits if orbit.stable]
+    assert len(stable) == 1 and abs(stable[0].cycle.speed[0] - found[0].cycle.speed[0]) < 1e-8
+    exponents = HAMMER.lyapunov(impacts=500).exponents
+    largest = np.log(np.abs(stable[0].multipliers)) / (HAMMER.period or math.nan)
+    assert exponents is not None and len(exponents) == 4
+    assert all(abs(one.value - other) <= one.error + 1e-6 for one, other in zip(exponents, largest))
+
+
+def test_a_branch_has_columns() -> None:
+    found = HAMMER.branch("frequency", 1.05)
+    assert found.parameter[0] == 1.2 and found.parameter[-1] == 1.05 and len(found.cycles) == len(found)
+    assert found.multipliers.shape == (len(found), 4)
+    assert found.event_kind.tolist() == ["grazing", "fold", "end of range"]
+    at = found.event_point
+    assert np.array_equal(found.parameter[at], found.event_parameter)
+    assert found.event_stop.tolist() == ["anvil", "", ""] and found.event_label[1] == "2/1"
+    stable = np.abs(found.multipliers).max(axis=1) < 1
+    ordinary = np.setdiff1d(np.arange(len(found)), at)
+    assert np.array_equal(stable[ordinary], found.stable[ordinary]) and not found.stable.all()
+    same = HAMMER.branch("frequency", 1.05, label="1/1", points=5)
+    assert len(same) < 10 and same.event_kind.tolist() == ["step limit"] and set(same.label) == {"1/1"}
+
+
+def test_basins_and_maps_have_the_shape_of_their_axes() -> None:
+    pytest.importorskip("xarray")
+    found = HAMMER.basin({"q.head": (-1, 1, 5), "qdot.head": (-1, 1, 3)}, threads=2)
+    assert found.cells.shape == found.labels.shape == (5, 3)
+    assert np.all(found.labels[4] == "refused") and np.all(found.cells[4] == -1) and np.all(found.cells[:4] >= 0)
+    array = found.xarray()
+    assert array.dims == ("q.head", "qdot.head") and array["q.head"].values.tolist() == [-1, -0.5, 0, 0.5, 1]
+    over = HAMMER.map({"frequency": (0.8, 1.2, 3), "stop.anvil.gap": "0.5:0.6:2"}, starts=2, seed=2)
+    assert over.labels.shape[:2] == (3, 2) and np.allclose(np.nansum(over.share, axis=-1), 1)
+    assert over.xarray()["label"].dims == ("frequency", "stop.anvil.gap", "motion")
+    # the same machine at a point
+    for k, frequency in enumerate(over.axes["frequency"]):
+        alone = HAMMER.set({"frequency": frequency, "stop.anvil.gap": 0.6}).attractors(2, seed=2)
+        assert {m.label for m in alone} == {label for label in over.labels[k, 1] if label}
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: HAMMER.settle(q=[1, 2, 3]), "start.q: has 3 numbers, and 2 are needed"),
+        (lambda: HAMMER.branch("stop.anvil.gapp", 1), "no such number"),
+        (lambda: HAMMER.basin({"q.tail": (0, 1, 2)}), "q.tail"),
+        (lambda: HAMMER.map({"frequency": (0.8, 1.2, 3)}, starts=0), "starts"),
+        (lambda: HAMMER.orbit("one"), "one"),
+        (lambda: vi.Machine.named("sdnd101").orbit("1/1"), "forcing"),
+    ],
+)
+def test_refusals(call: Callable[[], Any], said: str) -> None:
+    with pytest.raises(vi.QuestionError, match="(?s)" + said.replace(".", r"\.")):
+        call()
+
+
+def test_progress_stops() -> None:
+    seen = []
+
+    def stop(done: int, total: int) -> bool:
+        seen.append((done, total))
+        return False
+
+    axes = {"q.head": (-1, 0.4, 200), "qdot.head": (-1, 1, 200)}
+    with pytest.raises(vi.StoppedError):
+        HAMMER.basin(axes, progress=stop, threads=1)
+    assert seen[0][1] == 40_000
+
+
+def test_the_command_answers_the_same(vibro: Callable[..., subprocess.CompletedProcess[str]]) -> None:
+    told = json.loads(vibro("settle", "--machine", "two-mass-hammer", "--json").stdout)
+    found = HAMMER.settle()
+    assert found.motion.to_dict() == told["motion"] and json.loads(found.plan)["task"] == told["plan"]["task"]
