@@ -354,7 +354,7 @@ fn figures() {
     let none = folder.path().join("none.svg").display().to_string();
     let said = refused(&format!("settle --machine two-mass-hammer --set stop.anvil.gap=50 --plot {none}"));
     assert!(said.contains("settles into none: no impact\nhint: `vibro simulate"), "{said}");
-    let said = refused(&format!("attractors --machine two-mass-hammer --starts 9 --plot {none}"));
+    let said = refused(&format!("lyapunov --machine two-mass-hammer --plot {none}"));
     assert!(said.contains("no figure yet"), "{said}");
     let said = refused(&format!("{basin} --axis qdot.head=0:1:2 --axis phase=0:1:2 --plot {none}"));
     assert!(said.contains("one or two axes, not 3"), "{said}");
