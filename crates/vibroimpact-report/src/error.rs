@@ -59,7 +59,7 @@ pub enum ReportError {
     },
     /// A motion of a machine that is no cycle, where one period of a cycle would be drawn.
     #[error(
-        "the figure has one period of a cycle, and the motion is {0}\nhint: `vibro simulate --machine --plot` draws any motion"
+        "the figure has one period of a cycle, and the motion settles into none: {0}\nhint: `vibro simulate --machine --plot` draws any motion"
     )]
     NoCycle(String),
     /// A motion without multipliers.

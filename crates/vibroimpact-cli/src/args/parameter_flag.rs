@@ -65,6 +65,8 @@ pub(crate) fn parameter() -> impl TypedValueParser<Value = ParameterFlag> {
 pub(crate) enum Varied {
     Parameter(ParameterFlag),
     Path(String),
+    /// A parameter of a machine file, or else this message.
+    Name(String, String),
 }
 
 impl Varied {
@@ -75,6 +77,7 @@ impl Varied {
             Self::Path(path) => Err(Failure::bad(format!(
                 "`{path}` is the path of a number of a machine, and no machine is given\nhint: --machine NAME|FILE"
             ))),
+            Self::Name(_, said) => Err(Failure::bad(said.clone())),
         }
     }
 
@@ -82,7 +85,7 @@ impl Varied {
     pub(crate) fn path(&self) -> String {
         match self {
             Self::Parameter(parameter) => parameter.flag().to_owned(),
-            Self::Path(path) => path.clone(),
+            Self::Path(path) | Self::Name(path, _) => path.clone(),
         }
     }
 }
@@ -101,7 +104,16 @@ impl TypedValueParser for VariedParser {
     fn parse_ref(&self, cmd: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<Varied, clap::Error> {
         match value.to_str() {
             Some(path) if path.contains('.') || path == "frequency" => Ok(Varied::Path(path.to_owned())),
-            _ => parameter().parse_ref(cmd, arg, value).map(Varied::Parameter),
+            name => match (parameter().parse_ref(cmd, arg, value), name) {
+                (Ok(parameter), _) => Ok(Varied::Parameter(parameter)),
+                // whether a machine has this parameter is not known here
+                (Err(error), Some(name)) => {
+                    let said = error.render().to_string();
+                    let said = said.trim_start_matches("error: ").trim_end();
+                    Ok(Varied::Name(name.to_owned(), said.to_owned()))
+                }
+                (Err(error), None) => Err(error),
+            },
         }
     }
 

@@ -220,3 +220,175 @@ fn the_command_answers_as_the_library_does() {
     printed(&format!("{line} --plot {}", svg.display()));
     assert_eq!(fs::read_to_string(svg).unwrap(), answer.figure().unwrap().unwrap().to_svg());
 }
+
+fn close(value: &serde_json::Value, expected: f64) -> bool {
+    value.as_f64().is_some_and(|value| (value - expected).abs() <= 1e-9 * expected.abs().max(1.0))
+}
+
+/// The determinant of the monodromy matrix of a rigid stop is known: damping in flight, and the restitution squared.
+#[test]
+fn a_motion_settles() {
+    let found = json("settle --machine two-mass-hammer");
+    let motion = &found["motion"];
+    assert!(motion["kind"] == "periodic" && motion["label"] == "1/1" && motion["stable"] == true, "{motion}");
+    assert_eq!(motion["counts"], serde_json::json!({"anvil": 1}));
+    let multipliers: Vec<[f64; 2]> = serde_json::from_value(motion["multipliers"].clone()).unwrap();
+    assert_eq!(multipliers.len(), 4);
+    let product = multipliers.iter().fold((1.0, 0.0), |(re, im), [a, b]| (re * a - im * b, re * b + im * a));
+    let period = core::f64::consts::TAU / 1.2;
+    let expected = 0.36 * (-0.4 * period).exp();
+    assert!((product.0 - expected).abs() < 1e-9 && product.1.abs() < 1e-9, "{product:?}, not {expected}");
+    let cycle = motion["cycle"].as_array().unwrap();
+    assert!(cycle.len() == 1 && cycle[0]["stop"] == "anvil" && cycle[0]["kind"] == "impact", "{motion}");
+    assert!(close(&cycle[0]["q"][1], 0.5) && cycle[0]["qdot"].as_array().unwrap().len() == 2, "{motion}");
+    assert!(cycle[0]["phase"].is_f64() && cycle[0]["speed"].as_f64().unwrap() > 0.0, "{motion}");
+    let text = printed("settle --machine two-mass-hammer");
+    assert!(text.starts_with("1/1, stable, period 5.23599\n  closings: anvil 1\n"), "{text}");
+    // the state of the cycle is on the cycle
+    let list = |of: &serde_json::Value| {
+        let numbers: Vec<String> = of.as_array().unwrap().iter().map(ToString::to_string).collect();
+        numbers.join(",")
+    };
+    let state = &motion["state"];
+    let (q, qdot, phase) = (list(&state["q"]), list(&state["qdot"]), &state["phase"]);
+    let again = json(&format!("settle --machine two-mass-hammer --q {q} --qdot {qdot} --phase {phase}"));
+    assert!(close(&again["motion"]["cycle"][0]["speed"], cycle[0]["speed"].as_f64().unwrap()), "{again}");
+    assert_eq!(json("settle --machine two-mass-hammer --set frequency=3")["motion"]["kind"], "no_impact");
+}
+
+#[test]
+fn attractors_orbits_and_exponents() {
+    let found = json("attractors --machine two-mass-hammer --starts 8");
+    let motions = found["motions"].as_array().unwrap();
+    let total: f64 = motions.iter().map(|motion| motion["share"].as_f64().unwrap()).sum();
+    assert!(found["starts"] == 8 && (total - 1.0).abs() < 1e-12, "{found}");
+    let orbits = json("orbit --machine two-mass-hammer --label 1/1")["orbits"].clone();
+    let stable: Vec<_> = orbits.as_array().unwrap().iter().filter(|orbit| orbit["stable"] == true).collect();
+    assert_eq!(stable.len(), 1, "{orbits}");
+    let speed = stable[0]["cycle"][0]["speed"].as_f64().unwrap();
+    assert!(close(&motions[0]["cycle"][0]["speed"], speed), "{motions:?}");
+    let found = json("lyapunov --machine two-mass-hammer --impacts 500");
+    let exponents = found["exponents"].as_array().unwrap();
+    let period = core::f64::consts::TAU / 1.2;
+    let multipliers: Vec<[f64; 2]> = serde_json::from_value(stable[0]["multipliers"].clone()).unwrap();
+    assert_eq!(exponents.len(), multipliers.len());
+    for (exponent, [re, im]) in exponents.iter().zip(multipliers) {
+        let expected = re.hypot(im).ln() / period;
+        let within = exponent["error"].as_f64().unwrap() + 1e-6;
+        assert!((exponent["value"].as_f64().unwrap() - expected).abs() <= within, "{exponent}, not {expected}");
+    }
+    let text = printed("lyapunov --machine two-mass-hammer --impacts 500");
+    assert!(text.contains("  exponent 4: ") && text.contains("the motion is 1/1"), "{text}");
+    let table = printed("attractors --machine two-mass-hammer --starts 8 --csv -");
+    assert!(table.starts_with("label,share,starts,count.anvil,multiplier_1_re,multiplier_1_im,"), "{table}");
+}
+
+#[test]
+fn branches() {
+    let found = json("branch --machine two-mass-hammer --vary frequency --to 1.05");
+    let points = found["points"].as_array().unwrap();
+    let kinds: Vec<&str> =
+        found["events"].as_array().unwrap().iter().map(|event| event["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["grazing", "fold", "end of range"]);
+    let grazing = &found["events"][0];
+    assert!(grazing["stop"] == "anvil" && grazing["appears"] == true && found["vary"] == "frequency", "{grazing}");
+    // a settled motion before the grazing is on the branch
+    let settled = json("settle --machine two-mass-hammer --set frequency=1.1")["motion"]["label"].clone();
+    assert!(settled == "1/1" && grazing["parameter"].as_f64().unwrap() < 1.1, "{grazing}");
+    assert!(points.iter().all(|point| point["multipliers"].as_array().unwrap().len() == 4));
+    let at = usize::try_from(grazing["point"].as_u64().unwrap()).unwrap();
+    assert_eq!(points[at]["parameter"], grazing["parameter"]);
+    let table = printed("branch --machine two-mass-hammer --vary frequency --to 1.05 --csv -");
+    assert!(table.starts_with("frequency,label,stable,event,stop,fastest,multiplier_1_re,"), "{table}");
+    assert_eq!(table.lines().count(), points.len() + 1);
+    // a parameter of the file has no dot
+    let text = printed("branch --machine two-mass-hammer --vary b --to 0.45");
+    assert!(text.contains("end of range") && text.contains("stable"), "{text}");
+}
+
+#[test]
+fn basins_and_maps() {
+    let table = printed("basin --machine two-mass-hammer --axis q.head=-1:1:3 --axis qdot.head=0:1:2 --csv -");
+    assert_eq!(table, "q.head,qdot.head,label\n-1,0,1/1\n0,0,1/1\n1,0,refused\n-1,1,1/1\n0,1,1/1\n1,1,refused\n");
+    let found = json("basin --machine two-mass-hammer --axis q.head=-1:1:3");
+    assert_eq!(found["cells"], serde_json::json!([0, 0, null]));
+    assert!(found["refused"] == 1 && found["motions"][0]["count"] == 2, "{found}");
+    let line = "map --machine two-mass-hammer --axis frequency=0.8:1.2:3 --starts 2";
+    let table = printed(&format!("{line} --csv -"));
+    assert!(table.starts_with("frequency,label,share\n0.8,"), "{table}");
+    for row in table.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let alone = json(&format!("attractors --machine two-mass-hammer --set frequency={} --starts 2", cells[0]));
+        assert!(alone["motions"].as_array().unwrap().iter().any(|motion| motion["label"] == cells[1]), "{row}");
+    }
+    let counts = json(line)["labels"].as_object().unwrap().clone();
+    let text = printed(line);
+    for (label, count) in counts {
+        assert!(text.contains(&format!("{label:>10}  at {count} point")), "{text}");
+    }
+}
+
+/// Figures have the paths as names of axes; what has none is refused before anything is computed.
+#[test]
+fn figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let drawn = |line: &str, name: &str| {
+        let file = folder.path().join(name);
+        printed(&format!("{line} --plot {}", file.display()));
+        fs::read_to_string(file).unwrap()
+    };
+    let branch = drawn("branch --machine two-mass-hammer --vary frequency --to 1.05", "branch.svg");
+    for said in [">frequency<", "speed of closing", ">grazing<", ">fold<", ">stable<", ">unstable<", ">2/1<"] {
+        assert!(branch.contains(said), "{said}");
+    }
+    let basin = "basin --machine two-mass-hammer --axis q.head=-1:0.4:4";
+    let (line, plane) = (drawn(basin, "line.svg"), drawn(&format!("{basin} --axis qdot.head=-1:1:3"), "plane.svg"));
+    assert!(line.contains("share of starts") && line.contains(">q.head<") && line.contains("1/1, 100"));
+    assert!(plane.contains(">q.head<") && plane.contains(">qdot.head<"));
+    let map = "map --machine two-mass-hammer --axis frequency=0.8:1.2:3 --starts 2";
+    let (line, plane) = (drawn(map, "map.svg"), drawn(&format!("{map} --axis stop.anvil.gap=0.4:0.5:2"), "maps.svg"));
+    assert!(line.contains("share of starts") && line.contains(">3/1<"));
+    assert!(plane.contains(">stop.anvil.gap<") && plane.contains(">2/1<"));
+    let settled = drawn("settle --machine two-mass-hammer", "settle.svg");
+    assert!(settled.contains("displacement") && settled.contains(">impact<") && settled.contains("hammer: 1/1"));
+    let none = folder.path().join("none.svg").display().to_string();
+    let said = refused(&format!("settle --machine two-mass-hammer --set stop.anvil.gap=50 --plot {none}"));
+    assert!(said.contains("settles into none: no impact\nhint: `vibro simulate"), "{said}");
+    let said = refused(&format!("lyapunov --machine two-mass-hammer --plot {none}"));
+    assert!(said.contains("no figure yet"), "{said}");
+    let said = refused(&format!("{basin} --axis qdot.head=0:1:2 --axis phase=0:1:2 --plot {none}"));
+    assert!(said.contains("one or two axes, not 3"), "{said}");
+}
+
+#[test]
+fn refusals_of_questions() {
+    for (line, said) in [
+        ("orbit --machine sdnd101 --label 1/1", "error: the machine has no forcing"),
+        ("branch --machine sdnd101 --vary stop.stop.gap --to 1", "error: the machine has no forcing"),
+        ("orbit --machine two-mass-hammer --label one", "error: "),
+        (
+            "basin --machine two-mass-hammer --axis q.tail=0:1:3",
+            "hint: q.NAME, qdot.NAME or phase; the coordinates are frame, head",
+        ),
+        (
+            "map --machine two-mass-hammer --axis stop.anvil.gapp=0:1:3 --starts 2",
+            "hint: the numbers of anvil are gap, restitution",
+        ),
+        ("map --machine two-mass-hammer --starts 2", "hint: --axis PATH=A:B:N"),
+        ("map --machine two-mass-hammer --axis mu=0:1 --starts 2", "--axis <PATH=A:B:N>"),
+        ("branch --machine two-mass-hammer --vary nothing --to 1", "error: nothing: no such number in this machine"),
+        ("branch --machine two-mass-hammer --vary frequency --to 1.2", "error: "),
+        ("settle --machine two-mass-hammer --q 1,2,3", "start.q: has 3 numbers, and 2 are needed"),
+        ("settle --machine two-mass-hammer --impacts 0", "error: "),
+        // without a machine all of the system is needed
+        ("map --gap 1 --starts 2", "--restitution <VALUES>"),
+        ("map --restitution 0.5 --starts 2", "<--gap <VALUES>|--gap-m <D>|--gaps-m <D>>"),
+        (
+            "branch --beta 1 --gap 1 --restitution 0.5 --label 1/1 --vary gapp --to 1",
+            "error: invalid value 'gapp' for '--vary",
+        ),
+    ] {
+        let told = refused(line);
+        assert!(told.contains(said), "{line}: {told}");
+    }
+}

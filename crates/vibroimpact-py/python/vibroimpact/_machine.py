@@ -408,8 +408,8 @@ class Machine:
         --------
         >>> import vibroimpact as vi
         >>> found = vi.Machine.named("two-mass-hammer").branch("frequency", 1.05)
-        >>> found.event_kind.tolist(), found.event_stop[0]
-        (['grazing', 'fold', 'end of range'], 'anvil')
+        >>> found.event_kind.tolist(), found.event_stop.tolist()
+        (['grazing', 'fold', 'end of range'], ['anvil', '', ''])
         """
         points = whole("points", points, BRANCH)
         task = {"branch": {"label": label, "vary": vary, "to": float(to), "points": points}}

@@ -422,7 +422,8 @@ def _in_axes(values: NDArray[Any], axes: Mapping[str, _Floats]) -> NDArray[Any]:
     """Values in the order of the grid, whose first axis varies fastest, as an array with the axes in their order."""
     counts = [len(of) for of in axes.values()]
     further = range(len(counts), len(counts) + values.ndim - 1)
-    return values.reshape(*reversed(counts), *values.shape[1:]).transpose(*reversed(range(len(counts))), *further)
+    slowest_first = values.reshape(*reversed(counts), *values.shape[1:])
+    return np.transpose(slowest_first, (*reversed(range(len(counts))), *further))
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
