@@ -75,7 +75,7 @@ impl MachineAnswer {
                 let MachineVerdict::Periodic(cycle) = &found.verdict else {
                     return Err(ReportError::NoCycle(figure::label(&found.verdict.label())).into());
                 };
-                self.one_period(cycle, title)?
+                self.one_period(cycle, &title)?
             }
             MachineResults::Branch(found) => {
                 let MachineTask::Branch { vary, to, .. } = &self.plan.task else { return Ok(None) };
@@ -89,7 +89,7 @@ impl MachineAnswer {
     }
 
     /// The waveform of one period of a cycle.
-    fn one_period(&self, cycle: &MachineCycle, title: String) -> Result<Figure, AnswerError> {
+    fn one_period(&self, cycle: &MachineCycle, title: &str) -> Result<Figure, AnswerError> {
         let periods = Some(f64::from(cycle.label.periods));
         let task = MachineTask::Simulate { impacts: None, periods };
         let plan = MachinePlan { task, ..self.plan.clone() }.starting(&cycle.state);
