@@ -126,8 +126,8 @@ fn f11c_all_that_is_missing_is_named() {
         ("settle --gap 1 --restitution 0.5", "the frequency is given nowhere"),
         ("settle --mass-kg 1", "missing: --stiffness-n-per-m, --force-n, --frequency-hz, --gap-m, --restitution"),
         ("diagram --vary gap --over 0:1:3", "the frequency ratio and the restitution are not given"),
-        ("map --starts 3", "--gap <VALUES>"),
-        ("map --starts 3", "--beta <VALUES>|--inverse-beta <VALUES>"),
+        ("map --starts 3", "--gap <D>"),
+        ("map --starts 3", "--beta <B>|--inverse-beta <X>"),
     ] {
         refused(line, sentence);
     }

@@ -555,12 +555,10 @@ impl<'a> MachineMotion<'a> {
         touches.clear();
         let mut found = first_event(&flight, until, self.limits.steps.min(PATIENCE), &mut self.buffers, &mut touches);
         let mut never = false;
-        if let Found::NoneBefore(s) = found
-            && s < until
-        {
+        if let Found::NoneBefore(s) = found {
             // a long flight: is there an event at all?
             never = !recovered.is_finite() && flight.never_after(s, &mut self.buffers.modes);
-            if !never && self.limits.steps > PATIENCE {
+            if !never && s < until && self.limits.steps > PATIENCE {
                 touches.clear();
                 found = first_event(&flight, until, self.limits.steps, &mut self.buffers, &mut touches);
                 if let Found::NoneBefore(s) = found {
