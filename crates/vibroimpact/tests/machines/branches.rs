@@ -158,3 +158,45 @@ fn doubled_beside_a_flip() {
     assert_eq!(end.event, Some(MachineBranchEvent::Halving));
     assert!((end.value - flip.value).abs() < 1e-7, "{} {}", end.value, flip.value);
 }
+
+/// Between two torus bifurcations a pair of complex multipliers lies outside the unit circle, and motions that begin close
+/// to the cycle leave it; beyond both they settle into it.
+#[test]
+fn torus_bifurcations() {
+    let mut state = 5_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
+    };
+    let machines: Vec<Machine> = (0..34).map(|case| random_machine(case, &mut random)).collect();
+    let options = SettleOptions::default();
+    let (mut found, mut inside, mut outside) = (0, 0, 0);
+    for case in [13, 33] {
+        let settled = settle_machine(&machines[case], &MachineStart::default(), &options).unwrap();
+        let MachineVerdict::Periodic(cycle) = settled.verdict else { panic!("case {case}") };
+        let (family, value) = MachineFamily::of_path(&machines[case], "frequency").unwrap();
+        let branch =
+            MachineBranch::new((&family, value), &cycle, &(0.35..=1.8), Direction::Up, BranchOptions::default())
+                .unwrap();
+        let points: Vec<_> = branch.collect();
+        for (k, point) in points.iter().enumerate() {
+            if point.event != Some(MachineBranchEvent::Torus) {
+                continue;
+            }
+            found += 1;
+            let multiplier = point.cycle.multipliers[0];
+            assert!((multiplier.modulus() - 1.0).abs() < 1e-9 && multiplier.im.abs() > 0.1, "{multiplier:?}");
+            let beside = points[k - 3..k + 4].iter().filter(|other| other.event.is_none());
+            for other in beside.filter(|other| (other.cycle.multipliers[0].modulus() - 1.0).abs() > 2e-3) {
+                let mut start = other.cycle.state.clone();
+                start.q[0] += 1e-6;
+                let there = family.at(other.value).unwrap();
+                let settled = settle_machine(&there, &start, &options).unwrap().verdict;
+                let same = matches!(&settled, MachineVerdict::Periodic(cycle) if cycle.same_as(&other.cycle, 1e-6));
+                assert_eq!(same, other.cycle.stable(), "case {case} at {}: {}", other.value, settled.label());
+                if same { inside += 1 } else { outside += 1 }
+            }
+        }
+    }
+    assert!(found == 4 && inside >= 8 && outside >= 3, "{found} {inside} {outside}");
+}
