@@ -3,7 +3,7 @@
 use super::flight::{MachineFlight, Modes};
 use super::guard_polynomial::{GuardPolynomial, ORDER};
 use crate::math::dot;
-use crate::regime::{TERMS, derivative_bounds};
+use crate::regime::{TERMS, add_harmonic, derivative_bounds};
 
 /// The Taylor coefficients of all directions at one time, with bounds of their ninth and tenth derivatives over a window,
 /// times the powers of its length over the factorials.
@@ -27,14 +27,9 @@ impl DenseSeries {
         let mut pushed = [0.0; ORDER];
         for (h, w) in drive.rates.iter().enumerate() {
             let of = drive.harmonics.iter().skip(h).step_by(drive.rates.len());
-            let mut size: f64 = of.map(|(a, b)| a.abs() + b.abs()).sum();
+            let size: f64 = of.map(|(a, b)| a.abs() + b.abs()).sum();
             push += size;
-            let mut k = 1.0;
-            for place in &mut pushed {
-                *place += size;
-                size *= w * window / k;
-                k += 1.0;
-            }
+            add_harmonic(&mut pushed, size, w * window);
         }
         pushed[1] += ramp * window;
         // `modes` of such a structure are bounds, the same for all directions

@@ -6,6 +6,7 @@
 //! | what drives the modes | `drive` |
 //! | the same where there are no modes | `dense`, `dense_series` |
 //! | whether a flight ends at all | `never` |
+//! | how small changes of the state move | `transition` |
 //! | guards as polynomials over a window | `guard_polynomial` |
 //! | windows that are passed without the closed form | `track` |
 //! | first zeros of polynomials | `polynomial` |
@@ -23,6 +24,7 @@ mod never;
 mod polynomial;
 mod search;
 mod track;
+mod transition;
 mod zero;
 
 pub(crate) use flight::{Begin, MachineFlight, Modes, Recovery};

@@ -81,17 +81,15 @@ impl MachineFlight {
         let (mut y, mut v) = (modes.moved[i] - middle, modes.v[i]);
         let mut waves = Vec::with_capacity(self.structure.rates.len());
         for (((a, b), w), turned) in self.drive.of(i).iter().zip(&self.structure.rates).zip(&modes.turned) {
-            let (re, im) = (mode.k - w * w, 2.0 * mode.d * w);
-            let norm = re * re + im * im;
             if *a == 0.0 && *b == 0.0 {
                 waves.push((0.0, 0.0));
                 continue;
             }
-            if norm <= 1e-20 * (mode.k + w * w) * (mode.k + w * w) {
-                return None; // resonance without damping
+            let (c, d) = mode.steady(*w, (*a, *b));
+            // near a resonance without damping the response is no bound of anything
+            if !(c.abs() + d.abs() < 1e10 * (a.abs() + b.abs()) / (mode.k + w * w)) {
+                return None;
             }
-            // (a - ib) / (re + i im) = (c - is)
-            let (c, d) = ((a * re - b * im) / norm, (b * re + a * im) / norm);
             y -= c * turned.cos + d * turned.sin;
             v -= w * (d * turned.cos - c * turned.sin);
             waves.push((c, d));

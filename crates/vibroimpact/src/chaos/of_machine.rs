@@ -1,11 +1,12 @@
 //! All Lyapunov exponents of the motion of a machine from a start.
 
-use crate::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart, step_derivative};
+use crate::events::{MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum, Measured};
 use crate::machine::{Machine, MachineError};
 use crate::math::{general_eigenvalues, ln};
 use crate::orbit::MachineFrame;
-use crate::verdict::{MachineVerdict, SettleOptions, settle_machine_while};
+use crate::verdict::{MachineVerdict, Recorded, Recurring, SettleOptions, Step, settle_machine_while};
+use std::sync::Arc;
 
 /// The exponents of a motion of a machine, and where they come from.
 #[derive(Clone, Debug)]
@@ -71,7 +72,7 @@ pub fn machine_exponents_while(
         }
         _ => {}
     }
-    let frame = MachineFrame::new(machine);
+    let system = Recorded::new(MachineFrame::new(machine));
     let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
     let mut measure: Option<MachineMeasure> = None;
     let mut seen = 0_u32;
@@ -79,24 +80,18 @@ pub fn machine_exponents_while(
         if !go_on() {
             return Ok(None);
         }
-        let begin = motion.place().clone();
-        let Some(passage) = motion.step() else { break };
+        let Some((step, _)) = Step::next(&mut motion) else { break };
         if motion.end().is_some() {
             break;
         }
-        let closes = |event: &&MachineEvent| matches!(event.kind, MachineEventKind::Impact | MachineEventKind::Close);
-        let told = motion.take_events();
-        #[allow(clippy::cast_precision_loss)] // a few
-        let closings = told.iter().filter(closes).count() as f64;
         seen += 1;
-        if let Some(measure) = &mut measure {
-            let derivative = frame
-                .with(|structures| step_derivative(&frame.shape, machine, &frame.normal, structures, &begin, &passage));
-            if let Some(derivative) = derivative {
-                measure.add(&derivative, passage.time(), closings);
+        let (interval, step) = (step.passage.time(), Arc::new(step));
+        match &mut measure {
+            Some(measure) => {
+                system.add(measure, &step, interval);
             }
-        } else if seen >= transient {
-            measure = Some(MachineMeasure::new(frame.shape.size(), 2 * frame.shape.n, events));
+            None if seen >= transient => measure = Some(system.measure(&step, events)),
+            None => {}
         }
     }
     let spectrum = measure.and_then(|measure| measure.spectrum());

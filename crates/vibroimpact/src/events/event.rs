@@ -60,6 +60,14 @@ pub struct MachineEvent {
     pub with: Vec<usize>,
 }
 
+impl MachineEvent {
+    /// Whether it is the closing of a stop: an impact, or the beginning of a compliant contact.
+    #[must_use]
+    pub const fn closes(&self) -> bool {
+        matches!(self.kind, MachineEventKind::Impact | MachineEventKind::Close)
+    }
+}
+
 /// The state from which a motion starts, at time 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MachineStart {

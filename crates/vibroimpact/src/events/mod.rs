@@ -24,6 +24,6 @@ mod stretch;
 pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;
 pub(crate) use passage::Passage;
-pub(crate) use place::{Place, Structures};
+pub(crate) use place::{Place, Structures, standing_back};
 pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};
 pub use samples::{MachineSample, MachineSamples};

@@ -3,10 +3,10 @@
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 use super::impulses::impulses;
 use super::passage::Passage;
-use super::place::{Place, Scratch, Structures};
+use super::place::{Place, Scratch, Structures, standing_back};
 use super::resolve::resolve;
 use super::stretch::{Stretch, follow};
-use crate::arc::{Buffers, Found, MachineFlight, Recovery, Touch, first_event};
+use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{Sum, add_scaled, dot};
 use crate::regime::{ContactState, GuardKind, Normal, Structure, compliant};
@@ -147,7 +147,7 @@ impl<'a> MachineMotion<'a> {
                     if opening == Opening::Position || force > 0.0 {
                         self.place.states[j] = ContactState::Closed;
                     } else {
-                        self.place.surfaces[j] = Some(recovery(stiffness, damping, preload, -gap));
+                        self.place.surfaces[j] = standing_back(&stop.law, -gap);
                     }
                 }
                 _ if on && approaching => closing.push(j),
@@ -435,10 +435,9 @@ impl<'a> MachineMotion<'a> {
             return;
         };
         self.place = there;
+        // the state at rest is that after an impact without rebound
+        self.record(&[(j, 0.0)]);
         if let Some(passage) = &mut self.passage {
-            // the state at rest is that after an impact without rebound
-            passage.pushed = vec![(j, 0.0)];
-            passage.after = Some(self.place.clone());
             passage.rest = Some((flight.structure.clone(), duration));
         }
         self.move_to(&flight, duration);
@@ -739,21 +738,13 @@ impl MachineMotion<'_> {
         self.place.states[j] = ContactState::Open;
         let depth = -self.place.gap(&self.normal, turns, j).0;
         let mut known = 1;
-        if let (GuardKind::Force(_), StopLaw::Compliant { stiffness, damping, preload, .. }) =
-            (kind, &self.machine.stops()[j].law)
-            && depth > 0.0
-        {
-            self.place.surfaces[j] = Some(recovery(*stiffness, *damping, *preload, depth));
+        if matches!(kind, GuardKind::Force(_)) && depth > 0.0 {
+            self.place.surfaces[j] = standing_back(&self.machine.stops()[j].law, depth);
             // the surface leaves the body with the velocity of the body
             known = 2;
         }
         self.place.known.push((GuardKind::Gap(j), known));
     }
-}
-
-fn recovery(stiffness: f64, damping: f64, preload: f64, depth: f64) -> Recovery {
-    let offset = preload / stiffness;
-    Recovery { size: depth + offset, rate: stiffness / damping, offset }
 }
 
 impl Iterator for MachineMotion<'_> {

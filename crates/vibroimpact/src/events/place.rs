@@ -1,9 +1,9 @@
 //! Where a machine is: state, phase, and what its stops and joints do.
 
 use crate::arc::{Begin, MachineFlight, Modes, Recovery};
-use crate::machine::Machine;
+use crate::machine::{Machine, StopLaw};
 use crate::math::{dot, sin_cos};
-use crate::regime::{ContactState, GuardKind, Normal, Structure};
+use crate::regime::{ContactState, GuardKind, Normal, Structure, compliant};
 use crate::system::phase;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -27,9 +27,7 @@ impl Structures {
         self.0.insert(states.to_vec(), made.clone());
         made
     }
-}
 
-impl Structures {
     /// Takes over those of another motion.
     pub(crate) fn join(&mut self, other: &Self) {
         for (states, structure) in &other.0 {
@@ -38,6 +36,13 @@ impl Structures {
             }
         }
     }
+}
+
+/// The surface of a damped stop that has opened by force at this depth; `None` for any other stop.
+pub(crate) fn standing_back(law: &StopLaw, depth: f64) -> Option<Recovery> {
+    let (stiffness, damping, preload) = compliant(law)?;
+    let offset = preload / stiffness;
+    (damping > 0.0).then(|| Recovery { size: depth + offset, rate: stiffness / damping, offset })
 }
 
 /// Vectors for the beginning of a flight, which are used again.

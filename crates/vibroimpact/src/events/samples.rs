@@ -7,7 +7,6 @@ use super::stretch::Stretch;
 use crate::arc::Buffers;
 use crate::machine::{Machine, MachineError};
 use crate::regime::{ContactState, GuardKind, compliant};
-use crate::system::phase;
 use std::collections::VecDeque;
 
 /// A machine at one time.
@@ -116,10 +115,7 @@ impl<'a> MachineSamples<'a> {
         let mut here = place.clone();
         flight.at(s, &mut self.buffers.modes);
         if s > 0.0 {
-            flight.state(&self.buffers.modes, &mut here.x, &mut here.v);
-        }
-        if let Some(frequency) = machine.parts().frequency {
-            here.phase = phase::advance(here.phase, frequency, s);
+            here.move_along(flight, (&self.buffers.modes, s), machine.parts().frequency);
         }
         let turns = here.turns(normal);
         let stops = machine.stops().len();

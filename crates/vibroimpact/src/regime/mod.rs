@@ -10,7 +10,7 @@
 //! | the directions in which it is free | `complement` |
 //! | the constant force on its modes at a position | `rest_force` |
 //! | the structure in one regime, its guards | `structure` |
-//! | small changes of its state, their motion, and the gradients of guards | `change` |
+//! | small changes of its state, and the gradients of guards | `change` |
 //! | polynomials in Bernstein's form | `bernstein` |
 //! | its motion over windows of one length | `window` |
 
@@ -27,10 +27,11 @@ mod structure;
 mod window;
 
 pub(crate) use bernstein::{TERMS, bernstein};
+pub(crate) use change::ModalChange;
 pub use contact_state::ContactState;
 pub(crate) use mode::{Mode, Turned};
 pub(crate) use normal::{Normal, compliant};
 pub(crate) use rest_force::RestBuffers;
 pub(crate) use signal::{Observable, Signal, turned};
 pub(crate) use structure::{GuardKind, Structure};
-pub(crate) use window::{ALL, REACH, Window, derivative_bounds};
+pub(crate) use window::{ALL, REACH, Window, add_harmonic, derivative_bounds};

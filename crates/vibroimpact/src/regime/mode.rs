@@ -147,6 +147,13 @@ impl Mode {
         FreeMode { one_minus_c: 0.0, s: unit, s_rate: kept, step, ramp, size: 0.0, angle: 0.0 }
     }
 
+    /// The steady response to $`a\cos ws + b\sin ws`$, as factors of cosine and sine; infinite at resonance without damping.
+    pub(crate) fn steady(&self, w: f64, (a, b): (f64, f64)) -> (f64, f64) {
+        let (re, im) = ((self.omega - w) * (self.omega + w), 2.0 * self.d * w);
+        let norm = re * re + im * im;
+        ((a * re - b * im) / norm, (b * re + a * im) / norm)
+    }
+
     /// The forced responses from rest to $`\cos w_hs`$ and $`\sin w_hs`$, and the size of their terms. `free` and `turned`
     /// are those after the time `s`.
     pub(crate) fn forced(&self, h: usize, s: f64, free: &FreeMode, turned: &Turned) -> (f64, f64, f64) {

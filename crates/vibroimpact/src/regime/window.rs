@@ -368,11 +368,7 @@ fn power(x: f64) -> f64 {
 impl Faint {
     fn new(of: Moved<'_>, mode: usize) -> Self {
         let own = &of.modes[mode];
-        let response = of.drive[mode].harmonics.iter().zip(of.rates).map(|((a, b), w)| {
-            let z = ((own.omega - w) * (own.omega + w), 2.0 * own.d * w);
-            let norm = z.0 * z.0 + z.1 * z.1;
-            ((a * z.0 - b * z.1) / norm, (b * z.0 + a * z.1) / norm)
-        });
+        let response = of.drive[mode].harmonics.iter().zip(of.rates).map(|(amplitudes, w)| own.steady(*w, *amplitudes));
         Self { mode, k: own.k, rates: of.rates.to_vec(), response: response.collect() }
     }
 
@@ -404,13 +400,7 @@ impl Bounds {
         // |p^(k)| window^k / k!
         let mut pushed = [0.0; ORDER];
         for ((a, b), w) in of.drive[i].harmonics.iter().zip(of.rates) {
-            let mut size = hypot(*a, *b);
-            let mut k = 1.0;
-            for place in &mut pushed {
-                *place += size;
-                size *= w * window / k;
-                k += 1.0;
-            }
+            add_harmonic(&mut pushed, hypot(*a, *b), w * window);
         }
         pushed[0] += ramp * window;
         pushed[1] += ramp * window;
@@ -421,6 +411,16 @@ impl Bounds {
             push: derivative_bounds(mode, window, 0.0, loose, &still),
             constant: derivative_bounds(mode, window, 0.0, pushed[0], &pushed),
         }
+    }
+}
+
+/// Adds the bounds $`|p^{(k)}|H^k/k!`$ of a harmonic of this size that turns by `turn` over the window.
+pub(crate) fn add_harmonic(pushed: &mut [f64; ORDER], mut size: f64, turn: f64) {
+    let mut k = 1.0;
+    for place in pushed {
+        *place += size;
+        size *= turn / k;
+        k += 1.0;
     }
 }
 

@@ -34,7 +34,9 @@ pub use many::{KnownAttractors, Settlement, settle_many};
 pub use of_machine::{
     MachineSettled, MachineUndecided, MachineVerdict, scattered_machine_starts, settle_machine, settle_machine_while,
 };
+pub(crate) use of_machine::{Recorded, Step};
 pub use options::SettleOptions;
 pub use outcome::{Chaos, NoImpact, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};
+pub(crate) use recurring::Recurring;
 pub use settle::{Settled, settle, settle_while};

@@ -27,3 +27,4 @@ mod touch;
 pub use branch::Branch;
 pub use options::{BranchError, BranchOptions, Direction};
 pub use point::{BranchEvent, Change, SolutionPoint, Touch};
+pub(crate) use problem::{COARSE, RULES};

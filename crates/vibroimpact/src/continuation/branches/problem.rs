@@ -36,17 +36,7 @@ impl Problem for BranchProblem {
     type Known = Orbit;
 
     fn rules(&self) -> StepRules {
-        StepRules {
-            stray: 0.3,
-            rounding: 1e-9,
-            bend: 0.95,
-            straight: 0.995,
-            few: 3,
-            many: 5,
-            zero: 1e-11,
-            // at a branch point itself Newton's method does not converge
-            beside: COARSE,
-        }
+        RULES
     }
 
     fn tests(&self) -> usize {
@@ -95,7 +85,19 @@ impl Problem for BranchProblem {
     }
 }
 
+/// When a step along a branch is accepted, of an oscillator or of a machine.
+pub(crate) const RULES: StepRules = StepRules {
+    stray: 0.3,
+    rounding: 1e-9,
+    bend: 0.95,
+    straight: 0.995,
+    few: 3,
+    many: 5,
+    zero: 1e-11,
+    // at a branch point itself Newton's method does not converge
+    beside: COARSE,
+};
 /// The resolution to which events are located along the step.
 pub(crate) const RESOLUTION: f64 = 1e-15;
 /// The resolution to which folds and branch points are located at first.
-const COARSE: f64 = 3e-5;
+pub(crate) const COARSE: f64 = 3e-5;

@@ -2,7 +2,7 @@
 
 use super::problem::MachineProblem;
 use crate::continuation::branches::BranchOptions;
-use crate::continuation::trace::equations::{Equations, correct, tangent};
+use crate::continuation::trace::equations::{correct, tangent};
 use crate::continuation::trace::step_length::StepLength;
 use crate::continuation::trace::tracer::Tracer;
 
@@ -27,15 +27,13 @@ pub(super) fn begun(
     traced(problem, w, along, options)
 }
 
-/// The tracer from a solution along a tangent.
+/// The tracer from a solution along a unit tangent.
 pub(super) fn traced(
     problem: MachineProblem,
     w: Vec<f64>,
-    mut along: Vec<f64>,
+    along: Vec<f64>,
     options: BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
-    let length = problem.length(&along);
-    along.iter_mut().for_each(|t| *t /= length);
     let step = StepLength { now: options.first, longest: options.longest, shortest: options.shortest };
     Tracer::new(problem, w, along, step)
 }

@@ -137,9 +137,7 @@ fn appearing(
     for (i, direction) in frame.normal.directions[stop].iter().enumerate() {
         row[index * width + 1 + machine.n() + i] = -direction;
     }
-    let mut along = tangent(&problem, &w, &row)?;
-    let length = problem.length(&along);
-    along.iter_mut().for_each(|t| *t /= length);
+    let along = tangent(&problem, &w, &row)?;
     first_step(&problem, &w, &[along], options)
 }
 
@@ -159,9 +157,7 @@ fn disappearing(
     let w = MachineEquations::join(machine, &problem.equations.ring, last(&at.w));
     let mut row = vec![0.0; w.len()];
     *row.last_mut()? = if last(&at.tangent) < 0.0 { -1.0 } else { 1.0 };
-    let mut along = tangent(&problem, &w, &row)?;
-    let length = problem.length(&along);
-    along.iter_mut().for_each(|t| *t /= length);
+    let along = tangent(&problem, &w, &row)?;
     let back: Vec<f64> = along.iter().map(|t| -t).collect();
     first_step(&problem, &w, &[along, back], options)
 }

@@ -111,7 +111,7 @@ impl MachineBranch {
             Some(step) => self.go_through(step),
             None => match replayed(&self.tracer, &here, &self.options) {
                 // the events change so close by that no step ends before
-                Some(next) => self.go_on(&here, MachineBranchEvent::Change { place: 0 }, next),
+                Some(next) => self.go_on(&here, MachineBranchEvent::Change { place: None }, next),
                 None => self.end(&here, MachineBranchEvent::NoConvergence),
             },
         }

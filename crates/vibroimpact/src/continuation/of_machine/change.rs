@@ -17,7 +17,7 @@ pub(crate) enum Difference {
     /// A stop rests or a joint holds after an event where it did not, or the other way round.
     Rest { place: usize, joint: bool, begins: bool },
     /// Something else.
-    Other { place: usize },
+    Other { place: Option<usize> },
 }
 
 impl Difference {
@@ -53,19 +53,19 @@ pub(super) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     if let Some(at) = judged.rising {
         return match ring.events[at].guard {
             GuardKind::Gap(stop) => Difference::Disappears { at, stop },
-            guard => Difference::Other { place: place(guard, stops) },
+            guard => Difference::Other { place: Some(place(guard, stops)) },
         };
     }
     let wanted = |i: usize| (judged.from + 1 + i) % m;
     let at = (0..m.max(judged.seen.len())).find(|i| *i >= m || judged.seen.get(*i) != Some(&ring.events[wanted(*i)]));
-    let Some(i) = at else { return Difference::Other { place: 0 } };
+    let Some(i) = at else { return Difference::Other { place: None } };
     let expected: &RingEvent = &ring.events[wanted(i % m)];
     let own = place(expected.guard, stops);
     let Some(found) = judged.seen.get(i) else {
         // the motion has fewer events than the signature
         return match expected.guard {
             GuardKind::Gap(stop) => Difference::Disappears { at: wanted(i % m), stop },
-            _ => Difference::Other { place: own },
+            _ => Difference::Other { place: Some(own) },
         };
     };
     if i < m && found.guard == expected.guard {
@@ -79,7 +79,7 @@ pub(super) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
             Some(place) if rests(found.after[place]) != rests(expected.after[place]) => {
                 Difference::Rest { place, joint: place >= stops, begins: rests(found.after[place]) }
             }
-            Some(place) => Difference::Other { place },
+            Some(place) => Difference::Other { place: Some(place) },
             // a chatter that is summed after another number of impacts
             None => Difference::Rest { place: own, joint: false, begins: found.pushed.iter().any(|(_, still)| *still) },
         };
@@ -101,6 +101,6 @@ pub(super) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
         (_, GuardKind::Sliding(_) | GuardKind::LimitForward(_) | GuardKind::LimitBackward(_)) => {
             Difference::Rest { place: own, joint: true, begins: !expected.after[own].constrains() }
         }
-        _ => Difference::Other { place: other },
+        _ => Difference::Other { place: Some(other) },
     }
 }

@@ -27,7 +27,7 @@ impl MachineEquations {
     ) -> Self {
         #[allow(clippy::cast_precision_loss)] // a few dozen
         let m = ring.len() as f64;
-        let width = MachineFrame::new(machine).shape.size() + 1;
+        let width = StateShape::of(machine).size() + 1;
         let n = machine.n();
         let weight = |i: usize| {
             let size = match i {
@@ -47,13 +47,13 @@ impl MachineEquations {
     pub(crate) fn split(&self, w: &[f64]) -> Option<(Machine, MachineRing)> {
         let (value, unknowns) = w.split_last()?;
         let machine = self.family.at(*value)?;
-        let ring = self.ring.with(&MachineFrame::new(&machine), unknowns);
+        let ring = self.ring.with(&machine, unknowns);
         Some((machine, ring))
     }
 
     /// The vector of unknowns of a ring and a value.
     pub(crate) fn join(machine: &Machine, ring: &MachineRing, value: f64) -> Vec<f64> {
-        let mut w = ring.unknowns(&MachineFrame::new(machine));
+        let mut w = ring.unknowns(&StateShape::of(machine));
         w.push(value);
         w
     }

@@ -59,8 +59,8 @@ pub enum MachineBranchEvent {
     },
     /// Another change of the sequence of events.
     Change {
-        /// The stop or joint at which the sequence first differs.
-        place: usize,
+        /// The stop or joint at which the sequence first differs, if it is known.
+        place: Option<usize>,
     },
     /// The only closing has speed zero; beyond, there is none.
     LossOfContact {
@@ -109,7 +109,7 @@ impl MachineBranchEvent {
             Self::Grazing { stop, .. } | Self::Sticking { stop, .. } | Self::LossOfContact { stop } => Some(stop),
             Self::Corner { first, .. } => Some(first),
             Self::Holding { joint, .. } => Some(joint),
-            Self::Change { place } => Some(place),
+            Self::Change { place } => place,
             _ => None,
         }
     }

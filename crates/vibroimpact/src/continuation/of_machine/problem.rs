@@ -2,6 +2,7 @@
 //! bifurcations. Whether a solution is admissible is decided by following the motion over one period.
 
 use super::equations::MachineEquations;
+use crate::continuation::branches::{COARSE, RULES};
 use crate::continuation::trace::equations::Equations;
 use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
 use crate::math::{Lu, Matrix, Multiplier, general_eigenvalues};
@@ -125,17 +126,7 @@ impl Problem for MachineProblem {
     type Known = Judged;
 
     fn rules(&self) -> StepRules {
-        StepRules {
-            stray: 0.3,
-            rounding: 1e-9,
-            bend: 0.95,
-            straight: 0.995,
-            few: 3,
-            many: 5,
-            zero: 1e-11,
-            // at a branch point itself Newton's method does not converge
-            beside: 3e-5,
-        }
+        RULES
     }
 
     fn tests(&self) -> usize {
@@ -158,7 +149,7 @@ impl Problem for MachineProblem {
     }
 
     fn resolution(&self, j: usize) -> f64 {
-        if j == PACE { 3e-5 } else { 1e-13 }
+        if j == PACE { COARSE } else { 1e-13 }
     }
 
     fn phases(&self) -> usize {

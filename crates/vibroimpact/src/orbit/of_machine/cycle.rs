@@ -82,7 +82,7 @@ impl MachineCycle {
     /// The largest speed of a closing.
     #[must_use]
     pub fn fastest(&self) -> f64 {
-        self.events.iter().filter(|event| closes(event)).map(|event| event.speed).fold(0.0, f64::max)
+        self.events.iter().filter(|event| event.closes()).map(|event| event.speed).fold(0.0, f64::max)
     }
 
     /// The cycle of `n` forcing periods near the motion from `from`, by Newton's method on the state between two events;
@@ -162,7 +162,7 @@ impl MachineCycle {
         let period = frame.machine.period().unwrap_or(f64::INFINITY) * f64::from(n);
         let mut events = lap.events.clone();
         let fastest = (0..events.len())
-            .filter(|k| closes(&events[*k]))
+            .filter(|k| events[*k].closes())
             .max_by(|a, b| events[*a].speed.total_cmp(&events[*b].speed).then(b.cmp(a)));
         let first = fastest.unwrap_or(0);
         if let Some(zero) = events.get(first).map(|event| event.time) {
@@ -174,7 +174,7 @@ impl MachineCycle {
         let counts: Vec<u32> = (0..frame.machine.stops().len())
             .map(|j| {
                 let own =
-                    lap.events.iter().filter(|event| closes(event) && (event.place == j || event.with.contains(&j)));
+                    lap.events.iter().filter(|event| event.closes() && (event.place == j || event.with.contains(&j)));
                 u32::try_from(own.count()).unwrap_or(u32::MAX)
             })
             .collect();
@@ -201,11 +201,6 @@ impl MachineCycle {
             sizes: lap.sizes,
         }
     }
-}
-
-/// Whether an event is the closing of a stop.
-fn closes(event: &MachineEvent) -> bool {
-    matches!(event.kind, MachineEventKind::Impact | MachineEventKind::Close)
 }
 
 /// The largest difference of two states, relative to the sizes of coordinates and velocities; infinite in different

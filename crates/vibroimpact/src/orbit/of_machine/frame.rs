@@ -1,11 +1,11 @@
 //! A machine together with what its motions need again and again: mass-normalised coordinates and the structures of its
 //! regimes.
 
-use crate::arc::{Modes, Recovery};
+use crate::arc::Modes;
 use crate::events::{MachineMotion, Place, StateShape, Structures};
 use crate::machine::Machine;
 use crate::math::add_scaled;
-use crate::regime::{ContactState, Normal, Structure, compliant};
+use crate::regime::{ContactState, Normal, Structure};
 use core::cell::RefCell;
 use std::sync::Arc;
 
@@ -42,12 +42,6 @@ impl<'a> MachineFrame<'a> {
     /// The structure with these states of stops and joints.
     pub(crate) fn structure(&self, states: &[ContactState]) -> Option<Arc<Structure>> {
         self.structures.borrow_mut().get(self.machine, &self.normal, states)
-    }
-
-    /// How the surface of a damped stop comes back, from a size of 0.
-    pub(crate) fn recovery(&self, stop: usize) -> Option<Recovery> {
-        let (stiffness, damping, preload) = compliant(&self.machine.stops()[stop].law)?;
-        (damping > 0.0).then(|| Recovery { size: 0.0, rate: stiffness / damping, offset: preload / stiffness })
     }
 
     /// The state a time `s` later in the regime of `structure`.

@@ -10,8 +10,8 @@
 
 use super::frame::MachineFrame;
 use super::lap::MachineLap;
-use crate::events::{EventLaw, LinearEvent, Passage, Place};
-use crate::machine::StopLaw;
+use crate::events::{EventLaw, LinearEvent, Passage, Place, StateShape, standing_back};
+use crate::machine::{Machine, StopLaw};
 use crate::math::Matrix;
 use crate::regime::{ContactState, GuardKind, Structure};
 use crate::system::phase;
@@ -104,23 +104,23 @@ impl MachineRing {
     }
 
     /// All unknowns: for each event its phase and the state after it.
-    pub(crate) fn unknowns(&self, frame: &MachineFrame<'_>) -> Vec<f64> {
-        let of = |place: &Place| core::iter::once(place.phase).chain(frame.shape.values(place)).collect::<Vec<f64>>();
+    pub(crate) fn unknowns(&self, shape: &StateShape) -> Vec<f64> {
+        let of = |place: &Place| core::iter::once(place.phase).chain(shape.values(place)).collect::<Vec<f64>>();
         self.places.iter().flat_map(of).collect()
     }
 
-    /// The ring of the same signature with these unknowns.
-    pub(crate) fn with(&self, frame: &MachineFrame<'_>, unknowns: &[f64]) -> Self {
-        let width = frame.shape.size() + 1;
+    /// The ring of the same signature with these unknowns, for a machine with other numbers.
+    pub(crate) fn with(&self, machine: &Machine, unknowns: &[f64]) -> Self {
+        let shape = StateShape::of(machine);
         let mut ring = self.clone();
-        for (place, own) in ring.places.iter_mut().zip(unknowns.chunks_exact(width)) {
+        for (place, own) in ring.places.iter_mut().zip(unknowns.chunks_exact(shape.size() + 1)) {
             // the rates of surfaces are numbers of the machine
-            for (j, surface) in place.surfaces.iter_mut().enumerate() {
+            for (surface, stop) in place.surfaces.iter_mut().zip(machine.stops()) {
                 if let Some(surface) = surface {
-                    *surface = frame.recovery(j).unwrap_or(*surface);
+                    *surface = standing_back(&stop.law, 0.0).unwrap_or(*surface);
                 }
             }
-            *place = frame.shape.with_values(place, &own[1..]);
+            *place = shape.with_values(place, &own[1..]);
             place.phase = own[0];
         }
         ring
@@ -165,9 +165,7 @@ impl MachineRing {
             match (before.surfaces[j], back) {
                 (None, true) => {
                     let depth = -before.gap(&frame.normal, &turns, j).0;
-                    let mut surface = frame.recovery(j)?;
-                    surface.size = depth + surface.offset;
-                    arrived.surfaces[j] = Some(surface);
+                    arrived.surfaces[j] = Some(standing_back(&frame.machine.stops()[j].law, depth)?);
                 }
                 (_, false) => arrived.surfaces[j] = None,
                 _ => {}

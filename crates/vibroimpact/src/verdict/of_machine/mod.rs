@@ -10,5 +10,6 @@ mod returns;
 mod settle;
 mod starts;
 
+pub(crate) use returns::{Recorded, Step};
 pub use settle::{MachineSettled, MachineUndecided, MachineVerdict, settle_machine, settle_machine_while};
 pub use starts::scattered_machine_starts;

@@ -1,7 +1,7 @@
 //! What the record of a motion needs to know of a machine: its returns are its steps from event to event.
 
 use super::super::recurring::{Diverging, Recurring};
-use crate::events::{MachineEvent, MachineEventKind, Passage, Place, step_derivative};
+use crate::events::{MachineEvent, MachineMotion, Passage, Place, step_derivative};
 use crate::lyapunov::{MachineMeasure, MachineSpectrum};
 use crate::orbit::{MachineCycle, MachineFrame, MachineLap, machine_distance};
 use crate::regime::GuardKind;
@@ -33,11 +33,14 @@ impl Step {
         matches!(self.passage.guards.first().and_then(kind), Some(GuardKind::Reaction(_)))
     }
 
-    /// The number of closings among the events of a step.
-    pub(crate) fn closings(events: &[MachineEvent]) -> u32 {
-        let closes = |event: &&MachineEvent| matches!(event.kind, MachineEventKind::Impact | MachineEventKind::Close);
-        let struck = events.iter().filter(closes).count();
-        u32::try_from(struck).unwrap_or(u32::MAX)
+    /// The next step of a motion, and the events on it; `None` at the end of the motion.
+    pub(crate) fn next(motion: &mut MachineMotion<'_>) -> Option<(Self, Vec<MachineEvent>)> {
+        let begin = motion.place().clone();
+        let passage = motion.step()?;
+        let events = motion.take_events();
+        let closings = events.iter().filter(|event| event.closes()).count();
+        let closings = u32::try_from(closings).unwrap_or(u32::MAX);
+        Some((Self { begin, passage, end: motion.place().clone(), closings }, events))
     }
 }
 

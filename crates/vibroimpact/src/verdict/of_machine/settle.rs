@@ -166,11 +166,10 @@ fn settle_in<'a>(
         if !go_on() {
             return Ok(None);
         }
-        let (begin, before) = (motion.place().clone(), motion.time());
-        let Some(passage) = motion.step() else { break };
+        let before = motion.time();
+        let Some((step, seen)) = Step::next(&mut motion) else { break };
         let time = motion.time();
-        let interval = passage.time();
-        let seen = motion.take_events();
+        let interval = step.passage.time();
         events += seen.len() as u64;
         if let Some(end) = motion.end() {
             let verdict = match end {
@@ -185,13 +184,13 @@ fn settle_in<'a>(
             let decided = matches!(verdict, MachineVerdict::NoImpact | MachineVerdict::Stuck);
             return settled(verdict, events, if decided { before } else { time }, &record);
         }
-        let (x, v) = MachineFrame::sizes(&begin);
+        let (x, v) = MachineFrame::sizes(&step.begin);
         sizes.push_back((x, v));
         if sizes.len() > RECENT {
             sizes.pop_front();
         }
         system.sizes.set(sizes.iter().fold((0.0, 0.0), |(a, b), (x, v)| (x.max(a), v.max(b))));
-        let step = Arc::new(Step { begin, closings: Step::closings(&seen), passage, end: motion.place().clone() });
+        let step = Arc::new(step);
         record.push(options, step.clone(), interval);
         // a rest can make a motion forget its past: it is the same from one release to another, however far apart
         if step.releases() {
