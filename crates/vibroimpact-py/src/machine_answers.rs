@@ -4,8 +4,7 @@ use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::machine::{MachineFile, Start, start};
 use pyo3::prelude::*;
-use vibroimpact_report::MachineAnswer;
-use vibroimpact_study::{MachinePlan, MachineResults, MachineTask, run_machine};
+use vibroimpact_study::{MachinePlan, MachineResults, MachineTask};
 
 /// The labels and the shares at each point of a map.
 type Cells = Vec<Vec<(String, f64)>>;
@@ -33,9 +32,7 @@ pub(crate) fn machine_answer(
     plan.check()?;
     let watch = Watch { what: "computing the answer of a machine", total, progress, threads };
     door::run(py, watch, move |control| {
-        let results = run_machine(&plan, control)?;
-        let (machine, start) = plan.problem()?;
-        let answer = MachineAnswer { name: String::new(), plan, machine, start, results };
+        let answer = vibroimpact_report::machine_answer("", &plan, control)?;
         let json = answer.json();
         Ok((json, if let MachineResults::Map(found) = answer.results { Some(found.cells) } else { None }))
     })

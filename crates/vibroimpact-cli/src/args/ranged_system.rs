@@ -51,9 +51,6 @@ pub(crate) struct RangedSystemArgs {
     machine: PhysicalArgs,
 }
 
-/// The restitution without its flag, which is optional only with a machine of several coordinates.
-const ABSENT: Ranged = Ranged::At(f64::NAN);
-
 impl RangedSystemArgs {
     /// The given parameters, in the order of the flags.
     fn given(&self) -> impl Iterator<Item = (Parameter, &Ranged)> {
@@ -78,7 +75,9 @@ impl RangedSystemArgs {
         if !second && self.second_restitution.is_some() {
             return Err(Failure::bad("the second stop has a restitution but no gap\nhint: --second-gap D2"));
         }
-        let restitution = self.restitution.as_ref().unwrap_or(&ABSENT);
+        let Some(restitution) = &self.restitution else {
+            return Err(Failure::bad("the restitution is not given\nhint: --restitution E"));
+        };
         let second_restitution = match (&self.second_restitution, restitution) {
             (None, Ranged::Over(_)) if second => {
                 return Err(Failure::bad(

@@ -56,9 +56,9 @@ pub(crate) struct Basin {
     )]
     v: Option<Span>,
 
-    /// Phase of the force at all starts, in radians
-    #[arg(long, value_parser = number, value_name = "P", default_value_t = 0.0, allow_hyphen_values = true, help_heading = "Starts")]
-    phase: f64,
+    /// Phase of the force at all starts, in radians [default: 0]
+    #[arg(long, value_parser = number, value_name = "P", allow_hyphen_values = true, help_heading = "Starts")]
+    phase: Option<f64>,
 
     /// Budget of impacts for each start, 1 to 1000000; what is not settled by then is undecided
     #[arg(long, value_parser = whole::<u32>, value_name = "N", allow_hyphen_values = true, help_heading = "Starts")]
@@ -94,7 +94,7 @@ pub(crate) struct Basin {
 
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
-    let start = Some((&args.of_machine, (args.phase != 0.0).then_some(args.phase)));
+    let start = Some((&args.of_machine, args.phase));
     let task = || Ok(MachineTask::Basin { axes: args.axes.axes(), impacts: args.impacts });
     if let Some(answer) = of_machine::asked(&args.machine, start, task, files, session) {
         return answer;
@@ -104,7 +104,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     };
     let asked = args.system.asked()?;
     let units = asked.units;
-    let plane = BasinPlan::plane(x.scaled(units.length())?, v.scaled(units.velocity())?, args.phase);
+    let plane = BasinPlan::plane(x.scaled(units.length())?, v.scaled(units.velocity())?, args.phase.unwrap_or(0.0));
     let task = BasinPlan {
         refine: args.refine,
         impacts: args.impacts,

@@ -37,13 +37,14 @@ pub(crate) struct Lyapunov {
     #[command(flatten)]
     of_machine: StartOfMachineArgs,
 
-    /// Impacts to measure over, 1000 to 10000000
-    #[arg(long, value_parser = whole::<u64>, value_name = "N", default_value_t = DEFAULT_IMPACTS, allow_hyphen_values = true, help_heading = "Length")]
-    impacts: u64,
+    /// Impacts to measure over, 1000 to 10000000 [default: 100000]; of a machine events [default: 20000]
+    #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Length")]
+    impacts: Option<u64>,
 
-    /// Impacts to pass before, up to 1000000 and at least 100; for the stroboscopic section forcing periods
-    #[arg(long, value_parser = whole::<u64>, value_name = "K", default_value_t = DEFAULT_TRANSIENT, allow_hyphen_values = true, help_heading = "Length")]
-    transient: u64,
+    /// Impacts to pass before, up to 1000000 and at least 100; for the stroboscopic section forcing periods [default: 1000]; of
+    /// a machine events [default: 1000]
+    #[arg(long, value_parser = whole::<u64>, value_name = "K", allow_hyphen_values = true, help_heading = "Length")]
+    transient: Option<u64>,
 
     /// Points of each section, 1 to 100000 [default: 5000]
     #[arg(long, value_parser = whole::<u64>, value_name = "N", allow_hyphen_values = true, help_heading = "Output")]
@@ -69,10 +70,9 @@ pub(crate) struct Lyapunov {
 pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     let files = (args.section.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.start.phase));
-    let short = |given: u64, usual: u64| (given != usual).then(|| u32::try_from(given).unwrap_or(u32::MAX));
     let task = || {
-        let (impacts, transient) = (short(args.impacts, DEFAULT_IMPACTS), short(args.transient, DEFAULT_TRANSIENT));
-        Ok(MachineTask::Lyapunov { impacts, transient })
+        let count = |given: Option<u64>| given.map(|given| u32::try_from(given).unwrap_or(u32::MAX));
+        Ok(MachineTask::Lyapunov { impacts: count(args.impacts), transient: count(args.transient) })
     };
     if let Some(answer) = of_machine::asked(&args.machine, start, task, files, session) {
         return answer;
@@ -87,8 +87,8 @@ pub(super) fn run(args: &Lyapunov, session: &Session) -> Result<(), Failure> {
     let task = LyapunovPlan {
         axes: Vec::new(),
         start: args.start.plan(&asked.units),
-        impacts: args.impacts,
-        transient: args.transient,
+        impacts: args.impacts.unwrap_or(DEFAULT_IMPACTS),
+        transient: args.transient.unwrap_or(DEFAULT_TRANSIENT),
         points: shown.then(|| args.points.unwrap_or(DEFAULT_POINTS)),
     };
     let plan = Plan::new(asked.system, Task::Lyapunov(task));

@@ -1,7 +1,6 @@
 //! Answers about machines as text.
 
 use core::fmt::Write;
-use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;
@@ -57,26 +56,16 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
             }
         }
         MachineResults::Basin(found) => {
-            let total = found.cells.iter().flatten().count();
-            for (k, verdict) in found.motions.iter().enumerate() {
-                let count = found.cells.iter().filter(|cell| **cell == Some(k)).count();
-                #[allow(clippy::cast_precision_loss)] // counts of starts
-                let share = 100.0 * count as f64 / total.max(1) as f64;
-                let _ = write!(text, "{share:>6.1} %  {}", motion(machine, verdict));
+            for (verdict, (_, share)) in found.motions.iter().zip(found.shares()) {
+                let _ = write!(text, "{:>6.1} %  {}", 100.0 * share, motion(machine, verdict));
             }
-            let beyond = found.cells.len() - total;
+            let beyond = found.refused();
             if beyond > 0 {
                 let _ = writeln!(text, "{} beyond a rigid stop", counted(beyond as u64, "start"));
             }
         }
         MachineResults::Map(found) => {
-            let mut labels = BTreeMap::new();
-            for cell in &found.cells {
-                // two motions of one label are at one point
-                let here: BTreeSet<&str> = cell.iter().map(|(label, _)| label.as_str()).collect();
-                here.into_iter().for_each(|label| *labels.entry(label).or_insert(0_u64) += 1);
-            }
-            for (label, count) in labels {
+            for (label, count) in found.labels() {
                 let _ = writeln!(text, "{label:>10}  at {}", counted(count, "point"));
             }
         }

@@ -507,7 +507,8 @@ class MachineSimulation:
     with_ : tuple of tuples of str
         Other stops that take part at the same time.
     end : str
-        Why the list ends: "event_limit", "time_limit", "search_limit", "inconsistent" or "collapse".
+        Why the list ends: "event_limit", "time_limit", "no_more_impacts", "stuck", "search_limit", "inconsistent" or
+        "collapse".
     end_time : float
         The time at which the list ends.
     shown_until : float

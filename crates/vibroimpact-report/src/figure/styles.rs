@@ -82,7 +82,7 @@ mod tests {
             BranchEvent::Chatter { side, phase, before },
         ];
         assert_eq!(BRANCH_MARKS.map(|(name, ..)| name), events.map(|event| event.name()));
-        let (stop, joint, place) = (0, 0, 0);
+        let (stop, joint, place) = (0, 0, None);
         let further = [
             MachineBranchEvent::Torus,
             MachineBranchEvent::Corner { first: 0, second: 1 },

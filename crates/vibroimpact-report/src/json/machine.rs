@@ -151,7 +151,7 @@ struct Basin<'a> {
 struct Mapped<'a> {
     axes: &'a [MachineAxis],
     /// How many points have each label.
-    labels: BTreeMap<&'a str, usize>,
+    labels: BTreeMap<&'a str, u64>,
     points: usize,
 }
 
@@ -212,20 +212,16 @@ impl Serialize for MachineAnswer {
                 self.document(Branched { vary, main: self.points(&found.points), followed }, to)
             }
             MachineResults::Basin(found) => {
-                let mut counts = vec![0_u64; found.motions.len()];
-                found.cells.iter().flatten().for_each(|cell| counts[*cell] += 1);
-                let total: u64 = counts.iter().sum();
-                #[allow(clippy::cast_precision_loss)] // counts of starts
-                let motions = found.motions.iter().zip(counts).map(|(verdict, count)| Shared {
+                let motions = found.motions.iter().zip(found.shares()).map(|(verdict, (count, share))| Shared {
                     motion: motion(machine, verdict),
-                    share: count as f64 / total.max(1) as f64,
+                    share,
                     count,
                 });
                 self.document(
                     Basin {
                         motions: motions.collect(),
                         starts: found.cells.len(),
-                        refused: found.cells.iter().filter(|cell| cell.is_none()).count(),
+                        refused: found.refused(),
                         axes: &found.axes,
                         cells: &found.cells,
                     },
@@ -233,14 +229,8 @@ impl Serialize for MachineAnswer {
                 )
             }
             MachineResults::Map(found) => {
-                let mut labels = BTreeMap::new();
-                for cell in &found.cells {
-                    let mut here: Vec<&str> = cell.iter().map(|(label, _)| label.as_str()).collect();
-                    here.sort_unstable();
-                    here.dedup();
-                    here.into_iter().for_each(|label| *labels.entry(label).or_insert(0) += 1);
-                }
-                self.document(Mapped { axes: &found.axes, labels, points: found.cells.len() }, to)
+                let (labels, points) = (found.labels(), found.cells.len());
+                self.document(Mapped { axes: &found.axes, labels, points }, to)
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::limits::MOST_CELLS;
 use crate::machine::MachineSource;
 use crate::map::check_impacts;
 use crate::{Control, PlanError, RunError};
+use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
 use vibroimpact::verdict::{MachineVerdict, scattered_machine_starts};
@@ -29,6 +30,38 @@ pub struct MachineMap {
     /// At each point the labels and the shares of the starts that lead to them, the most frequent first. Two motions of one
     /// label have a row each. Empty where the numbers are not allowed.
     pub cells: Vec<Vec<(String, f64)>>,
+}
+
+impl MachineBasin {
+    /// For each motion the number of starts that lead to it, and their share of all that are allowed.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss)] // counts of starts
+    pub fn shares(&self) -> Vec<(u64, f64)> {
+        let mut counts = vec![0_u64; self.motions.len()];
+        self.cells.iter().flatten().for_each(|cell| counts[*cell] += 1);
+        let total: u64 = counts.iter().sum();
+        counts.into_iter().map(|count| (count, count as f64 / total.max(1) as f64)).collect()
+    }
+
+    /// The number of starts beyond a rigid stop.
+    #[must_use]
+    pub fn refused(&self) -> usize {
+        self.cells.iter().filter(|cell| cell.is_none()).count()
+    }
+}
+
+impl MachineMap {
+    /// The number of points at which each label occurs.
+    #[must_use]
+    pub fn labels(&self) -> BTreeMap<&str, u64> {
+        let mut labels = BTreeMap::new();
+        for cell in &self.cells {
+            // two motions at a point can have one label
+            let here: BTreeSet<&str> = cell.iter().map(|(label, _)| label.as_str()).collect();
+            here.into_iter().for_each(|label| *labels.entry(label).or_insert(0) += 1);
+        }
+        labels
+    }
 }
 
 /// The number of points of a grid.

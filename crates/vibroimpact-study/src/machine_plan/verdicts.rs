@@ -2,7 +2,6 @@
 
 use crate::map::{check_impacts, options};
 use crate::{Control, PlanError, RunError, Stopped, limits, tiles};
-use core::cell::Cell;
 use vibroimpact::chaos::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, MachineExponents, machine_exponents_while};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineError};
@@ -46,12 +45,8 @@ pub(super) fn each_verdict(
         let mut found = Vec::new();
         for k in range {
             let verdict = problem(k).and_then(|(machine, start)| {
-                let stopped = Cell::new(false);
-                let go_on = || {
-                    stopped.set(control.stopping());
-                    !stopped.get()
-                };
-                settle_machine_while(&machine, &start, &options, go_on).ok().flatten().map(|settled| settled.verdict)
+                let settled = settle_machine_while(&machine, &start, &options, || !control.stopping());
+                settled.ok().flatten().map(|settled| settled.verdict)
             });
             found.push(verdict);
             if tick() {

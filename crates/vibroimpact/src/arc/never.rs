@@ -87,7 +87,8 @@ impl MachineFlight {
             }
             let (c, d) = mode.steady(*w, (*a, *b));
             // near a resonance without damping the response is no bound of anything
-            if !(c.abs() + d.abs() < 1e10 * (a.abs() + b.abs()) / (mode.k + w * w)) {
+            let size = c.abs() + d.abs();
+            if size.is_nan() || size >= 1e10 * (a.abs() + b.abs()) / (mode.k + w * w) {
                 return None;
             }
             y -= c * turned.cos + d * turned.sin;

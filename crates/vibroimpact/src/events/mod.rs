@@ -3,7 +3,9 @@
 //! | idea | file |
 //! |---|---|
 //! | an event, a start, the end of a motion | [`MachineEvent`], [`MachineStart`], [`MachineEnd`] |
-//! | the law of impact | `impulses` |
+//! | the law of impact, impacts | `impulses`, `strike` |
+//! | the end of a chatter | `chatter` |
+//! | events that change one stop alone | `alone` |
 //! | the state at one time | `place` |
 //! | which stops rest and which joints hold | `resolve` |
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
@@ -11,6 +13,8 @@
 //! | what it does between two events | `stretch` |
 //! | states, gaps and forces at equal steps | [`MachineSamples`], `samples` |
 
+mod alone;
+mod chatter;
 mod event;
 mod impulses;
 mod motion;
@@ -20,6 +24,7 @@ mod resolve;
 mod saltation;
 mod samples;
 mod stretch;
+mod strike;
 
 pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;

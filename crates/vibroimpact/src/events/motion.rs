@@ -1,7 +1,6 @@
 //! The motion of a machine as an iterator over its events.
 
 use super::event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
-use super::impulses::impulses;
 use super::passage::Passage;
 use super::place::{Place, Scratch, Structures, standing_back};
 use super::resolve::resolve;
@@ -9,7 +8,7 @@ use super::stretch::{Stretch, follow};
 use crate::arc::{Buffers, Found, MachineFlight, Touch, first_event};
 use crate::machine::{Machine, MachineError, MachineFault, Opening, StopLaw};
 use crate::math::{Sum, add_scaled, dot};
-use crate::regime::{ContactState, GuardKind, Normal, Structure, compliant};
+use crate::regime::{ContactState, GuardKind, Normal, compliant};
 use crate::system::phase;
 use std::collections::VecDeque;
 
@@ -31,25 +30,25 @@ use std::collections::VecDeque;
 /// ```
 #[derive(Clone, Debug)]
 pub struct MachineMotion<'a> {
-    machine: &'a Machine,
-    normal: Normal,
-    structures: Structures,
-    place: Place,
+    pub(super) machine: &'a Machine,
+    pub(super) normal: Normal,
+    pub(super) structures: Structures,
+    pub(super) place: Place,
     time: Sum,
-    limits: MachineLimits,
+    pub(super) limits: MachineLimits,
     pending: VecDeque<MachineEvent>,
     end: Option<MachineEnd>,
-    buffers: Buffers,
+    pub(super) buffers: Buffers,
     touches: Vec<Touch>,
     /// The memory of the last flight.
     spare: Option<MachineFlight>,
-    scratch: Scratch,
+    pub(super) scratch: Scratch,
     /// Events since the time last advanced.
     crowd: u32,
     /// The largest speed of an impact since the structure last came to rest by a chatter.
-    largest_impact: f64,
+    pub(super) largest_impact: f64,
     /// The last step, if steps are recorded.
-    passage: Option<Passage>,
+    pub(super) passage: Option<Passage>,
     recording: bool,
     /// What it did since the last event, if someone looks.
     trail: Option<Vec<Stretch>>,
@@ -59,8 +58,6 @@ pub struct MachineMotion<'a> {
 const CROWD: u32 = 10_000;
 /// The number of windows of a flight after which it is asked whether there is an event at all.
 const PATIENCE: u32 = 512;
-/// A chatter is summed if its first correction is below this part of the sum.
-const SMALL: f64 = 1e-6;
 
 impl<'a> MachineMotion<'a> {
     /// The motion from a start.
@@ -276,95 +273,28 @@ impl<'a> MachineMotion<'a> {
         }
     }
 
-    /// The impacts on the rigid stops `struck`, together with the rigid ones at rest: new velocities, the states of
-    /// contacts that open or close by them, and the rest as candidates. Returns the stops that push; `None` if the law of
-    /// impact has no solution.
-    fn strike(
-        &mut self,
-        struck: &[usize],
-        speeds: &[f64],
-        candidates: &mut Vec<usize>,
-        fixed: &[usize],
-    ) -> Option<Vec<usize>> {
-        let stops = self.machine.stops();
-        let turns = self.place.turns(&self.normal);
-        let resting = |place: &Place, j: usize| place.states[j] == ContactState::Resting && !fixed.contains(&j);
-        let restitution = |j: usize| match stops[j].law {
-            StopLaw::Rigid { restitution } => Some(restitution),
-            StopLaw::Compliant { .. } => None,
-        };
-        // place, velocity of the gap, restitution
-        let at_rest = (0..stops.len()).filter(|j| resting(&self.place, *j)).map(|j| (j, 0.0));
-        let set: Vec<(usize, f64, f64)> = struck
-            .iter()
-            .map(|j| (*j, -speeds[*j]))
-            .chain(at_rest)
-            .filter_map(|(j, rate)| restitution(j).map(|e| (j, rate, e)))
-            .collect();
-        let directions: Vec<&[f64]> = set.iter().map(|(j, ..)| self.normal.directions[*j].as_slice()).collect();
-        let (rates, restitutions): (Vec<f64>, Vec<f64>) = set.iter().map(|(_, rate, e)| (*rate, *e)).unzip();
-        let found = impulses(&directions, &rates, &restitutions)?;
-        let mut after = self.place.v.clone();
-        for (direction, impulse) in directions.iter().zip(&found) {
-            add_scaled(&mut after, -impulse, direction);
-        }
-        let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-        for ((j, before, e), (w, impulse)) in set.iter().zip(directions.iter().zip(&found)) {
-            let rate = before - (dot(w, &after) - dot(w, &self.place.v));
-            candidates.retain(|candidate| candidate != j);
-            // a stop that was pushed opens with the velocity of the law, exactly 0 without restitution
-            let opens = if *impulse > 0.0 {
-                e * before < 0.0
-            } else {
-                let terms = w.iter().zip(&after).map(|(w, v)| (w * v).abs()).sum::<f64>();
-                rate > 16.0 * f64::EPSILON * (size + terms)
-            };
-            if opens {
-                self.place.states[*j] = ContactState::Open;
-                self.place.known.push((GuardKind::Gap(*j), 1));
-            } else {
-                // exactly no velocity, so that the stop does not open by rounding
-                add_scaled(&mut after, rate / dot(w, w), w);
-                candidates.push(*j);
-            }
-        }
-        self.place.v = after;
+    /// Records the state after an event and the rigid stops that push, with their restitution.
+    pub(super) fn record(&mut self, pushed: &[(usize, f64)]) {
         if let Some(passage) = &mut self.passage {
-            let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
-            passage.pushed = pushing.map(|((j, _, e), _)| (*j, *e)).collect();
+            passage.pushed = pushed.to_vec();
+            passage.after = Some(self.place.clone());
         }
-        // an impulse takes a compliant stop at rest off its surface, or into it
-        for j in (0..stops.len()).filter(|j| compliant(&stops[*j].law).is_some()) {
-            if !resting(&self.place, j) {
-                continue;
-            }
-            let (_, rate, _, size) = self.place.gap(&self.normal, &turns, j);
-            candidates.retain(|candidate| *candidate != j);
-            if rate.abs() <= 64.0 * f64::EPSILON * size {
-                candidates.push(j);
-            } else if rate > 0.0 {
-                self.place.states[j] = ContactState::Open;
-                self.place.known.push((GuardKind::Gap(j), 1));
-            } else {
-                self.place.states[j] = ContactState::Closed;
-                self.place.known.push((GuardKind::Depth(j), 1));
-            }
-        }
-        // and changes the velocities of the joints
-        for joint in 0..self.machine.joints().len() {
-            let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
-            let at = stops.len() + joint;
-            candidates.retain(|candidate| *candidate != at);
-            if speed.abs() > 64.0 * f64::EPSILON * size {
-                self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
-            } else {
-                candidates.push(at);
-            }
-        }
-        Some(set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0).map(|((j, ..), _)| *j).collect())
     }
 
-    fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
+    /// Opens a compliant stop.
+    pub(super) fn open(&mut self, kind: GuardKind, j: usize, turns: &[(f64, f64)]) {
+        self.place.states[j] = ContactState::Open;
+        let depth = -self.place.gap(&self.normal, turns, j).0;
+        let mut known = 1;
+        if matches!(kind, GuardKind::Force(_)) && depth > 0.0 {
+            self.place.surfaces[j] = standing_back(&self.machine.stops()[j].law, depth);
+            // the surface leaves the body with the velocity of the body
+            known = 2;
+        }
+        self.place.known.push((GuardKind::Gap(j), known));
+    }
+
+    pub(super) fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
         self.pending.push_back(MachineEvent {
             kind,
             place,
@@ -377,97 +307,8 @@ impl<'a> MachineMotion<'a> {
         });
     }
 
-    /// Sums the chatter on a stop that has just been struck, if its impacts accumulate so soon that the first two terms
-    /// of the sum are exact to rounding (A. B. Nordmark and P. T. Piiroinen, doi:10.1007/s11071-008-9463-y).
-    fn complete(&mut self, j: usize, turns: &[(f64, f64)]) {
-        let StopLaw::Rigid { restitution } = self.machine.stops()[j].law else { return };
-        let rebound = self.place.gap(&self.normal, turns, j).1;
-        if restitution >= 1.0 || rebound <= 0.0 {
-            return;
-        }
-        // the fastest rate of the free motion: the terms that are left out are of its square
-        let Some(free) = self.structures.get(self.machine, &self.normal, &self.place.states) else { return };
-        // the sum over bounces of free bodies under constant forces is exact at any speed: small is what is small beside
-        // the bounces before
-        if free.fastest() == 0.0 && rebound > SMALL * self.largest_impact {
-            return;
-        }
-        self.place.states[j] = ContactState::Resting;
-        let resting = self.structures.get(self.machine, &self.normal, &self.place.states);
-        self.place.states[j] = ContactState::Open;
-        let Some(structure) = resting else { return };
-        let Some(held) = structure.held.iter().position(|place| *place == j) else { return };
-        if self.is_far_from_rest(&structure, held, (rebound, restitution), free.fastest(), turns) {
-            return;
-        }
-        let mut states = self.place.states.clone();
-        states[j] = ContactState::Resting;
-        // the state at rest: the velocity of the gap taken away, the other constraints unchanged
-        let mut there = self.place.clone();
-        add_scaled(&mut there.v, rebound, &structure.across[held]);
-        there.states = states;
-        there.known.retain(|(kind, _)| *kind != GuardKind::Gap(j));
-        let flight = there.flight(&self.normal, structure.clone());
-        let (force, force_rate) = flight.first(&structure.reactions[held]);
-        let (mobility, drag) = structure.mobility[held];
-        let (a, jerk) = (force * mobility, force_rate * mobility);
-        if a <= 0.0 {
-            return;
-        }
-        let k = rebound / a;
-        let r = 1.0 - restitution;
-        let first = 2.0 * k / r;
-        let second = -2.0 * (jerk / a * k + 0.5 * drag * k) / (3.0 * r);
-        if second.abs() > SMALL || first * free.fastest().max(drag) > 10.0 * SMALL {
-            return;
-        }
-        let duration = first * (1.0 + second);
-        let mut touches = Vec::new();
-        // the rebound ends on this stop again, so all later ones, which are smaller, do
-        let rebound = self.place.flight(&self.normal, free.clone());
-        let next = first_event(&rebound, duration, self.limits.steps, &mut self.buffers, &mut touches);
-        let again = |guards: &[usize]| matches!(guards, [g] if free.guards[*g].kind == GuardKind::Gap(j));
-        if !matches!(next, Found::Zero { ref guards, .. } if again(guards)) {
-            return;
-        }
-        let Found::NoneBefore(_) = first_event(&flight, duration, self.limits.steps, &mut self.buffers, &mut touches)
-        else {
-            return;
-        };
-        self.place = there;
-        // the state at rest is that after an impact without rebound
-        self.record(&[(j, 0.0)]);
-        if let Some(passage) = &mut self.passage {
-            passage.rest = Some((flight.structure.clone(), duration));
-        }
-        self.move_to(&flight, duration);
-        self.announce(MachineEventKind::Stick, j, 0.0, Vec::new());
-        self.largest_impact = 0.0;
-    }
-
-    /// Whether a chatter is far from its end, by the reaction at rest here: a first test without a flight.
-    fn is_far_from_rest(
-        &mut self,
-        structure: &Structure,
-        held: usize,
-        (rebound, restitution): (f64, f64),
-        fastest: f64,
-        turns: &[(f64, f64)],
-    ) -> bool {
-        if !self.machine.joints().is_empty() {
-            return false;
-        }
-        let v = &mut self.scratch.v;
-        v.clone_from(&self.place.v);
-        add_scaled(v, rebound, &structure.across[held]);
-        let (mobility, drag) = structure.mobility[held];
-        let a = mobility * structure.reaction_at(held, &self.place.x, v, turns);
-        let first = 2.0 * rebound / (a * (1.0 - restitution));
-        a <= 0.0 || first * fastest.max(drag) > 11.0 * SMALL
-    }
-
     /// Moves the state to a time after the beginning of a flight.
-    fn move_to(&mut self, flight: &MachineFlight, s: f64) {
+    pub(super) fn move_to(&mut self, flight: &MachineFlight, s: f64) {
         if let Some(trail) = self.trail.as_mut().filter(|_| s > 0.0) {
             let (begin, place, flight) = (self.time, self.place.clone(), flight.clone());
             follow(trail, Stretch { begin, duration: s, place, flight });
@@ -674,76 +515,6 @@ impl<'a> MachineMotion<'a> {
             }
         }
         self.change(&before, &closing, candidates, &fixed);
-    }
-}
-
-/// Events that change one stop and nothing else: no joint is there, and nothing rests. They are what most motions consist
-/// of; the general way above does the same with them.
-impl MachineMotion<'_> {
-    /// Whether the event at this guard was one of them.
-    fn happen_alone(&mut self, kind: GuardKind) -> bool {
-        let turns = self.place.turns(&self.normal);
-        match kind {
-            GuardKind::Gap(j) => {
-                let (gap, rate, ..) = self.place.gap(&self.normal, &turns, j);
-                let speed = (-rate).max(0.0);
-                let w = &self.normal.directions[j];
-                let square = dot(w, w);
-                match self.machine.stops()[j].law {
-                    StopLaw::Rigid { restitution } => {
-                        if restitution * speed <= 0.0 {
-                            return false;
-                        }
-                        // on the stop exactly, without the rounding error of the time
-                        add_scaled(&mut self.place.x, gap / square, w);
-                        let impulse = -((1.0 + restitution) * -speed) / square;
-                        add_scaled(&mut self.place.v, -impulse, w);
-                        self.largest_impact = self.largest_impact.max(speed);
-                        self.place.known.push((GuardKind::Gap(j), 1));
-                        self.record(&[(j, restitution)]);
-                        self.announce(MachineEventKind::Impact, j, speed, Vec::new());
-                        self.complete(j, &turns);
-                    }
-                    StopLaw::Compliant { .. } => {
-                        if self.place.surfaces[j].take().is_none() {
-                            add_scaled(&mut self.place.x, gap / square, w);
-                            self.place.known.push((GuardKind::Depth(j), 1));
-                        }
-                        self.place.states[j] = ContactState::Closed;
-                        self.record(&[]);
-                        self.announce(MachineEventKind::Close, j, speed, Vec::new());
-                    }
-                }
-            }
-            GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
-                self.open(kind, j, &turns);
-                self.record(&[]);
-                self.announce(MachineEventKind::Open, j, 0.0, Vec::new());
-            }
-            _ => return false,
-        }
-        true
-    }
-
-    /// Records the state after an event and the rigid stops that push, with their restitution.
-    fn record(&mut self, pushed: &[(usize, f64)]) {
-        if let Some(passage) = &mut self.passage {
-            passage.pushed = pushed.to_vec();
-            passage.after = Some(self.place.clone());
-        }
-    }
-
-    /// Opens a compliant stop.
-    fn open(&mut self, kind: GuardKind, j: usize, turns: &[(f64, f64)]) {
-        self.place.states[j] = ContactState::Open;
-        let depth = -self.place.gap(&self.normal, turns, j).0;
-        let mut known = 1;
-        if matches!(kind, GuardKind::Force(_)) && depth > 0.0 {
-            self.place.surfaces[j] = standing_back(&self.machine.stops()[j].law, depth);
-            // the surface leaves the body with the velocity of the body
-            known = 2;
-        }
-        self.place.known.push((GuardKind::Gap(j), known));
     }
 }
 

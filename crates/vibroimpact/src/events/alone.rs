@@ -1,0 +1,55 @@
+//! Events that change one stop and nothing else: no joint is there, and nothing rests. They are what most motions consist
+//! of; the general way (`motion`, `strike`) does the same with them.
+
+use super::event::MachineEventKind;
+use super::motion::MachineMotion;
+use crate::machine::StopLaw;
+use crate::math::{add_scaled, dot};
+use crate::regime::{ContactState, GuardKind};
+
+impl MachineMotion<'_> {
+    /// Whether the event at this guard was one of them.
+    pub(super) fn happen_alone(&mut self, kind: GuardKind) -> bool {
+        let turns = self.place.turns(&self.normal);
+        match kind {
+            GuardKind::Gap(j) => {
+                let (gap, rate, ..) = self.place.gap(&self.normal, &turns, j);
+                let speed = (-rate).max(0.0);
+                let w = &self.normal.directions[j];
+                let square = dot(w, w);
+                match self.machine.stops()[j].law {
+                    StopLaw::Rigid { restitution } => {
+                        if restitution * speed <= 0.0 {
+                            return false;
+                        }
+                        // on the stop exactly, without the rounding error of the time
+                        add_scaled(&mut self.place.x, gap / square, w);
+                        let impulse = -((1.0 + restitution) * -speed) / square;
+                        add_scaled(&mut self.place.v, -impulse, w);
+                        self.largest_impact = self.largest_impact.max(speed);
+                        self.place.known.push((GuardKind::Gap(j), 1));
+                        self.record(&[(j, restitution)]);
+                        self.announce(MachineEventKind::Impact, j, speed, Vec::new());
+                        self.complete(j, &turns);
+                    }
+                    StopLaw::Compliant { .. } => {
+                        if self.place.surfaces[j].take().is_none() {
+                            add_scaled(&mut self.place.x, gap / square, w);
+                            self.place.known.push((GuardKind::Depth(j), 1));
+                        }
+                        self.place.states[j] = ContactState::Closed;
+                        self.record(&[]);
+                        self.announce(MachineEventKind::Close, j, speed, Vec::new());
+                    }
+                }
+            }
+            GuardKind::Depth(j) | GuardKind::Force(j) if self.place.states[j] == ContactState::Closed => {
+                self.open(kind, j, &turns);
+                self.record(&[]);
+                self.announce(MachineEventKind::Open, j, 0.0, Vec::new());
+            }
+            _ => return false,
+        }
+        true
+    }
+}

@@ -1,0 +1,98 @@
+//! Impacts on rigid stops, and what they do to all contacts.
+
+use super::impulses::impulses;
+use super::motion::MachineMotion;
+use super::place::Place;
+use crate::machine::StopLaw;
+use crate::math::{add_scaled, dot};
+use crate::regime::{ContactState, GuardKind, compliant};
+
+impl MachineMotion<'_> {
+    /// The impacts on the rigid stops `struck`, together with the rigid ones at rest: new velocities, the states of
+    /// contacts that open or close by them, and the rest as candidates. Returns the stops that push; `None` if the law of
+    /// impact has no solution.
+    pub(super) fn strike(
+        &mut self,
+        struck: &[usize],
+        speeds: &[f64],
+        candidates: &mut Vec<usize>,
+        fixed: &[usize],
+    ) -> Option<Vec<usize>> {
+        let stops = self.machine.stops();
+        let turns = self.place.turns(&self.normal);
+        let resting = |place: &Place, j: usize| place.states[j] == ContactState::Resting && !fixed.contains(&j);
+        let restitution = |j: usize| match stops[j].law {
+            StopLaw::Rigid { restitution } => Some(restitution),
+            StopLaw::Compliant { .. } => None,
+        };
+        // place, velocity of the gap, restitution
+        let at_rest = (0..stops.len()).filter(|j| resting(&self.place, *j)).map(|j| (j, 0.0));
+        let set: Vec<(usize, f64, f64)> = struck
+            .iter()
+            .map(|j| (*j, -speeds[*j]))
+            .chain(at_rest)
+            .filter_map(|(j, rate)| restitution(j).map(|e| (j, rate, e)))
+            .collect();
+        let directions: Vec<&[f64]> = set.iter().map(|(j, ..)| self.normal.directions[*j].as_slice()).collect();
+        let (rates, restitutions): (Vec<f64>, Vec<f64>) = set.iter().map(|(_, rate, e)| (*rate, *e)).unzip();
+        let found = impulses(&directions, &rates, &restitutions)?;
+        let mut after = self.place.v.clone();
+        for (direction, impulse) in directions.iter().zip(&found) {
+            add_scaled(&mut after, -impulse, direction);
+        }
+        let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        for ((j, before, e), (w, impulse)) in set.iter().zip(directions.iter().zip(&found)) {
+            let rate = before - (dot(w, &after) - dot(w, &self.place.v));
+            candidates.retain(|candidate| candidate != j);
+            // a stop that was pushed opens with the velocity of the law, exactly 0 without restitution
+            let opens = if *impulse > 0.0 {
+                e * before < 0.0
+            } else {
+                let terms = w.iter().zip(&after).map(|(w, v)| (w * v).abs()).sum::<f64>();
+                rate > 16.0 * f64::EPSILON * (size + terms)
+            };
+            if opens {
+                self.place.states[*j] = ContactState::Open;
+                self.place.known.push((GuardKind::Gap(*j), 1));
+            } else {
+                // exactly no velocity, so that the stop does not open by rounding
+                add_scaled(&mut after, rate / dot(w, w), w);
+                candidates.push(*j);
+            }
+        }
+        self.place.v = after;
+        if let Some(passage) = &mut self.passage {
+            let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
+            passage.pushed = pushing.map(|((j, _, e), _)| (*j, *e)).collect();
+        }
+        // an impulse takes a compliant stop at rest off its surface, or into it
+        for j in (0..stops.len()).filter(|j| compliant(&stops[*j].law).is_some()) {
+            if !resting(&self.place, j) {
+                continue;
+            }
+            let (_, rate, _, size) = self.place.gap(&self.normal, &turns, j);
+            candidates.retain(|candidate| *candidate != j);
+            if rate.abs() <= 64.0 * f64::EPSILON * size {
+                candidates.push(j);
+            } else if rate > 0.0 {
+                self.place.states[j] = ContactState::Open;
+                self.place.known.push((GuardKind::Gap(j), 1));
+            } else {
+                self.place.states[j] = ContactState::Closed;
+                self.place.known.push((GuardKind::Depth(j), 1));
+            }
+        }
+        // and changes the velocities of the joints
+        for joint in 0..self.machine.joints().len() {
+            let (speed, size) = self.place.sliding(self.machine, &self.normal, joint);
+            let at = stops.len() + joint;
+            candidates.retain(|candidate| *candidate != at);
+            if speed.abs() > 64.0 * f64::EPSILON * size {
+                self.place.states[at] = if speed > 0.0 { ContactState::Forward } else { ContactState::Backward };
+            } else {
+                candidates.push(at);
+            }
+        }
+        Some(set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0).map(|((j, ..), _)| *j).collect())
+    }
+}
