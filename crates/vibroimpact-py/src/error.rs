@@ -12,6 +12,7 @@ use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::{PyErr, create_exception};
 use vibroimpact::SystemError;
 use vibroimpact::verdict::LabelError;
+use vibroimpact_report::AnswerError;
 use vibroimpact_study::{PlanError, RunError, Stopped};
 
 create_exception!(
@@ -99,6 +100,16 @@ impl From<RunError> for Trouble {
         match error {
             RunError::Plan(error) => error.into(),
             RunError::Stopped(stopped) => stopped.into(),
+        }
+    }
+}
+
+impl From<AnswerError> for Trouble {
+    fn from(error: AnswerError) -> Self {
+        match error {
+            AnswerError::Plan(error) => error.into(),
+            AnswerError::Stopped(stopped) => stopped.into(),
+            AnswerError::Report(error) => Self::Question(error.to_string()),
         }
     }
 }
