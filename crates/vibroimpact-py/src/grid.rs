@@ -3,7 +3,7 @@
 use crate::columns::column;
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::plan::{points, read};
+use crate::plan::{points, read_any};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
@@ -17,7 +17,7 @@ pub(crate) struct Variable<'py> {
     name: String,
     dimensions: Vec<(String, usize)>,
     values: Bound<'py, PyAny>,
-    long_name: &'static str,
+    long_name: String,
     units: &'static str,
     scale: &'static str,
     comment: &'static str,
@@ -53,14 +53,14 @@ fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
         dimensions: vec![(along.dimension, along.values.len())],
         name: along.name,
         values: along.values.into_pyarray(py).into_any(),
-        long_name: along.long_name,
+        long_name: along.long_name.into_owned(),
         units: along.unit.name,
         scale: along.unit.scale,
         comment: "",
         flags: Vec::new(),
     });
     let fields = sheet.fields.into_iter().zip(sheet.columns).map(|(field, values)| Variable {
-        name: field.name.to_owned(),
+        name: field.name.clone().into_owned(),
         dimensions: grid
             .iter()
             .cloned()
@@ -68,7 +68,7 @@ fn variables(py: Python<'_>, sheet: Sheet) -> PyResult<Variables<'_>> {
             .collect(),
         flags: flags(&field, &values),
         values: array(py, values),
-        long_name: field.long_name,
+        long_name: field.long_name.into_owned(),
         units: field.unit.name,
         scale: field.unit.scale,
         comment: field.comment,
@@ -88,7 +88,7 @@ fn of_table(py: Python<'_>, table: StudyTable) -> PyResult<Variable<'_>> {
             Cells::Numbers(values) => array(py, values),
             Cells::Text(words) => words.into_pyobject(py)?.into_any(),
         },
-        long_name: table.long_name,
+        long_name: table.long_name.to_owned(),
         units: table.unit.name,
         scale: table.unit.scale,
         comment: "",
@@ -104,7 +104,7 @@ pub(crate) fn fill<'py>(
     threads: usize,
     progress: Option<Py<PyAny>>,
 ) -> Result<Variables<'py>, Trouble> {
-    let plan = read(plan)?;
+    let plan = read_any(plan)?;
     let watch = Watch { what: "computing a study", total: points(&plan), progress, threads };
     let sheet = door::run(py, watch, move |control| Ok(in_memory(Study::new(&plan)?, control)?))?;
     Ok(variables(py, sheet)?)

@@ -4,7 +4,7 @@ use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::machine::{MachineFile, Start, start};
 use pyo3::prelude::*;
-use vibroimpact_study::{MachinePlan, MachineResults, MachineTask};
+use vibroimpact_study::{MachineMotion, MachinePlan, MachineResults, MachineTask};
 
 /// The labels and the shares at each point of a map.
 type Cells = Vec<Vec<(String, f64)>>;
@@ -34,6 +34,8 @@ pub(crate) fn machine_answer(
     door::run(py, watch, move |control| {
         let answer = vibroimpact_report::machine_answer("", &plan, control)?;
         let json = answer.json();
-        Ok((json, if let MachineResults::Map(found) = answer.results { Some(found.cells) } else { None }))
+        let MachineResults::Map(found) = answer.results else { return Ok((json, None)) };
+        let row = |cell: Vec<MachineMotion>| cell.into_iter().map(|motion| (motion.label(), motion.share)).collect();
+        Ok((json, Some(found.cells.into_iter().map(row).collect())))
     })
 }

@@ -5,7 +5,7 @@ use crate::oscillator::Oscillator;
 use pyo3::prelude::*;
 use std::collections::HashMap;
 use vibroimpact::PhysicalParameter;
-use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, Task};
+use vibroimpact_study::{Axis, Coordinate, Parameter, Plan, PlanError, StartPlan, StudyPlan, Task, is_machine_plan};
 
 /// The plan of a text.
 pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
@@ -21,19 +21,33 @@ pub(crate) fn read(text: &str) -> Result<Plan, Trouble> {
     Ok(plan)
 }
 
-/// Number of points of the grid of a plan; 0 for a plan without a grid.
-pub(crate) fn points(plan: &Plan) -> u64 {
-    match &plan.task {
-        Task::Lyapunov(lyapunov) => lyapunov.axes.iter().map(|axis| axis.over.count() as u64).product(),
-        Task::Region(_) => 0,
-        _ => plan.work().map_or(0, |(points, _)| points),
+/// The plan of a text, which may be one of a machine.
+pub(crate) fn read_any(text: &str) -> Result<StudyPlan, Trouble> {
+    if !is_machine_plan(text) {
+        return read(text).map(|plan| StudyPlan::from(&plan));
     }
+    let plan = StudyPlan::from_json(text)?;
+    plan.check()?;
+    Ok(plan)
+}
+
+/// Number of points of the grid of a plan; 0 for a plan without a grid.
+pub(crate) fn points(plan: &StudyPlan) -> u64 {
+    let work = match plan {
+        StudyPlan::Machine(plan) => plan.work(),
+        StudyPlan::Oscillator(plan) => match &plan.task {
+            Task::Lyapunov(lyapunov) => return lyapunov.axes.iter().map(|axis| axis.over.count() as u64).product(),
+            Task::Region(_) => None,
+            _ => plan.work(),
+        },
+    };
+    work.map_or(0, |(points, _)| points)
 }
 
 /// The plan in the form in which it is stored, its hash, its title, and the number of points of its grid.
 #[pyfunction]
 pub(crate) fn checked_plan(text: &str) -> Result<(String, String, String, u64), Trouble> {
-    let plan = read(text)?;
+    let plan = read_any(text)?;
     Ok((crate::simulate::text(&plan)?, plan.hash(), plan.title(), points(&plan)))
 }
 

@@ -7,6 +7,7 @@ use crate::motion::HorizonFields;
 use crate::oscillator::Oscillator;
 use numpy::PyArray1;
 use pyo3::prelude::*;
+use serde::Serialize;
 use vibroimpact::motion::{EventKind, sample};
 use vibroimpact_study::{Plan, Results, StartPlan, Task};
 
@@ -38,7 +39,7 @@ pub(crate) const fn start_plan((x, v, phase): StartArgument) -> StartPlan {
 }
 
 /// The plan as JSON.
-pub(crate) fn text(plan: &Plan) -> Result<String, Trouble> {
+pub(crate) fn text(plan: &impl Serialize) -> Result<String, Trouble> {
     serde_json::to_string(plan).map_err(|_| Trouble::Defect("writing the plan"))
 }
 

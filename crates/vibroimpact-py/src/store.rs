@@ -2,7 +2,7 @@
 
 use crate::door::{self, Watch};
 use crate::error::Trouble;
-use crate::plan::read;
+use crate::plan::read_any;
 use crate::simulate::text;
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -62,7 +62,7 @@ impl Store {
     #[new]
     #[pyo3(signature = (place, plan=None))]
     fn new(py: Python<'_>, place: String, plan: Option<&str>) -> Result<Self, Trouble> {
-        let plan = plan.map(read).transpose()?;
+        let plan = plan.map(read_any).transpose()?;
         let store = door::run(py, Watch::alone("opening a store"), move |_| {
             let shelf = place_of(&place)?;
             Ok(match plan {

@@ -7,6 +7,7 @@ use vibroimpact::machine::Machine;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::MachineVerdict;
 use vibroimpact_plot::Figure;
+use vibroimpact_study::machine::MachineSource;
 use vibroimpact_study::{Control, MachinePlan, MachineResults, MachineTask, PlanError, run_machine};
 
 /// The largest number of characters of a title over an axis of ordinary width.
@@ -38,6 +39,15 @@ pub fn machine_answer(name: &str, plan: &MachinePlan, control: &Control<'_>) -> 
     Ok(MachineAnswer { name: name.to_owned(), plan: plan.clone(), machine, start, results })
 }
 
+/// The title of a figure of ordinary width: that of the machine file. A long title is cut at its first colon, or replaced
+/// by `name`.
+pub(crate) fn machine_title(machine: &MachineSource, name: &str) -> String {
+    let title = machine.title.as_deref().unwrap_or(name);
+    let part = title.split_once(": ").map_or(title, |(part, _)| part);
+    let fits = [title, part, name].into_iter().find(|text| text.chars().count() <= TITLE);
+    vibroimpact_plot::plain(fits.unwrap_or(name))
+}
+
 impl MachineAnswer {
     /// The line that the command prints with `--json`, without the line break.
     #[must_use]
@@ -52,20 +62,12 @@ impl MachineAnswer {
         self.plan.machine.title.clone().unwrap_or_else(|| self.name.clone())
     }
 
-    /// The title of a figure of ordinary width: a long title is cut at its first colon, or replaced by the name.
-    fn short_title(&self) -> String {
-        let title = self.title();
-        let part = title.split_once(": ").map_or(title.as_str(), |(part, _)| part);
-        let fits = [title.as_str(), part, &self.name].into_iter().find(|text| text.chars().count() <= TITLE);
-        vibroimpact_plot::plain(fits.unwrap_or(&self.name))
-    }
-
     /// The figure that the command draws with `--plot`; `None` for a task without one.
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn.
     pub fn figure(&self) -> Result<Option<Figure>, AnswerError> {
-        let title = self.short_title();
+        let title = machine_title(&self.plan.machine, &self.name);
         Ok(Some(match &self.results {
             MachineResults::Simulate(found) => {
                 let title = vibroimpact_plot::plain(&self.title());

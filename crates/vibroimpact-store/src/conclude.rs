@@ -42,7 +42,7 @@ impl Store {
         let mut labelled = Vec::new();
         for (number, field) in self.layout.fields.iter().enumerate().filter(|(_, field)| field.name == "label") {
             let array = array_of(field, &self.layout.grid, &self.labels(number)?);
-            labelled.push((number, array.map_err(|why| self.defect(field.name, why))?));
+            labelled.push((number, array.map_err(|why| self.defect(&field.name, why))?));
         }
         let array = |table: StudyTable| match array_of_table(&table) {
             Ok(array) => Ok((array, table.values)),

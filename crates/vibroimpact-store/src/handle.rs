@@ -3,8 +3,7 @@
 use crate::layout::Layout;
 use crate::shelf::Shelf;
 use std::sync::Arc;
-use vibroimpact_study::Plan;
-use vibroimpact_study::study::Study;
+use vibroimpact_study::study::{Study, StudyPlan};
 
 /// The version of the format of stores. A store with a later format is refused.
 pub const FORMAT: u64 = 1;
@@ -14,7 +13,7 @@ pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// A study and the place where it is stored.
 pub struct Store {
     pub(crate) shelf: Arc<dyn Shelf>,
-    pub(crate) plan: Plan,
+    pub(crate) plan: StudyPlan,
     pub(crate) study: Study,
     pub(crate) layout: Layout,
     /// The version that began it.

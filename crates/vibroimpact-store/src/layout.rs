@@ -30,7 +30,9 @@ fn text(value: &str) -> Value {
 fn attributes(long_name: &str, unit: Unit, comment: &str, flags: &[(i32, String)]) -> Map<String, Value> {
     let mut map = Map::new();
     map.insert("long_name".into(), text(long_name));
-    map.insert("units".into(), text(unit.name));
+    if !unit.name.is_empty() {
+        map.insert("units".into(), text(unit.name));
+    }
     if !unit.scale.is_empty() {
         map.insert("scale".into(), text(unit.scale));
     }
@@ -52,11 +54,11 @@ pub(crate) fn array_of(field: &Field, grid: &Grid, more: &[(i32, String)]) -> Re
     let own = field.flags.iter().map(|(value, meaning)| (*value, (*meaning).to_owned()));
     let flags: Vec<(i32, String)> = own.chain(more.iter().cloned()).collect();
     Chunked::new(Description {
-        name: field.name,
+        name: &field.name,
         kind: Holds::Numbers(field.kind),
         fill: field.fill,
         dimensions,
-        attributes: attributes(field.long_name, field.unit, field.comment, &flags),
+        attributes: attributes(&field.long_name, field.unit, field.comment, &flags),
     })
 }
 
@@ -97,7 +99,7 @@ impl Layout {
                 kind: Holds::Numbers(NumberType::F64),
                 fill: 0,
                 dimensions: vec![(along.dimension.clone(), count, count)],
-                attributes: attributes(along.long_name, along.unit, "", &[]),
+                attributes: attributes(&along.long_name, along.unit, "", &[]),
             })?;
             Ok((array, Cells::Numbers(Column::F64(along.values))))
         };

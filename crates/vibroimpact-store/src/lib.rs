@@ -64,8 +64,8 @@ use serde_json::Value;
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
-use vibroimpact_study::study::{Cells, Study};
-use vibroimpact_study::{Column, Plan};
+use vibroimpact_study::Column;
+use vibroimpact_study::study::{Cells, Study, StudyPlan};
 
 /// The shelf at a place: a folder or `s3://bucket/prefix`.
 ///
@@ -103,8 +103,8 @@ impl Store {
     /// # Errors
     /// [`StoreError`] for a plan that is invalid or has no grid, a place that cannot be used, or a store of another
     /// plan.
-    pub fn create(shelf: Arc<dyn Shelf>, plan: &Plan) -> Result<Self, StoreError> {
-        let plan = &plan.canonical()?;
+    pub fn create(shelf: Arc<dyn Shelf>, plan: impl Into<StudyPlan>) -> Result<Self, StoreError> {
+        let plan = &plan.into().canonical()?;
         let store = Self::over(shelf, plan, VERSION.to_owned())?;
         let mut fresh = false;
         match store.root() {
@@ -151,7 +151,7 @@ impl Store {
         let place = shelf.name();
         let root = read_root(shelf.as_ref())?;
         let found = Found::of(&root, &place)?;
-        let plan: Plan = serde_json::from_str(&found.plan).map_err(|error| StoreError::Damaged {
+        let plan = StudyPlan::from_json(&found.plan).map_err(|error| StoreError::Damaged {
             place,
             key: ROOT.into(),
             why: format!("its plan does not read: {error}"),
@@ -166,7 +166,7 @@ impl Store {
         Ok(store)
     }
 
-    fn over(shelf: Arc<dyn Shelf>, plan: &Plan, begun_by: String) -> Result<Self, StoreError> {
+    fn over(shelf: Arc<dyn Shelf>, plan: &StudyPlan, begun_by: String) -> Result<Self, StoreError> {
         let study = Study::new(plan)?;
         let layout = Layout::new(&study).map_err(|why| StoreError::Unreachable { place: shelf.name(), why })?;
         Ok(Self { shelf, plan: plan.clone(), study, layout, begun_by })
@@ -174,7 +174,7 @@ impl Store {
 
     /// The plan of the study.
     #[must_use]
-    pub const fn plan(&self) -> &Plan {
+    pub const fn plan(&self) -> &StudyPlan {
         &self.plan
     }
 

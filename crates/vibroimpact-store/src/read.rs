@@ -1,13 +1,13 @@
 //! The contents of a store as arrays in memory, for figures and tables.
 
 use crate::{Store, StoreError};
-use vibroimpact_study::study::StudyArrays;
-use vibroimpact_study::{Block, Column, Plan, Study};
+use vibroimpact_study::study::{StudyArrays, StudyPlan};
+use vibroimpact_study::{Block, Column, Study};
 
 impl StudyArrays for Store {
     type Error = StoreError;
 
-    fn plan(&self) -> &Plan {
+    fn plan(&self) -> &StudyPlan {
         self.plan()
     }
 

@@ -1,6 +1,7 @@
 //! The arrays of a study over its grid, with their types, descriptions and units.
 
 use crate::unit::Unit;
+use std::borrow::Cow;
 
 /// The type of the numbers of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,9 +27,9 @@ pub struct Extra {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// Its name.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// One line of text that describes it.
-    pub long_name: &'static str,
+    pub long_name: Cow<'static, str>,
     /// Its unit.
     pub unit: Unit,
     /// The type of its numbers.
@@ -142,8 +143,8 @@ mod tests {
     #[test]
     fn empty_columns_hold_the_fill() {
         let field = Field {
-            name: "label",
-            long_name: "",
+            name: "label".into(),
+            long_name: "".into(),
             unit: Unit::NUMBER,
             kind: NumberType::I32,
             fill: -9,

@@ -87,8 +87,8 @@ pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineAxis, MachineBasin, MachineBranched, MachineFollowed, MachineMap, MachinePlan, MachineResults,
-    MachineSimulated, MachineTask, is_machine_plan, run_machine,
+    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranched, MachineFollowed, MachineMap, MachineMapPlan,
+    MachineMotion, MachinePlan, MachineResults, MachineSimulated, MachineTask, is_machine_plan, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{
@@ -105,7 +105,7 @@ pub use run::{Results, run};
 pub use simulate::Simulated;
 pub use span::Span;
 pub use stretch::Stretch;
-pub use study::Study;
+pub use study::{Study, StudyPlan};
 pub use system::{SecondStop, StartPlan, SystemPlan};
 pub use unit::Unit;
 pub use units::{FramePlan, UnitsPlan, natural_hertz};

@@ -36,6 +36,22 @@ pub struct Plan {
 /// Maximum number of points of a tile along one axis.
 const MOST_TILE: u32 = 4096;
 
+/// The first 16 digits of the SHA-256 of a plan as JSON.
+pub(crate) fn hash_of(plan: &impl Serialize) -> String {
+    use sha2::{Digest, Sha256};
+    // finite numbers and texts can always be written as JSON
+    let text = serde_json::to_vec(plan).unwrap_or_default();
+    Sha256::digest(text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Checks the number of points of a tile along one axis.
+pub(crate) fn check_tile(tile: Option<u32>) -> Result<(), PlanError> {
+    match tile.filter(|tile| !(1..=MOST_TILE).contains(tile)) {
+        Some(given) => Err(PlanError::Tile { given, most: MOST_TILE }),
+        None => Ok(()),
+    }
+}
+
 impl Plan {
     /// A plan of the current version.
     #[must_use]
@@ -46,10 +62,7 @@ impl Plan {
     /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
     #[must_use]
     pub fn hash(&self) -> String {
-        use sha2::{Digest, Sha256};
-        // finite numbers and texts can always be written as JSON
-        let text = serde_json::to_vec(self).unwrap_or_default();
-        Sha256::digest(text).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+        hash_of(self)
     }
 
     /// A title in words.
@@ -110,9 +123,7 @@ impl Plan {
             return Err(PlanError::Version(self.version));
         }
         let osc = self.system.oscillator()?;
-        if let Some(given) = self.tile.filter(|tile| !(1..=MOST_TILE).contains(tile)) {
-            return Err(PlanError::Tile { given, most: MOST_TILE });
-        }
+        check_tile(self.tile)?;
         if let Some(units) = &self.units {
             units.check(&self.system)?;
         }

@@ -69,8 +69,8 @@ impl schemars::JsonSchema for Names {
 /// The field of a quantity, with these dimensions in addition to those of the grid.
 pub(crate) fn field(quantity: Quantity, extra: Vec<Extra>) -> Field {
     Field {
-        name: quantity.name(),
-        long_name: quantity.description(),
+        name: quantity.name().into(),
+        long_name: quantity.description().into(),
         unit: Unit::nondimensional(quantity.kind()),
         kind: NumberType::F64,
         fill: 0,

@@ -8,7 +8,7 @@ use vibroimpact::system::{PhysicalParameter, QuantityKind};
 /// The unit of the numbers of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// Its name in the notation of UDUNITS; `1` for pure and nondimensional numbers.
+    /// Its name in the notation of UDUNITS; `1` for pure and nondimensional numbers; empty if it is unknown.
     pub name: &'static str,
     /// The scale of a nondimensional number, made of the force amplitude `F`, the stiffness `k`, the mass `m` and the
     /// natural frequency `omega_n`; empty for pure numbers and in physical units.
@@ -22,6 +22,8 @@ impl Unit {
     pub const ANGLE: Self = Self { name: "rad", scale: "" };
     /// A nondimensional time.
     pub const TIME: Self = Self { name: "1", scale: "1/omega_n" };
+    /// A number of a machine, whose file is in one consistent system of units that it does not name.
+    pub const CONSISTENT: Self = Self { name: "", scale: "the consistent units of the machine" };
     /// A nondimensional length.
     pub const LENGTH: Self = Self::nondimensional(QuantityKind::Length);
     /// A nondimensional velocity.

@@ -69,11 +69,11 @@ pub(crate) fn pack(sheet: &Sheet) -> Vec<u8> {
         computed: 1.0,
     };
     for (field, column) in sheet.fields.iter().zip(&sheet.columns) {
-        if !DRAWN.contains(&field.name) {
+        if !DRAWN.contains(&field.name.as_ref()) {
             continue;
         }
         header.fields.push(place(field, column, &mut body));
-        match (field.name, column) {
+        match (field.name.as_ref(), column) {
             ("label", Column::I32(codes)) => header.labels = labels(codes),
             ("computed", Column::I8(how)) => {
                 #[allow(clippy::cast_precision_loss)] // a screen full
@@ -108,7 +108,7 @@ fn place<'a>(field: &'a Field, column: &Column, body: &mut Vec<u8>) -> Place<'a>
             "f64"
         }
     };
-    Place { name: field.name, kind, per_point: field.width(), offset, length: column.len() }
+    Place { name: &field.name, kind, per_point: field.width(), offset, length: column.len() }
 }
 
 fn labels(codes: &[i32]) -> BTreeMap<i32, Named> {

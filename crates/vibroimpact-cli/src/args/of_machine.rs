@@ -1,12 +1,13 @@
 //! A machine instead of an oscillator, its start, and the axes of its grids.
 
+use super::ranged::Ranged;
 use super::{SetArgs, number};
 use crate::failure::Failure;
 use crate::machine_file;
 use clap::Args;
 use core::str::FromStr;
 use vibroimpact_study::machine::{MachineSource, NumberText, StartText, VectorText};
-use vibroimpact_study::{MachineAxis, Span};
+use vibroimpact_study::{MachineAxis, Span, Values};
 
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Machine")]
@@ -34,7 +35,8 @@ pub(crate) struct StartOfMachineArgs {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Machine")]
 pub(crate) struct MachineAxesArgs {
-    /// What varies over a machine, once for each axis: the path of a number, or q.NAME, qdot.NAME and phase of the start
+    /// What varies over a machine, once for each axis: the path of a number, or q.NAME, qdot.NAME and phase of the start; A:B:N is N
+    /// values from A to B, A:B:N:log is N values in equal ratios, and A,B,C is a list
     #[arg(long, value_name = "PATH=A:B:N", allow_hyphen_values = true, requires = "machine")]
     axis: Vec<AxisFlag>,
 }
@@ -49,7 +51,11 @@ impl FromStr for AxisFlag {
     fn from_str(text: &str) -> Result<Self, String> {
         let (vary, over) =
             text.split_once('=').ok_or("an axis is PATH=A:B:N, for example stop.wall.gap=0:2:41".to_owned())?;
-        let over: Span = over.parse().map_err(|error: vibroimpact_study::PlanError| error.to_string())?;
+        let over = match over.parse() {
+            Ok(Ranged::Over(values)) => values,
+            // one value, or the ends of a range: the error of a range says what is missing
+            _ => Values::Span(over.parse::<Span>().map_err(|error| error.to_string())?),
+        };
         Ok(Self(MachineAxis { vary: vary.trim().to_owned(), over }))
     }
 }

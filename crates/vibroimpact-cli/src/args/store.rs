@@ -16,7 +16,7 @@ pub(crate) struct StoreArgs {
 
     /// Points of a tile along each axis, 1 to 4096 [default: by task]
     #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "store")]
-    tile: Option<u32>,
+    pub(crate) tile: Option<u32>,
 }
 
 impl StoreArgs {

@@ -11,7 +11,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
-use vibroimpact_study::{BasinPlan, MachineTask, Plan, Span, Task};
+use vibroimpact_study::{BasinPlan, MachineBasinPlan, MachineTask, Plan, Span, Task};
 
 /// Which motion each start of a plane of positions and velocities leads to
 ///
@@ -95,8 +95,11 @@ pub(crate) struct Basin {
 pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, args.phase));
-    let task = || Ok(MachineTask::Basin { axes: args.axes.axes(), impacts: args.impacts });
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, session) {
+    let task = || {
+        let (axes, refine, impacts) = (args.axes.axes(), args.refine, args.impacts);
+        Ok(MachineTask::Basin(MachineBasinPlan { axes, refine, impacts }))
+    };
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, Some(&args.store), session) {
         return answer;
     }
     let (Some(x), Some(v)) = (&args.x, &args.v) else {

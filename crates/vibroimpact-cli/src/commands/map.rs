@@ -10,7 +10,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::PathBuf;
 use vibroimpact_report::{Asked, Shown};
-use vibroimpact_study::{MachineTask, MapPlan, Plan, Task};
+use vibroimpact_study::{MachineMapPlan, MachineTask, MapPlan, Plan, Task};
 
 /// Which motions exist at each point of a plane of parameters
 ///
@@ -85,10 +85,15 @@ pub(crate) struct Map {
 pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let task = || {
-        let (axes, starts, seed) = (args.machine_axes.axes(), args.starts, args.seed);
-        Ok(MachineTask::Map { axes, starts, seed, impacts: args.impacts })
+        Ok(MachineTask::Map(MachineMapPlan {
+            axes: args.machine_axes.axes(),
+            starts: args.starts,
+            seed: args.seed,
+            refine: args.refine,
+            impacts: args.impacts,
+        }))
     };
-    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, session) {
+    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, Some(&args.store), session) {
         return answer;
     }
     let Asked { system, units } = args.plane.asked()?;

@@ -1,14 +1,16 @@
 //! Commands with `--machine`, and `vibro run` with a plan of a machine: the result of the plan.
 
-use crate::args::{FigureArgs, MachineArgs, StartOfMachineArgs};
+use crate::args::{FigureArgs, MachineArgs, StartOfMachineArgs, StoreArgs};
 use crate::commands::outputs::Outputs;
+use crate::commands::{respond, stored};
 use crate::failure::Failure;
 use crate::report::{machine_answers, machine_events};
 use crate::session::Session;
 use std::path::Path;
 use vibroimpact_report::figure::plane::Sides;
 use vibroimpact_report::machine_answer;
-use vibroimpact_study::{MachinePlan, MachineResults, MachineTask};
+use vibroimpact_store::Part;
+use vibroimpact_study::{MachineBasinPlan, MachineMapPlan, MachinePlan, MachineResults, MachineTask, StudyPlan};
 
 /// The files of a command: its table, its figure, and whether it prints JSON.
 pub(super) type Files<'a> = (Option<&'a Path>, (Option<&'a Path>, &'a FigureArgs), bool);
@@ -19,16 +21,35 @@ pub(super) fn asked(
     start: Option<(&StartOfMachineArgs, Option<f64>)>,
     task: impl FnOnce() -> Result<MachineTask, Failure>,
     (csv, plot, json): Files<'_>,
+    store: Option<&StoreArgs>,
     session: &Session,
 ) -> Option<Result<(), Failure>> {
     let name = machine.machine.as_deref()?;
     let answer = || {
-        let plan = MachinePlan::new(machine.source(start)?, task()?);
+        let tile = store.and_then(|store| store.tile);
+        let plan = MachinePlan { tile, ..MachinePlan::new(machine.source(start)?, task()?) };
         plan.check()?;
         let outputs = Outputs::reserve(csv, plot, json, session)?;
-        run(name, &plan, (outputs, None), session)
+        let Some(place) = store.and_then(|store| store.store.as_ref()) else {
+            return run(name, &plan, (outputs, None), session);
+        };
+        drawable(&plan, &outputs)?;
+        stored::run(&StudyPlan::from(&plan), place, Part::ALL, (outputs, None), session)
     };
     Some(answer())
+}
+
+/// Refuses a figure of a grid that cannot be drawn, before the computation.
+fn drawable(plan: &MachinePlan, outputs: &Outputs) -> Result<(), Failure> {
+    match &plan.task {
+        MachineTask::Basin(MachineBasinPlan { axes, .. }) | MachineTask::Map(MachineMapPlan { axes, .. })
+            if outputs.drawn() =>
+        {
+            Sides::of_machine(axes)?;
+        }
+        _ => {}
+    }
+    Ok(())
 }
 
 /// Computes the answer of a plan and reports it.
@@ -40,10 +61,8 @@ pub(super) fn run(
 ) -> Result<(), Failure> {
     let none = |what: &str| Failure::bad(format!("of a machine this command has no {what} yet"));
     // before the computation
+    drawable(plan, &outputs)?;
     match &plan.task {
-        MachineTask::Basin { axes, .. } | MachineTask::Map { axes, .. } if outputs.drawn() => {
-            Sides::of_machine(axes)?;
-        }
         MachineTask::Attractors { .. } | MachineTask::Orbit { .. } | MachineTask::Lyapunov { .. }
             if outputs.drawn() =>
         {
@@ -54,7 +73,9 @@ pub(super) fn run(
         }
         _ => {}
     }
-    let answer = session.watched(None, |control| machine_answer(name, plan, control))?;
+    let work = plan.work();
+    let answer = session.watched(work, |control| machine_answer(name, plan, control));
+    let answer = answer.map_err(|error| respond::stopped(error, work))?;
     let (json, table, files) = (outputs.json(), outputs.table_on_stdout(), outputs.any_file());
     outputs.write(
         session,

@@ -8,7 +8,7 @@ use crate::report;
 use crate::session::Session;
 use vibroimpact_report::{Answer, AnswerError, Shown, Units, answer};
 use vibroimpact_store::Part;
-use vibroimpact_study::{Control, Plan, Results, Stopped};
+use vibroimpact_study::{Control, Plan, Results, Stopped, StudyPlan};
 
 /// Computes the answer of a plan and reports it. With --store, the plan fills the store instead.
 pub(super) fn run(
@@ -19,7 +19,13 @@ pub(super) fn run(
     session: &Session,
 ) -> Result<(), Failure> {
     if let Some(place) = store.and_then(|store| store.store.as_ref()) {
-        return stored::run(&in_units(plan, &units), place, Part::ALL, (outputs, shown.colour), session);
+        return stored::run(
+            &StudyPlan::from(&in_units(plan, &units)),
+            place,
+            Part::ALL,
+            (outputs, shown.colour),
+            session,
+        );
     }
     let answer = compute(plan, units, session)?;
     tell(&answer, (outputs, shown), session)
@@ -29,14 +35,19 @@ pub(super) fn run(
 pub(super) fn compute(plan: &Plan, units: Units, session: &Session) -> Result<Answer, Failure> {
     let plan = &in_units(plan, &units);
     let work = plan.work();
-    session.watched(work, |control| answer(plan, units, control)).map_err(|error| match error {
+    session.watched(work, |control| answer(plan, units, control)).map_err(|error| stopped(error, work))
+}
+
+/// The failure of an answer. If it was stopped, it says how much of the work was done.
+pub(super) fn stopped(error: AnswerError, work: Option<(u64, &str)>) -> Failure {
+    match error {
         AnswerError::Stopped(Stopped { done, total }) => {
             let unit = work.map_or("impacts", |(_, unit)| unit);
             let part = if total > 1 { format!("after {done} of {total} {unit}; ") } else { String::new() };
             Failure::Stopped(format!("{part}nothing was written"))
         }
         other => other.into(),
-    })
+    }
 }
 
 /// The plan with the units of its results, if they are SI units.

@@ -11,7 +11,7 @@ use crate::session::Session;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use vibroimpact_store::Part;
-use vibroimpact_study::{MachinePlan, Plan, PlanError, is_machine_plan};
+use vibroimpact_study::{MachinePlan, PlanError, Study, StudyPlan};
 
 /// Run a study from a plan, into a store that can be resumed
 ///
@@ -53,9 +53,16 @@ pub(crate) struct Run {
     json: bool,
 }
 
-/// Reads the plan in a file.
-pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
-    Plan::from_text(&text(path)?).map_err(|error| named(path, &error))
+/// Reads and checks the plan in a file.
+pub(super) fn read(path: &Path) -> Result<StudyPlan, Failure> {
+    let plan = StudyPlan::from_text(&text(path)?, |other| machine_file::beside(path, other));
+    let plan = plan.map_err(|error| named(path, &error))?;
+    match &plan {
+        StudyPlan::Oscillator(plan) => plan.check()?,
+        // a machine is in the file, so the file is named
+        StudyPlan::Machine(plan) => plan.check().map_err(|error| named(path, &error))?,
+    }
+    Ok(plan)
 }
 
 fn text(path: &Path) -> Result<String, Failure> {
@@ -71,21 +78,10 @@ fn named(path: &Path, error: &PlanError) -> Failure {
     Failure::bad(format!("`{}`: {}", path.display(), hints::worded(error, hints::plan(error))))
 }
 
-/// The plan in a file, if it is one of a machine.
-fn of_machine(path: &Path) -> Result<Option<MachinePlan>, Failure> {
-    let text = text(path)?;
-    if !is_machine_plan(&text) {
-        return Ok(None);
-    }
-    let plan = MachinePlan::from_text(&text, |other| machine_file::beside(path, other));
-    let plan = plan.and_then(|plan| plan.check().map(|()| plan));
-    plan.map(Some).map_err(|error| named(path, &error))
-}
-
-/// A plan of a machine has no tiles: its result is printed.
+/// The plan of a machine that fills no grid: its result is printed.
 fn run_machine(args: &Run, plan: &MachinePlan, session: &Session) -> Result<(), Failure> {
     if args.store.is_some() || args.tiles.is_some() {
-        return Err(Failure::bad("a plan of a machine fills no store: --store and --tiles have no meaning here"));
+        return Err(Study::new(plan).err().map_or_else(|| Failure::bad("the plan fills no store"), Failure::from));
     }
     args.colour.coloured(false)?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
@@ -100,11 +96,12 @@ pub(super) fn default_store(plan: &Path) -> String {
 }
 
 pub(super) fn run(args: &Run, session: &Session) -> Result<(), Failure> {
-    if let Some(plan) = of_machine(&args.plan)? {
-        return run_machine(args, &plan, session);
-    }
     let plan = read(&args.plan)?;
-    plan.check()?;
+    if let StudyPlan::Machine(machine) = &plan
+        && !machine.fills_a_grid()
+    {
+        return run_machine(args, machine, session);
+    }
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
     let colour = args.colour.coloured(outputs.drawn())?;

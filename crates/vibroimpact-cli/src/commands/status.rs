@@ -8,7 +8,7 @@ use crate::session::Session;
 use clap::Args;
 use serde::Serialize;
 use std::time::{Duration, SystemTime};
-use vibroimpact_study::{Plan, counted};
+use vibroimpact_study::{StudyPlan, counted};
 
 /// The progress of a store: the tiles that are done, the time that is left, and the plan
 #[derive(Clone, Debug, Args)]
@@ -42,7 +42,7 @@ struct StatusFields<'a> {
     missing_left_out: u64,
     bytes: u64,
     begun_by: &'a str,
-    plan: &'a Plan,
+    plan: &'a StudyPlan,
     plan_hash: String,
 }
 

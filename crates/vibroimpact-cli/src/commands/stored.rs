@@ -8,7 +8,7 @@ use serde::Serialize;
 use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::stored::figure;
 use vibroimpact_store::{Part, Ran, Store, StoreError, shelf};
-use vibroimpact_study::{Plan, counted};
+use vibroimpact_study::{StudyPlan, counted};
 
 /// The fields about the store in a JSON object.
 #[derive(Serialize)]
@@ -31,7 +31,7 @@ pub(super) fn open(place: &str) -> Result<Store, Failure> {
 }
 
 /// Opens the store of a plan, and creates it if absent.
-pub(super) fn begin(plan: &Plan, place: &str) -> Result<Store, Failure> {
+fn begin(plan: &StudyPlan, place: &str) -> Result<Store, Failure> {
     Ok(Store::create(shelf(place)?, plan)?)
 }
 
@@ -65,7 +65,7 @@ impl Filled {
 
 /// Fills a store according to the flags of a command, then writes the requested outputs from it.
 pub(super) fn run(
-    plan: &Plan,
+    plan: &StudyPlan,
     place: &str,
     part: Part,
     (outputs, colour): (Outputs, Option<Coloured>),

@@ -14,7 +14,7 @@ use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
 use vibroimpact_store::{Store, StoreError};
-use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, UNDECIDED, diagram_of, label_of};
+use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, REFUSED, StudyPlan, UNDECIDED, diagram_of, label_of};
 use vibroimpact_study::{Axis, Block, Column, Dimension, Field, Plan, PlanError, Quantity, Task};
 
 /// A JSON object about a store.
@@ -25,7 +25,7 @@ pub(crate) struct StoredFields<'a, Filled: Serialize> {
     points: u64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     labels: Vec<LabelCount>,
-    plan: &'a Plan,
+    plan: &'a StudyPlan,
     plan_hash: String,
     program: &'static str,
 }
@@ -63,7 +63,9 @@ fn labels(store: &Store) -> Result<Vec<LabelCount>, Failure> {
         let shares = share.map(|share| columns[share].real());
         for (k, point) in columns[label].whole().chunks(width).enumerate() {
             let mut seen = Vec::new();
-            for (i, code) in point.iter().enumerate().filter(|(_, code)| ![NO_MOTION, NOT_COMPUTED].contains(code)) {
+            for (i, code) in
+                point.iter().enumerate().filter(|(_, code)| ![NO_MOTION, NOT_COMPUTED, REFUSED].contains(code))
+            {
                 let entry = counts.entry(*code).or_default();
                 entry.1 += shares.map_or(1.0, |shares| shares[k * width + i]);
                 if !seen.contains(code) {
@@ -103,8 +105,8 @@ pub(crate) fn summary(store: &Store) -> Result<String, Failure> {
 }
 
 /// The title of a plan, with the axes in the units of the results.
-pub(crate) fn title(plan: &Plan) -> String {
-    let (title, units) = (plan.title(), Units::of_plan(plan));
+pub(crate) fn title(plan: &StudyPlan) -> String {
+    let (title, units) = (plan.title(), units_of(plan));
     let names: Vec<&str> = plan_axes(plan).iter().map(|axis| units.column_of_coordinate(axis.vary)).collect();
     match title.split_once(" over ") {
         Some((what, _)) if !names.is_empty() => format!("{what} over {}", names.join(", ")),
@@ -112,10 +114,15 @@ pub(crate) fn title(plan: &Plan) -> String {
     }
 }
 
+/// The units of the results of a plan; the numbers of a machine are in its own.
+fn units_of(plan: &StudyPlan) -> Units {
+    plan.oscillator().map(Units::of_plan).unwrap_or_default()
+}
+
 /// The name of a dimension as in the header of the table.
-fn column_of(dimension: &Dimension, plan: &Plan) -> String {
+fn column_of(dimension: &Dimension, plan: &StudyPlan) -> String {
     let axis = plan_axes(plan).iter().find(|axis| axis.vary.name() == dimension.name);
-    axis.map_or_else(|| dimension.name.clone(), |axis| Units::of_plan(plan).column_of_coordinate(axis.vary).to_owned())
+    axis.map_or_else(|| dimension.name.clone(), |axis| units_of(plan).column_of_coordinate(axis.vary).to_owned())
 }
 
 /// The fields of a short table, which are those of the command without a store.
@@ -125,16 +132,16 @@ const SHORT: [&str; 2] = ["label", "share"];
 ///
 /// For an orbit diagram the table is that of `vibro diagram`.
 pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Result<()> {
-    if let Task::Diagram(plan) = &store.plan().task {
+    if let Some(Plan { task: Task::Diagram(plan), .. }) = store.plan().oscillator() {
         let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
         let found = diagram_of(plan, &columns.map_err(io::Error::other)?);
-        return diagram::table(&found, Units::of_plan(store.plan())).map_err(io::Error::other)?.write(out);
+        return diagram::table(&found, units_of(store.plan())).map_err(io::Error::other)?.write(out);
     }
     let (study, all) = (store.study(), store.study().fields());
-    let units = Units::of_plan(store.plan());
-    let short = |field: &Field| SHORT.contains(&field.name) || Quantity::from_name(field.name).is_some();
+    let units = units_of(store.plan());
+    let short = |field: &Field| is_short(field) || Quantity::from_name(&field.name).is_some();
     let shown: Vec<usize> = (0..all.len()).filter(|k| long || !has_short(&all) || short(&all[*k])).collect();
-    // scattered starts have no axes; their coordinates are fields
+    // scattered starts have no axes; their coordinates are fields; those of machines are in their own units
     let axes = plan_axes(store.plan());
     let along = study.grid().dimensions.iter().map(|d| {
         let axis = axes.iter().find(|axis| axis.vary.name() == d.name);
@@ -151,7 +158,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let mut head: Vec<String> = study.grid().dimensions.iter().rev().map(name).collect();
     let numbered = extra.filter(|extra| extra.name == "direction");
     head.extend(numbered.map(|extra| extra.name.to_owned()));
-    head.extend(shown.iter().map(|k| units.column(all[*k].name, kinds[*k])));
+    head.extend(shown.iter().map(|k| units.column(&all[*k].name, kinds[*k])));
     writeln!(out, "{}", head.join(","))?;
     let width = extra.map_or(1, |extra| extra.count);
     bands(store, |block, columns| {
@@ -168,7 +175,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
                 let cell = |k: &usize| {
                     let at = p * all[*k].width() + if all[*k].width() > 1 { i } else { 0 };
                     // some quantities are not defined in the frame of the machine
-                    let unit = Quantity::from_name(all[*k].name)
+                    let unit = Quantity::from_name(&all[*k].name)
                         .map_or_else(|| units.of_kind(kinds[*k]), |quantity| units.of_quantity(quantity));
                     text(&all[*k], &columns[*k], at, unit)
                 };
@@ -184,17 +191,21 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     })
 }
 
-/// The axes of a plan.
-fn plan_axes(plan: &Plan) -> &[Axis] {
-    match &plan.task {
-        Task::Map(map) => &map.axes,
-        Task::Basin(basin) => &basin.axes,
+/// The axes of a plan of the oscillator.
+fn plan_axes(plan: &StudyPlan) -> &[Axis] {
+    match plan.oscillator().map(|plan| &plan.task) {
+        Some(Task::Map(map)) => &map.axes,
+        Some(Task::Basin(basin)) => &basin.axes,
         _ => &[],
     }
 }
 
+fn is_short(field: &Field) -> bool {
+    SHORT.contains(&field.name.as_ref())
+}
+
 fn has_short(fields: &[Field]) -> bool {
-    fields.iter().any(|field| SHORT.contains(&field.name))
+    fields.iter().any(is_short)
 }
 
 /// The text of a number of a column: the name of a flag, and an empty text for a missing value.
@@ -204,6 +215,7 @@ fn text(field: &Field, column: &Column, at: usize, unit: f64) -> String {
         Column::F64(values) => Number(values[at] * unit).to_string(),
         Column::I32(values) if field.name == "label" => match values[at] {
             NOT_COMPUTED => "not_computed".to_owned(),
+            REFUSED => "refused".to_owned(),
             code => label_of(code).unwrap_or_default(),
         },
         Column::I32(values) => {

@@ -3,7 +3,6 @@
 use crate::figure::plane::{Plane, PlaneAxis, Sides};
 use crate::figure::{title, variant};
 use crate::{Asked, ReportError};
-use vibroimpact::verdict::MachineVerdict;
 use vibroimpact_plot::{
     ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Raster, Rect, Rects, class_style, legend_group,
 };
@@ -38,12 +37,9 @@ pub fn figure(found: &Basin, asked: &Asked) -> Result<Figure, ReportError> {
 /// As [`figure`].
 pub fn of_machine(found: &MachineBasin, title: String) -> Result<Figure, ReportError> {
     let sides = Sides::of_machine(&found.axes)?;
-    let started = found.cells.iter().flatten().count().max(1);
-    let motion = |(m, verdict): (usize, &MachineVerdict)| BasinMotion {
-        label: verdict.label(),
-        share: found.cells.iter().filter(|cell| **cell == Some(m)).count() as f64 / started as f64,
-    };
-    let motions: Vec<BasinMotion> = found.motions.iter().enumerate().map(motion).collect();
+    let shares = found.motions.iter().zip(found.shares());
+    let motions: Vec<BasinMotion> =
+        shares.map(|(verdict, (_, share))| BasinMotion { label: verdict.label(), share }).collect();
     let cell = |cell: &Option<usize>| cell.and_then(|m| u16::try_from(m).ok()).unwrap_or(u16::MAX);
     draw(&sides, &motions, found.cells.iter().map(cell).collect(), title)
 }

@@ -115,9 +115,8 @@ impl PlaneAxis {
     /// # Errors
     /// [`ReportError::Values`] for more than 16384 values.
     pub fn of_machine(axis: &MachineAxis) -> Result<Self, ReportError> {
-        let values = Values::Span(axis.over);
-        short_enough(values.count())?;
-        Self::new(plain(&axis.vary), &values)
+        short_enough(axis.over.count())?;
+        Self::new(plain(&axis.vary), &axis.over)
     }
 
     /// The number of values.

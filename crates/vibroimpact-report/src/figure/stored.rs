@@ -4,12 +4,13 @@ use crate::figure::coloured::{self, Coloured, Value, has_field};
 use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
 use crate::figure::point_motion::{PointMotion, group};
 use crate::figure::{basin, diagram, map, shares, title_without};
+use crate::machine_answer::machine_title;
 use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
-use vibroimpact_study::study::{NOT_COMPUTED, StudyArrays, diagram_of, label_of};
-use vibroimpact_study::{Axis as Along, LyapunovPlan, Task};
+use vibroimpact_study::study::{NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of};
+use vibroimpact_study::{Axis as Along, LyapunovPlan, MachinePlan, MachineTask, Task};
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given.
 ///
@@ -19,14 +20,20 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     colour: Option<Coloured>,
 ) -> Result<Figure, E> {
-    let asked = Asked { system: store.plan().system, units: Units::of_plan(store.plan()) };
-    match (&store.plan().task, colour) {
+    let whole = match store.plan() {
+        StudyPlan::Oscillator(plan) => plan.as_ref(),
+        StudyPlan::Machine(_) if colour.is_some() => return Err(ReportError::NoColours.into()),
+        StudyPlan::Machine(plan) => return of_machine(store, plan),
+    };
+    let asked = Asked { system: whole.system, units: Units::of_plan(whole) };
+    match (&whole.task, colour) {
         (Task::Map(plan), None) if plan.axes.len() > 1 => {
-            of_map(store, &plan.axes, title_without(&asked, &varied(&plan.axes)))
+            of_map(store, &Plane::of(&plan.axes, &asked.units)?, title_without(&asked, &varied(&plan.axes)))
         }
         (Task::Map(plan), colour) => {
             let title = title_without(&asked, &varied(&plan.axes));
-            let points = points::<A, E>(store, &plan.axes, colour.map(|colour| colour.quantity))?;
+            let quantity = colour.map(|colour| (colour.quantity, plan.axes.as_slice(), &asked.units));
+            let points = points::<A, E>(store, quantity)?;
             Ok(match (plan.axes.as_slice(), colour) {
                 ([axis], None) => shares::draw(&PlaneAxis::of(axis, &asked.units)?, &points, title),
                 ([axis], Some(colour)) => coloured::draw_dots(axis, &points, colour.quantity, &asked.units, title)?,
@@ -38,7 +45,7 @@ pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             })
         }
         (Task::Basin(plan), Some(colour)) => {
-            let points = points::<A, E>(store, &plan.axes, Some(colour.quantity))?;
+            let points = points::<A, E>(store, Some((colour.quantity, &plan.axes, &asked.units)))?;
             let title = title_without(&asked, &varied(&plan.axes));
             if let [axis] = plan.axes.as_slice() {
                 return Ok(coloured::draw_dots(axis, &points, colour.quantity, &asked.units, title)?);
@@ -61,7 +68,9 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     asked: &Asked,
 ) -> Result<Figure, E> {
     match task {
-        Task::Basin(plan) => of_basin(store, &plan.axes, title_without(asked, &varied(&plan.axes))),
+        Task::Basin(plan) => {
+            of_basin(store, &Sides::of(&plan.axes, &asked.units)?, title_without(asked, &varied(&plan.axes)))
+        }
         Task::Lyapunov(plan) => of_exponents(store, plan, asked),
         Task::Diagram(plan) => {
             let columns = (0..store.study().fields().len()).map(|k| store.array(k)).collect::<Result<Vec<_>, _>>()?;
@@ -71,23 +80,40 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     }
 }
 
+/// Draws the figure of a study of a machine.
+fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
+    store: &A,
+    plan: &MachinePlan,
+) -> Result<Figure, E> {
+    let title = machine_title(&plan.machine, "machine");
+    match &plan.task {
+        MachineTask::Map(map) => match Sides::of_machine(&map.axes)? {
+            Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
+            Sides::Plane(plane) => of_map(store, &plane, title),
+        },
+        MachineTask::Basin(basin) => of_basin(store, &Sides::of_machine(&basin.axes)?, title),
+        _ => Err(ReportError::Scattered.into()),
+    }
+}
+
+/// A quantity, the axes over which its values are, and the units in which they are drawn.
+type Drawn<'a> = (Quantity, &'a [Along], &'a Units);
+
 /// The motions at each point of a map or basin, with the values of a quantity in the units of the plan. Points that a store
 /// has not computed yet, and those that took the label of their neighbours, have no value.
 fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    axes: &[Along],
-    quantity: Option<Quantity>,
+    quantity: Option<Drawn<'_>>,
 ) -> Result<Vec<Vec<PointMotion>>, E> {
-    let units = Units::of_plan(store.plan());
     let fields = store.study().fields();
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let column = |name: &str| store.field_number(name).map(|field| store.array(field)).transpose();
     let numbers = match quantity {
         None => None,
-        Some(quantity) => {
-            let asked = fields.iter().filter_map(|field| Quantity::from_name(field.name)).collect::<Vec<_>>();
+        Some((quantity, axes, units)) => {
+            let asked = fields.iter().filter_map(|field| Quantity::from_name(&field.name)).collect::<Vec<_>>();
             has_field(&asked, quantity)?;
-            column(quantity.name())?.map(|values| (values, quantity))
+            column(quantity.name())?.map(|values| (values, quantity, axes, units))
         }
     };
     // starts of one system share the quantities of their cycle, so those that took it from their neighbours have values
@@ -100,15 +126,15 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     for (point, codes) in labels.whole().chunks(width).enumerate() {
         let own = computed.as_ref().is_none_or(|computed| computed.flags().get(point) == Some(&1));
         let mut motions = Vec::new();
-        let units = units.at_point(axes, point);
         for (k, code) in codes.iter().enumerate().filter(|(_, code)| label_of(**code).is_some()) {
             let (label, group) = known.entry(*code).or_insert_with(|| {
                 let label = label_of(*code).unwrap_or_default();
                 let number = group(&label);
                 (label, number)
             });
-            let number = numbers.as_ref();
-            let number = number.map(|(values, of)| values.real()[point * width + k] * units.of_quantity(*of));
+            let number = numbers.as_ref().map(|(values, of, axes, units)| {
+                values.real()[point * width + k] * units.at_point(axes, point).of_quantity(*of)
+            });
             let value = match Value::of(label, number) {
                 Value::Undefined if !own => Value::NotComputed,
                 value => value,
@@ -127,10 +153,9 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
 
 fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    axes: &[Along],
+    plane: &Plane,
     title: String,
 ) -> Result<Figure, E> {
-    let plane = Plane::of(axes, &Units::of_plan(store.plan()))?;
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
     let mut known: BTreeMap<i32, usize> = BTreeMap::new();
@@ -147,16 +172,15 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             groups
         })
         .collect();
-    Ok(map::draw(&plane, &cells, title)?)
+    Ok(map::draw(plane, &cells, title)?)
 }
 
 #[allow(clippy::cast_precision_loss)] // counts below 2^53
 fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    axes: &[Along],
+    sides: &Sides,
     title: String,
 ) -> Result<Figure, E> {
-    let units = Units::of_plan(store.plan());
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let labels = store.array(label)?;
     let cycles = store.field_number("cycle").map(|cycle| store.array(cycle)).transpose()?;
@@ -173,14 +197,15 @@ fn of_basin<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
         entry.1 += 1;
         cells.push(entry.0);
     }
-    let total = labels.len() as f64;
+    // starts of a machine beyond a rigid stop have no motion
+    let total = labels.whole().iter().filter(|code| **code != REFUSED).count() as f64;
     let mut list: Vec<_> = motions.into_iter().collect();
     list.sort_by_key(|(_, (number, _))| *number);
     let motion = |((code, _), (_, count)): ((i32, i32), (u16, u64))| basin::BasinMotion {
         label: label_of(code).unwrap_or_default(),
         share: count as f64 / total,
     };
-    Ok(basin::draw(&Sides::of(axes, &units)?, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
+    Ok(basin::draw(sides, &list.into_iter().map(motion).collect::<Vec<_>>(), cells, title)?)
 }
 
 /// Both exponents over one axis, with the line of zero.

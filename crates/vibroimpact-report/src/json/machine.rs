@@ -151,7 +151,7 @@ struct Basin<'a> {
 struct Mapped<'a> {
     axes: &'a [MachineAxis],
     /// How many points have each label.
-    labels: BTreeMap<&'a str, u64>,
+    labels: BTreeMap<String, u64>,
     points: usize,
 }
 

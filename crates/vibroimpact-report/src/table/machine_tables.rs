@@ -80,7 +80,7 @@ pub(crate) fn basin(found: &MachineBasin) -> Table<'_> {
 pub(crate) fn map(found: &MachineMap) -> Table<'_> {
     let rows = found.cells.iter().enumerate().flat_map(|(k, cell)| {
         let at = values(&found.axes, k);
-        cell.iter().map(move |(label, share)| format!("{at}{label},{}", Number(*share)))
+        cell.iter().map(move |motion| format!("{at}{},{}", motion.label(), Number(motion.share)))
     });
     Table::new([heads(&found.axes), vec!["label", "share"]].concat().join(","), rows)
 }

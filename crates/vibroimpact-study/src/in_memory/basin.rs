@@ -1,10 +1,11 @@
 //! A basin in memory: its tiles are joined, and the motions are in the order of the first start that leads to each.
 
 use crate::basin::{Basin, BasinPlan, start};
+use crate::in_memory::join::{Joined, Part, joined};
 use crate::limits::MOST_CELLS;
 use crate::study::{BasinFill, Cell, tiles_of};
 use crate::{Control, PlanError, RunError, SystemPlan, axis};
-use vibroimpact::verdict::{Census, CountedMotion, settle};
+use vibroimpact::verdict::settle;
 
 /// Approximate number of starts of a tile: large enough that joining takes no noticeable time, small enough to stop
 /// quickly and to use all threads.
@@ -34,48 +35,21 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
     let side = f64::from(tile).powf(1.0 / f64::from(dimensions)).round().max(1.0) as u32;
     let task = BasinFill::plane(system, &all, Some(side))?;
     let whole = axis::whole(&plan.axes);
-    let mut merged = Census::default();
-    let mut cells = vec![u16::MAX; whole.points()];
-    // for each motion, the start whose verdict is in the census
-    let mut sources: Vec<usize> = Vec::new();
-    for (block, tile) in tiles_of(&task, control)? {
-        let numbers: Vec<usize> = tile.met.motions().iter().map(|found| merged.add_found(found)).collect();
-        for (k, cell) in tile.cells.iter().enumerate() {
-            // without refinement every start is settled
-            let Cell::Computed(local) = cell else { continue };
-            let (place, number) = (whole.number(&block.index(k)), numbers[*local as usize]);
-            if number == sources.len() {
-                sources.push(place);
-            }
-            cells[place] = u16::try_from(number).unwrap_or(u16::MAX);
-        }
-    }
-    let mut order: Vec<(usize, usize)> = Vec::new();
-    let mut renumbered = vec![None; sources.len()];
-    for (place, cell) in cells.iter_mut().enumerate() {
-        let number = usize::from(*cell);
-        let new = *renumbered[number].get_or_insert_with(|| {
-            order.push((number, place));
-            order.len() - 1
-        });
-        *cell = u16::try_from(new).unwrap_or(u16::MAX);
-    }
-    let motions = order.into_iter().map(|(number, first)| {
-        let found = &merged.motions()[number];
-        // the verdict is that of the first start, so it does not depend on the tiles
-        let verdict = if sources[number] == first {
-            found.verdict.clone()
-        } else {
-            settle(osc, start(osc, plan, first as u64), &plan.options()).verdict
-        };
-        CountedMotion { verdict, count: found.count }
+    let parts = tiles_of(&task, control)?.into_iter().map(|(block, tile)| {
+        // without refinement every start is settled
+        let number = |cell: &Cell<u32>| if let Cell::Computed(number) = cell { Some(*number) } else { None };
+        Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
     });
-    Ok(Basin { plan: plan.clone(), motions: motions.collect(), cells })
+    let first = |k: usize| settle(osc, start(osc, plan, k as u64), &plan.options()).verdict;
+    let Joined { motions, cells } = joined(&whole, parts, first);
+    let cell = |cell: Option<usize>| cell.and_then(|number| u16::try_from(number).ok()).unwrap_or(u16::MAX);
+    Ok(Basin { plan: plan.clone(), motions, cells: cells.into_iter().map(cell).collect() })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use vibroimpact::verdict::Census;
 
     #[test]
     fn the_same_for_any_number_of_threads() {

@@ -3,9 +3,12 @@
 mod attractors;
 mod basin;
 mod diagram;
+mod join;
+mod machine_grid;
 mod map;
 
 pub(crate) use attractors::attractors;
 pub(crate) use basin::basin;
 pub(crate) use diagram::diagram;
+pub(crate) use machine_grid::{machine_basin, machine_map};
 pub(crate) use map::map;

@@ -1,6 +1,6 @@
 //! An axis of a grid over a machine: a number by its path, or a part of the start.
 
-use crate::Span;
+use crate::Values;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,17 +11,33 @@ pub struct MachineAxis {
     /// The path of a number, or `q.COORDINATE`, `qdot.COORDINATE` or `phase` of the start.
     pub vary: String,
     /// Its values.
-    pub over: Span,
+    pub over: Values,
 }
 
 impl MachineAxis {
+    /// One line of text that describes the axis.
+    #[must_use]
+    pub(crate) fn long_name(&self) -> String {
+        match self.vary.split_once('.') {
+            Some(("q", name)) => format!("coordinate {name} of the start"),
+            Some(("qdot", name)) => format!("velocity of {name} at the start"),
+            None if self.vary == "phase" => "phase of the forcing at the start".to_owned(),
+            _ => format!("{} of the machine", self.vary),
+        }
+    }
+
+    /// The number of points of the grid over some axes.
+    pub(crate) fn points(axes: &[Self]) -> u64 {
+        axes.iter().fold(1, |product, axis| product.saturating_mul(axis.over.count() as u64))
+    }
+
     /// The values of all axes at point number `k` of their grid; the first axis varies fastest.
     #[must_use]
     pub fn at(axes: &[Self], mut k: u64) -> Vec<f64> {
         let mut values = Vec::with_capacity(axes.len());
         for axis in axes {
-            let count = u64::from(axis.over.count());
-            values.push(axis.over.at(u32::try_from(k % count).unwrap_or(0)));
+            let count = axis.over.count() as u64;
+            values.push(axis.over.at(usize::try_from(k % count).unwrap_or(0)));
             k /= count;
         }
         values

@@ -1,15 +1,56 @@
-//! Basins over coordinates, and maps over numbers, of a machine.
+//! Plans and results of basins over coordinates, and of maps over numbers, of a machine.
 
 use super::axis::MachineAxis;
-use super::verdicts::{check_starts, each_verdict, number};
-use crate::limits::MOST_CELLS;
+use crate::PlanError;
+use crate::limits::{self, MOST_CELLS};
 use crate::machine::MachineSource;
-use crate::map::check_impacts;
-use crate::{Control, PlanError, RunError};
+use crate::map::{check_impacts, check_refine};
+use crate::study::label_of;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
-use vibroimpact::verdict::{MachineVerdict, scattered_machine_starts};
+use vibroimpact::verdict::MachineVerdict;
+
+/// Starts of a machine over a grid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineBasinPlan {
+    /// One to four of `q.COORDINATE`, `qdot.COORDINATE` and `phase`; the first varies fastest. The others are those of the
+    /// start.
+    pub axes: Vec<MachineAxis>,
+    /// Where results are stored: compute every K-th point first, K being this number, and the points between only where neighbours
+    /// differ. All of them when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refine: Option<u32>,
+    /// Budget of events for each start: 1 to 1000000. 20000 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<u32>,
+}
+
+/// Scattered starts at each point of a grid over numbers of a machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineMapPlan {
+    /// One to four paths; the first varies fastest.
+    pub axes: Vec<MachineAxis>,
+    /// The number of starts at each point.
+    pub starts: u64,
+    /// Which sequence of starts.
+    #[serde(default = "one")]
+    pub seed: u64,
+    /// As for a basin.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refine: Option<u32>,
+    /// Budget of events for each start: 1 to 1000000. 20000 when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impacts: Option<u32>,
+}
+
+const fn one() -> u64 {
+    1
+}
 
 /// The motion of each start of a grid.
 #[derive(Clone, Debug)]
@@ -27,9 +68,30 @@ pub struct MachineBasin {
 pub struct MachineMap {
     /// The axes; the first varies fastest.
     pub axes: Vec<MachineAxis>,
-    /// At each point the labels and the shares of the starts that lead to them, the most frequent first. Two motions of one
-    /// label have a row each. Empty where the numbers are not allowed.
-    pub cells: Vec<Vec<(String, f64)>>,
+    /// The motions at each point, the most frequent first. Two motions of one label have a row each. Empty where the numbers
+    /// are not allowed.
+    pub cells: Vec<Vec<MachineMotion>>,
+}
+
+/// A motion at a point of a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineMotion {
+    /// The [code](crate::study::code) of its label.
+    pub code: i32,
+    /// The share of the starts that lead to it, from 0 to 1.
+    pub share: f64,
+    /// The largest speed of a closing; not-a-number unless it is a cycle.
+    pub speed: f64,
+    /// The largest modulus of the multipliers; not-a-number unless it is a cycle.
+    pub multiplier: f64,
+}
+
+impl MachineMotion {
+    /// The label as text.
+    #[must_use]
+    pub fn label(&self) -> String {
+        label_of(self.code).unwrap_or_default()
+    }
 }
 
 impl MachineBasin {
@@ -53,137 +115,95 @@ impl MachineBasin {
 impl MachineMap {
     /// The number of points at which each label occurs.
     #[must_use]
-    pub fn labels(&self) -> BTreeMap<&str, u64> {
+    pub fn labels(&self) -> BTreeMap<String, u64> {
         let mut labels = BTreeMap::new();
         for cell in &self.cells {
             // two motions at a point can have one label
-            let here: BTreeSet<&str> = cell.iter().map(|(label, _)| label.as_str()).collect();
+            let here: BTreeSet<String> = cell.iter().map(MachineMotion::label).collect();
             here.into_iter().for_each(|label| *labels.entry(label).or_insert(0) += 1);
         }
         labels
     }
 }
 
-/// The number of points of a grid.
-fn points(axes: &[MachineAxis]) -> u64 {
-    axes.iter().fold(1, |product, axis| product.saturating_mul(u64::from(axis.over.count())))
-}
-
 /// Where an axis of a basin stands in a start.
-enum Place {
+pub(crate) enum StartAxis {
     Q(usize),
     Qdot(usize),
     Phase,
 }
 
-fn place(machine: &Machine, vary: &str) -> Result<Place, PlanError> {
-    let names = &machine.parts().coordinates;
-    let of = |name: &str| names.iter().position(|known| known == name);
-    let found = match vary.split_once('.') {
-        Some(("q", name)) => of(name).map(Place::Q),
-        Some(("qdot", name)) => of(name).map(Place::Qdot),
-        None if vary == "phase" => Some(Place::Phase),
-        _ => None,
-    };
-    found.ok_or_else(|| PlanError::MachineStartAxis { given: vary.to_owned(), coordinates: names.join(", ") })
+impl StartAxis {
+    /// The place with this name.
+    ///
+    /// # Errors
+    /// [`PlanError::MachineStartAxis`] if it is no part of a start of the machine.
+    pub(crate) fn of(machine: &Machine, vary: &str) -> Result<Self, PlanError> {
+        let names = &machine.parts().coordinates;
+        let of = |name: &str| names.iter().position(|known| known == name);
+        let found = match vary.split_once('.') {
+            Some(("q", name)) => of(name).map(Self::Q),
+            Some(("qdot", name)) => of(name).map(Self::Qdot),
+            None if vary == "phase" => Some(Self::Phase),
+            _ => None,
+        };
+        found.ok_or_else(|| PlanError::MachineStartAxis { given: vary.to_owned(), coordinates: names.join(", ") })
+    }
+
+    /// Puts a value there.
+    pub(crate) fn set(&self, start: &mut MachineStart, value: f64) {
+        match self {
+            Self::Q(i) => start.q[*i] = value,
+            Self::Qdot(i) => start.qdot[*i] = value,
+            Self::Phase => start.phase = value,
+        }
+    }
 }
 
-fn check_axes(axes: &[MachineAxis], starts: u64) -> Result<(), PlanError> {
+fn check_axes(axes: &[MachineAxis]) -> Result<(), PlanError> {
     if axes.is_empty() || axes.len() > 4 {
         return Err(PlanError::MachineAxes(axes.len()));
     }
-    if let Some(twice) =
-        axes.iter().enumerate().find(|(k, axis)| axes[..*k].iter().any(|other| other.vary == axis.vary))
-    {
-        return Err(PlanError::MachineAxisTwice(twice.1.vary.clone()));
+    axes.iter().try_for_each(|axis| axis.over.check())?;
+    match axes.iter().enumerate().find(|(k, axis)| axes[..*k].iter().any(|other| other.vary == axis.vary)) {
+        Some((_, twice)) => Err(PlanError::MachineAxisTwice(twice.vary.clone())),
+        None => Ok(()),
     }
-    let total = points(axes).saturating_mul(starts);
+}
+
+/// Refuses a grid whose results do not fit in memory; a store has no such limit.
+pub(crate) fn check_memory(axes: &[MachineAxis], starts: u64) -> Result<(), PlanError> {
+    let total = MachineAxis::points(axes).saturating_mul(starts);
     if total > MOST_CELLS { Err(PlanError::Memory { numbers: total, most: MOST_CELLS }) } else { Ok(()) }
 }
 
-pub(super) fn check_basin(machine: &Machine, axes: &[MachineAxis], impacts: Option<u32>) -> Result<(), PlanError> {
-    check_axes(axes, 1)?;
-    for axis in axes {
-        place(machine, &axis.vary)?;
-    }
-    check_impacts(impacts)
-}
-
-pub(super) fn check_map(
-    source: &MachineSource,
-    axes: &[MachineAxis],
-    (starts, impacts): (u64, Option<u32>),
-) -> Result<(), PlanError> {
-    check_axes(axes, starts)?;
-    for axis in axes {
-        source.number(&axis.vary)?;
-    }
-    check_starts(starts, impacts)
-}
-
-/// Settles every start of a grid.
-pub(super) fn basin(
-    (machine, start): (&Machine, &MachineStart),
-    axes: &[MachineAxis],
-    impacts: Option<u32>,
-    control: &Control<'_>,
-) -> Result<MachineBasin, RunError> {
-    let places: Vec<Place> = axes.iter().map(|axis| place(machine, &axis.vary)).collect::<Result<_, _>>()?;
-    let n = machine.n();
-    let problem = |k| {
-        let mut start = start.clone();
-        start.q.resize(n, 0.0);
-        start.qdot.resize(n, 0.0);
-        for (place, value) in places.iter().zip(MachineAxis::at(axes, k)) {
-            match place {
-                Place::Q(i) => start.q[*i] = value,
-                Place::Qdot(i) => start.qdot[*i] = value,
-                Place::Phase => start.phase = value,
-            }
+impl MachineBasinPlan {
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, machine: &Machine) -> Result<(), PlanError> {
+        check_axes(&self.axes)?;
+        for axis in &self.axes {
+            StartAxis::of(machine, &axis.vary)?;
         }
-        Some((machine.clone(), start))
-    };
-    let mut motions = Vec::new();
-    let verdicts = each_verdict(points(axes), control, problem, impacts)?;
-    let cells = verdicts.iter().map(|verdict| verdict.as_ref().map(|verdict| number(&mut motions, verdict))).collect();
-    Ok(MachineBasin { axes: axes.to_vec(), motions, cells })
+        check_refine(self.refine)?;
+        check_impacts(self.impacts)
+    }
 }
 
-/// Settles scattered starts at every point of a grid of numbers.
-pub(super) fn map(
-    source: &MachineSource,
-    axes: &[MachineAxis],
-    (starts, seed, impacts): (u64, u64, Option<u32>),
-    control: &Control<'_>,
-) -> Result<MachineMap, RunError> {
-    let problem = |k: u64| {
-        let mut source = source.clone();
-        for (axis, value) in axes.iter().zip(MachineAxis::at(axes, k / starts)) {
-            source = source.with(&axis.vary, value).ok()?;
+impl MachineMapPlan {
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+        check_axes(&self.axes)?;
+        for axis in &self.axes {
+            source.number(&axis.vary)?;
         }
-        let machine = source.machine().ok()?;
-        let start = scattered_machine_starts(&machine, seed, k % starts);
-        Some((machine, start))
-    };
-    let verdicts = each_verdict(points(axes) * starts, control, problem, impacts)?;
-    let cells = verdicts
-        .chunks(usize::try_from(starts).unwrap_or(1))
-        .map(|at| {
-            let mut motions = Vec::new();
-            let mut counts: Vec<u64> = Vec::new();
-            for verdict in at.iter().flatten() {
-                let k = number(&mut motions, verdict);
-                counts.resize(motions.len(), 0);
-                counts[k] += 1;
-            }
-            let total: u64 = counts.iter().sum();
-            #[allow(clippy::cast_precision_loss)] // counts of starts
-            let share = |count: u64| count as f64 / total as f64;
-            let mut found: Vec<(String, f64)> =
-                motions.iter().zip(counts).map(|(motion, count)| (motion.label(), share(count))).collect();
-            found.sort_by(|a, b| b.1.total_cmp(&a.1));
-            found
-        })
-        .collect();
-    Ok(MachineMap { axes: axes.to_vec(), cells })
+        limits::starts(self.starts, limits::MOST_STARTS)?;
+        check_refine(self.refine)?;
+        check_impacts(self.impacts)
+    }
 }

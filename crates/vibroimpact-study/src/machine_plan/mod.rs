@@ -8,7 +8,7 @@
 //! | what motions settle into, their exponents | `verdicts` |
 //! | orbits, and branches of them | [`MachineBranched`], `orbits` |
 //! | an axis of a grid | [`MachineAxis`] |
-//! | basins and maps | [`MachineBasin`], [`MachineMap`], `grid` |
+//! | basins and maps: plans and results | [`MachineBasinPlan`], [`MachineBasin`], [`MachineMapPlan`], [`MachineMap`], `grid` |
 //! | the events of a motion | [`MachineSimulated`], `simulate` |
 
 mod axis;
@@ -21,7 +21,8 @@ mod text;
 mod verdicts;
 
 pub use axis::MachineAxis;
-pub use grid::{MachineBasin, MachineMap};
+pub use grid::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineMotion};
+pub(crate) use grid::{StartAxis, check_memory};
 pub use orbits::{MachineBranched, MachineFollowed};
 pub use plan::{MachinePlan, MachineTask};
 pub use run::{MachineResults, run_machine};

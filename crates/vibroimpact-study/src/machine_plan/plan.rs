@@ -1,10 +1,12 @@
 //! A plan of a machine: everything on which a result depends, and nothing else.
 
 use super::axis::MachineAxis;
+use super::grid::{MachineBasinPlan, MachineMapPlan};
 use super::simulate::check;
-use super::{grid, orbits, verdicts};
+use super::{orbits, verdicts};
 use crate::machine::{MachineSource, NumberText, StartNumbers, StartText, VectorText};
 use crate::map::check_impacts;
+use crate::plan::{check_tile, hash_of};
 use crate::{DEFAULT_BRANCH_POINTS, PLAN_VERSION, PlanError};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,6 +42,8 @@ pub struct MachinePlan {
     pub machine: MachineSource,
     /// What is computed.
     pub task: MachineTask,
+    /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
+    pub tile: Option<u32>,
 }
 
 /// What is computed for a machine.
@@ -103,27 +107,9 @@ pub enum MachineTask {
         follow: u32,
     },
     /// The motion to which each start of a grid leads.
-    Basin {
-        /// One to four of `q.COORDINATE`, `qdot.COORDINATE` and `phase`; the first varies fastest. The others are those of the
-        /// start.
-        axes: Vec<MachineAxis>,
-        /// Budget of events for each start: 1 to 1000000. 20000 when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        impacts: Option<u32>,
-    },
+    Basin(MachineBasinPlan),
     /// The motions at each point of a grid of numbers of the machine.
-    Map {
-        /// One to four paths; the first varies fastest.
-        axes: Vec<MachineAxis>,
-        /// The number of starts at each point.
-        starts: u64,
-        /// Which sequence of starts.
-        #[serde(default = "one")]
-        seed: u64,
-        /// Budget of events for each start: 1 to 1000000. 20000 when absent.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        impacts: Option<u32>,
-    },
+    Map(MachineMapPlan),
 }
 
 const fn one() -> u64 {
@@ -143,7 +129,7 @@ impl MachinePlan {
     /// A plan of the current version.
     #[must_use]
     pub const fn new(machine: MachineSource, task: MachineTask) -> Self {
-        Self { version: PLAN_VERSION, machine, task }
+        Self { version: PLAN_VERSION, machine, task, tile: None }
     }
 
     /// The same plan with another start. Vectors that are empty are 0.
@@ -157,6 +143,41 @@ impl MachinePlan {
         let text = StartText { q: vector(&start.q), qdot: vector(&start.qdot), phase };
         self.machine.start = (text != StartText::default()).then_some(text);
         self
+    }
+
+    /// An identifier of the content: the first 16 digits of the SHA-256 of the plan as JSON.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        hash_of(self)
+    }
+
+    /// A title in words.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let name = self.machine.title.as_deref().unwrap_or("a machine");
+        let over = |axes: &[MachineAxis]| axes.iter().map(|axis| axis.vary.as_str()).collect::<Vec<_>>().join(", ");
+        match &self.task {
+            MachineTask::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes)),
+            MachineTask::Map(map) => format!("motions over {}: {name}", over(&map.axes)),
+            _ => name.to_owned(),
+        }
+    }
+
+    /// The amount of work and its unit, for tasks that report progress: `(400, "points")`.
+    #[must_use]
+    pub fn work(&self) -> Option<(u64, &'static str)> {
+        match &self.task {
+            MachineTask::Attractors { starts, .. } => Some((*starts, "starts")),
+            MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
+            MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
+            _ => None,
+        }
+    }
+
+    /// Whether the task fills a grid, which a store keeps.
+    #[must_use]
+    pub const fn fills_a_grid(&self) -> bool {
+        matches!(self.task, MachineTask::Basin(_) | MachineTask::Map(_))
     }
 
     /// The plan as JSON.
@@ -194,6 +215,7 @@ impl MachinePlan {
         if self.version != PLAN_VERSION {
             return Err(PlanError::Version(self.version));
         }
+        check_tile(self.tile)?;
         let (machine, _) = self.problem()?;
         match &self.task {
             MachineTask::Simulate { impacts, periods } => check(&machine, (*impacts, *periods)),
@@ -214,8 +236,8 @@ impl MachinePlan {
                 orbits::label(&machine, label.as_deref().unwrap_or("1/1"))?;
                 orbits::check(&self.machine, vary, *to, *points)
             }
-            MachineTask::Basin { axes, impacts } => grid::check_basin(&machine, axes, *impacts),
-            MachineTask::Map { axes, starts, impacts, .. } => grid::check_map(&self.machine, axes, (*starts, *impacts)),
+            MachineTask::Basin(basin) => basin.check(&machine),
+            MachineTask::Map(map) => map.check(&self.machine),
         }
     }
 }

@@ -4,8 +4,8 @@ use super::grid::{MachineBasin, MachineMap};
 use super::orbits::MachineBranched;
 use super::plan::{MachinePlan, MachineTask};
 use super::simulate::{MachineSimulated, simulate};
-use super::{grid, orbits, verdicts};
-use crate::{Control, RunError};
+use super::{orbits, verdicts};
+use crate::{Control, RunError, in_memory};
 use vibroimpact::chaos::MachineExponents;
 use vibroimpact::orbit::MachineCycle;
 use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict};
@@ -64,11 +64,9 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
                 control,
             )?)
         }
-        MachineTask::Basin { axes, impacts } => {
-            MachineResults::Basin(grid::basin((&machine, &start), axes, *impacts, control)?)
+        MachineTask::Basin(basin) => {
+            MachineResults::Basin(in_memory::machine_basin((&machine, &start), basin, control)?)
         }
-        MachineTask::Map { axes, starts, seed, impacts } => {
-            MachineResults::Map(grid::map(&plan.machine, axes, (*starts, *seed, *impacts), control)?)
-        }
+        MachineTask::Map(map) => MachineResults::Map(in_memory::machine_map(&plan.machine, map, control)?),
     })
 }

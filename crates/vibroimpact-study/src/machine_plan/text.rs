@@ -13,6 +13,9 @@ pub(super) struct MachinePlanText {
     /// The version of the plan's fields: 1.
     #[schemars(range(min = 1, max = 1))]
     version: u32,
+    /// Points of a tile along each axis, where results are stored; each task has a size of its own when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    tile: Option<u32>,
     /// A title in a few words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     title: Option<String>,
@@ -39,15 +42,15 @@ pub(super) struct MachinePlanText {
 
 impl From<MachinePlanText> for MachinePlan {
     fn from(text: MachinePlanText) -> Self {
-        let MachinePlanText { version, title, source, summary, parameters, set, start, machine, task } = text;
-        Self { version, machine: MachineSource { title, source, summary, parameters, set, start, machine }, task }
+        let MachinePlanText { version, title, source, summary, parameters, set, start, machine, task, tile } = text;
+        Self { version, machine: MachineSource { title, source, summary, parameters, set, start, machine }, task, tile }
     }
 }
 
 impl From<MachinePlan> for MachinePlanText {
-    fn from(MachinePlan { version, machine, task }: MachinePlan) -> Self {
+    fn from(MachinePlan { version, machine, task, tile }: MachinePlan) -> Self {
         let MachineSource { title, source, summary, parameters, set, start, machine } = machine;
-        Self { version, title, source, summary, parameters, set, start, machine, task }
+        Self { version, title, source, summary, parameters, set, start, machine, task, tile }
     }
 }
 

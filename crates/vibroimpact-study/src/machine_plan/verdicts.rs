@@ -5,9 +5,7 @@ use crate::{Control, PlanError, RunError, Stopped, limits, tiles};
 use vibroimpact::chaos::{DEFAULT_EVENTS, DEFAULT_MACHINE_TRANSIENT, MachineExponents, machine_exponents_while};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::{Machine, MachineError};
-use vibroimpact::verdict::{
-    Census, MachineSettled, MachineVerdict, SteadyMotion, scattered_machine_starts, settle_machine_while,
-};
+use vibroimpact::verdict::{Census, MachineSettled, MachineVerdict, scattered_machine_starts, settle_machine_while};
 
 /// Starts of a tile.
 const TILE: u64 = 4;
@@ -70,15 +68,6 @@ pub(super) fn attractors(
         census.add(verdict);
     }
     Ok(census)
-}
-
-/// The number of a motion among those known, which it joins if it is new.
-pub(super) fn number(known: &mut Vec<MachineVerdict>, verdict: &MachineVerdict) -> usize {
-    const SAME: f64 = 1e-6;
-    known.iter().position(|other| other.same_as(verdict, SAME)).unwrap_or_else(|| {
-        known.push(verdict.clone());
-        known.len() - 1
-    })
 }
 
 /// All exponents of a motion.

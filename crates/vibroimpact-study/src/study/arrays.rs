@@ -1,7 +1,7 @@
 //! Access to the arrays of a study over its whole grid, independent of where they are stored.
 
-use super::Study;
-use crate::{Column, Plan};
+use super::{Study, StudyPlan};
+use crate::Column;
 
 /// Read access to the arrays of a study; implemented by stores.
 pub trait StudyArrays {
@@ -9,7 +9,7 @@ pub trait StudyArrays {
     type Error;
 
     /// The plan of the study.
-    fn plan(&self) -> &Plan;
+    fn plan(&self) -> &StudyPlan;
 
     /// The study.
     fn study(&self) -> &Study;

@@ -1,8 +1,8 @@
 //! The tiles of a basin: for each start, the motion to which it leads.
 
 use super::code;
-use super::cycles::{self, Numbering};
-use super::fill::{Along, Fill, along, grid_of, on_axis};
+use super::cycles::{self, Numbered, Numbering};
+use super::fill::{Along, Fill, along, grid_of, on_axis, spread};
 use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
 use crate::axis;
@@ -101,17 +101,10 @@ impl BasinFill {
         let one = osc.map(|osc| {
             let total = self.grid.points();
             let traps = if total > WORTH_A_SURVEY { TRAPS } else { 0 };
-            let starts = self.spread(traps).map(|k| self.nth(&osc, k));
+            let starts = spread(total, traps).map(|k| self.nth(&osc, k));
             Surveyed { survey: KnownAttractors::survey(&osc, starts, &self.options), cycles: OnceLock::new(), osc }
         });
         Self { one, ..self }
-    }
-
-    /// Numbers of `count` points spread evenly over the grid.
-    fn spread(&self, count: u64) -> impl Iterator<Item = u64> + use<> {
-        let total = self.grid.points();
-        let count = count.min(total);
-        (0..count).map(move |k| total / count * k)
     }
 
     /// The start at point number `k` of the grid.
@@ -122,7 +115,7 @@ impl BasinFill {
     /// The cycles of the survey. Every tile computes the same ones.
     fn cycles<'a>(&self, one: &'a Surveyed) -> &'a [Verdict] {
         one.cycles.get_or_init(|| {
-            let numbers: Vec<u64> = self.spread(SURVEY).collect();
+            let numbers: Vec<u64> = spread(self.grid.points(), SURVEY).collect();
             let known = |k: u64| self.nth(&one.osc, numbers[usize::try_from(k).unwrap_or(0)]);
             let (range, width) = (0..numbers.len() as u64, Width::best());
             let found = settle_many(&one.osc, range, known, &one.survey, &self.options, width, &|| false);
@@ -226,7 +219,7 @@ impl BasinFill {
         let known: Vec<Option<Quantities>> = match &self.one {
             Some(one) => {
                 let survey = self.cycles(one);
-                let same = |found: &Verdict| survey.iter().find(|known| cycles::same(known, found));
+                let same = |found: &Verdict| survey.iter().find(|known| cycles::same(*known, found));
                 let of = |found: &CountedMotion| {
                     of_verdict_only(&one.osc, same(&found.verdict).unwrap_or(&found.verdict), asked)
                 };
@@ -273,8 +266,8 @@ impl Fill for BasinFill {
 
     fn fields(&self) -> Vec<Field> {
         let label = Field {
-            name: "label",
-            long_name: "motion m/n that the start leads to",
+            name: "label".into(),
+            long_name: "motion m/n that the start leads to".into(),
             unit: Unit::NUMBER,
             kind: NumberType::I32,
             fill: super::NOT_COMPUTED,
@@ -284,20 +277,13 @@ impl Fill for BasinFill {
         };
         let mut fields = vec![label.clone()];
         if self.one.is_some() {
-            fields.push(Field {
-                name: "cycle",
-                long_name: "number of the cycle that the start leads to, in the tables cycle_*",
-                fill: i32::MIN,
-                flags: vec![(i32::MIN, "not_computed"), (cycles::NONE, "no_cycle")],
-                comment: "numbers below -1 stand for cycles that are numbered when all tiles are there",
-                ..label.clone()
-            });
+            fields.push(cycles::field(label.clone()));
         }
         fields.extend(self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new())));
         if let Starts::Scattered { .. } = self.starts {
-            let coordinate = |name, long_name, unit| Field {
-                name,
-                long_name,
+            let coordinate = |name: &'static str, long_name: &'static str, unit| Field {
+                name: name.into(),
+                long_name: long_name.into(),
                 unit,
                 kind: NumberType::F64,
                 flags: Vec::new(),
@@ -362,12 +348,13 @@ impl Fill for BasinFill {
         columns
     }
 
-    fn numbered(&self) -> Option<Numbering<'_>> {
+    fn numbered(&self) -> Option<Numbered<'_>> {
         let one = self.one.as_ref()?;
         let unknown = |k: u64| {
             let tile = self.compute(&self.grid.tile(k), &|| false);
             tile.map(|tile| self.leads(&tile).1).unwrap_or_default()
         };
-        Some(Numbering { field: 1, known: self.cycles(one), unknown: Box::new(unknown) })
+        let numbering = Numbering { field: 1, known: self.cycles(one), unknown: Box::new(unknown) };
+        Some(Numbered::Oscillator(numbering))
     }
 }

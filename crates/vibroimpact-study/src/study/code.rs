@@ -5,7 +5,7 @@
 //! number of impacts above 99 999 as 99 999.
 
 use vibroimpact::Label;
-use vibroimpact::verdict::{Count, Verdict};
+use vibroimpact::verdict::{Count, MachineVerdict, Verdict};
 
 /// The point has not been computed.
 pub const NOT_COMPUTED: i32 = -9;
@@ -17,6 +17,8 @@ pub const CHAOTIC: i32 = -2;
 pub const STUCK: i32 = -3;
 /// Undecided within the budget.
 pub const UNDECIDED: i32 = -4;
+/// The start of a machine lies beyond a rigid stop.
+pub const REFUSED: i32 = -5;
 /// No more impacts.
 pub const NO_IMPACT: i32 = 0;
 
@@ -45,6 +47,17 @@ pub fn code(verdict: &Verdict) -> i32 {
         Verdict::Chaotic(_) => CHAOTIC,
         Verdict::Stuck(_) => STUCK,
         Verdict::Undecided(_) => UNDECIDED,
+    }
+}
+
+/// The code of a motion of a machine.
+pub(crate) fn of_machine(verdict: &MachineVerdict) -> i32 {
+    match verdict {
+        MachineVerdict::Periodic(cycle) => of(cycle.label),
+        MachineVerdict::NoImpact => NO_IMPACT,
+        MachineVerdict::Chaotic { .. } => CHAOTIC,
+        MachineVerdict::Stuck => STUCK,
+        MachineVerdict::Undecided { .. } => UNDECIDED,
     }
 }
 

@@ -5,20 +5,33 @@
 //! number below [`NONE`]. When all tiles are complete, these few cycles are computed again and numbered in the order of
 //! the tiles.
 
+use super::stored_motion::{StoredCycle, StoredMotion};
 use super::tables::{Cells, StudyTable, Tiles};
 use crate::Unit;
-use crate::field::Column;
+use crate::field::{Column, Field};
 use crate::grid::Grid;
-use vibroimpact::verdict::{Census, CountedMotion, Verdict};
+use vibroimpact::verdict::{Census, CountedMotion, MachineVerdict, Verdict};
 
 /// Number of a motion that is no cycle.
 pub(super) const NONE: i32 = -1;
 /// Preliminary number of the first cycle that only this tile has found; further ones count downwards.
 const UNKNOWN: i32 = -2;
 
+/// The field with the number of the cycle of each start, beside that with its `label`.
+pub(super) fn field(label: Field) -> Field {
+    Field {
+        name: "cycle".into(),
+        long_name: "number of the cycle that the start leads to, in the tables cycle_*".into(),
+        fill: i32::MIN,
+        flags: vec![(i32::MIN, "not_computed"), (NONE, "no_cycle")],
+        comment: "numbers below -1 stand for cycles that are numbered when all tiles are there",
+        ..label
+    }
+}
+
 /// The number of a motion in a tile. Cycles that the survey has not found are added to `unknown`.
-pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &CountedMotion) -> i32 {
-    if !matches!(found.verdict, Verdict::Periodic(_)) {
+pub(super) fn number<V: StoredMotion>(known: &[V], unknown: &mut Census<V>, found: &CountedMotion<V>) -> i32 {
+    if !found.verdict.is_cycle() {
         return NONE;
     }
     let whole = |n: usize| i32::try_from(n).unwrap_or(i32::MAX / 2);
@@ -32,29 +45,43 @@ pub(super) fn number(known: &[Verdict], unknown: &mut Census, found: &CountedMot
 const SAME: f64 = 1e-6;
 
 /// Whether two verdicts are the same cycle.
-pub(super) fn same(a: &Verdict, b: &Verdict) -> bool {
-    matches!(a, Verdict::Periodic(_)) && a.same_as(b, SAME)
+pub(super) fn same<V: StoredMotion>(a: &V, b: &V) -> bool {
+    a.is_cycle() && a.same_as(b, SAME)
 }
 
 /// The cycles found by a survey.
-pub(super) fn survey(found: &Census) -> Vec<Verdict> {
-    let cycles = found.motions().iter().filter(|found| matches!(found.verdict, Verdict::Periodic(_)));
-    cycles.map(|found| found.verdict.clone()).collect()
+pub(super) fn survey<V: StoredMotion>(found: &Census<V>) -> Vec<V> {
+    found.motions().iter().filter(|found| found.verdict.is_cycle()).map(|found| found.verdict.clone()).collect()
+}
+
+/// The numbers of the cycles of an oscillator, or of a machine.
+pub(crate) enum Numbered<'a> {
+    Oscillator(Numbering<'a, Verdict>),
+    Machine(Numbering<'a, MachineVerdict>),
+}
+
+impl Numbered<'_> {
+    pub(super) fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
+        match self {
+            Self::Oscillator(numbering) => numbering.conclude(grid, tiles),
+            Self::Machine(numbering) => numbering.conclude(grid, tiles),
+        }
+    }
 }
 
 /// The data needed to number the cycles that the survey has not found.
-pub(crate) struct Numbering<'a> {
+pub(crate) struct Numbering<'a, V> {
     /// Index of the field that contains the numbers.
     pub(super) field: usize,
     /// The cycles of the survey.
-    pub(super) known: &'a [Verdict],
+    pub(super) known: &'a [V],
     /// The cycles that only the given tile has found, in the order of their preliminary numbers.
-    pub(super) unknown: Box<dyn Fn(u64) -> Census + 'a>,
+    pub(super) unknown: Box<dyn Fn(u64) -> Census<V> + 'a>,
 }
 
-impl Numbering<'_> {
-    pub(super) fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
-        let mut cycles: Vec<Verdict> = self.known.to_vec();
+impl<V: StoredMotion> Numbering<'_, V> {
+    fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
+        let mut cycles: Vec<V> = self.known.to_vec();
         let mut starts = vec![0_i64; cycles.len()];
         for k in 0..grid.tiles() {
             let column = tiles.read(k, self.field)?;
@@ -85,57 +112,44 @@ impl Numbering<'_> {
                 }
             }
         }
-        Ok(self.tables(&cycles, &starts, grid.points()))
+        let cycles: Vec<StoredCycle> = cycles.iter().filter_map(StoredMotion::stored_cycle).collect();
+        Ok(tables(&cycles, &starts, (grid.points(), V::UNITS)))
     }
+}
 
-    /// The table of the cycles: labels, numbers of starts that lead to each, stability, and impacts.
-    #[allow(clippy::cast_precision_loss)] // counts below 2^53
-    fn tables(&self, cycles: &[Verdict], starts: &[i64], total: u64) -> Vec<StudyTable> {
-        let cycle = |verdict: &Verdict| if let Verdict::Periodic(cycle) = verdict { Some(cycle.clone()) } else { None };
-        let list: Vec<_> = cycles.iter().filter_map(cycle).collect();
-        let longest = list.iter().map(|cycle| cycle.points.len()).max().unwrap_or(0);
-        let count = list.len();
-        let table = |name, long_name, unit, values| StudyTable {
-            name,
-            long_name,
-            unit,
-            dimensions: vec![("cycles", count)],
-            values,
+/// The tables of the cycles: labels, numbers of starts that lead to each, stability, and impacts.
+#[allow(clippy::cast_precision_loss)] // counts below 2^53
+fn tables(cycles: &[StoredCycle], starts: &[i64], (total, units): (u64, [Unit; 2])) -> Vec<StudyTable> {
+    let longest = cycles.iter().map(|cycle| cycle.points.len()).max().unwrap_or(0);
+    let count = cycles.len();
+    let table = |name, long_name, unit, values| StudyTable {
+        name,
+        long_name,
+        unit,
+        dimensions: vec![("cycles", count)],
+        values,
+    };
+    let real = |values: Vec<f64>| Cells::Numbers(Column::F64(values));
+    let labels = Cells::Text(cycles.iter().map(|cycle| cycle.label.clone()).collect());
+    let shares = real(starts.iter().map(|n| *n as f64 / total as f64).collect());
+    let largest = real(cycles.iter().map(|cycle| cycle.multiplier).collect());
+    let mut tables = vec![
+        table("cycle_label", "motion m/n", Unit::NUMBER, labels),
+        table("cycle_share", "share of the starts that lead to the cycle", Unit::NUMBER, shares),
+        table("cycle_multiplier", "largest modulus of the Floquet multipliers", Unit::NUMBER, largest),
+    ];
+    if longest > 0 {
+        let each = |name, long_name, unit, k: usize| {
+            let padded = cycles.iter().flat_map(|cycle| {
+                let impacts = cycle.points.iter().map(|point| point[k]);
+                impacts.chain(core::iter::repeat(f64::NAN)).take(longest).collect::<Vec<_>>()
+            });
+            let dimensions = vec![("cycles", count), ("impact", longest)];
+            StudyTable { name, long_name, unit, dimensions, values: real(padded.collect()) }
         };
-        let real = |values: Vec<f64>| Cells::Numbers(Column::F64(values));
-        let mut tables = vec![
-            table(
-                "cycle_label",
-                "motion m/n",
-                Unit::NUMBER,
-                Cells::Text(list.iter().map(|cycle| cycle.label.to_string()).collect()),
-            ),
-            table(
-                "cycle_share",
-                "share of the starts that lead to the cycle",
-                Unit::NUMBER,
-                real(starts.iter().map(|n| *n as f64 / total as f64).collect()),
-            ),
-        ];
-        let moduli = |cycle: &vibroimpact::orbit::Cycle| {
-            let [a, b] = cycle.multipliers;
-            a.modulus().max(b.modulus())
-        };
-        let largest = real(list.iter().map(moduli).collect());
-        tables.push(table("cycle_multiplier", "largest modulus of the Floquet multipliers", Unit::NUMBER, largest));
-        if longest > 0 {
-            let each = |name, long_name, unit, of: &dyn Fn(&vibroimpact::orbit::CyclePoint) -> f64| {
-                let padded = list.iter().flat_map(|cycle| {
-                    let impacts = cycle.points.iter().map(of);
-                    impacts.chain(core::iter::repeat(f64::NAN)).take(longest).collect::<Vec<_>>()
-                });
-                let dimensions = vec![("cycles", count), ("impact", longest)];
-                StudyTable { name, long_name, unit, dimensions, values: real(padded.collect()) }
-            };
-            tables.push(each("cycle_phase", "phase of the force at the impact", Unit::ANGLE, &|p| p.state.phase));
-            tables.push(each("cycle_velocity", "speed of arrival", Unit::VELOCITY, &|p| p.state.velocity));
-            tables.push(each("cycle_interval", "time to the next impact", Unit::TIME, &|p| p.interval));
-        }
-        if count == 0 { Vec::new() } else { tables }
+        tables.push(each("cycle_phase", "phase of the force at the impact", Unit::ANGLE, 0));
+        tables.push(each("cycle_velocity", "speed of arrival", units[0], 1));
+        tables.push(each("cycle_interval", "time to the next impact", units[1], 2));
     }
+    if count == 0 { Vec::new() } else { tables }
 }

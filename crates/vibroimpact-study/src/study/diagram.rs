@@ -55,7 +55,7 @@ impl Fill for DiagramFill {
                 name: parameter.name().to_owned(),
                 dimension: cut.vary.name().to_owned(),
                 values: (0..self.plan.over.count()).map(value).collect(),
-                long_name: parameter.long_name(),
+                long_name: parameter.long_name().into(),
                 unit: parameter.unit(),
             }
         });
@@ -63,7 +63,7 @@ impl Fill for DiagramFill {
             name: "sweep".to_owned(),
             dimension: "sweep".to_owned(),
             values: values.to_vec(),
-            long_name: "direction of the sweep: 1 with rising values, -1 with falling ones",
+            long_name: "direction of the sweep: 1 with rising values, -1 with falling ones".into(),
             unit: Unit::NUMBER,
         };
         let rows = match self.plan.direction {
@@ -77,9 +77,9 @@ impl Fill for DiagramFill {
 
     fn fields(&self) -> Vec<Field> {
         let point = vec![Extra { name: "point", count: self.keep }];
-        let field = |name, long_name, unit, kind, fill, extra, flags| Field {
-            name,
-            long_name,
+        let field = |name: &'static str, long_name: &'static str, unit, kind, fill, extra, flags| Field {
+            name: name.into(),
+            long_name: long_name.into(),
             unit,
             kind,
             fill,

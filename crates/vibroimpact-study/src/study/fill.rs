@@ -2,7 +2,8 @@
 
 use super::cycles;
 use crate::grid::Dimension;
-use crate::{Axis, Block, Column, Field, Grid, Unit};
+use crate::{Axis, Block, Column, Field, Grid, MachineAxis, Unit};
+use std::borrow::Cow;
 
 /// The coordinate values along a dimension of the grid.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +15,7 @@ pub struct Along {
     /// The value at each index.
     pub values: Vec<f64>,
     /// One line of text that describes the coordinate.
-    pub long_name: &'static str,
+    pub long_name: Cow<'static, str>,
     /// Its unit.
     pub unit: Unit,
 }
@@ -40,7 +41,7 @@ pub(crate) trait Fill: Send + Sync {
     fn columns(&self, block: &Block, tile: Self::Tile) -> Vec<Column>;
 
     /// The field with the numbers of cycles and the cycles of the survey, if the task has such a field.
-    fn numbered(&self) -> Option<cycles::Numbering<'_>> {
+    fn numbered(&self) -> Option<cycles::Numbered<'_>> {
         None
     }
 }
@@ -51,7 +52,7 @@ pub(super) trait Columns: Send + Sync {
     fn coordinates(&self) -> Vec<Along>;
     fn fields(&self) -> Vec<Field>;
     fn fill(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Column>>;
-    fn numbered(&self) -> Option<cycles::Numbering<'_>>;
+    fn numbered(&self) -> Option<cycles::Numbered<'_>>;
 }
 
 impl<F: Fill> Columns for F {
@@ -71,7 +72,7 @@ impl<F: Fill> Columns for F {
         Some(self.columns(block, self.compute(block, tick)?))
     }
 
-    fn numbered(&self) -> Option<cycles::Numbering<'_>> {
+    fn numbered(&self) -> Option<cycles::Numbered<'_>> {
         Fill::numbered(self)
     }
 }
@@ -83,13 +84,17 @@ const FEWEST: usize = 16;
 /// The grid over some axes; the first axis varies fastest. Tiles have the side `asked`, or by default `side`. On short
 /// axes the default is smaller, but at least a quarter of `side`.
 pub(super) fn grid_of(axes: &[Axis], asked: Option<u32>, side: usize) -> Grid {
-    let dimension = |axis: &Axis| {
-        let count = axis.over.count();
-        let fair = || (count / FEWEST).next_power_of_two().clamp(side.div_ceil(4), side);
-        let tile = asked.map_or_else(fair, |tile| tile as usize).min(count);
-        Dimension { name: axis.vary.name().to_owned(), count, tile }
-    };
+    let least = side.div_ceil(4);
+    let dimension = |axis: &Axis| dimension(axis.vary.name(), axis.over.count(), asked, (least, side));
     Grid { dimensions: axes.iter().rev().map(dimension).collect() }
+}
+
+/// A dimension with tiles of the length `asked`, or by default of a length from `least` to `most`, the largest that gives
+/// enough tiles.
+pub(super) fn dimension(name: &str, count: usize, asked: Option<u32>, (least, most): (usize, usize)) -> Dimension {
+    let fair = || (count / FEWEST).next_power_of_two().clamp(least, most);
+    let tile = asked.map_or_else(fair, |tile| tile as usize).min(count);
+    Dimension { name: name.to_owned(), count, tile }
 }
 
 /// The coordinate values of the axes.
@@ -98,10 +103,35 @@ pub(super) fn along(axes: &[Axis]) -> Vec<Along> {
         name: axis.vary.name().to_owned(),
         dimension: axis.vary.name().to_owned(),
         values: axis.over.all(),
-        long_name: axis.vary.long_name(),
+        long_name: axis.vary.long_name().into(),
         unit: axis.vary.unit(),
     };
     axes.iter().rev().map(one).collect()
+}
+
+/// The same for a grid over a machine, whose points take a hundred times as long: its tiles are as small as one point where
+/// an axis is short.
+pub(super) fn machine_grid(axes: &[MachineAxis], asked: Option<u32>, side: usize) -> Grid {
+    let dimension = |axis: &MachineAxis| dimension(&axis.vary, axis.over.count(), asked, (1, side));
+    Grid { dimensions: axes.iter().rev().map(dimension).collect() }
+}
+
+/// The coordinate values of the axes of a grid over a machine.
+pub(super) fn along_machine(axes: &[MachineAxis]) -> Vec<Along> {
+    let one = |axis: &MachineAxis| Along {
+        name: axis.vary.clone(),
+        dimension: axis.vary.clone(),
+        values: axis.over.all(),
+        long_name: axis.long_name().into(),
+        unit: Unit::CONSISTENT,
+    };
+    axes.iter().rev().map(one).collect()
+}
+
+/// Numbers of `count` points spread evenly over `total`; all of them if there are fewer.
+pub(super) fn spread(total: u64, count: u64) -> impl Iterator<Item = u64> {
+    let count = count.min(total);
+    (0..count).map(move |k| total / count * k)
 }
 
 /// The place on axis number `k` of the point with these indices in the grid.

@@ -56,9 +56,9 @@ impl Fill for LyapunovFill {
     }
 
     fn fields(&self) -> Vec<Field> {
-        let real = |name, long_name, unit, extra: &[Extra]| Field {
-            name,
-            long_name,
+        let real = |name: &'static str, long_name: &'static str, unit, extra: &[Extra]| Field {
+            name: name.into(),
+            long_name: long_name.into(),
             unit,
             kind: NumberType::F64,
             fill: 0,

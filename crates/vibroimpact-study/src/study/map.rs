@@ -1,4 +1,5 @@
-//! The tiles of a map: the motions at each point, the most frequent first.
+//! The tiles of a map: the motions at each point, the most frequent first. The systems are oscillators, or machines
+//! (`machine_map.rs`).
 
 use super::code;
 use super::fill::{Along, Fill, along, grid_of, on_axis};
@@ -15,12 +16,43 @@ const MOST_MOTIONS: usize = 8;
 /// Default number of points of a tile along each of two axes; a tile takes some seconds.
 const TILE: usize = 64;
 
-pub(crate) struct MapFill {
+/// Systems whose motions are found at each point of a grid over numbers of the system.
+pub(crate) trait Mapped: Send + Sync {
+    /// A motion at a point.
+    type Motion: Send;
+    /// The unit of speeds.
+    const VELOCITY: Unit;
+
+    /// The coordinate values of the axes.
+    fn coordinates(&self) -> Vec<Along>;
+
+    /// The motions at a point of the grid, the most frequent first, or the error if the point is no valid system.
+    fn motions(&self, index: &[usize]) -> Result<Vec<Self::Motion>, PlanError>;
+
+    /// The code of the label of a motion, and the share of the starts that lead to it.
+    fn label(motion: &Self::Motion) -> (i32, f64);
+
+    /// The fields of the quantities that the plan asks for.
+    fn quantities(&self, extra: &[Extra]) -> Vec<Field>;
+
+    /// The numbers of motions at this point: the largest speed of arrival, the largest modulus of the multipliers, and the
+    /// quantities that the plan asks for.
+    fn numbers(&self, index: &[usize], motions: &[Self::Motion]) -> Vec<Vec<f64>>;
+}
+
+/// The motions at each point of a grid.
+pub(crate) struct MapFill<M> {
+    mapped: M,
+    grid: Grid,
+    kept: usize,
+    refine: Option<u32>,
+}
+
+/// Oscillators over parameters.
+pub(crate) struct OscillatorMap {
     system: SystemPlan,
     plan: MapPlan,
     options: SettleOptions,
-    grid: Grid,
-    kept: usize,
 }
 
 /// The side of a tile, chosen so that tiles have a similar number of points for any number of axes.
@@ -34,36 +66,74 @@ pub(super) const fn side(plane: usize, axes: usize) -> usize {
     }
 }
 
-impl MapFill {
-    pub(crate) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
-        let kept = usize::try_from(plan.starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
-        let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
-        Self { system: *system, plan: plan.clone(), options: plan.options(), grid, kept }
-    }
-
+impl OscillatorMap {
     /// The oscillator at a point. Only the corners of the grid have been checked.
     fn oscillator(&self, index: &[usize]) -> Result<Oscillator, PlanError> {
         self.plan.oscillator(&self.system, |k| on_axis(index, k))
     }
+}
 
-    /// The motions at a point.
-    fn point(&self, index: &[usize]) -> MapTilePoint {
+impl Mapped for OscillatorMap {
+    type Motion = Share;
+    const VELOCITY: Unit = Unit::VELOCITY;
+
+    fn coordinates(&self) -> Vec<Along> {
+        along(&self.plan.axes)
+    }
+
+    fn motions(&self, index: &[usize]) -> Result<Vec<Share>, PlanError> {
         Ok(motions(&self.oscillator(index)?, &self.plan, &self.options))
     }
 
+    fn label(motion: &Share) -> (i32, f64) {
+        (code(&motion.verdict), motion.share)
+    }
+
+    fn quantities(&self, extra: &[Extra]) -> Vec<Field> {
+        self.plan.fields.iter().map(|quantity| quantity::field(*quantity, extra.to_vec())).collect()
+    }
+
+    fn numbers(&self, index: &[usize], motions: &[Share]) -> Vec<Vec<f64>> {
+        let Ok(osc) = self.oscillator(index) else { return Vec::new() };
+        let of = |found: &Share| {
+            let own = [speed(&found.verdict), multiplier(&found.verdict, &osc)];
+            own.into_iter().chain(quantity::values(&self.plan.fields, found.quantities)).collect()
+        };
+        motions.iter().map(of).collect()
+    }
+}
+
+impl MapFill<OscillatorMap> {
+    pub(crate) fn new(system: &SystemPlan, plan: &MapPlan, tile: Option<u32>) -> Self {
+        let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
+        let mapped = OscillatorMap { system: *system, plan: plan.clone(), options: plan.options() };
+        Self::of(mapped, grid, plan.starts, plan.refine)
+    }
+}
+
+impl<M: Mapped> MapFill<M> {
+    /// The map over a grid, with so many starts at each point.
+    pub(super) fn of(mapped: M, grid: Grid, starts: u64, refine: Option<u32>) -> Self {
+        let kept = usize::try_from(starts).unwrap_or(MOST_MOTIONS).min(MOST_MOTIONS);
+        Self { mapped, grid, kept, refine }
+    }
+
     /// The labels of the stored motions of a point, in order.
-    fn labels(&self, point: &MapTilePoint) -> Vec<i32> {
-        let mut labels: Vec<i32> = self.kept(point).iter().map(|found| code(&found.verdict)).collect();
+    fn labels(&self, point: &Motions<M>) -> Vec<i32> {
+        let mut labels: Vec<i32> = self.kept(point).iter().map(|found| M::label(found).0).collect();
         labels.sort_unstable();
         labels
     }
 
     /// The stored motions of a point; empty if the point is no valid system.
-    fn kept<'a>(&self, point: &'a MapTilePoint) -> &'a [Share] {
+    fn kept<'a>(&self, point: &'a Motions<M>) -> &'a [M::Motion] {
         let all = point.as_deref().unwrap_or(&[]);
         &all[..all.len().min(self.kept)]
     }
 }
+
+/// The motions at a point, the most frequent first, or the error if the point is no valid system.
+type Motions<M> = Result<Vec<<M as Mapped>::Motion>, PlanError>;
 
 /// The largest speed before an impact of a cycle.
 fn speed(verdict: &Verdict) -> f64 {
@@ -75,25 +145,22 @@ fn multiplier(verdict: &Verdict, osc: &Oscillator) -> f64 {
     verdict.multipliers(osc).map_or(f64::NAN, |[a, b]| a.modulus().max(b.modulus()))
 }
 
-/// The motions at a point, the most frequent first, or the error if the point is no valid system.
-type MapTilePoint = Result<Vec<Share>, PlanError>;
-
-impl Fill for MapFill {
-    type Tile = Vec<Cell<MapTilePoint>>;
+impl<M: Mapped> Fill for MapFill<M> {
+    type Tile = Vec<Cell<Motions<M>>>;
 
     fn grid(&self) -> &Grid {
         &self.grid
     }
 
     fn coordinates(&self) -> Vec<Along> {
-        along(&self.plan.axes)
+        self.mapped.coordinates()
     }
 
     fn fields(&self) -> Vec<Field> {
         let motion = vec![Extra { name: "motion", count: self.kept }];
         let real = Field {
-            name: "share",
-            long_name: "share of the starts that lead to the motion",
+            name: "share".into(),
+            long_name: "share of the starts that lead to the motion".into(),
             unit: Unit::NUMBER,
             kind: NumberType::F64,
             fill: 0,
@@ -103,8 +170,8 @@ impl Fill for MapFill {
         };
         let mut fields = vec![
             Field {
-                name: "label",
-                long_name: "motion m/n, the most frequent first",
+                name: "label".into(),
+                long_name: "motion m/n, the most frequent first".into(),
                 kind: NumberType::I32,
                 fill: super::NOT_COMPUTED,
                 flags: code::FLAGS.to_vec(),
@@ -113,25 +180,25 @@ impl Fill for MapFill {
             },
             real.clone(),
             Field {
-                name: "speed",
-                long_name: "largest speed of arrival in a period",
-                unit: Unit::VELOCITY,
+                name: "speed".into(),
+                long_name: "largest speed of arrival in a period".into(),
+                unit: M::VELOCITY,
                 ..real.clone()
             },
-            Field { name: "multiplier", long_name: "largest modulus of the Floquet multipliers", ..real },
+            Field { name: "multiplier".into(), long_name: "largest modulus of the Floquet multipliers".into(), ..real },
         ];
-        fields.extend(self.plan.fields.iter().map(|quantity| quantity::field(*quantity, motion.clone())));
-        if self.plan.refine.is_some() {
+        fields.extend(self.mapped.quantities(&motion));
+        if self.refine.is_some() {
             fields.push(computed());
         }
         fields
     }
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
-        let points = |wanted: &[usize]| -> Option<Vec<MapTilePoint>> {
-            wanted.iter().map(|k| (!tick()).then(|| self.point(&block.index(*k)))).collect()
+        let points = |wanted: &[usize]| -> Option<Vec<Motions<M>>> {
+            wanted.iter().map(|k| (!tick()).then(|| self.mapped.motions(&block.index(*k)))).collect()
         };
-        match self.plan.refine {
+        match self.refine {
             None => Some(points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect()),
             // corners agree if they have the same labels, in any order
             Some(step) => refine::fill(block, step as usize, points, |a, b| self.labels(a) == self.labels(b)),
@@ -141,8 +208,9 @@ impl Fill for MapFill {
     fn columns(&self, block: &Block, cells: Self::Tile) -> Vec<Column> {
         let points = block.points();
         let mut label = vec![super::NO_MOTION; points * self.kept];
-        let mut numbers = [(); 3].map(|()| vec![f64::NAN; points * self.kept]);
-        let mut quantities = vec![vec![f64::NAN; points * self.kept]; self.plan.fields.len()];
+        let mut share = vec![f64::NAN; points * self.kept];
+        // the largest speed, the largest multiplier, and the quantities
+        let mut numbers = vec![vec![f64::NAN; points * self.kept]; 2 + self.mapped.quantities(&[]).len()];
         for (k, cell) in cells.iter().enumerate() {
             let (point, own) = match cell {
                 Cell::Computed(point) => (point, true),
@@ -152,22 +220,19 @@ impl Fill for MapFill {
                     Cell::Like(_) => continue,
                 },
             };
-            let osc = if own { self.oscillator(&block.index(k)).ok() } else { None };
-            for (i, found) in self.kept(point).iter().enumerate() {
-                let at = k * self.kept + i;
-                label[at] = code(&found.verdict);
-                numbers[0][at] = found.share;
-                // the labels are those of the corner that agreed, but the other numbers would be those of another point
-                if let Some(osc) = &osc {
-                    (numbers[1][at], numbers[2][at]) = (speed(&found.verdict), multiplier(&found.verdict, osc));
-                    let values = quantity::values(&self.plan.fields, found.quantities);
-                    quantities.iter_mut().zip(values).for_each(|(column, value)| column[at] = value);
-                }
+            let kept = self.kept(point);
+            for (i, found) in kept.iter().enumerate() {
+                (label[k * self.kept + i], share[k * self.kept + i]) = M::label(found);
+            }
+            // the labels are those of the corner that agreed, but the other numbers would be those of another point
+            let of_motions = if own { self.mapped.numbers(&block.index(k), kept) } else { Vec::new() };
+            for (i, values) in of_motions.into_iter().enumerate() {
+                numbers.iter_mut().zip(values).for_each(|(column, value)| column[k * self.kept + i] = value);
             }
         }
-        let mut columns = vec![Column::I32(label)];
-        columns.extend(numbers.into_iter().chain(quantities).map(Column::F64));
-        if self.plan.refine.is_some() {
+        let mut columns = vec![Column::I32(label), Column::F64(share)];
+        columns.extend(numbers.into_iter().map(Column::F64));
+        if self.refine.is_some() {
             columns.push(computed_column(&cells));
         }
         columns
@@ -177,8 +242,8 @@ impl Fill for MapFill {
 /// The field that marks the points that were computed.
 pub(super) fn computed() -> Field {
     Field {
-        name: "computed",
-        long_name: "whether the point was computed itself",
+        name: "computed".into(),
+        long_name: "whether the point was computed itself".into(),
         unit: Unit::NUMBER,
         kind: NumberType::I8,
         fill: 0,

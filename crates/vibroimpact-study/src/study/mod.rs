@@ -10,27 +10,32 @@ mod cycles;
 mod diagram;
 mod fill;
 mod lyapunov;
+mod machine_basin;
+mod machine_map;
 mod map;
 mod memory;
+mod plan;
 mod refine;
+mod stored_motion;
 mod tables;
 #[cfg(test)]
 mod tests;
 
 pub use arrays::StudyArrays;
-pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, STUCK, UNDECIDED, code, label_of};
+pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDECIDED, code, label_of};
 pub use diagram::diagram_of;
 pub use fill::Along;
-pub(crate) use fill::on_axis;
+pub(crate) use fill::{Fill, on_axis};
 pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, in_memory};
+pub use plan::StudyPlan;
 pub(crate) use refine::Cell;
 pub use tables::{Cells, StudyTable, Tiles};
-pub(crate) use {basin::BasinFill, diagram::DiagramFill, map::MapFill};
+pub(crate) use {basin::BasinFill, diagram::DiagramFill, machine_basin::MachineBasinFill, map::MapFill};
 
 use crate::diagram::Show;
 use crate::map::options;
-use crate::{Column, DiagramPlan, Field, Grid, Plan, PlanError, Task};
+use crate::{Column, DiagramPlan, Field, Grid, MachinePlan, MachineTask, Plan, PlanError, Task};
 
 /// A plan that fills a grid.
 pub struct Study {
@@ -42,8 +47,34 @@ impl Study {
     ///
     /// # Errors
     /// [`PlanError`] for an invalid plan, or for a task without a grid.
-    pub fn new(plan: &Plan) -> Result<Self, PlanError> {
+    pub fn new(plan: impl Into<StudyPlan>) -> Result<Self, PlanError> {
+        let plan = plan.into();
         plan.check()?;
+        match &plan {
+            StudyPlan::Oscillator(plan) => Self::of_oscillator(plan),
+            StudyPlan::Machine(plan) => Self::of_machine(plan),
+        }
+    }
+
+    fn of_machine(plan: &MachinePlan) -> Result<Self, PlanError> {
+        let none = |what| Err(PlanError::NoStudy(what));
+        let fill: Box<dyn fill::Columns> = match &plan.task {
+            MachineTask::Basin(basin) => {
+                let (machine, start) = plan.problem()?;
+                Box::new(MachineBasinFill::new((&machine, &start), basin, plan.tile)?)
+            }
+            MachineTask::Map(map) => Box::new(MapFill::of_machine(&plan.machine, map, plan.tile)),
+            MachineTask::Simulate { .. } => return none("simulate"),
+            MachineTask::Settle { .. } => return none("settle"),
+            MachineTask::Attractors { .. } => return none("find the attractors of a machine"),
+            MachineTask::Lyapunov { .. } => return none("measure the exponents of a machine"),
+            MachineTask::Orbit { .. } => return none("find orbits"),
+            MachineTask::Branch { .. } => return none("follow a branch"),
+        };
+        Ok(Self { fill })
+    }
+
+    fn of_oscillator(plan: &Plan) -> Result<Self, PlanError> {
         let tile = plan.tile;
         let fill: Box<dyn fill::Columns> = match &plan.task {
             Task::Map(map) => Box::new(MapFill::new(&plan.system, map, tile)),

@@ -1,0 +1,60 @@
+//! Basins and maps of machines in memory: their tiles are joined.
+
+use super::join::{Joined, Part, joined};
+use crate::machine::MachineSource;
+use crate::machine_plan::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineMotion, check_memory};
+use crate::study::{Cell, Fill, MachineBasinFill, MapFill, tiles_of};
+use crate::{Control, RunError};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
+
+/// Settles every start of a grid, without refinement.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped.
+pub(crate) fn machine_basin(
+    problem: (&Machine, &MachineStart),
+    plan: &MachineBasinPlan,
+    control: &Control<'_>,
+) -> Result<MachineBasin, RunError> {
+    check_memory(&plan.axes, 1)?;
+    let task = MachineBasinFill::new(problem, &MachineBasinPlan { refine: None, ..plan.clone() }, None)?;
+    let whole = task.grid().whole();
+    let parts = tiles_of(&task, control)?.into_iter().map(|(block, tile)| {
+        // without refinement every start is settled
+        let number = |cell: &Cell<Option<u32>>| if let Cell::Computed(number) = cell { *number } else { None };
+        Part { block, cells: tile.cells.iter().map(number).collect(), met: tile.met }
+    });
+    // a start that has a motion was settled before
+    let unknown = MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: None, events: 0 };
+    let first = |k| task.settled(&whole.index(k)).unwrap_or_else(|| unknown.clone());
+    let Joined { motions, cells } = joined(&whole, parts, first);
+    let motions = motions.into_iter().map(|found| found.verdict).collect();
+    Ok(MachineBasin { axes: plan.axes.clone(), motions, cells })
+}
+
+/// Settles scattered starts at every point of a grid of numbers, without refinement.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped.
+pub(crate) fn machine_map(
+    source: &MachineSource,
+    plan: &MachineMapPlan,
+    control: &Control<'_>,
+) -> Result<MachineMap, RunError> {
+    check_memory(&plan.axes, plan.starts)?;
+    // one point a tile, because one point may take a thousand times as long as another
+    let task = MapFill::of_machine(source, &MachineMapPlan { refine: None, ..plan.clone() }, Some(1));
+    let whole = task.grid().whole();
+    let mut cells: Vec<Vec<MachineMotion>> = vec![Vec::new(); whole.points()];
+    for (block, tile) in tiles_of(&task, control)? {
+        for (k, cell) in tile.into_iter().enumerate() {
+            // without refinement every point is computed; one whose numbers are not allowed has no motions
+            if let Cell::Computed(Ok(motions)) = cell {
+                cells[whole.number(&block.index(k))] = motions;
+            }
+        }
+    }
+    Ok(MachineMap { axes: plan.axes.clone(), cells })
+}

@@ -1,0 +1,187 @@
+//! The tiles of a basin of a machine: for each start, the motion to which it leads.
+
+use super::code;
+use super::cycles::{self, Numbered, Numbering};
+use super::fill::{Along, Fill, along_machine, machine_grid, on_axis, spread};
+use super::map::{computed, computed_column, side};
+use super::refine::{self, Cell};
+use super::stored_motion::StoredMotion;
+use crate::field::{Column, Field, NumberType};
+use crate::machine_plan::{MachineBasinPlan, StartAxis};
+use crate::map::options;
+use crate::{Block, Grid, PlanError, Unit};
+use core::cell::RefCell;
+use std::sync::OnceLock;
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::{Census, CountedMotion, MachineVerdict, SettleOptions, settle_machine};
+
+/// Default number of points of a tile along each of two axes; a start takes up to a second.
+const TILE: usize = 16;
+/// Number of starts, spread over the grid, that are settled before the first tile is stored, to find the cycles.
+const SURVEY: u64 = 48;
+
+/// The starts of a machine over a grid.
+pub(crate) struct MachineBasinFill {
+    machine: Machine,
+    start: MachineStart,
+    plan: MachineBasinPlan,
+    places: Vec<StartAxis>,
+    options: SettleOptions,
+    grid: Grid,
+    /// The cycles with the same numbers in all tiles; computed when the first tile is stored.
+    survey: OnceLock<Vec<MachineVerdict>>,
+}
+
+/// The motions of one tile.
+pub(crate) struct MachineBasinTile {
+    /// The motions, in the order of the first start that leads to each.
+    pub(crate) met: Census<MachineVerdict>,
+    /// For each start the index of its motion in `met`; `None` for a start beyond a rigid stop.
+    pub(crate) cells: Vec<Cell<Option<u32>>>,
+}
+
+/// The result of a start as it is stored: the code of its label and the number of its cycle.
+type Leads = (i32, i32);
+
+impl MachineBasinFill {
+    pub(crate) fn new(
+        (machine, start): (&Machine, &MachineStart),
+        plan: &MachineBasinPlan,
+        tile: Option<u32>,
+    ) -> Result<Self, PlanError> {
+        let places = plan.axes.iter().map(|axis| StartAxis::of(machine, &axis.vary)).collect::<Result<_, _>>()?;
+        let grid = machine_grid(&plan.axes, tile, side(TILE, plan.axes.len()));
+        let mut start = start.clone();
+        start.q.resize(machine.n(), 0.0);
+        start.qdot.resize(machine.n(), 0.0);
+        let (machine, plan, options) = (machine.clone(), plan.clone(), options(plan.impacts));
+        Ok(Self { machine, start, plan, places, options, grid, survey: OnceLock::new() })
+    }
+
+    /// The start at a point of the grid.
+    fn start(&self, index: &[usize]) -> MachineStart {
+        let mut start = self.start.clone();
+        for (k, (place, axis)) in self.places.iter().zip(&self.plan.axes).enumerate() {
+            place.set(&mut start, axis.over.at(on_axis(index, k)));
+        }
+        start
+    }
+
+    /// The verdict on the start at a point of the grid; `None` beyond a rigid stop.
+    pub(crate) fn settled(&self, index: &[usize]) -> Option<MachineVerdict> {
+        let settled = settle_machine(&self.machine, &self.start(index), &self.options);
+        settled.ok().map(|settled| settled.verdict)
+    }
+
+    /// The cycles of the survey. Every tile computes the same ones.
+    fn survey(&self) -> &[MachineVerdict] {
+        self.survey.get_or_init(|| {
+            let whole = self.grid.whole();
+            let mut census = Census::default();
+            for k in spread(self.grid.points(), SURVEY) {
+                let index = whole.index(usize::try_from(k).unwrap_or(0));
+                if let Some(verdict) = self.settled(&index) {
+                    census.add(&verdict);
+                }
+            }
+            cycles::survey(&census)
+        })
+    }
+
+    /// The stored result of each motion of a tile, and the cycles that the survey has not found.
+    fn leads(&self, tile: &MachineBasinTile) -> (Vec<Leads>, Census<MachineVerdict>) {
+        let (mut unknown, known) = (Census::default(), self.survey());
+        let leads =
+            |found: &CountedMotion<MachineVerdict>| (found.verdict.code(), cycles::number(known, &mut unknown, found));
+        (tile.met.motions().iter().map(leads).collect(), unknown)
+    }
+
+    /// Whether two starts lead to the same motion, or to two motions with the same label that are no cycles.
+    fn alike(met: &Census<MachineVerdict>, a: Option<u32>, b: Option<u32>) -> bool {
+        let plain = |number: Option<u32>| {
+            let verdict = &met.motions().get(number? as usize)?.verdict;
+            (!verdict.is_cycle()).then(|| verdict.code())
+        };
+        a == b || plain(a).is_some() && plain(a) == plain(b)
+    }
+}
+
+impl Fill for MachineBasinFill {
+    type Tile = MachineBasinTile;
+
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn coordinates(&self) -> Vec<Along> {
+        along_machine(&self.plan.axes)
+    }
+
+    fn fields(&self) -> Vec<Field> {
+        let mut flags = code::FLAGS.to_vec();
+        flags.push((super::REFUSED, "beyond_a_stop"));
+        let label = Field {
+            name: "label".into(),
+            long_name: "motion m/n that the start leads to".into(),
+            unit: Unit::NUMBER,
+            kind: NumberType::I32,
+            fill: super::NOT_COMPUTED,
+            extra: Vec::new(),
+            flags,
+            comment: code::COMMENT,
+        };
+        let mut fields = vec![label.clone(), cycles::field(label)];
+        if self.plan.refine.is_some() {
+            fields.push(computed());
+        }
+        fields
+    }
+
+    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<MachineBasinTile> {
+        let met = RefCell::new(Census::default());
+        let one = |k: &usize| -> Option<Option<u32>> {
+            let verdict = self.settled(&block.index(*k));
+            let number = verdict.map(|verdict| u32::try_from(met.borrow_mut().add(&verdict)).unwrap_or(u32::MAX));
+            (!tick()).then_some(number)
+        };
+        let points = |wanted: &[usize]| wanted.iter().map(one).collect::<Option<Vec<_>>>();
+        let cells = match self.plan.refine {
+            None => points(&(0..block.points()).collect::<Vec<_>>())?.into_iter().map(Cell::Computed).collect(),
+            Some(step) => refine::fill(block, step as usize, points, |a, b| Self::alike(&met.borrow(), *a, *b))?,
+        };
+        Some(MachineBasinTile { met: met.into_inner(), cells })
+    }
+
+    fn columns(&self, _: &Block, tile: MachineBasinTile) -> Vec<Column> {
+        let (leads, _) = self.leads(&tile);
+        let of = |cell: &Cell<Option<u32>>| {
+            let number = match cell {
+                Cell::Computed(number) => *number,
+                Cell::Like(corner) => match tile.cells[*corner] {
+                    Cell::Computed(number) => number,
+                    // a corner is always computed
+                    Cell::Like(_) => None,
+                },
+            };
+            number.map_or((super::REFUSED, cycles::NONE), |number| leads[number as usize])
+        };
+        let stored: Vec<Leads> = tile.cells.iter().map(of).collect();
+        let mut columns = vec![
+            Column::I32(stored.iter().map(|(label, _)| *label).collect()),
+            Column::I32(stored.iter().map(|(_, cycle)| *cycle).collect()),
+        ];
+        if self.plan.refine.is_some() {
+            columns.push(computed_column(&tile.cells));
+        }
+        columns
+    }
+
+    fn numbered(&self) -> Option<Numbered<'_>> {
+        let unknown = |k: u64| {
+            let tile = self.compute(&self.grid.tile(k), &|| false);
+            tile.map(|tile| self.leads(&tile).1).unwrap_or_default()
+        };
+        Some(Numbered::Machine(Numbering { field: 1, known: self.survey(), unknown: Box::new(unknown) }))
+    }
+}

@@ -1,0 +1,89 @@
+//! The tiles of a map of a machine: the motions at each point of a grid over numbers of the machine.
+
+use super::code;
+use super::fill::{Along, along_machine, machine_grid, on_axis};
+use super::map::{MapFill, Mapped, side};
+use super::stored_motion::StoredMotion;
+use crate::field::{Extra, Field};
+use crate::machine::MachineSource;
+use crate::machine_plan::{MachineMapPlan, MachineMotion};
+use crate::map::options;
+use crate::{PlanError, Unit};
+use vibroimpact::verdict::{
+    Census, CountedMotion, MachineVerdict, SettleOptions, scattered_machine_starts, settle_machine,
+};
+
+/// Default number of points of a tile along each of two axes; the starts at a point take up to some seconds.
+const TILE: usize = 8;
+
+/// Machines over numbers.
+pub(crate) struct MachinesOver {
+    source: MachineSource,
+    plan: MachineMapPlan,
+    options: SettleOptions,
+}
+
+impl MapFill<MachinesOver> {
+    pub(crate) fn of_machine(source: &MachineSource, plan: &MachineMapPlan, tile: Option<u32>) -> Self {
+        let grid = machine_grid(&plan.axes, tile, side(TILE, plan.axes.len()));
+        let mapped = MachinesOver { source: source.clone(), plan: plan.clone(), options: options(plan.impacts) };
+        Self::of(mapped, grid, plan.starts, plan.refine)
+    }
+}
+
+impl MachinesOver {
+    /// The description of the machine at a point.
+    fn source(&self, index: &[usize]) -> Result<MachineSource, PlanError> {
+        let mut source = self.source.clone();
+        for (k, axis) in self.plan.axes.iter().enumerate() {
+            let value = axis.over.at(on_axis(index, k));
+            source = source.with(&axis.vary, value)?;
+        }
+        Ok(source)
+    }
+}
+
+impl Mapped for MachinesOver {
+    type Motion = MachineMotion;
+    const VELOCITY: Unit = Unit::CONSISTENT;
+
+    fn coordinates(&self) -> Vec<Along> {
+        along_machine(&self.plan.axes)
+    }
+
+    fn motions(&self, index: &[usize]) -> Result<Vec<MachineMotion>, PlanError> {
+        let machine = self.source(index)?.machine()?;
+        let mut census: Census<MachineVerdict> = Census::default();
+        for k in 0..self.plan.starts {
+            let start = scattered_machine_starts(&machine, self.plan.seed, k);
+            // a start beyond a rigid stop has no motion
+            if let Ok(settled) = settle_machine(&machine, &start, &self.options) {
+                census.add(&settled.verdict);
+            }
+        }
+        let motion = |found: &CountedMotion<MachineVerdict>| {
+            let verdict = &found.verdict;
+            let cycle = verdict.stored_cycle();
+            let fastest = if let MachineVerdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN };
+            MachineMotion {
+                code: code::of_machine(verdict),
+                share: census.share(found),
+                speed: fastest,
+                multiplier: cycle.map_or(f64::NAN, |cycle| cycle.multiplier),
+            }
+        };
+        Ok(census.by_share().into_iter().map(motion).collect())
+    }
+
+    fn label(motion: &MachineMotion) -> (i32, f64) {
+        (motion.code, motion.share)
+    }
+
+    fn quantities(&self, _: &[Extra]) -> Vec<Field> {
+        Vec::new()
+    }
+
+    fn numbers(&self, _: &[usize], motions: &[MachineMotion]) -> Vec<Vec<f64>> {
+        motions.iter().map(|motion| vec![motion.speed, motion.multiplier]).collect()
+    }
+}

@@ -1,0 +1,75 @@
+//! What a store keeps of a motion: that of an oscillator, or that of a machine.
+
+use super::code;
+use crate::Unit;
+use vibroimpact::verdict::{MachineVerdict, SteadyMotion, Verdict};
+
+/// A verdict that can be stored.
+pub(crate) trait StoredMotion: SteadyMotion {
+    /// The units of velocity and time.
+    const UNITS: [Unit; 2];
+
+    /// The code of its label.
+    fn code(&self) -> i32;
+
+    /// Whether it is a cycle, which is numbered.
+    fn is_cycle(&self) -> bool;
+
+    /// What the tables of cycles contain; `None` unless it is a cycle.
+    fn stored_cycle(&self) -> Option<StoredCycle>;
+}
+
+/// A cycle in the tables of a study.
+pub(crate) struct StoredCycle {
+    /// The label m/n.
+    pub(super) label: String,
+    /// The largest modulus of the multipliers.
+    pub(super) multiplier: f64,
+    /// For each impact, or each event of a machine, the phase, the speed of arrival, and the time to the next one.
+    pub(super) points: Vec<[f64; 3]>,
+}
+
+impl StoredMotion for Verdict {
+    const UNITS: [Unit; 2] = [Unit::VELOCITY, Unit::TIME];
+
+    fn code(&self) -> i32 {
+        code(self)
+    }
+
+    fn is_cycle(&self) -> bool {
+        matches!(self, Self::Periodic(_))
+    }
+
+    fn stored_cycle(&self) -> Option<StoredCycle> {
+        let Self::Periodic(cycle) = self else { return None };
+        let [a, b] = cycle.multipliers;
+        Some(StoredCycle {
+            label: cycle.label.to_string(),
+            multiplier: a.modulus().max(b.modulus()),
+            points: cycle.points.iter().map(|p| [p.state.phase, p.state.velocity, p.interval]).collect(),
+        })
+    }
+}
+
+impl StoredMotion for MachineVerdict {
+    const UNITS: [Unit; 2] = [Unit::CONSISTENT; 2];
+
+    fn code(&self) -> i32 {
+        code::of_machine(self)
+    }
+
+    fn is_cycle(&self) -> bool {
+        matches!(self, Self::Periodic(_))
+    }
+
+    fn stored_cycle(&self) -> Option<StoredCycle> {
+        let Self::Periodic(cycle) = self else { return None };
+        let ends = cycle.events.iter().skip(1).map(|event| event.time).chain([cycle.period]);
+        let points = cycle.events.iter().zip(ends).map(|(event, next)| [event.phase, event.speed, next - event.time]);
+        Some(StoredCycle {
+            label: cycle.label.to_string(),
+            multiplier: cycle.multipliers.iter().map(|one| one.modulus()).fold(0.0, f64::max),
+            points: points.collect(),
+        })
+    }
+}
