@@ -44,7 +44,7 @@ mod _core {
     #[pymodule_export]
     use crate::machine::{MachineFile, machine_names, machine_waveform, simulate_machine};
     #[pymodule_export]
-    use crate::machine_answers::machine_answer;
+    use crate::machine_answers::{machine_answer, machine_plan};
     #[pymodule_export]
     use crate::margins::{margins, varied_parameters};
     #[pymodule_export]

@@ -103,7 +103,7 @@ type Fixed = (&'static str, f64, &'static str, &'static str, &'static str);
 /// rest, are not-a-number.
 #[pyfunction]
 pub(crate) fn fixed_coordinates(text: &str) -> Result<Vec<Fixed>, Trouble> {
-    let plan = read(text)?;
+    let StudyPlan::Oscillator(plan) = read_any(text)? else { return Ok(Vec::new()) };
     let on = |axes: &[Axis]| axes.iter().map(|axis| axis.vary).collect::<Vec<_>>();
     let (varied, start) = match &plan.task {
         Task::Map(map) => (on(&map.axes), None),

@@ -23,7 +23,7 @@ impl Unit {
     /// A nondimensional time.
     pub const TIME: Self = Self { name: "1", scale: "1/omega_n" };
     /// A number of a machine, whose file is in one consistent system of units that it does not name.
-    pub const CONSISTENT: Self = Self { name: "", scale: "the consistent units of the machine" };
+    pub const CONSISTENT: Self = Self { name: "", scale: "" };
     /// A nondimensional length.
     pub const LENGTH: Self = Self::nondimensional(QuantityKind::Length);
     /// A nondimensional velocity.

@@ -165,7 +165,7 @@ fn printed_plans_run_again() {
             for field in ["events", "end", "plan", "start"] {
                 assert_eq!(again[field], told[field], "{line}: {name}");
             }
-            assert!(refused(&format!("run {} --store a.zarr", file.display())).contains("fills no store"));
+            assert!(refused(&format!("run {} --store a.zarr", file.display())).contains("nothing to store"));
         }
     }
     let bad = folder.path().join("bad.toml");

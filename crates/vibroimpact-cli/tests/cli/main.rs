@@ -10,6 +10,7 @@ mod excitation;
 mod figures;
 mod files;
 mod lyapunov;
+mod machine_studies;
 mod machines;
 mod margins;
 mod planes;

@@ -5,10 +5,12 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vibroimpact import _core
 from vibroimpact._axis import Axis, Interval
 from vibroimpact._core import Oscillator, Units
+from vibroimpact._machine import Machine
 from vibroimpact._plan import Plan
 from vibroimpact._progress import Progress, watched
 from vibroimpact._whole import THREADS, whole
@@ -84,13 +86,20 @@ def _dataset(
     return with_fixed(ds)
 
 
+def _units(osc: Oscillator | Machine) -> Units | None:
+    """The units of the results of an oscillator; those of a machine are its own."""
+    return osc.units if isinstance(osc, Oscillator) else None
+
+
 def basin(
-    osc: Oscillator,
+    osc: Oscillator | Machine,
     over: Mapping[str, Axis] | None = None,
     *,
     x: Axis | float | None = None,
-    v: Axis | float = 0.0,
-    phase: Axis | float = 0.0,
+    v: Axis | float | None = None,
+    phase: Axis | float | None = None,
+    q: ArrayLike | None = None,
+    qdot: ArrayLike | None = None,
     refine: int | None = None,
     impacts: int | None = None,
     fields: Sequence[str] = (),
@@ -104,14 +113,17 @@ def basin(
 
     Parameters
     ----------
-    osc : Oscillator
+    osc : Oscillator or Machine
         The system. For an oscillator with physical units the starts and the Dataset are nondimensional too; the units are
         kept in the attributes, and `ds.vibro.si()` converts the Dataset.
     over : mapping
         Parameters that vary in addition to the start, with their values. At least one coordinate of the start must vary too.
+        For a machine what varies of the start: {"q.head": "-1:1:9", "phase": "0:6:7"}.
     x, v, phase : float, str or array
         Position, velocity and phase of the starts: one number for all starts, a range ("-4:0.75:200" has 200 values) or an
         array. The first one that varies is the abscissa, the second one the ordinate.
+    q, qdot : array
+        Coordinates and velocities of the starts of a machine, where they do not vary. Default: those of `machine.start`, or 0.
     refine : int
         Step K of a coarse grid: every K-th point is computed first, and points between only where their neighbours differ.
     impacts : int
@@ -152,18 +164,20 @@ def basin(
         osc,
         {**axes, **(over or {})},
         x=fixed.get("x"),
-        v=fixed.get("v") or 0.0,
-        phase=fixed.get("phase") or 0.0,
+        v=fixed.get("v"),
+        phase=fixed.get("phase"),
+        q=q,
+        qdot=qdot,
         refine=refine,
         impacts=impacts,
         fields=fields,
         tile=tile,
     )
-    return computed(plan, osc.units, store, client, threads, progress)
+    return computed(plan, _units(osc), store, client, threads, progress)
 
 
 def region_map(
-    osc: Oscillator,
+    osc: Oscillator | Machine,
     over: Mapping[str, Axis],
     *,
     starts: int = 8,
@@ -181,10 +195,10 @@ def region_map(
 
     Parameters
     ----------
-    osc : Oscillator
+    osc : Oscillator or Machine
         The system; its values of the parameters that vary are ignored. Physical units as for `basin`.
     over : mapping
-        One to four parameters with their values; the first one is the abscissa:
+        One to four parameters, for a machine the paths of numbers, with their values; the first one is the abscissa:
         {"inverse_beta": "0.4:2:33", "gap": [0, 1, 2.5]}.
     starts : int
         Number of starts at each point: the first at rest, the second on the motion without impacts, the others scattered.
@@ -215,7 +229,7 @@ def region_map(
     plan = Plan.map(
         osc, over, starts=starts, seed=seed, refine=refine, impacts=impacts, fields=fields, tile=tile
     )
-    return computed(plan, osc.units, store, client, threads, progress)
+    return computed(plan, _units(osc), store, client, threads, progress)
 
 
 def orbit_diagram(
@@ -288,4 +302,4 @@ def orbit_diagram(
         transient=transient,
         keep=keep,
     )
-    return computed(plan, osc.units, store, client, threads, progress)
+    return computed(plan, _units(osc), store, client, threads, progress)

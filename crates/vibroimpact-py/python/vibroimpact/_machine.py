@@ -284,15 +284,16 @@ class Machine:
         >>> float(wave.force[:, 0].max().round())          # 9950.37 N in closed form
         9950.0
         """
-        start = self._start(q, qdot, phase)
+        start = self.start_of(q, qdot, phase)
         fields = _core.simulate_machine(self._file, start, maybe("impacts", impacts, SIMULATED), periods)
         kind, stop = (np.array(fields.pop(name), dtype=np.str_) for name in ("kind", "stop"))
         with_ = tuple(tuple(names) for names in fields.pop("with_"))
         return MachineSimulation(machine=self, start=start, kind=kind, stop=stop, with_=with_, **fields)
 
-    def _start(
+    def start_of(
         self, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None
     ) -> tuple[list[float], list[float], float]:
+        """Coordinates, velocities and phase of a start: what is given, and else those of the table `start`, or 0."""
         return self._file.start(_vector(q), _vector(qdot), None if phase is None else float(phase))
 
     def settle(
@@ -316,7 +317,7 @@ class Machine:
         (<MachineMotion 1/1, stable>, {'anvil': 1}, 4)
         """
         task = {"settle": {"impacts": maybe("impacts", impacts, BUDGET)}}
-        return _machine_answers.settled(_machine_answers.ask(self._file, self._start(q, qdot, phase), task)[0])
+        return _machine_answers.settled(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
 
     def attractors(
         self, starts: int = 200, *, seed: int = 1, impacts: int | None = None, threads: int = 0,
@@ -346,7 +347,7 @@ class Machine:
         starts = whole("starts", starts, STARTS)
         budget = maybe("impacts", impacts, BUDGET)
         task = {"attractors": {"starts": starts, "seed": whole("seed", seed, SEED), "impacts": budget}}
-        found, _ = _machine_answers.ask(self._file, self._start(), task, starts, threads, progress)
+        found, _ = _machine_answers.ask(self._file, self.start_of(), task, starts, threads, progress)
         return _machine_answers.attractors(found)
 
     def lyapunov(
@@ -374,7 +375,7 @@ class Machine:
         task = {"lyapunov": {
             "impacts": maybe("impacts", impacts, SIMULATED), "transient": maybe("transient", transient, TRANSIENT),
         }}
-        return _machine_answers.lyapunov(_machine_answers.ask(self._file, self._start(q, qdot, phase), task)[0])
+        return _machine_answers.lyapunov(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
 
     def orbit(self, label: str) -> MachineOrbits:
         """The orbits with a label m/n, stable or not, from many guesses; m counts closings of all stops.
@@ -383,7 +384,7 @@ class Machine:
         >>> vi.Machine.named("two-mass-hammer").orbit("1/1")[-1].stable
         True
         """
-        return _machine_answers.orbits(_machine_answers.ask(self._file, self._start(), {"orbit": {"label": label}})[0])
+        return _machine_answers.orbits(_machine_answers.ask(self._file, self.start_of(), {"orbit": {"label": label}})[0])
 
     def branch(
         self, vary: str, to: float, *, label: str | None = None, points: int = 5000,
@@ -413,7 +414,7 @@ class Machine:
         """
         points = whole("points", points, BRANCH)
         task = {"branch": {"label": label, "vary": vary, "to": float(to), "points": points}}
-        return _machine_answers.branch(_machine_answers.ask(self._file, self._start(q, qdot, phase), task)[0])
+        return _machine_answers.branch(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
 
     def basin(
         self, axes: MachineAxes, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
@@ -445,7 +446,7 @@ class Machine:
         """
         over = _machine_answers.spans(axes)
         task = {"basin": {"axes": over, "impacts": maybe("impacts", impacts, BUDGET)}}
-        start, total = self._start(q, qdot, phase), _machine_answers.size(over)
+        start, total = self.start_of(q, qdot, phase), _machine_answers.size(over)
         return _machine_answers.basin(_machine_answers.ask(self._file, start, task, total, threads, progress)[0])
 
     def map(
@@ -479,8 +480,8 @@ class Machine:
         over, starts = _machine_answers.spans(axes), whole("starts", starts, POINT_STARTS)
         task = {"map": {"axes": over, "starts": starts, "seed": whole("seed", seed, SEED),
                         "impacts": maybe("impacts", impacts, BUDGET)}}
-        total = starts * _machine_answers.size(over)
-        found, cells = _machine_answers.ask(self._file, self._start(), task, total, threads, progress)
+        total = _machine_answers.size(over)
+        found, cells = _machine_answers.ask(self._file, self.start_of(), task, total, threads, progress, "points")
         return _machine_answers.mapped(found, cells or [])
 
 

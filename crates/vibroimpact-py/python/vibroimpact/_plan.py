@@ -7,9 +7,12 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+from numpy.typing import ArrayLike
+
 from vibroimpact import _core
 from vibroimpact._axis import Axis, Interval, axes, beside, interval, span
 from vibroimpact._core import Oscillator
+from vibroimpact._machine import Machine
 from vibroimpact._whole import BUDGET, KEEP, MEASURED, POINT_STARTS, REFINE, SEED, STARTS, TILE, TRANSIENT, maybe, whole
 
 #: Version of the fields of a plan.
@@ -74,7 +77,7 @@ class Plan:
     @classmethod
     def map(
         cls,
-        osc: Oscillator,
+        osc: Oscillator | Machine,
         over: Mapping[str, Axis],
         *,
         starts: int = 8,
@@ -98,26 +101,34 @@ class Plan:
     @classmethod
     def basin(
         cls,
-        osc: Oscillator,
+        osc: Oscillator | Machine,
         over: Mapping[str, Axis],
         *,
         x: float | None = None,
-        v: float = 0.0,
-        phase: float = 0.0,
+        v: float | None = None,
+        q: ArrayLike | None = None,
+        qdot: ArrayLike | None = None,
+        phase: float | None = None,
         refine: int | None = None,
         impacts: int | None = None,
         fields: Sequence[str] = (),
         tile: int | None = None,
     ) -> "Plan":
-        """A plan for the motion to which each start leads, over "x", "v", "phase" and parameters. Other values are those given."""
+        """A plan for the motion to which each start leads, over "x", "v", "phase" and parameters. Other values are those given.
+
+        For a machine it is over "q.COORDINATE", "qdot.COORDINATE" and "phase".
+        """
         task = {
             "axes": axes(over),
-            "start": _start(x, v, phase),
             "refine": maybe("refine", refine, REFINE),
             "impacts": maybe("impacts", impacts, BUDGET),
             "fields": _names(fields),
         }
-        return cls._of(osc, "basin", task, tile)
+        if isinstance(osc, Machine):
+            _absent("a machine has q and qdot", x=x, v=v)
+            return cls._of(osc, "basin", task, tile, osc.start_of(q, qdot, phase))
+        _absent("an oscillator has x and v", q=q, qdot=qdot)
+        return cls._of(osc, "basin", {**task, "start": _start(x, v or 0.0, phase or 0.0)}, tile)
 
     @classmethod
     def diagram(
@@ -192,16 +203,33 @@ class Plan:
         return cls._of(osc, "attractors", task, tile)
 
     @classmethod
-    def _of(cls, osc: Oscillator, name: str, task: dict[str, Any], tile: int | None) -> "Plan":
+    def _of(
+        cls,
+        osc: Oscillator | Machine,
+        name: str,
+        task: dict[str, Any],
+        tile: int | None,
+        start: tuple[list[float], list[float], float] | None = None,
+    ) -> "Plan":
         given = {key: value for key, value in task.items() if value is not None}
+        tile = maybe("tile", tile, TILE)
+        if isinstance(osc, Machine):
+            return cls(_core.machine_plan(osc._file, start or osc.start_of(), json.dumps({name: given}), tile))
         plan: dict[str, Any] = {"version": _VERSION, "system": json.loads(_core.system_fields(osc)), "task": {name: given}}
         if tile is not None:
-            plan["tile"] = whole("tile", tile, TILE)
+            plan["tile"] = tile
         units = osc.units
         if units is not None:
             # the numbers of the plan are nondimensional; its results can be converted with these units
             plan["units"] = {"length_m": units.length_m, "time_s": units.time_s, "mass_kg": units.mass_kg}
         return cls(json.dumps(plan))
+
+
+def _absent(hint: str, **given: object) -> None:
+    """Refuse parts of a start that the system does not have."""
+    for name, value in given.items():
+        if value is not None:
+            raise _core.QuestionError(f"{name} is no part of the start of this system\nhint: {hint}")
 
 
 def _known(what: str, given: str, known: tuple[str, ...]) -> None:

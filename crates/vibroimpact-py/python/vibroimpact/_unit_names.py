@@ -8,9 +8,9 @@ _POWERS = {"2": "\u00b2", "3": "\u00b3"}
 
 
 def described(long_name: str, units: str, scale: str) -> dict[str, Any]:
-    """The attributes of a variable: the unit in the notation of UDUNITS, and the scale of nondimensional numbers."""
-    attributes = {"long_name": long_name, "units": units}
-    return {**attributes, "scale": scale} if scale else attributes
+    """The attributes of a variable: the unit in the notation of UDUNITS if it is known, and the scale of nondimensional numbers."""
+    given = {"long_name": long_name, "units": units, "scale": scale}
+    return {name: text for name, text in given.items() if text}
 
 
 def unit_of(attributes: Mapping[Any, Any]) -> str:

@@ -1,0 +1,120 @@
+//! Studies of machines from outside: the same results with a store and without, in parts, refined, damaged and mended.
+#![allow(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use crate::{json, vibro};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// Runs `vibro` in a folder, and returns what it prints.
+fn done(folder: &Path, line: &str) -> String {
+    let output = vibro(line).current_dir(folder).output().unwrap();
+    let complaint = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{line}: {complaint}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// All files of a store.
+fn files(store: &Path) -> BTreeMap<String, Vec<u8>> {
+    let all = walk(store);
+    all.into_iter()
+        .map(|path| (path.strip_prefix(store).unwrap().display().to_string(), fs::read(&path).unwrap()))
+        .collect()
+}
+
+fn walk(folder: &Path) -> Vec<std::path::PathBuf> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    entries.flat_map(|path| if path.is_dir() { walk(&path) } else { vec![path] }).collect()
+}
+
+const MAP: &str =
+    "map --machine two-mass-hammer --axis frequency=0.8:1.2:9 --axis stop.anvil.gap=0.3,0.5,0.75 --starts 3";
+const BASIN: &str = "basin --machine impact-damper --axis q.particle=-0.3:0.3:7 --axis qdot.particle=-1:1:5";
+
+/// The table and the figure of a store are those of the command without one, byte by byte.
+#[test]
+fn stores_have_the_results_of_commands() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    for (name, line) in
+        [("map", MAP), ("basin", BASIN), ("line", "map --machine soft-stop --axis frequency=0.7:0.9:5 --starts 2")]
+    {
+        done(here, &format!("{line} --csv {name}.csv --plot {name}.svg"));
+        done(here, &format!("{line} --store {name}.zarr --csv {name}-stored.csv --plot {name}-stored.svg"));
+        for kind in ["csv", "svg"] {
+            let read = |name: &str| fs::read_to_string(here.join(format!("{name}.{kind}"))).unwrap();
+            assert_eq!(read(name), read(&format!("{name}-stored")), "{name}.{kind}");
+        }
+        done(here, &format!("plot {name}.zarr {name}-again.svg"));
+        assert_eq!(
+            fs::read(here.join(format!("{name}.svg"))).unwrap(),
+            fs::read(here.join(format!("{name}-again.svg"))).unwrap()
+        );
+        assert!(done(here, &format!("verify {name}.zarr --sample 100")).contains("nothing is wrong"), "{name}");
+        let status = done(here, &format!("status {name}.zarr"));
+        assert!(status.contains("complete\n") && status.contains("[machine]"), "{status}");
+    }
+}
+
+/// Two jobs with a part each fill the same store as one, byte by byte; a tile that is damaged is computed again.
+#[test]
+fn parts_and_damage() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let plan = json(BASIN)["plan"].clone();
+    fs::write(here.join("study.json"), plan.to_string()).unwrap();
+    done(here, "run study.json");
+    done(here, "run study.json --store parts.zarr --tiles 2/2");
+    let half: Value = serde_json::from_str(&done(here, "status parts.zarr --json")).unwrap();
+    assert!(half["complete"] == false && half["tiles_done"].as_u64() < half["tiles"].as_u64(), "{half}");
+    done(here, "run study.json --store parts.zarr --tiles 1/2");
+    let whole = files(&here.join("study.zarr"));
+    assert_eq!(files(&here.join("parts.zarr")), whole);
+    // the first chunk of the labels
+    let chunk = whole.keys().find(|name| name.starts_with("label/c/")).unwrap();
+    fs::write(here.join("parts.zarr").join(chunk), b"damaged").unwrap();
+    assert_eq!(vibro("verify parts.zarr").current_dir(here).output().unwrap().status.code(), Some(1));
+    done(here, "resume parts.zarr");
+    assert_eq!(files(&here.join("parts.zarr")), whole);
+    let script = done(here, "slurm study.json --jobs 4");
+    assert!(script.contains("run ") && script.contains("--tiles"), "{script}");
+}
+
+/// A refined map has the labels of the whole one at every point that it computes, and fewer of them.
+#[test]
+fn refined_maps() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let line = "map --machine two-mass-hammer --axis frequency=0.9:1.2:17 --axis stop.anvil.gap=0.4:0.6:9 --starts 1";
+    let whole = done(here, &format!("{line} --csv -"));
+    done(here, &format!("{line} --store refined.zarr --tile 17 --refine 4"));
+    let table = done(here, "export refined.zarr --csv -");
+    let labels: Vec<&str> = whole.lines().skip(1).map(|row| row.split(',').nth(2).unwrap()).collect();
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    assert_eq!((labels.len(), rows.len()), (17 * 9, 17 * 9));
+    let computed = rows.iter().zip(&labels).filter(|(row, _)| row[6] == "computed");
+    assert!(computed.clone().all(|(row, label)| row[2] == *label));
+    assert!(computed.count() < 17 * 9);
+}
+
+/// The starts of a machine of one coordinate lead to the motions to which those of the oscillator lead.
+#[test]
+fn a_basin_of_one_coordinate_is_that_of_the_oscillator() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let plane = [("x", "-3:0.7:9"), ("v", "-2:2:7")];
+    done(here, &format!("basin {} --x {} --v {} --csv osc.csv", crate::S, plane[0].1, plane[1].1));
+    fs::write(
+        here.join("one.toml"),
+        "[machine]\ncoordinates = [\"x\"]\nmass = [1]\nstiffness = [1]\nfrequency = 0.76923076923076927\n\
+         force = [{ sin = [1] }]\nstop = [{ name = \"wall\", direction = [1], gap = 0.75, restitution = 0.5 }]\n",
+    )
+    .unwrap();
+    let line = format!("basin --machine one.toml --axis q.x={} --axis qdot.x={}", plane[0].1, plane[1].1);
+    done(here, &format!("{line} --store one.zarr --csv one.csv"));
+    let read = |name: &str| fs::read_to_string(here.join(name)).unwrap();
+    let rows = |text: String| text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(rows(read("one.csv")), rows(read("osc.csv")));
+    assert!(read("osc.csv").contains("2/1") && read("osc.csv").contains("1/1"));
+}
