@@ -86,6 +86,7 @@ impl MachineAnswer {
             }
             MachineResults::Basin(found) => figure::basin::of_machine(found, title)?,
             MachineResults::Map(found) => figure::map::of_machine(found, title)?,
+            MachineResults::Diagram(found) => figure::diagram::of_machine(found, title)?,
             MachineResults::Attractors(_) | MachineResults::Lyapunov(_) | MachineResults::Orbit(_) => return Ok(None),
         }))
     }
@@ -121,6 +122,7 @@ impl MachineAnswer {
             }
             MachineResults::Basin(found) => table::machine_tables::basin(found),
             MachineResults::Map(found) => table::machine_tables::map(found),
+            MachineResults::Diagram(found) => table::diagram::of_machine(found, &self.machine),
             MachineResults::Settle(_) | MachineResults::Orbit(_) | MachineResults::Lyapunov(_) => return Ok(None),
         }))
     }

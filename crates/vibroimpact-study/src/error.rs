@@ -55,6 +55,16 @@ pub enum PlanError {
         /// All coordinates.
         coordinates: String,
     },
+    /// Something that a diagram of a machine cannot show.
+    #[error(
+        "`{given}` is nothing that a diagram of a machine shows\nhint: speed, q.NAME or qdot.NAME; the coordinates are {coordinates}"
+    )]
+    MachineShow {
+        /// The given name.
+        given: String,
+        /// All coordinates.
+        coordinates: String,
+    },
     /// The number of axes of a grid of a machine.
     #[error("{0} axes were given: allowed are 1 to 4\nhint: --axis PATH=A:B:N, once for each")]
     MachineAxes(usize),

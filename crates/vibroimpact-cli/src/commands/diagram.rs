@@ -1,15 +1,18 @@
 //! `vibro diagram`: the orbit diagram, the motion after its transient at each value of a parameter.
 
-use crate::args::{Ends, FigureArgs, Named, ParameterFlag, StoreArgs, SystemArgs, parameter, quantity, whole};
+use crate::args::{
+    Ends, FigureArgs, MachineArgs, Named, StartOfMachineArgs, StoreArgs, SystemArgs, Varied, number, quantity, varied,
+    whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact_report::Shown;
 use vibroimpact_study::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
-use vibroimpact_study::{DiagramPlan, Plan, PlanError, Span, Stretch, Task};
+use vibroimpact_study::{DiagramPlan, MachineDiagramPlan, MachineTask, Plan, PlanError, Span, Stretch, Task};
 
 /// The orbit diagram: impacts or states after the transient, over one parameter or along a line through two
 ///
@@ -27,7 +30,8 @@ use vibroimpact_study::{DiagramPlan, Plan, PlanError, Span, Stretch, Task};
 /// Without --csv, --plot or --json the command prints a summary.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro diagram --inverse-beta X --restitution E --vary gap --over A:B:N [OPTIONS]",
+    override_usage = "vibro diagram --inverse-beta X --restitution E --vary gap --over A:B:N [OPTIONS]\n       \
+        vibro diagram --machine NAME|FILE --vary PATH --over A:B:N [OPTIONS]",
     after_help = "Examples:\n  \
         vibro diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:601 \\\n    \
         --csv gap.csv --plot gap.png\n  \
@@ -36,15 +40,24 @@ use vibroimpact_study::{DiagramPlan, Plan, PlanError, Span, Stretch, Task};
         vibro diagram --beta 0.9 --gap 2 --damping 0.05 --vary restitution --over 0:1:201 \\\n    \
         --show strobe --csv strobe.csv\n  \
         vibro diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0:3:301 --show impact-speed-max --plot speed.png\n  \
-        vibro diagram --restitution 0.5 --vary inverse-beta --over 1.05:1.15:401 --also gap=1.5:3 --plot line.png"
+        vibro diagram --restitution 0.5 --vary inverse-beta --over 1.05:1.15:401 --also gap=1.5:3 --plot line.png\n  \
+        vibro diagram --machine two-mass-hammer --vary frequency --over 0.7:1.3:301 --plot hammer.png"
 )]
 pub(crate) struct Diagram {
     #[command(flatten)]
     system: SystemArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
 
-    /// The parameter that varies
-    #[arg(long, value_parser = parameter(), value_name = "PARAMETER", help_heading = "Sweep")]
-    vary: ParameterFlag,
+    /// Phase of the forcing at the start of a machine, radians [default: that of the machine file, or 0]
+    #[arg(long, value_parser = number, value_name = "P", allow_hyphen_values = true, requires = "machine", help_heading = "Machine")]
+    phase: Option<f64>,
+
+    /// The parameter that varies, or the path of a number of the machine
+    #[arg(long, value_parser = varied(), value_name = "PARAMETER", help_heading = "Sweep")]
+    vary: Varied,
 
     /// Its values: N from A to B, both included
     #[arg(long, value_name = "A:B:N", allow_hyphen_values = true, help_heading = "Sweep")]
@@ -69,9 +82,10 @@ pub(crate) struct Diagram {
 
     /// What is shown: velocity (phase and speed of arrival of each impact), strobe (position and velocity once in every
     /// forcing period, at phase 0), or a quantity of the settled motion by name, one value of each motion: impact-speed-max,
-    /// power and others, as in --fields of `vibro map`
-    #[arg(long, value_parser = what, value_name = "WHAT", default_value = "velocity", help_heading = "Sweep")]
-    show: Show,
+    /// power and others, as in --fields of `vibro map`. Of a machine speed (phase and speed of each closing of a stop; the
+    /// default), or q.NAME or qdot.NAME, a coordinate or velocity once in every forcing period, at phase 0
+    #[arg(long, value_name = "WHAT", help_heading = "Sweep")]
+    show: Option<String>,
 
     /// Impacts (velocity) or forcing periods (strobe) to pass before anything is shown, up to 1000000
     #[arg(long, value_parser = whole::<u64>, value_name = "K", default_value_t = DEFAULT_TRANSIENT, allow_hyphen_values = true, help_heading = "Sweep")]
@@ -113,12 +127,14 @@ enum Way {
     Scatter,
 }
 
-/// Parses what is shown.
-fn what(text: &str) -> Result<Show, String> {
+/// What is shown of an oscillator.
+fn what(text: Option<&str>) -> Result<Show, Failure> {
     match text {
-        "velocity" => Ok(Show::Velocity),
-        "strobe" => Ok(Show::Strobe),
-        name => quantity(name).map(Show::Quantity).map_err(|why| format!("{why}; besides these, velocity and strobe")),
+        None | Some("velocity") => Ok(Show::Velocity),
+        Some("strobe") => Ok(Show::Strobe),
+        Some(name) => quantity(name)
+            .map(Show::Quantity)
+            .map_err(|why| Failure::bad(format!("--show: {why}; besides these, velocity and strobe"))),
     }
 }
 
@@ -137,10 +153,29 @@ impl Diagram {
 }
 
 pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
-    let first = (args.vary, args.over.ends().0, ["vary", "over"]);
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let task = || {
+        if args.also.is_some() {
+            return Err(Failure::bad("--also is for oscillators: a diagram of a machine has one number"));
+        }
+        Ok(MachineTask::Diagram(MachineDiagramPlan {
+            vary: args.vary.path(),
+            over: args.over,
+            show: args.show.clone().unwrap_or_else(|| "speed".to_owned()),
+            direction: args.direction()?,
+            transient: args.transient,
+            keep: args.keep,
+        }))
+    };
+    let start = Some((&args.of_machine, args.phase));
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, Some(&args.store), session) {
+        return answer;
+    }
+    let (named, show) = (args.vary.parameter()?, what(args.show.as_deref())?);
+    let first = (named, args.over.ends().0, ["vary", "over"]);
     let also = args.also.map(|Named(named, ends)| (named, ends.0, ["also", "also"]));
     let asked = args.system.varied(&[first].into_iter().chain(also).collect::<Vec<_>>())?;
-    let (units, vary) = (asked.units, args.vary.parameter);
+    let (units, vary) = (asked.units, named.parameter);
     let stretch = |Named(named, Ends(from, to)): Named<Ends>| {
         let unit = units.of(named.parameter);
         Stretch { parameter: named.parameter, from: from / unit, to: to / unit }
@@ -149,12 +184,12 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         vary,
         over: args.over.scaled(units.of(vary))?,
         also: args.also.map(stretch),
-        show: args.show,
+        show,
         direction: args.direction()?,
         transient: args.transient,
         keep: args.keep,
     };
-    if args.store.store.is_some() && matches!(args.show, Show::Quantity(_)) {
+    if args.store.store.is_some() && matches!(show, Show::Quantity(_)) {
         return Err(PlanError::NoStoredQuantity.into());
     }
     let plan = args.store.tiled(Plan::new(asked.system, Task::Diagram(task)))?;

@@ -85,7 +85,7 @@ pub(super) fn run(
     if json {
         return session.print_json(&answer);
     }
-    if table || files && matches!(answer.results, MachineResults::Basin(_) | MachineResults::Map(_)) {
+    if table || files && plan.fills_a_grid() {
         return Ok(());
     }
     match &answer.results {

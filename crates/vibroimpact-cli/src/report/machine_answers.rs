@@ -1,5 +1,6 @@
 //! Answers about machines as text.
 
+use crate::report::diagram;
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
@@ -64,6 +65,7 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
                 let _ = writeln!(text, "{} beyond a rigid stop", counted(beyond as u64, "start"));
             }
         }
+        MachineResults::Diagram(found) => text.push_str(&diagram::of_machine(found)),
         MachineResults::Map(found) => {
             for (label, count) in found.labels() {
                 let _ = writeln!(text, "{label:>10}  at {}", counted(count, "point"));

@@ -14,8 +14,10 @@ use vibroimpact_report::number::{Number, percent};
 use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
 use vibroimpact_store::{Store, StoreError};
-use vibroimpact_study::study::{NO_MOTION, NOT_COMPUTED, REFUSED, StudyPlan, UNDECIDED, diagram_of, label_of};
-use vibroimpact_study::{Axis, Block, Column, Dimension, Field, Plan, PlanError, Quantity, Task};
+use vibroimpact_study::study::{
+    NO_MOTION, NOT_COMPUTED, REFUSED, StudyPlan, UNDECIDED, diagram_of, label_of, machine_diagram_of,
+};
+use vibroimpact_study::{Axis, Block, Column, Dimension, Field, MachineTask, PlanError, Quantity, Task};
 
 /// A JSON object about a store.
 #[derive(Serialize)]
@@ -132,10 +134,21 @@ const SHORT: [&str; 2] = ["label", "share"];
 ///
 /// For an orbit diagram the table is that of `vibro diagram`.
 pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Result<()> {
-    if let Some(Plan { task: Task::Diagram(plan), .. }) = store.plan().oscillator() {
-        let columns = (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
-        let found = diagram_of(plan, &columns.map_err(io::Error::other)?);
-        return diagram::table(&found, units_of(store.plan())).map_err(io::Error::other)?.write(out);
+    let columns = || (0..store.study().fields().len()).map(|k| store.column(k)).collect::<Result<Vec<_>, _>>();
+    match store.plan() {
+        StudyPlan::Oscillator(plan) => {
+            if let Task::Diagram(task) = &plan.task {
+                let found = diagram_of(task, &columns().map_err(io::Error::other)?);
+                return diagram::table(&found, units_of(store.plan())).map_err(io::Error::other)?.write(out);
+            }
+        }
+        StudyPlan::Machine(plan) => {
+            if let MachineTask::Diagram(task) = &plan.task {
+                let found = machine_diagram_of(task, &columns().map_err(io::Error::other)?);
+                let (machine, _) = plan.problem().map_err(io::Error::other)?;
+                return diagram::of_machine(&found, &machine).write(out);
+            }
+        }
     }
     let (study, all) = (store.study(), store.study().fields());
     let units = units_of(store.plan());

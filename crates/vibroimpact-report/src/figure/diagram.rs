@@ -8,9 +8,9 @@ use crate::figure::{along, plane::PlaneAxis, quantity_name, symbol, title_withou
 use crate::units::shown_span;
 use crate::{Asked, ReportError, Units};
 use std::collections::HashSet;
-use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Points, Raster, Rects, SERIES};
+use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Points, Raster, Rects, SERIES, plain};
 use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, Show, Sweep, SweepDirection};
-use vibroimpact_study::{Span, counted};
+use vibroimpact_study::{MachineDiagram, MachineDiagramStep, Span, counted};
 
 /// Maximum number of dots, which gives a file of a few megabytes. With more dots a raster is drawn instead.
 const MOST_DOTS: usize = 50_000;
@@ -32,38 +32,77 @@ struct Cloud {
     small: Vec<(u32, f64)>,
 }
 
+/// The dots of the motion at one value.
+struct Motion {
+    index: u32,
+    sweep: Sweep,
+    /// Whether the motion repeats, that is, has fewer points than the plan allows.
+    repeats: bool,
+    ys: Vec<f64>,
+}
+
 /// The figure of `vibro diagram`.
 ///
 /// # Errors
 /// [`ReportError::Plan`] if a value of the parameter overflows in these units.
 pub fn figure(found: &Diagram, asked: &Asked) -> Result<Figure, ReportError> {
-    let over = &shown_span(&found.plan.over, asked.units.of(found.plan.vary))?;
-    let mut clouds = clouds(found, asked);
-    let range = spread(clouds.iter().flat_map(|cloud| cloud.large.iter().chain(&cloud.small)));
+    let plan = &found.plan;
+    let over = shown_span(&plan.over, asked.units.of(plan.vary))?;
+    let cut = plan.cut();
+    let side = PlaneAxis::new(along(&cut, &asked.units), &over.into())?;
+    let symbol = if asked.units.unit_of(plan.vary) == "Hz" { "frequency" } else { symbol(plan.vary) };
+    let axes = (&side, ordinate(plan.show, asked));
+    let figure = draw(&motions(found, asked), (&over, plan.direction, symbol), axes)?;
+    Ok(figure.title(title_without(asked, &cut.parameters().collect::<Vec<_>>())))
+}
+
+/// The figure of `vibro diagram --machine`: speeds of closings, or a coordinate at phase 0, over the number at a path.
+///
+/// # Errors
+/// As [`figure`].
+pub fn of_machine(found: &MachineDiagram, title: String) -> Result<Figure, ReportError> {
+    let plan = &found.plan;
+    let motion = |step: &MachineDiagramStep| Motion {
+        index: step.index,
+        sweep: step.sweep,
+        repeats: (step.points.len() as u64) < plan.keep || step.points.len() == 1,
+        ys: step.points.iter().map(|point| point.value).collect(),
+    };
+    let motions: Vec<Motion> = found.steps.iter().map(motion).collect();
+    let name = plain(&plan.vary);
+    let side = PlaneAxis::new(name.clone(), &plan.over.into())?;
+    let shown =
+        if plan.show == "speed" { "speed of closing".to_owned() } else { format!("{} at phase 0", plain(&plan.show)) };
+    let figure = draw(&motions, (&plan.over, plan.direction, &name), (&side, FigureAxis::new(shown)))?;
+    Ok(figure.title(title))
+}
+
+/// Draws a dot for every point.
+fn draw(
+    motions: &[Motion],
+    (over, direction, symbol): (&Span, SweepDirection, &str),
+    (side, ordinate): (&PlaneAxis, FigureAxis),
+) -> Result<Figure, ReportError> {
+    let mut clouds = clouds(motions, direction, symbol);
+    let range = spread(motions.iter().flat_map(|motion| motion.ys.iter().copied()));
     for cloud in &mut clouds {
         thin(&mut cloud.large, range);
         thin(&mut cloud.small, range);
     }
-    let cut = found.plan.cut();
-    let side = PlaneAxis::new(along(&cut, &asked.units), &(*over).into())?;
-    let panel = Panel::new(side.axis(), ordinate(found.plan.show, asked).range(range.0, range.1));
+    let panel = Panel::new(side.axis(), ordinate.range(range.0, range.1));
     let dots: usize = clouds.iter().map(|cloud| cloud.large.len() + cloud.small.len()).sum();
     let (panel, legend) =
-        if dots > MOST_DOTS { as_cells(panel, &clouds, (over, &side), range)? } else { as_dots(panel, clouds, over) };
-    Ok(Figure::new(panel).title(title_without(asked, &cut.parameters().collect::<Vec<_>>())).legend(legend))
+        if dots > MOST_DOTS { as_cells(panel, &clouds, (over, side), range)? } else { as_dots(panel, clouds, over) };
+    Ok(Figure::new(panel).legend(legend))
 }
 
 /// All dots of a diagram in one colour, to be drawn behind curves. Dots of motions that repeat are wider than a curve.
 pub(super) fn backdrop(found: &Diagram, over: &Span, asked: &Asked, colour: Colour) -> [Points; 2] {
-    let range = spread(clouds(found, asked).iter().flat_map(|cloud| cloud.large.iter().chain(&cloud.small)));
+    let motions = motions(found, asked);
+    let range = spread(motions.iter().flat_map(|motion| motion.ys.iter().copied()));
     [(true, WIDE), (false, NARROW)].map(|(repeating, size)| {
-        let steps = found.steps.iter().filter(|step| repeats(found, step) == repeating);
-        let mut dots: Vec<(u32, f64)> = steps
-            .flat_map(|step| {
-                let units = units_of(found, step, asked);
-                step.points.iter().map(move |point| (step.index, ordinate_of(point, &units)))
-            })
-            .collect();
+        let shown = motions.iter().filter(|motion| motion.repeats == repeating);
+        let mut dots: Vec<(u32, f64)> = shown.flat_map(|motion| motion.ys.iter().map(|y| (motion.index, *y))).collect();
         thin(&mut dots, range);
         let (xs, ys): (Vec<f64>, Vec<f64>) = dots.into_iter().map(|(k, y)| (over.at(k), y)).unzip();
         Points::new(xs, ys, colour).size(size)
@@ -97,12 +136,26 @@ pub(super) fn ordinate(show: Show, asked: &Asked) -> FigureAxis {
     })
 }
 
-fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
-    let symbol = if asked.units.unit_of(found.plan.vary) == "Hz" { "frequency" } else { symbol(found.plan.vary) };
+/// The dots of an orbit diagram of an oscillator.
+fn motions(found: &Diagram, asked: &Asked) -> Vec<Motion> {
+    let motion = |step: &DiagramStep| {
+        let units = units_of(found, step, asked);
+        let kept = step.points.iter().filter(|point| !matches!(point, DiagramPoint::Chatter { .. })).count();
+        Motion {
+            index: step.index,
+            sweep: step.sweep,
+            repeats: (kept as u64) < found.plan.keep || kept == 1,
+            ys: step.points.iter().map(|point| ordinate_of(point, &units)).collect(),
+        }
+    };
+    found.steps.iter().map(motion).collect()
+}
+
+fn clouds(motions: &[Motion], direction: SweepDirection, symbol: &str) -> Vec<Cloud> {
     let cloud = |name: String, colour| Cloud { name, colour, large: Vec::new(), small: Vec::new() };
     let rising = || cloud(format!("{symbol} rising"), SERIES[0]);
     let falling = || cloud(format!("{symbol} falling"), SERIES[1]);
-    let mut clouds = match found.plan.direction {
+    let mut clouds = match direction {
         SweepDirection::Up => vec![rising()],
         SweepDirection::Down => vec![falling()],
         SweepDirection::Both => vec![rising(), falling()],
@@ -111,25 +164,18 @@ fn clouds(found: &Diagram, asked: &Asked) -> Vec<Cloud> {
         }
     };
     let both = clouds.len() > 1;
-    for step in &found.steps {
-        let above = usize::from(both && step.sweep == Sweep::Down);
+    for motion in motions {
+        let above = usize::from(both && motion.sweep == Sweep::Down);
         let cloud = &mut clouds[above];
-        let list = if both && above == 0 && repeats(found, step) { &mut cloud.large } else { &mut cloud.small };
-        let units = units_of(found, step, asked);
-        list.extend(step.points.iter().map(|point| (step.index, ordinate_of(point, &units))));
+        let list = if both && above == 0 && motion.repeats { &mut cloud.large } else { &mut cloud.small };
+        list.extend(motion.ys.iter().map(|y| (motion.index, *y)));
     }
     clouds
 }
 
-/// Whether a motion repeats, that is, has fewer points than the plan allows.
-fn repeats(found: &Diagram, step: &DiagramStep) -> bool {
-    let kept = step.points.iter().filter(|point| !matches!(point, DiagramPoint::Chatter { .. })).count();
-    (kept as u64) < found.plan.keep || kept == 1
-}
-
 /// The range of all values, with a margin.
-fn spread<'a>(dots: impl Iterator<Item = &'a (u32, f64)>) -> (f64, f64) {
-    let (low, high) = dots.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (_, y)| (low.min(*y), high.max(*y)));
+fn spread(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
     if low > high {
         return (0.0, 1.0);
     }

@@ -9,8 +9,10 @@ use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
 use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
-use vibroimpact_study::study::{NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of};
-use vibroimpact_study::{Axis as Along, LyapunovPlan, MachinePlan, MachineTask, Task};
+use vibroimpact_study::study::{
+    NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of, machine_diagram_of,
+};
+use vibroimpact_study::{Axis as Along, Column, LyapunovPlan, MachinePlan, MachineTask, Task};
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given.
 ///
@@ -72,12 +74,14 @@ fn of_task<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             of_basin(store, &Sides::of(&plan.axes, &asked.units)?, title_without(asked, &varied(&plan.axes)))
         }
         Task::Lyapunov(plan) => of_exponents(store, plan, asked),
-        Task::Diagram(plan) => {
-            let columns = (0..store.study().fields().len()).map(|k| store.array(k)).collect::<Result<Vec<_>, _>>()?;
-            Ok(diagram::figure(&diagram_of(plan, &columns), asked)?)
-        }
+        Task::Diagram(plan) => Ok(diagram::figure(&diagram_of(plan, &columns::<A, E>(store)?), asked)?),
         _ => Err(ReportError::Scattered.into()),
     }
+}
+
+/// All arrays of a study.
+fn columns<A: StudyArrays, E: From<A::Error>>(store: &A) -> Result<Vec<Column>, E> {
+    Ok((0..store.study().fields().len()).map(|k| store.array(k)).collect::<Result<Vec<_>, _>>()?)
 }
 
 /// Draws the figure of a study of a machine.
@@ -92,6 +96,9 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
             Sides::Plane(plane) => of_map(store, &plane, title),
         },
         MachineTask::Basin(basin) => of_basin(store, &Sides::of_machine(&basin.axes)?, title),
+        MachineTask::Diagram(diagram) => {
+            Ok(diagram::of_machine(&machine_diagram_of(diagram, &columns::<A, E>(store)?), title)?)
+        }
         _ => Err(ReportError::Scattered.into()),
     }
 }

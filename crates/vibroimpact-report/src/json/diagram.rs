@@ -5,8 +5,8 @@ use crate::Asked;
 use crate::table::diagram::columns;
 use serde::Serialize;
 use vibroimpact::Oscillator;
-use vibroimpact_study::Plan;
 use vibroimpact_study::diagram::{Diagram, MotionKind, Sweep, SweepDirection};
+use vibroimpact_study::{MachineDiagram, Plan};
 
 /// The fields of `vibro diagram`.
 #[derive(Serialize)]
@@ -57,19 +57,29 @@ pub struct Counts {
 /// The counts, one for each sweep.
 #[must_use]
 pub fn counts(found: &Diagram) -> Vec<Counts> {
-    let names: &[&str] = match found.plan.direction {
+    counted_by(found.plan.direction, found.steps.iter().map(|step| (step.sweep, step.kind, step.points.len())))
+}
+
+/// The same for a machine.
+#[must_use]
+pub fn machine_counts(found: &MachineDiagram) -> Vec<Counts> {
+    counted_by(found.plan.direction, found.steps.iter().map(|step| (step.sweep, step.kind, step.points.len())))
+}
+
+fn counted_by(direction: SweepDirection, motions: impl Iterator<Item = (Sweep, MotionKind, usize)>) -> Vec<Counts> {
+    let names: &[&str] = match direction {
         SweepDirection::Up => &["up"],
         SweepDirection::Down => &["down"],
         SweepDirection::Both => &["up", "down"],
         SweepDirection::Scatter { .. } => &["scatter"],
     };
     let mut counts: Vec<Counts> = names.iter().map(|sweep| Counts { sweep, ..Counts::default() }).collect();
-    for step in &found.steps {
-        let row = usize::from(step.sweep == Sweep::Down && counts.len() > 1);
+    for (sweep, kind, points) in motions {
+        let row = usize::from(sweep == Sweep::Down && counts.len() > 1);
         let count = &mut counts[row];
         count.motions += 1;
-        count.points += step.points.len();
-        *match step.kind {
+        count.points += points;
+        *match kind {
             MotionKind::Impacts => &mut count.impact,
             MotionKind::NoImpact => &mut count.none,
             MotionKind::Stuck => &mut count.stuck,

@@ -1,5 +1,6 @@
 //! The object of a machine: its start, the events of its motion, and the reason why the list ends.
 
+use super::diagram::{Counts, machine_counts};
 use super::machine_event::{EventObject, event_object};
 use super::machine_motion::{Estimate, MotionObject, cycle, estimates, motion, multipliers};
 use crate::{MachineAnswer, PROGRAM};
@@ -9,7 +10,9 @@ use vibroimpact::chaos::Measured;
 use vibroimpact::continuation::{MachineBranchEvent, MachinePoint};
 use vibroimpact::events::{MachineEvent, MachineStart};
 use vibroimpact::machine::Machine;
-use vibroimpact_study::{MachineAxis, MachinePlan, MachineResults, MachineSimulated, MachineTask};
+use vibroimpact_study::{
+    MachineAxis, MachineDiagramPlan, MachinePlan, MachineResults, MachineSimulated, MachineTask, Span,
+};
 
 /// The object that a command prints: the machine, the start, the fields of the command, and the plan.
 #[derive(Serialize)]
@@ -155,6 +158,14 @@ struct Mapped<'a> {
     points: usize,
 }
 
+#[derive(Serialize)]
+struct Diagrammed<'a> {
+    vary: &'a str,
+    over: &'a Span,
+    show: &'a str,
+    sweeps: Vec<Counts>,
+}
+
 impl Serialize for MachineAnswer {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         let Self { machine, results, .. } = self;
@@ -227,6 +238,10 @@ impl Serialize for MachineAnswer {
                     },
                     to,
                 )
+            }
+            MachineResults::Diagram(found) => {
+                let MachineDiagramPlan { vary, over, show, .. } = &found.plan;
+                self.document(Diagrammed { vary, over, show, sweeps: machine_counts(found) }, to)
             }
             MachineResults::Map(found) => {
                 let (labels, points) = (found.labels(), found.cells.len());

@@ -5,8 +5,9 @@ use crate::Units;
 use crate::json::motion::side;
 use crate::number::Number;
 use crate::units::shown_span;
+use vibroimpact::machine::Machine;
 use vibroimpact_study::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep};
-use vibroimpact_study::{PlanError, Span};
+use vibroimpact_study::{MachineDiagram, MachineDiagramPoint, PlanError, Span};
 
 /// The table of `vibro diagram`.
 ///
@@ -71,6 +72,26 @@ fn row(step: &DiagramStep, point: &DiagramPoint, units: Units) -> String {
             format!("{},{cell}", kind(step.kind))
         }
     }
+}
+
+/// The table of `vibro diagram --machine`: the number, sweep, kind, and for closings stop, phase and speed, or else the value at
+/// phase 0. A motion without points has one row with empty cells.
+#[must_use]
+pub fn of_machine<'a>(found: &'a MachineDiagram, machine: &'a Machine) -> Table<'a> {
+    let plan = &found.plan;
+    let closings = plan.show == "speed";
+    let shown: &[&str] = if closings { &["stop", "phase", "speed"] } else { &[&plan.show] };
+    let header = [&[plan.vary.as_str(), "sweep", "kind"], shown].concat().join(",");
+    let rows = found.steps.iter().flat_map(move |step| {
+        let head = format!("{},{},{}", Number(plan.over.at(step.index)), sweep(step.sweep), kind(step.kind));
+        let alone = step.points.is_empty().then(|| format!("{head}{}", if closings { ",,," } else { "," }));
+        let row = move |point: &MachineDiagramPoint| {
+            let of_stop = point.stop.map(|stop| format!(",{},{}", machine.name_of(stop), Number(point.phase)));
+            format!("{head}{},{}", of_stop.unwrap_or_default(), Number(point.value))
+        };
+        alone.into_iter().chain(step.points.iter().map(row))
+    });
+    Table::new(header, rows)
 }
 
 fn sweep(sweep: Sweep) -> String {

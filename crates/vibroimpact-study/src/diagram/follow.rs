@@ -19,6 +19,29 @@ pub enum MotionKind {
     Undecided,
 }
 
+impl MotionKind {
+    /// The number that stands for it in stores.
+    pub(crate) const fn code(self) -> i8 {
+        match self {
+            Self::NoImpact => 0,
+            Self::Impacts => 1,
+            Self::Stuck => 2,
+            Self::Undecided => 3,
+        }
+    }
+
+    /// The kind for which a number stands; `None` for a motion that was not computed.
+    pub(crate) const fn of_code(code: i8) -> Option<Self> {
+        Some(match code {
+            0 => Self::NoImpact,
+            1 => Self::Impacts,
+            2 => Self::Stuck,
+            3 => Self::Undecided,
+            _ => return None,
+        })
+    }
+}
+
 /// A point of the diagram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DiagramPoint {
@@ -67,7 +90,7 @@ pub(super) struct AfterTransient {
 /// Two points closer than this (phases in radians, speeds relative to their size, states relative to their size) are
 /// the same point, and the motion repeats itself. The value is far above the rounding errors of a cycle and far below
 /// the resolution of a figure.
-pub(super) const SAME: f64 = 1e-9;
+pub(crate) const SAME: f64 = 1e-9;
 
 /// Maximum number of search steps and events of a motion: the budget of a verdict plus 1000 for each requested impact
 /// or period.

@@ -12,12 +12,13 @@ mod plan;
 mod settled;
 mod strobes;
 
-pub(crate) use follow::carried_state;
 pub use follow::{DiagramPoint, MotionKind};
+pub(crate) use follow::{SAME, carried_state};
 pub use plan::{DEFAULT_KEEP, DEFAULT_TRANSIENT, DiagramPlan, Show, SweepDirection};
+pub(crate) use plan::{check_shown, keep, transient};
 pub(crate) use settled::state_on;
 
-use crate::{PlanError, SystemPlan};
+use crate::{PlanError, Span, SystemPlan};
 use follow::AfterTransient;
 use vibroimpact::Start;
 use vibroimpact::verdict::{StartBox, scattered_starts};
@@ -56,12 +57,12 @@ pub struct Diagram {
 }
 
 /// The number of the value, and the direction, at step `j` of sweep number `row`.
-pub(crate) fn carried(plan: &DiagramPlan, row: u64, j: u32) -> (u32, Sweep) {
-    let count = plan.over.count();
-    let (first, last) = plan.over.ends();
+pub(crate) fn carried(over: &Span, direction: SweepDirection, row: u64, j: u32) -> (u32, Sweep) {
+    let count = over.count();
+    let (first, last) = over.ends();
     // index of value number j in rising order
     let rising = |j: u32| if first <= last { j } else { count - 1 - j };
-    match plan.direction {
+    match direction {
         SweepDirection::Down => (rising(count - 1 - j), Sweep::Down),
         SweepDirection::Both if row == 1 => (rising(count - 1 - j), Sweep::Down),
         _ => (rising(j), Sweep::Up),

@@ -40,11 +40,11 @@ pub struct DiagramPlan {
     pub keep: u64,
 }
 
-const fn transient() -> u64 {
+pub(crate) const fn transient() -> u64 {
     DEFAULT_TRANSIENT
 }
 
-const fn keep() -> u64 {
+pub(crate) const fn keep() -> u64 {
     DEFAULT_KEEP
 }
 
@@ -93,6 +93,43 @@ const MOST_KEPT: u64 = 100_000;
 /// Maximum number of points that one run keeps in memory.
 const MOST_POINTS: u64 = 20_000_000;
 
+impl SweepDirection {
+    /// Number of motions followed at each value.
+    #[must_use]
+    pub const fn runs(self) -> u64 {
+        match self {
+            Self::Up | Self::Down => 1,
+            Self::Both => 2,
+            Self::Scatter { starts, .. } => starts,
+        }
+    }
+}
+
+/// Checks the lengths of a diagram: those of the transient and of what is shown, and the number of all points.
+///
+/// # Errors
+/// [`PlanError`] names the first invalid value.
+pub(crate) fn check_shown(
+    over: &Span,
+    direction: SweepDirection,
+    (transient, keep): (u64, u64),
+) -> Result<(), PlanError> {
+    if transient > MOST_TRANSIENT {
+        return Err(PlanError::Transient { given: transient, most: MOST_TRANSIENT });
+    }
+    if !(1..=MOST_KEPT).contains(&keep) {
+        return Err(PlanError::Keep { given: keep, most: MOST_KEPT });
+    }
+    if let SweepDirection::Scatter { starts: given, .. } = direction {
+        starts(given, MOST_STARTS)?;
+    }
+    let (columns, rows) = (u64::from(over.count()), direction.runs() * keep);
+    if columns.saturating_mul(rows) > MOST_POINTS {
+        return Err(PlanError::Size { what: "points", columns, rows, most: MOST_POINTS });
+    }
+    Ok(())
+}
+
 impl DiagramPlan {
     /// Checks everything that can be checked without running the plan.
     ///
@@ -100,20 +137,7 @@ impl DiagramPlan {
     /// [`PlanError`] names the first invalid value.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         self.cut().check(system)?;
-        if self.transient > MOST_TRANSIENT {
-            return Err(PlanError::Transient { given: self.transient, most: MOST_TRANSIENT });
-        }
-        if !(1..=MOST_KEPT).contains(&self.keep) {
-            return Err(PlanError::Keep { given: self.keep, most: MOST_KEPT });
-        }
-        if let SweepDirection::Scatter { starts: given, .. } = self.direction {
-            starts(given, MOST_STARTS)?;
-        }
-        let (columns, rows) = (u64::from(self.over.count()), self.runs() * self.keep);
-        if columns.saturating_mul(rows) > MOST_POINTS {
-            return Err(PlanError::Size { what: "points", columns, rows, most: MOST_POINTS });
-        }
-        Ok(())
+        check_shown(&self.over, self.direction, (self.transient, self.keep))
     }
 
     /// The line of parameters of the diagram.
@@ -153,11 +177,7 @@ impl DiagramPlan {
     /// Number of motions followed at each value.
     #[must_use]
     pub const fn runs(&self) -> u64 {
-        match self.direction {
-            SweepDirection::Up | SweepDirection::Down => 1,
-            SweepDirection::Both => 2,
-            SweepDirection::Scatter { starts, .. } => starts,
-        }
+        self.direction.runs()
     }
 }
 

@@ -1,7 +1,9 @@
 //! An orbit diagram in memory: its tiles are joined.
 
-use crate::diagram::{Diagram, DiagramPlan, SweepDirection};
-use crate::study::{DiagramFill, tiles_of};
+use crate::diagram::{Diagram, DiagramPlan, Sweep, SweepDirection};
+use crate::machine::MachineSource;
+use crate::machine_plan::{MachineDiagram, MachineDiagramPlan};
+use crate::study::{SweepFill, Swept, tiles_of};
 use crate::{Control, RunError, SystemPlan};
 
 /// Number of scattered starts, and of values, in a tile.
@@ -13,20 +15,45 @@ const TILE: u32 = 4;
 /// [`RunError`] for an invalid plan, or when stopped.
 pub(crate) fn diagram(system: &SystemPlan, plan: &DiagramPlan, control: &Control<'_>) -> Result<Diagram, RunError> {
     plan.check(system)?;
-    let task = DiagramFill::new(system, plan, Some(TILE));
-    let parts = tiles_of(&task, control)?;
+    let task = SweepFill::new(system, plan, Some(TILE));
+    Ok(Diagram { plan: *plan, steps: steps_of(&task, plan.direction, |step| (step.index, step.sweep), control)? })
+}
+
+/// Follows the motions of a machine at all values.
+///
+/// # Errors
+/// [`RunError`] for an invalid plan, or when stopped.
+pub(crate) fn machine_diagram(
+    source: &MachineSource,
+    plan: &MachineDiagramPlan,
+    control: &Control<'_>,
+) -> Result<MachineDiagram, RunError> {
+    plan.check(source)?;
+    let task = SweepFill::of_machine(source, plan, Some(TILE));
+    let steps = steps_of(&task, plan.direction, |step| (step.index, step.sweep), control)?;
+    Ok(MachineDiagram { plan: plan.clone(), steps })
+}
+
+/// The steps of all tiles: sweeps one after another, scattered starts value by value.
+fn steps_of<S: Swept>(
+    task: &SweepFill<S>,
+    direction: SweepDirection,
+    place: impl Fn(&S::Step) -> (u32, Sweep),
+    control: &Control<'_>,
+) -> Result<Vec<S::Step>, RunError> {
+    let parts = tiles_of(task, control)?;
     let mut steps = parts.into_iter().flat_map(|(_, steps)| steps).collect::<Result<Vec<_>, _>>()?;
-    if let SweepDirection::Scatter { .. } = plan.direction {
+    if let SweepDirection::Scatter { .. } = direction {
         // a tile holds several starts at several values; sort by value, and at each value by start
-        steps.sort_by_key(|step| (step.index, step.sweep));
+        steps.sort_by_key(place);
     }
-    Ok(Diagram { plan: *plan, steps })
+    Ok(steps)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagram::{DiagramPoint, MotionKind, Show, Sweep};
+    use crate::diagram::{DiagramPoint, MotionKind, Show};
     use crate::{Parameter, Stretch};
 
     const S: SystemPlan = SystemPlan {

@@ -9,6 +9,6 @@ mod map;
 
 pub(crate) use attractors::attractors;
 pub(crate) use basin::basin;
-pub(crate) use diagram::diagram;
+pub(crate) use diagram::{diagram, machine_diagram};
 pub(crate) use machine_grid::{machine_basin, machine_map};
 pub(crate) use map::map;

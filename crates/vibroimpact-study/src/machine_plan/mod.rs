@@ -9,9 +9,12 @@
 //! | orbits, and branches of them | [`MachineBranched`], `orbits` |
 //! | an axis of a grid | [`MachineAxis`] |
 //! | basins and maps: plans and results | [`MachineBasinPlan`], [`MachineBasin`], [`MachineMapPlan`], [`MachineMap`], `grid` |
+//! | a motion after its transient at each value of a number | [`MachineDiagramPlan`], [`MachineDiagram`], `diagram`, `after_transient` |
 //! | the events of a motion | [`MachineSimulated`], `simulate` |
 
+mod after_transient;
 mod axis;
+mod diagram;
 mod grid;
 mod orbits;
 mod plan;
@@ -21,6 +24,8 @@ mod text;
 mod verdicts;
 
 pub use axis::MachineAxis;
+pub(crate) use diagram::step as diagram_step;
+pub use diagram::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep};
 pub use grid::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineMotion};
 pub(crate) use grid::{StartAxis, check_memory};
 pub use orbits::{MachineBranched, MachineFollowed};

@@ -1,6 +1,7 @@
 //! A plan of a machine: everything on which a result depends, and nothing else.
 
 use super::axis::MachineAxis;
+use super::diagram::MachineDiagramPlan;
 use super::grid::{MachineBasinPlan, MachineMapPlan};
 use super::simulate::check;
 use super::{orbits, verdicts};
@@ -110,6 +111,8 @@ pub enum MachineTask {
     Basin(MachineBasinPlan),
     /// The motions at each point of a grid of numbers of the machine.
     Map(MachineMapPlan),
+    /// The motion after its transient at each value of a number.
+    Diagram(MachineDiagramPlan),
 }
 
 const fn one() -> u64 {
@@ -158,6 +161,7 @@ impl MachinePlan {
         let over = |axes: &[MachineAxis]| axes.iter().map(|axis| axis.vary.as_str()).collect::<Vec<_>>().join(", ");
         match &self.task {
             MachineTask::Basin(basin) => format!("motions that starts lead to over {}: {name}", over(&basin.axes)),
+            MachineTask::Diagram(diagram) => format!("orbit diagram over {}: {name}", diagram.vary),
             MachineTask::Map(map) => format!("motions over {}: {name}", over(&map.axes)),
             _ => name.to_owned(),
         }
@@ -170,6 +174,9 @@ impl MachinePlan {
             MachineTask::Attractors { starts, .. } => Some((*starts, "starts")),
             MachineTask::Basin(basin) => Some((MachineAxis::points(&basin.axes), "starts")),
             MachineTask::Map(map) => Some((MachineAxis::points(&map.axes), "points")),
+            MachineTask::Diagram(diagram) => {
+                Some((u64::from(diagram.over.count()).saturating_mul(diagram.direction.runs()), "motions"))
+            }
             _ => None,
         }
     }
@@ -177,7 +184,7 @@ impl MachinePlan {
     /// Whether the task fills a grid, which a store keeps.
     #[must_use]
     pub const fn fills_a_grid(&self) -> bool {
-        matches!(self.task, MachineTask::Basin(_) | MachineTask::Map(_))
+        matches!(self.task, MachineTask::Basin(_) | MachineTask::Map(_) | MachineTask::Diagram(_))
     }
 
     /// The plan as JSON.
@@ -238,6 +245,7 @@ impl MachinePlan {
             }
             MachineTask::Basin(basin) => basin.check(&machine),
             MachineTask::Map(map) => map.check(&self.machine),
+            MachineTask::Diagram(diagram) => diagram.check(&self.machine),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The function that computes the result of a plan of a machine. The command and the Python package call it.
 
+use super::diagram::MachineDiagram;
 use super::grid::{MachineBasin, MachineMap};
 use super::orbits::MachineBranched;
 use super::plan::{MachinePlan, MachineTask};
@@ -29,6 +30,8 @@ pub enum MachineResults {
     Basin(MachineBasin),
     /// The map.
     Map(MachineMap),
+    /// The orbit diagram.
+    Diagram(MachineDiagram),
 }
 
 /// Checks a plan of a machine and computes its result.
@@ -68,5 +71,8 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
             MachineResults::Basin(in_memory::machine_basin((&machine, &start), basin, control)?)
         }
         MachineTask::Map(map) => MachineResults::Map(in_memory::machine_map(&plan.machine, map, control)?),
+        MachineTask::Diagram(diagram) => {
+            MachineResults::Diagram(in_memory::machine_diagram(&plan.machine, diagram, control)?)
+        }
     })
 }

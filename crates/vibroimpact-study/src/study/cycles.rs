@@ -14,6 +14,8 @@ use vibroimpact::verdict::{Census, CountedMotion, MachineVerdict, Verdict};
 
 /// Number of a motion that is no cycle.
 pub(super) const NONE: i32 = -1;
+/// Number of the cycle of a start that lies beyond a rigid stop, which counts for no share.
+pub(super) const BEYOND: i32 = i32::MIN + 1;
 /// Preliminary number of the first cycle that only this tile has found; further ones count downwards.
 const UNKNOWN: i32 = -2;
 
@@ -39,6 +41,11 @@ pub(super) fn number<V: StoredMotion>(known: &[V], unknown: &mut Census<V>, foun
         Some(k) => whole(k),
         None => UNKNOWN - whole(unknown.add_found(found)),
     }
+}
+
+/// Whether it is a preliminary number.
+const fn preliminary(n: i32) -> bool {
+    n <= UNKNOWN && n > BEYOND
 }
 
 /// Two cycles closer than this are the same one, as in a census.
@@ -83,10 +90,11 @@ impl<V: StoredMotion> Numbering<'_, V> {
     fn conclude<T: Tiles>(&self, grid: &Grid, tiles: &mut T) -> Result<Vec<StudyTable>, T::Error> {
         let mut cycles: Vec<V> = self.known.to_vec();
         let mut starts = vec![0_i64; cycles.len()];
+        let mut beyond = 0;
         for k in 0..grid.tiles() {
             let column = tiles.read(k, self.field)?;
             let mut numbers = column.whole().to_vec();
-            if numbers.iter().any(|n| *n <= UNKNOWN && *n != i32::MIN) {
+            if numbers.iter().copied().any(preliminary) {
                 let met = (self.unknown)(k);
                 let renumbered: Vec<usize> = met
                     .motions()
@@ -100,12 +108,13 @@ impl<V: StoredMotion> Numbering<'_, V> {
                         })
                     })
                     .collect();
-                for n in numbers.iter_mut().filter(|n| **n <= UNKNOWN && **n != i32::MIN) {
+                for n in numbers.iter_mut().filter(|n| preliminary(**n)) {
                     let place = usize::try_from(UNKNOWN - *n).unwrap_or(usize::MAX);
                     *n = renumbered.get(place).and_then(|n| i32::try_from(*n).ok()).unwrap_or(NONE);
                 }
                 tiles.write(k, self.field, &Column::I32(numbers.clone()))?;
             }
+            beyond += numbers.iter().filter(|n| **n == BEYOND).count() as u64;
             for n in numbers {
                 if let Some(count) = usize::try_from(n).ok().and_then(|n| starts.get_mut(n)) {
                     *count += 1;
@@ -113,7 +122,7 @@ impl<V: StoredMotion> Numbering<'_, V> {
             }
         }
         let cycles: Vec<StoredCycle> = cycles.iter().filter_map(StoredMotion::stored_cycle).collect();
-        Ok(tables(&cycles, &starts, (grid.points(), V::UNITS)))
+        Ok(tables(&cycles, &starts, (grid.points() - beyond, V::UNITS)))
     }
 }
 

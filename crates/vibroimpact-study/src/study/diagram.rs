@@ -1,51 +1,36 @@
 //! The tiles of an orbit diagram. A carried sweep is one tile; scattered starts have many.
 
-use super::fill::{Along, Fill};
+use super::fill::Along;
+use super::sweeps::{KINDS, SweepFill, Swept, in_order};
 use crate::axis::Coordinate;
-use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep, SweepDirection, carried, step};
+use crate::diagram::{Diagram, DiagramPoint, DiagramStep, MotionKind, Show, Sweep, SweepDirection, step};
 use crate::field::{Column, Extra, Field, NumberType};
-use crate::grid::{Block, Dimension, Grid};
-use crate::{DiagramPlan, PlanError, SystemPlan, Unit};
-use vibroimpact::Side;
+use crate::{DiagramPlan, PlanError, Span, SystemPlan, Unit};
+use vibroimpact::{Side, Start};
 
-/// Number of starts and of values in a tile of scattered starts.
-const TILE: (usize, usize) = (16, 64);
-
-pub(crate) struct DiagramFill {
+/// Oscillators over a parameter, or along a line through two.
+pub(crate) struct OscillatorDiagram {
     system: SystemPlan,
     plan: DiagramPlan,
-    grid: Grid,
     keep: usize,
 }
 
-impl DiagramFill {
+impl SweepFill<OscillatorDiagram> {
     pub(crate) fn new(system: &SystemPlan, plan: &DiagramPlan, tile: Option<u32>) -> Self {
-        let dimension =
-            |name: &str, count: usize, tile: usize| Dimension { name: name.into(), count, tile: tile.min(count) };
-        let (values, runs) = (plan.over.count() as usize, usize::try_from(plan.runs()).unwrap_or(usize::MAX));
-        let name = plan.vary.name();
-        let side = |default: usize| tile.map_or(default, |tile| tile as usize);
-        let dimensions = match plan.direction {
-            SweepDirection::Scatter { .. } => {
-                vec![dimension("start", runs, side(TILE.0)), dimension(name, values, side(TILE.1))]
-            }
-            // a sweep is one tile, because each value starts from the last state at the value before
-            _ => vec![dimension("sweep", runs, 1), dimension(name, values, values)],
-        };
         let keep = usize::try_from(plan.keep).unwrap_or(usize::MAX);
-        Self { system: *system, plan: *plan, grid: Grid { dimensions }, keep }
+        Self::of(OscillatorDiagram { system: *system, plan: *plan, keep }, tile)
     }
 }
 
-impl Fill for DiagramFill {
-    /// The motions of the rows, one row after another, each in the order of its sweep.
-    type Tile = Vec<Result<DiagramStep, PlanError>>;
+impl Swept for OscillatorDiagram {
+    type Step = DiagramStep;
+    type Left = (SystemPlan, Start);
 
-    fn grid(&self) -> &Grid {
-        &self.grid
+    fn sweep(&self) -> (&str, &Span, SweepDirection) {
+        (self.plan.vary.name(), &self.plan.over, self.plan.direction)
     }
 
-    fn coordinates(&self) -> Vec<Along> {
+    fn varied(&self) -> Vec<Along> {
         let cut = self.plan.cut();
         // the values of the second parameter are a second coordinate of the same dimension
         let values = cut.parameters().enumerate().map(|(k, parameter)| {
@@ -59,20 +44,7 @@ impl Fill for DiagramFill {
                 unit: parameter.unit(),
             }
         });
-        let sweep = |values: &[f64]| Along {
-            name: "sweep".to_owned(),
-            dimension: "sweep".to_owned(),
-            values: values.to_vec(),
-            long_name: "direction of the sweep: 1 with rising values, -1 with falling ones".into(),
-            unit: Unit::NUMBER,
-        };
-        let rows = match self.plan.direction {
-            SweepDirection::Scatter { .. } => None,
-            SweepDirection::Up => Some(sweep(&[1.0])),
-            SweepDirection::Down => Some(sweep(&[-1.0])),
-            SweepDirection::Both => Some(sweep(&[1.0, -1.0])),
-        };
-        rows.into_iter().chain(values).collect()
+        values.collect()
     }
 
     fn fields(&self) -> Vec<Field> {
@@ -87,7 +59,6 @@ impl Fill for DiagramFill {
             flags,
             comment: "",
         };
-        let motions = vec![(-1, "not_computed"), (0, "no_impact"), (1, "impacts"), (2, "stuck"), (3, "undecided")];
         let sides = vec![
             (0, "no_point"),
             (1, "impact"),
@@ -103,7 +74,7 @@ impl Fill for DiagramFill {
             NumberType::I8,
             -1,
             Vec::new(),
-            motions,
+            KINDS.to_vec(),
         )];
         match self.plan.show {
             Show::Velocity => {
@@ -121,37 +92,17 @@ impl Fill for DiagramFill {
         fields
     }
 
-    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
-        let (rows, values) = (&block.ranges[0], &block.ranges[1]);
-        let mut steps = Vec::with_capacity(block.points());
-        for row in rows.clone() {
-            let mut before = None;
-            for j in 0..values.len() {
-                let row = row as u64;
-                let (index, sweep) = match self.plan.direction {
-                    SweepDirection::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
-                    _ => carried(&self.plan, row, u32::try_from(j).ok()?),
-                };
-                steps.push(step(&self.system, &self.plan, (index, sweep), before).map(|(step, left)| {
-                    before = Some(left);
-                    step
-                }));
-                if tick() {
-                    return None;
-                }
-            }
-        }
-        Some(steps)
+    fn step(&self, at: (u32, Sweep), before: Option<Self::Left>) -> Result<(DiagramStep, Self::Left), PlanError> {
+        step(&self.system, &self.plan, at, before)
     }
 
-    fn columns(&self, block: &Block, steps: Self::Tile) -> Vec<Column> {
-        let values = &block.ranges[1];
-        let mut tile = Tile::empty(block.points(), self.keep);
-        // the ends were checked, and every value between two valid ends is valid
-        for (k, step) in steps.iter().enumerate().filter_map(|(k, step)| Some((k, step.as_ref().ok()?))) {
-            let row = k / values.len();
-            tile.put(row * values.len() + (step.index as usize - values.start), step, self.keep);
-        }
+    fn index(step: &DiagramStep) -> u32 {
+        step.index
+    }
+
+    fn columns(&self, points: usize, steps: &[(usize, &DiagramStep)]) -> Vec<Column> {
+        let mut tile = Tile::empty(points, self.keep);
+        steps.iter().for_each(|(at, step)| tile.put(*at, step, self.keep));
         match self.plan.show {
             Show::Velocity => {
                 vec![tile.kind, tile.first, tile.second, tile.side].into_iter().map(Part::column).collect()
@@ -173,13 +124,7 @@ pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
     let (kinds, first, second, sides) = (whole(0), real(1), real(2), whole(3));
     let motion = |row: usize, index: u32, sweep: Sweep| {
         let at = row * count + index as usize;
-        let kind = match kinds.get(at)? {
-            0 => MotionKind::NoImpact,
-            1 => MotionKind::Impacts,
-            2 => MotionKind::Stuck,
-            3 => MotionKind::Undecided,
-            _ => return None,
-        };
+        let kind = MotionKind::of_code(*kinds.get(at)?)?;
         let side = |sign: i8| if sign > 0 { Side::Upper } else { Side::Lower };
         let point = |at: usize| {
             let (a, b) = (*first.get(at)?, *second.get(at)?);
@@ -193,20 +138,7 @@ pub fn diagram_of(plan: &DiagramPlan, columns: &[Column]) -> Diagram {
         let points = (at * keep..(at + 1) * keep).map_while(point).collect();
         Some(DiagramStep { index, sweep, kind, points })
     };
-    let values = 0..plan.over.count();
-    let steps = match plan.direction {
-        SweepDirection::Scatter { starts, .. } => values
-            .flat_map(|index| (0..starts).map(move |start| (index, start)))
-            .filter_map(|(index, start)| motion(usize::try_from(start).ok()?, index, Sweep::Start(start)))
-            .collect(),
-        _ => (0..plan.runs())
-            .flat_map(|row| values.clone().map(move |j| (row, j)))
-            .filter_map(|(row, j)| {
-                let (index, sweep) = carried(plan, row, j);
-                motion(usize::try_from(row).ok()?, index, sweep)
-            })
-            .collect(),
-    };
+    let steps = in_order(&plan.over, plan.direction, motion);
     Diagram { plan: *plan, steps }
 }
 
@@ -251,12 +183,7 @@ impl Tile {
         else {
             return;
         };
-        kind[at] = match step.kind {
-            MotionKind::NoImpact => 0,
-            MotionKind::Impacts => 1,
-            MotionKind::Stuck => 2,
-            MotionKind::Undecided => 3,
-        };
+        kind[at] = step.kind.code();
         let sign = |s: Side| if s == Side::Upper { 1 } else { -1 };
         for (i, point) in step.points.iter().take(keep).enumerate() {
             let at = at * keep + i;

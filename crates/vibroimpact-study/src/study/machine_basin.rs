@@ -131,7 +131,9 @@ impl Fill for MachineBasinFill {
             flags,
             comment: code::COMMENT,
         };
-        let mut fields = vec![label.clone(), cycles::field(label)];
+        let mut cycle = cycles::field(label.clone());
+        cycle.flags.push((cycles::BEYOND, "beyond_a_stop"));
+        let mut fields = vec![label, cycle];
         if self.plan.refine.is_some() {
             fields.push(computed());
         }
@@ -164,7 +166,7 @@ impl Fill for MachineBasinFill {
                     Cell::Like(_) => None,
                 },
             };
-            number.map_or((super::REFUSED, cycles::NONE), |number| leads[number as usize])
+            number.map_or((super::REFUSED, cycles::BEYOND), |number| leads[number as usize])
         };
         let stored: Vec<Leads> = tile.cells.iter().map(of).collect();
         let mut columns = vec![

@@ -11,12 +11,14 @@ mod diagram;
 mod fill;
 mod lyapunov;
 mod machine_basin;
+mod machine_diagram;
 mod machine_map;
 mod map;
 mod memory;
 mod plan;
 mod refine;
 mod stored_motion;
+mod sweeps;
 mod tables;
 #[cfg(test)]
 mod tests;
@@ -26,12 +28,14 @@ pub use code::{CHAOTIC, NO_IMPACT, NO_MOTION, NOT_COMPUTED, REFUSED, STUCK, UNDE
 pub use diagram::diagram_of;
 pub use fill::Along;
 pub(crate) use fill::{Fill, on_axis};
+pub use machine_diagram::machine_diagram_of;
 pub(crate) use memory::tiles_of;
 pub use memory::{Sheet, in_memory};
 pub use plan::StudyPlan;
 pub(crate) use refine::Cell;
+pub(crate) use sweeps::{SweepFill, Swept};
 pub use tables::{Cells, StudyTable, Tiles};
-pub(crate) use {basin::BasinFill, diagram::DiagramFill, machine_basin::MachineBasinFill, map::MapFill};
+pub(crate) use {basin::BasinFill, machine_basin::MachineBasinFill, map::MapFill};
 
 use crate::diagram::Show;
 use crate::map::options;
@@ -64,6 +68,7 @@ impl Study {
                 Box::new(MachineBasinFill::new((&machine, &start), basin, plan.tile)?)
             }
             MachineTask::Map(map) => Box::new(MapFill::of_machine(&plan.machine, map, plan.tile)),
+            MachineTask::Diagram(diagram) => Box::new(SweepFill::of_machine(&plan.machine, diagram, plan.tile)),
             MachineTask::Simulate { .. } => return none("simulate"),
             MachineTask::Settle { .. } => return none("settle"),
             MachineTask::Attractors { .. } => return none("find the attractors of a machine"),
@@ -84,7 +89,7 @@ impl Study {
             }
             Task::Lyapunov(lyapunov) => Box::new(lyapunov::LyapunovFill::new(&plan.system, lyapunov, tile)),
             Task::Diagram(DiagramPlan { show: Show::Quantity(_), .. }) => return Err(PlanError::NoStoredQuantity),
-            Task::Diagram(diagram) => Box::new(DiagramFill::new(&plan.system, diagram, tile)),
+            Task::Diagram(diagram) => Box::new(SweepFill::new(&plan.system, diagram, tile)),
             Task::Simulate { .. } => return Err(PlanError::NoStudy("simulate")),
             Task::Settle { .. } => return Err(PlanError::NoStudy("settle")),
             Task::Orbit { .. } => return Err(PlanError::NoStudy("find orbits")),

@@ -3,6 +3,7 @@
 //! | idea | file |
 //! |---|---|
 //! | an event, a start, the end of a motion | [`MachineEvent`], [`MachineStart`], [`MachineEnd`] |
+//! | a start put onto the stops that it lies beyond | [`MachineStart::within_stops`], `within` |
 //! | the law of impact, impacts | `impulses`, `strike` |
 //! | the end of a chatter | `chatter` |
 //! | events that change one stop alone | `alone` |
@@ -25,6 +26,7 @@ mod saltation;
 mod samples;
 mod stretch;
 mod strike;
+mod within;
 
 pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;

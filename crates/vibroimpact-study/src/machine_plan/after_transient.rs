@@ -1,0 +1,164 @@
+//! A motion of a machine after its transient: its closings, or its states at phase 0.
+
+use super::simulate::limits;
+use crate::PlanError;
+use crate::diagram::{MotionKind, SAME};
+use core::f64::consts::TAU;
+use vibroimpact::events::{
+    MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineSample, MachineSamples, MachineStart,
+};
+use vibroimpact::machine::Machine;
+use vibroimpact::regime::ContactState;
+
+/// A point of the diagram of a machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MachineDiagramPoint {
+    /// The stop that closes; `None` for a state at phase 0.
+    pub stop: Option<usize>,
+    /// Phase of the forcing.
+    pub phase: f64,
+    /// Speed of closing, or the value of the coordinate or velocity.
+    pub value: f64,
+}
+
+/// A motion after its transient.
+pub(super) struct Followed {
+    pub(super) kind: MotionKind,
+    pub(super) points: Vec<MachineDiagramPoint>,
+    /// The last state.
+    pub(super) last: MachineStart,
+}
+
+/// The largest number of events for each closing or period: opening, sticking, slipping and chatter are events too.
+const EVENTS_EACH: u64 = 1000;
+
+fn state(event: &MachineEvent) -> MachineStart {
+    MachineStart { q: event.q.clone(), qdot: event.qdot.clone(), phase: event.phase }
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * (1.0 + a.abs())
+}
+
+fn refused(error: vibroimpact::machine::MachineError) -> PlanError {
+    PlanError::Machine(error.into())
+}
+
+/// Follows the motion for `transient` closings and returns the next `keep` ones, or fewer if they repeat. A motion that
+/// ends has no points; it is carried on for as many periods as the transient is long.
+#[allow(clippy::cast_precision_loss)] // at most 1.1e6 periods
+pub(super) fn closings(
+    machine: &Machine,
+    start: &MachineStart,
+    (transient, keep): (u64, u64),
+) -> Result<Followed, PlanError> {
+    let mut motion = MachineMotion::new(machine, start, MachineLimits::default()).map_err(refused)?;
+    let mut points: Vec<MachineDiagramPoint> = Vec::new();
+    let (mut count, mut last) = (0, start.clone());
+    for _ in 0..EVENTS_EACH * (transient + keep) {
+        let Some(event) = motion.next() else {
+            let kind = match motion.end() {
+                Some(MachineEnd::Never) => MotionKind::NoImpact,
+                Some(MachineEnd::Stuck) => MotionKind::Stuck,
+                _ => MotionKind::Undecided,
+            };
+            let last = match (kind, machine.period()) {
+                (MotionKind::NoImpact | MotionKind::Stuck, Some(period)) => {
+                    after(machine, &last, transient.max(1) as f64 * period)?
+                }
+                _ => last,
+            };
+            return Ok(Followed { kind, points: Vec::new(), last });
+        };
+        last = state(&event);
+        if !event.closes() {
+            continue;
+        }
+        count += 1;
+        if count <= transient {
+            continue;
+        }
+        let point = MachineDiagramPoint { stop: Some(event.place), phase: event.phase, value: event.speed };
+        let turned = |a: f64, b: f64| {
+            let apart = (a - b).abs();
+            apart.min(TAU - apart) <= SAME
+        };
+        let again = points.first().is_some_and(|first| {
+            first.stop == point.stop && near(first.value, point.value) && turned(first.phase, point.phase)
+        });
+        if again {
+            break;
+        }
+        points.push(point);
+        if points.len() as u64 >= keep {
+            break;
+        }
+    }
+    let kind = if points.is_empty() { MotionKind::Undecided } else { MotionKind::Impacts };
+    Ok(Followed { kind, points, last })
+}
+
+/// The state a time after a start without events.
+fn after(machine: &Machine, start: &MachineStart, time: f64) -> Result<MachineStart, PlanError> {
+    let samples = MachineSamples::new(machine, start, limits(time), (time, time)).map_err(refused)?;
+    Ok(samples.last().map_or_else(|| start.clone(), |sample| sampled(&sample)))
+}
+
+fn sampled(sample: &MachineSample) -> MachineStart {
+    MachineStart { q: sample.q.clone(), qdot: sample.qdot.clone(), phase: sample.phase }
+}
+
+/// Follows the motion for `transient` forcing periods and returns the values of `of` at the next `keep` times of phase 0,
+/// or fewer if the states repeat.
+#[allow(clippy::cast_precision_loss)] // at most 1.1e6 periods
+pub(super) fn strobes(
+    machine: &Machine,
+    start: &MachineStart,
+    (transient, keep): (u64, u64),
+    of: impl Fn(&MachineSample) -> f64,
+) -> Result<Followed, PlanError> {
+    let period = machine.period().ok_or(PlanError::Unforced)?;
+    // to phase 0 first
+    let start = if start.phase > 0.0 {
+        let there = after(machine, start, (TAU - start.phase) / TAU * period)?;
+        MachineStart { phase: 0.0, ..there.within_stops(machine) }
+    } else {
+        start.clone()
+    };
+    let until = (transient + keep) as f64 * period;
+    let samples = MachineSamples::new(machine, &start, limits(until), (until, period)).map_err(refused)?;
+    let mut points: Vec<MachineDiagramPoint> = Vec::new();
+    let mut first: Option<MachineSample> = None;
+    let (mut number, mut events) = (0, false);
+    let mut last = start.clone();
+    let mut rests = false;
+    for sample in samples {
+        if !sample.even {
+            events |= number > transient && number > 0;
+            continue;
+        }
+        number += 1;
+        last = sampled(&sample);
+        last.phase = 0.0;
+        if number <= transient {
+            continue;
+        }
+        rests = sample.states.contains(&ContactState::Resting);
+        let again = first.as_ref().is_some_and(|first| {
+            let pairs = first.q.iter().zip(&sample.q).chain(first.qdot.iter().zip(&sample.qdot));
+            pairs.clone().all(|(a, b)| near(*a, *b))
+        });
+        if again || points.len() as u64 >= keep {
+            break;
+        }
+        points.push(MachineDiagramPoint { stop: None, phase: 0.0, value: of(&sample) });
+        first.get_or_insert(sample);
+    }
+    let kind = match (points.is_empty(), events, rests) {
+        (true, ..) => MotionKind::Undecided,
+        (_, true, _) => MotionKind::Impacts,
+        (_, _, true) => MotionKind::Stuck,
+        _ => MotionKind::NoImpact,
+    };
+    Ok(Followed { kind, points, last })
+}

@@ -1,0 +1,135 @@
+//! The orbit diagram of a machine: its motion after the transient at each value of a number.
+
+use super::after_transient::{Followed, closings, strobes};
+use crate::diagram::{MotionKind, Sweep, SweepDirection, check_shown};
+use crate::machine::MachineSource;
+use crate::{PlanError, Span};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+use vibroimpact::verdict::scattered_machine_starts;
+
+pub use super::after_transient::MachineDiagramPoint;
+
+/// A number of a machine over a range, and what is shown of the motion at each value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineDiagramPlan {
+    /// The path of the number that varies.
+    pub vary: String,
+    /// Its values.
+    pub over: Span,
+    /// What is shown: `speed`, the phase and speed of each closing of a stop, or the value of `q.COORDINATE` or
+    /// `qdot.COORDINATE` once in every forcing period, at phase 0.
+    #[serde(default = "speed")]
+    pub show: String,
+    /// How the starts at each value are chosen.
+    #[serde(default)]
+    pub direction: SweepDirection,
+    /// Closings (`speed`) or forcing periods before anything is shown.
+    #[serde(default = "crate::diagram::transient")]
+    pub transient: u64,
+    /// Closings or periods shown at each value, at most: a motion that repeats itself is shown once.
+    #[serde(default = "crate::diagram::keep")]
+    pub keep: u64,
+}
+
+fn speed() -> String {
+    "speed".to_owned()
+}
+
+/// What is shown of a motion of a machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MachineShow {
+    /// The phase and speed of each closing of a stop.
+    Speed,
+    /// A coordinate at phase 0.
+    Q(usize),
+    /// A velocity at phase 0.
+    Qdot(usize),
+}
+
+/// A motion at one value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineDiagramStep {
+    /// Number of the value in the range, counted from 0.
+    pub index: u32,
+    /// The sweep or start of the motion.
+    pub sweep: Sweep,
+    /// The kind of the motion.
+    pub kind: MotionKind,
+    /// The points to show, in order of time.
+    pub points: Vec<MachineDiagramPoint>,
+}
+
+/// The motions: for sweeps in the order of the sweep, one sweep after another; for scattered starts value by value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineDiagram {
+    /// The plan.
+    pub plan: MachineDiagramPlan,
+    /// The motions.
+    pub steps: Vec<MachineDiagramStep>,
+}
+
+impl MachineDiagramPlan {
+    /// What is shown.
+    ///
+    /// # Errors
+    /// [`PlanError::MachineShow`] for a name that is none of these, [`PlanError::Unforced`] for a phase without a forcing.
+    pub fn shown(&self, machine: &Machine) -> Result<MachineShow, PlanError> {
+        let names = &machine.parts().coordinates;
+        let of = |name: &str| names.iter().position(|known| known == name);
+        let found = match self.show.split_once('.') {
+            Some(("q", name)) => of(name).map(MachineShow::Q),
+            Some(("qdot", name)) => of(name).map(MachineShow::Qdot),
+            None if self.show == "speed" => Some(MachineShow::Speed),
+            _ => None,
+        };
+        let show =
+            found.ok_or_else(|| PlanError::MachineShow { given: self.show.clone(), coordinates: names.join(", ") })?;
+        if show != MachineShow::Speed && machine.period().is_none() {
+            return Err(PlanError::Unforced);
+        }
+        Ok(show)
+    }
+
+    /// Checks everything that can be checked without running the plan.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the first invalid value.
+    pub fn check(&self, source: &MachineSource) -> Result<(), PlanError> {
+        source.number(&self.vary)?;
+        let (first, last) = self.over.ends();
+        for end in [first, last] {
+            self.shown(&source.with(&self.vary, end)?.machine()?)?;
+        }
+        check_shown(&self.over, self.direction, (self.transient, self.keep))
+    }
+}
+
+/// The motion at one value, and the state to carry to the next value. The first value starts from the start of the
+/// machine file. A state beyond a rigid stop that has moved is put onto it.
+pub(crate) fn step(
+    source: &MachineSource,
+    plan: &MachineDiagramPlan,
+    (index, sweep): (u32, Sweep),
+    before: Option<MachineStart>,
+) -> Result<(MachineDiagramStep, MachineStart), PlanError> {
+    let machine = source.with(&plan.vary, plan.over.at(index))?.machine()?;
+    let start = match (plan.direction, sweep, before) {
+        (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => scattered_machine_starts(&machine, seed, k),
+        (_, _, Some(left)) => left.within_stops(&machine),
+        (_, _, None) => {
+            let start = source.start()?;
+            MachineStart { q: start.q, qdot: start.qdot, phase: start.phase }.within_stops(&machine)
+        }
+    };
+    let length = (plan.transient, plan.keep);
+    let Followed { kind, points, last } = match plan.shown(&machine)? {
+        MachineShow::Speed => closings(&machine, &start, length)?,
+        MachineShow::Q(i) => strobes(&machine, &start, length, |sample| sample.q[i])?,
+        MachineShow::Qdot(i) => strobes(&machine, &start, length, |sample| sample.qdot[i])?,
+    };
+    Ok((MachineDiagramStep { index, sweep, kind, points }, last))
+}

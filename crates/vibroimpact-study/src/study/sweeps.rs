@@ -1,0 +1,153 @@
+//! The tiles of an orbit diagram. A sweep is one tile; scattered starts have many.
+
+use super::fill::{Along, Fill};
+use crate::diagram::{Sweep, SweepDirection, carried};
+use crate::field::{Column, Field};
+use crate::grid::{Block, Dimension, Grid};
+use crate::{PlanError, Span, Unit};
+
+/// Number of starts and of values in a tile of scattered starts.
+const TILE: (usize, usize) = (16, 64);
+
+/// A system whose motion after the transient is followed at each value of a number.
+pub(crate) trait Swept: Send + Sync {
+    /// The motion at one value.
+    type Step: Send;
+    /// The state to carry to the next value.
+    type Left;
+
+    /// The name of the number, its values, and how starts are chosen.
+    fn sweep(&self) -> (&str, &Span, SweepDirection);
+
+    /// The coordinate values of what varies.
+    fn varied(&self) -> Vec<Along>;
+
+    /// The fields.
+    fn fields(&self) -> Vec<Field>;
+
+    /// The motion at one value, and the state to carry to the next value.
+    fn step(&self, at: (u32, Sweep), before: Option<Self::Left>) -> Result<(Self::Step, Self::Left), PlanError>;
+
+    /// The columns of the steps of a tile, each with its place in the tile.
+    fn columns(&self, points: usize, steps: &[(usize, &Self::Step)]) -> Vec<Column>;
+
+    /// The number of the value of a step.
+    fn index(step: &Self::Step) -> u32;
+}
+
+/// The motions at all values.
+pub(crate) struct SweepFill<S> {
+    pub(super) swept: S,
+    grid: Grid,
+}
+
+impl<S: Swept> SweepFill<S> {
+    pub(super) fn of(swept: S, tile: Option<u32>) -> Self {
+        let (name, over, direction) = swept.sweep();
+        let dimension =
+            |name: &str, count: usize, tile: usize| Dimension { name: name.into(), count, tile: tile.min(count) };
+        let (values, runs) = (over.count() as usize, usize::try_from(direction.runs()).unwrap_or(usize::MAX));
+        let side = |default: usize| tile.map_or(default, |tile| tile as usize);
+        let dimensions = match direction {
+            SweepDirection::Scatter { .. } => {
+                vec![dimension("start", runs, side(TILE.0)), dimension(name, values, side(TILE.1))]
+            }
+            // a sweep is one tile, because each value starts from the last state at the value before
+            _ => vec![dimension("sweep", runs, 1), dimension(name, values, values)],
+        };
+        Self { grid: Grid { dimensions }, swept }
+    }
+}
+
+impl<S: Swept> Fill for SweepFill<S> {
+    /// The motions of the rows, one row after another, each in the order of its sweep.
+    type Tile = Vec<Result<S::Step, PlanError>>;
+
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn coordinates(&self) -> Vec<Along> {
+        let sweep = |values: &[f64]| Along {
+            name: "sweep".to_owned(),
+            dimension: "sweep".to_owned(),
+            values: values.to_vec(),
+            long_name: "direction of the sweep: 1 with rising values, -1 with falling ones".into(),
+            unit: Unit::NUMBER,
+        };
+        let rows = match self.swept.sweep().2 {
+            SweepDirection::Scatter { .. } => None,
+            SweepDirection::Up => Some(sweep(&[1.0])),
+            SweepDirection::Down => Some(sweep(&[-1.0])),
+            SweepDirection::Both => Some(sweep(&[1.0, -1.0])),
+        };
+        rows.into_iter().chain(self.swept.varied()).collect()
+    }
+
+    fn fields(&self) -> Vec<Field> {
+        self.swept.fields()
+    }
+
+    fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<Self::Tile> {
+        let (rows, values) = (&block.ranges[0], &block.ranges[1]);
+        let (_, over, direction) = self.swept.sweep();
+        let mut steps = Vec::with_capacity(block.points());
+        for row in rows.clone() {
+            let mut before = None;
+            for j in 0..values.len() {
+                let row = row as u64;
+                let at = match direction {
+                    SweepDirection::Scatter { .. } => (u32::try_from(values.start + j).ok()?, Sweep::Start(row)),
+                    _ => carried(over, direction, row, u32::try_from(j).ok()?),
+                };
+                steps.push(self.swept.step(at, before.take()).map(|(step, left)| {
+                    before = Some(left);
+                    step
+                }));
+                if tick() {
+                    return None;
+                }
+            }
+        }
+        Some(steps)
+    }
+
+    fn columns(&self, block: &Block, steps: Self::Tile) -> Vec<Column> {
+        let values = &block.ranges[1];
+        // the ends were checked, and every value between two valid ends is valid
+        let placed: Vec<(usize, &S::Step)> = steps
+            .iter()
+            .enumerate()
+            .filter_map(|(k, step)| Some((k, step.as_ref().ok()?)))
+            .map(|(k, step)| (k / values.len() * values.len() + (S::index(step) as usize - values.start), step))
+            .collect();
+        self.swept.columns(block.points(), &placed)
+    }
+}
+
+/// The kinds of motions as they are stored.
+pub(super) const KINDS: [(i32, &str); 5] =
+    [(-1, "not_computed"), (0, "no_impact"), (1, "impacts"), (2, "stuck"), (3, "undecided")];
+
+/// The steps of a stored diagram in the order of its results: sweeps one after another, scattered starts value by value.
+/// `motion` returns the step in this row at this value.
+pub(super) fn in_order<T>(
+    over: &Span,
+    direction: SweepDirection,
+    motion: impl Fn(usize, u32, Sweep) -> Option<T>,
+) -> Vec<T> {
+    let values = 0..over.count();
+    match direction {
+        SweepDirection::Scatter { starts, .. } => values
+            .flat_map(|index| (0..starts).map(move |start| (index, start)))
+            .filter_map(|(index, start)| motion(usize::try_from(start).ok()?, index, Sweep::Start(start)))
+            .collect(),
+        _ => (0..direction.runs())
+            .flat_map(|row| values.clone().map(move |j| (row, j)))
+            .filter_map(|(row, j)| {
+                let (index, sweep) = carried(over, direction, row, j);
+                motion(usize::try_from(row).ok()?, index, sweep)
+            })
+            .collect(),
+    }
+}
