@@ -32,14 +32,23 @@ const MAP: &str =
     "map --machine two-mass-hammer --axis frequency=0.8:1.2:9 --axis stop.anvil.gap=0.3,0.5,0.75 --starts 3";
 const BASIN: &str = "basin --machine impact-damper --axis q.particle=-0.3:0.3:7 --axis qdot.particle=-1:1:5";
 
+const DIAGRAM: &str = "diagram --machine two-mass-hammer --vary stop.anvil.gap --over 0.3:0.7:7 --transient 50";
+
 /// The table and the figure of a store are those of the command without one, byte by byte.
 #[test]
 fn stores_have_the_results_of_commands() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
-    for (name, line) in
-        [("map", MAP), ("basin", BASIN), ("line", "map --machine soft-stop --axis frequency=0.7:0.9:5 --starts 2")]
-    {
+    for (name, line) in [
+        ("map", MAP),
+        ("basin", BASIN),
+        ("line", "map --machine soft-stop --axis frequency=0.7:0.9:5 --starts 2"),
+        ("diagram", DIAGRAM),
+        (
+            "scatter",
+            "diagram --machine soft-stop --vary frequency --over 0.7:0.9:3 --show qdot.mass --direction scatter --starts 3 --transient 20",
+        ),
+    ] {
         done(here, &format!("{line} --csv {name}.csv --plot {name}.svg"));
         done(here, &format!("{line} --store {name}.zarr --csv {name}-stored.csv --plot {name}-stored.svg"));
         for kind in ["csv", "svg"] {
@@ -98,6 +107,51 @@ fn refined_maps() {
     assert!(computed.count() < 17 * 9);
 }
 
+/// The oscillator at S of the 1971 paper as a machine.
+const ONE: &str = "[machine]\ncoordinates = [\"x\"]\nmass = [1]\nstiffness = [1]\nfrequency = 0.76923076923076927\n\
+    force = [{ sin = [1] }]\nstop = [{ name = \"wall\", direction = [1], gap = 0.75, restitution = 0.5 }]\n";
+
+/// Sweeps of a machine of one coordinate are those of the oscillator, hysteresis included.
+#[test]
+fn a_diagram_of_one_coordinate_is_that_of_the_oscillator() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("one.toml"), ONE).unwrap();
+    // value, sweep, and the numbers of the row, in order
+    let rows = |line: &str, numbers: &[usize]| {
+        let mut rows: Vec<(String, String, Vec<f64>)> = done(here, line)
+            .lines()
+            .skip(1)
+            .map(|row| {
+                let cells: Vec<&str> = row.split(',').collect();
+                let of = |k: &usize| cells[*k].parse().unwrap_or(f64::NAN);
+                (cells[0].to_owned(), cells[1].to_owned(), numbers.iter().map(of).collect())
+            })
+            .collect();
+        // a cycle can begin at another impact
+        rows.sort_by(|a, b| (&a.0, &a.1).cmp(&(&b.0, &b.1)).then(a.2[0].total_cmp(&b.2[0])));
+        rows
+    };
+    let machine = "diagram --machine one.toml --vary stop.wall.gap --over 0.5:1:11 --csv -";
+    let osc = "diagram --inverse-beta 1.3 --restitution 0.5 --vary gap --over 0.5:1:11 --csv -";
+    for (line, of_machine, of_osc) in [("", [4, 5], [4, 5]), ("strobe", [3, 3], [3, 3])] {
+        let (a, b) = if line.is_empty() {
+            (machine.to_owned(), osc.to_owned())
+        } else {
+            (format!("{machine} --show q.x"), format!("{osc} --show strobe"))
+        };
+        let (found, expected) = (rows(&a, &of_machine), rows(&b, &of_osc));
+        assert_eq!(found.len(), expected.len(), "{line}");
+        for (a, b) in found.iter().zip(&expected) {
+            assert_eq!((&a.0, &a.1), (&b.0, &b.1));
+            assert!(a.2.iter().zip(&b.2).all(|(a, b)| (a - b).abs() < 1e-8), "{a:?} {b:?}");
+        }
+    }
+    // both motions of S
+    let here_at = |sweep: &str| rows(machine, &[5]).iter().filter(|row| row.0 == "0.75" && row.1 == sweep).count();
+    assert_eq!((here_at("up"), here_at("down")), (2, 1));
+}
+
 /// The starts of a machine of one coordinate lead to the motions to which those of the oscillator lead.
 #[test]
 fn a_basin_of_one_coordinate_is_that_of_the_oscillator() {
@@ -105,12 +159,7 @@ fn a_basin_of_one_coordinate_is_that_of_the_oscillator() {
     let here = folder.path();
     let plane = [("x", "-3:0.7:9"), ("v", "-2:2:7")];
     done(here, &format!("basin {} --x {} --v {} --csv osc.csv", crate::S, plane[0].1, plane[1].1));
-    fs::write(
-        here.join("one.toml"),
-        "[machine]\ncoordinates = [\"x\"]\nmass = [1]\nstiffness = [1]\nfrequency = 0.76923076923076927\n\
-         force = [{ sin = [1] }]\nstop = [{ name = \"wall\", direction = [1], gap = 0.75, restitution = 0.5 }]\n",
-    )
-    .unwrap();
+    fs::write(here.join("one.toml"), ONE).unwrap();
     let line = format!("basin --machine one.toml --axis q.x={} --axis qdot.x={}", plane[0].1, plane[1].1);
     done(here, &format!("{line} --store one.zarr --csv one.csv"));
     let read = |name: &str| fs::read_to_string(here.join(name)).unwrap();

@@ -18,13 +18,28 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-_ORDINATES = {"velocity": ARRIVAL, "impact_phase": r"phase $\theta$", "x": r"$\xi$ at phase 0", "v": "$u$ at phase 0"}
+_ORDINATES = {
+    "velocity": ARRIVAL,
+    "impact_phase": r"phase $\theta$",
+    "x": r"$\xi$ at phase 0",
+    "v": "$u$ at phase 0",
+    "speed": "speed of closing",
+    "closing_phase": "phase of the forcing",
+}
+
+
+def _ordinates(ds: "xr.Dataset") -> dict[str, str]:
+    """The variables of a diagram that can be drawn, and their names; coordinates of machines by their paths."""
+    paths = (str(name) for name in ds.data_vars if str(name).startswith(("q.", "qdot.")))
+    return {name: text for name, text in _ORDINATES.items() if name in ds.data_vars} | {
+        path: f"{path} at phase 0" for path in paths
+    }
 
 
 def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
     """Draw the points of all sweeps. Axes and title use the coordinates, not the plan."""
-    drawn = [name for name in _ORDINATES if name in ds.data_vars]
-    which = which or drawn[0]
+    drawn = _ordinates(ds)
+    which = which or next(iter(drawn))
     if which not in drawn:
         raise QuestionError(f"`{which}` is no variable of this diagram; there are {', '.join(drawn)}")
     task = json.loads(ds.attrs["plan"])["task"]["diagram"] if "plan" in ds.attrs else {}
@@ -56,7 +71,7 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
     ends = np.argsort(values)[[0, -1]]
     with_ = (span(symbol(name), *ds[name].values[ends]) for name in beside)
     ax.set_xlabel(", with ".join([symbol(vary), *with_]))
-    ax.set_ylabel(_ORDINATES[which])
+    ax.set_ylabel(drawn[which])
     ax.set_title(title(ds, (vary, *beside)))
     legend(ax)
     return ax
@@ -64,7 +79,7 @@ def plot(ds: "xr.Dataset", ax: "Axes | None", which: str | None) -> "Axes":
 
 def is_diagram(ds: "xr.Dataset") -> bool:
     """Whether a Dataset is an orbit diagram or a part of one."""
-    return "kind" in ds.data_vars and any(name in ds.data_vars for name in _ORDINATES)
+    return "kind" in ds.data_vars and bool(_ordinates(ds))
 
 
 def _spread(ds: "xr.Dataset", which: str, task: dict[str, Any]) -> tuple["xr.Dataset", str, str]:

@@ -233,12 +233,12 @@ def region_map(
 
 
 def orbit_diagram(
-    osc: Oscillator,
+    osc: Oscillator | Machine,
     vary: str,
     over: Axis,
     *,
     also: Mapping[str, Interval] | None = None,
-    show: str = "velocity",
+    show: str | None = None,
     direction: str = "both",
     starts: int | None = None,
     seed: int | None = None,
@@ -256,17 +256,21 @@ def orbit_diagram(
 
     Parameters
     ----------
-    osc : Oscillator
-        The system; its value of the parameter that varies is ignored. Physical units as for `basin`.
+    osc : Oscillator or Machine
+        The system; its value of the parameter that varies is ignored. Physical units as for `basin`. A sweep of a machine begins
+        at `machine.start`.
     vary : str
-        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution".
+        "beta", "inverse_beta", "gap", "restitution", "damping", "second_gap" or "second_restitution"; for a
+        machine the path of a number.
     over : str or array
         Its values: a range ("0:3:601" has 601 values) or an evenly spaced array.
     also : dict
         A second parameter that varies in proportion to the first, with its values at the first and the last value of
         `over`: {"gap": (0.5, 1.5)}. It is a second coordinate of the same dimension.
     show : str
-        "velocity" for the phase of each impact and the speed before it; "strobe" for position and velocity at phase 0.
+        "velocity" (default) for the phase of each impact and the speed before it; "strobe" for position and velocity at phase 0.
+        For a machine "speed" (default) for the phase and speed of each closing of a stop; "q.NAME" or "qdot.NAME" for a coordinate
+        or velocity at phase 0.
     direction : str
         "up", "down", "both", or "scatter" for several scattered starts at each value.
     starts, seed : int

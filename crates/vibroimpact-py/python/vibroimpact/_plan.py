@@ -133,12 +133,12 @@ class Plan:
     @classmethod
     def diagram(
         cls,
-        osc: Oscillator,
+        osc: Oscillator | Machine,
         vary: str,
         over: Axis,
         *,
         also: Mapping[str, Interval] | None = None,
-        show: str = "velocity",
+        show: str | None = None,
         direction: str = "both",
         starts: int | None = None,
         seed: int | None = None,
@@ -147,7 +147,12 @@ class Plan:
         tile: int | None = None,
     ) -> "Plan":
         """A plan for the motion after its transient along one parameter or a line through two; arguments as for `orbit_diagram`."""
-        _known("show", show, ("velocity", "strobe"))
+        machine = isinstance(osc, Machine)
+        show = show or ("speed" if machine else "velocity")
+        if not machine:
+            _known("show", show, ("velocity", "strobe"))
+        elif also is not None:
+            raise _core.QuestionError("also is for oscillators\nhint: a diagram of a machine has one number")
         _known("direction", direction, ("up", "down", "both", "scatter"))
         way: object = direction
         if direction == "scatter":

@@ -1,8 +1,11 @@
 """The points of an orbit diagram as a table, with the columns and rows of `vibro diagram --csv` and `vibro export`."""
 
+import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from vibroimpact import _core
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -14,7 +17,11 @@ _MOTIONS = np.array(["none", "impact", "stuck", "undecided"], dtype=object)
 _POINTS = np.array([None, "impact", "chatter", "chatter", "impact"], dtype=object)
 _SIDES = np.array([None, "upper", "upper", "lower", "lower"], dtype=object)
 #: The variable of each column of numbers.
-_NUMBERS = {"velocity": {"phase": "impact_phase", "velocity": "velocity"}, "x": {"x": "x", "v": "v"}}
+_NUMBERS = {
+    "velocity": {"phase": "impact_phase", "velocity": "velocity"},
+    "x": {"x": "x", "v": "v"},
+    "speed": {"phase": "closing_phase", "speed": "speed"},
+}
 
 
 def shown(ds: "xr.Dataset") -> dict[str, str]:
@@ -29,7 +36,17 @@ def _line(ds: "xr.Dataset") -> list[str]:
 
 
 def _numbers(ds: "xr.Dataset") -> dict[str, str]:
-    return _NUMBERS["velocity" if "velocity" in ds else "x"]
+    known = [numbers for name, numbers in _NUMBERS.items() if name in ds]
+    # a coordinate or velocity of a machine, by its path
+    paths = (str(name) for name in ds.data_vars if str(name).startswith(("q.", "qdot.")))
+    return known[0] if known else {path: path for path in paths}
+
+
+def _stops(ds: "xr.Dataset") -> "np.ndarray[Any, Any]":
+    """The names of the stops of the machine of a Dataset."""
+    plan = json.loads(ds.attrs["plan"])
+    file = {name: part for name, part in plan.items() if name not in ("version", "task", "tile")}
+    return np.array(_core.MachineFile(json.dumps(file), str).names()[1], dtype=object)
 
 
 def table(ds: "xr.Dataset") -> "pd.DataFrame":
@@ -66,5 +83,9 @@ def table(ds: "xr.Dataset") -> "pd.DataFrame":
         side = side[known]
         out["kind"] = np.where(side == 0, kind, _POINTS[side])
         out["side"] = _SIDES[side]
+    if "stop" in ds:
+        # a motion without points has no stop
+        stop = ds["stop"].values[run, at][known]
+        out["stop"] = np.where(stop < 0, None, _stops(ds)[stop])
     out.update({name: of[known] for name, of in points.items()})
     return pd.DataFrame(out)

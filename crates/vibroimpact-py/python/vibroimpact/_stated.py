@@ -79,6 +79,9 @@ def along(ds: "xr.Dataset", name: str) -> NDArray[np.float64]:
 def title(ds: "xr.Dataset", axes: tuple[str, ...]) -> str:
     """The title: the parameters from the coordinates, except those on the axes of the figure."""
     plan = json.loads(ds.attrs["plan"]) if "plan" in ds.attrs else {}
+    if "machine" in plan:
+        # a long title up to its first colon
+        return str(plan.get("title", "")).split(": ")[0]
     lost = {name for name in varied(plan) if name not in ds.coords and name not in axes}
     given = "beta" if "beta" in plan.get("system", {}) else "inverse_beta"
     drawn = set(axes) | ({*_FREQUENCIES} if {*_FREQUENCIES} & set(axes) else set())
