@@ -81,6 +81,27 @@ pub fn answer(task: &str, answer: &Value) -> Result<(), String> {
     }
 }
 
+/// Checks the fields that programs need in the answer to a task about a machine.
+///
+/// # Errors
+/// The name of a missing field.
+pub fn machine_answer(task: &str, answer: &Value) -> Result<(), String> {
+    let fields: &[&str] = match task {
+        "settle" => &["start", "motion", "plan"],
+        "simulate" => &["start", "events", "end", "plan"],
+        "attractors" => &["motions", "starts", "plan"],
+        "orbit" => &["orbits", "plan"],
+        "branch" => &["points", "events", "plan"],
+        "basin" | "map" => &["axes", "plan"],
+        "diagram" => &["sweeps", "plan"],
+        _ => &[],
+    };
+    if let Some(field) = fields.iter().find(|field| answer.get(field).is_none_or(Value::is_null)) {
+        return Err(format!("the answer to {task} about a machine has no `{field}`"));
+    }
+    if task == "simulate" { in_order(answer) } else { Ok(()) }
+}
+
 /// Checks that all rows of a table have the same number of cells, and no cell is `NaN`.
 ///
 /// # Errors
@@ -156,6 +177,11 @@ fn events(answer: &Value) -> Result<(), String> {
     if !REASONS.contains(&reason) {
         return Err(format!("a simulation ends for the reason `{reason}`"));
     }
+    in_order(answer)
+}
+
+/// Checks that no event is earlier than the one before it.
+fn in_order(answer: &Value) -> Result<(), String> {
     let mut last = 0.0;
     for event in answer["events"].as_array().into_iter().flatten() {
         let Some(time) = event["time"].as_f64().filter(|time| *time >= last) else {

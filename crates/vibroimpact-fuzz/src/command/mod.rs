@@ -1,5 +1,6 @@
 //! Command lines of `vibro`: each must give an answer or a refusal within its time, and the same one when repeated.
 
+mod machines;
 mod others;
 mod parts;
 mod planes;
@@ -9,20 +10,24 @@ use crate::case::Property;
 use crate::limits::{Limits, ProcessEnd, run};
 use crate::rules;
 use proptest::prelude::*;
+use serde_json::Value;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use tempfile::TempDir;
 use vibroimpact_report::question::quoted;
-use vibroimpact_report::{Units, answer};
-use vibroimpact_study::{Control, Plan};
+use vibroimpact_report::{Units, answer, machine_answer};
+use vibroimpact_study::machine::no_files;
+use vibroimpact_study::{Control, MachinePlan, Plan};
 
 /// A command line, and whether its budget is very large.
 #[derive(Clone, Debug)]
 pub struct CommandCase {
     words: Vec<String>,
     heavy: bool,
+    /// The text of the machine file in the folder, for questions about machines.
+    machine: Option<String>,
 }
 
 /// The family of command lines.
@@ -49,21 +54,23 @@ impl Commands {
     }
 
     /// Runs a line in its own folder. Returns the end of the process and the names of new files.
-    fn ask(&self, words: &[String], limits: &Limits) -> io::Result<(ProcessEnd, Vec<String>)> {
+    fn ask(&self, words: &[String], machine: Option<&str>, limits: &Limits) -> io::Result<(ProcessEnd, Vec<String>)> {
         // always the same name, because some answers contain it
         let folder = self.scratch.path().join("case");
         if folder.exists() {
             fs::remove_dir_all(&folder)?;
         }
         fs::create_dir(&folder)?;
-        for (name, text) in others::FILES {
+        let files: Vec<(&str, &str)> =
+            others::FILES.into_iter().chain(machine.map(|text| (machines::FILE, text))).collect();
+        for (name, text) in &files {
             fs::write(folder.join(name), text)?;
         }
         let ran = run(&self.vibro, words, (&folder, self.scratch.path()), limits)?;
         let mut left = Vec::new();
         for entry in fs::read_dir(&folder)? {
             let name = entry?.file_name().to_string_lossy().into_owned();
-            match others::FILES.iter().find(|(file, _)| *file == name) {
+            match files.iter().find(|(file, _)| *file == name) {
                 Some((_, text)) if fs::read_to_string(folder.join(&name)).is_ok_and(|now| now == *text) => {}
                 _ => left.push(name),
             }
@@ -76,10 +83,12 @@ impl Property for Commands {
     type Case = CommandCase;
 
     fn strategy(&self) -> BoxedStrategy<CommandCase> {
-        let line = |heavy| move |words| CommandCase { words, heavy };
+        let line = |heavy| move |words| CommandCase { words, heavy, machine: None };
+        let of_machine = |(text, words)| CommandCase { words, heavy: false, machine: Some(text) };
         prop_oneof![
             12 => verbs::lines().prop_map(line(false)),
             10 => planes::lines().prop_map(line(false)),
+            12 => (machines::files(), machines::lines()).prop_map(of_machine),
             6 => others::lines().prop_map(line(false)),
             1 => others::heavy().prop_map(line(true)),
         ]
@@ -88,14 +97,18 @@ impl Property for Commands {
 
     fn describe(&self, case: &CommandCase) -> String {
         let quoted: Vec<String> = case.words.iter().map(|word| quoted(word)).collect();
-        format!("vibro {}{}", quoted.join(" "), if case.heavy { "   # and Ctrl-C" } else { "" })
+        let line = format!("vibro {}{}", quoted.join(" "), if case.heavy { "   # and Ctrl-C" } else { "" });
+        match &case.machine {
+            Some(text) if line.contains(machines::FILE) => format!("{line}\n# {}\n{text}", machines::FILE),
+            _ => line,
+        }
     }
 
     fn check(&mut self, case: &CommandCase) -> Result<(), String> {
         let failed = |why: io::Error| format!("the command cannot be run: {why}");
         let interrupt = case.heavy.then_some(INTERRUPT);
         let limits = Limits { interrupt, ..Limits::default() };
-        let (ran, left) = self.ask(&case.words, &limits).map_err(failed)?;
+        let (ran, left) = self.ask(&case.words, case.machine.as_deref(), &limits).map_err(failed)?;
         let code = ran.ended_with(if case.heavy { &[0, 1, 2, 130] } else { &[0, 1, 2] })?;
         let verb = case.words.first().map_or("", String::as_str);
         if code != 0 {
@@ -133,6 +146,10 @@ fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), Stri
     if stored || matches!(verb, "resume" | "verify" | "status") {
         return Ok(());
     }
+    if let Some(name) = object.get("machine").and_then(Value::as_str) {
+        rules::machine_answer(verb, &object)?;
+        return again_from_plan(name, &object, stdout);
+    }
     rules::answer(verb, &object)?;
     // a plan has the units of a machine only if its results are in them
     let nondimensional = object.get("system").is_none_or(|system| system.get("scales").is_none());
@@ -145,13 +162,25 @@ fn told(verb: &str, stdout: &[u8], stored: bool, plain: bool) -> Result<(), Stri
     same(first.trim_end().as_bytes(), second.as_bytes()).map_err(|why| format!("its plan gives another answer: {why}"))
 }
 
+/// Checks that the plan of an answer about a machine gives the same object.
+fn again_from_plan(name: &str, object: &Value, stdout: &[u8]) -> Result<(), String> {
+    let Some(plan) = object.get("plan") else { return Ok(()) };
+    let plan = MachinePlan::from_text(&plan.to_string(), no_files);
+    let plan = plan.map_err(|why| format!("the plan it prints does not read: {why}"))?;
+    let asked = machine_answer(name, &plan, &Control { threads: 1, ..Control::default() });
+    let second = asked.map_err(|why| format!("the plan it prints is refused: {why}"))?.json();
+    same(String::from_utf8_lossy(stdout).trim_end().as_bytes(), second.as_bytes())
+        .map_err(|why| format!("its plan gives another answer: {why}"))
+}
+
 /// Checks that the same line with another number of threads gives the same bytes.
 fn again(commands: &Commands, case: &CommandCase, first: &ProcessEnd) -> Result<(), String> {
     if case.words.iter().any(|word| word.starts_with("--threads")) {
         return Ok(());
     }
     let words: Vec<String> = ["--threads=3".to_owned()].into_iter().chain(case.words.iter().cloned()).collect();
-    let (second, _) = commands.ask(&words, &Limits::default()).map_err(|why| why.to_string())?;
+    let (second, _) =
+        commands.ask(&words, case.machine.as_deref(), &Limits::default()).map_err(|why| why.to_string())?;
     if second.code != first.code {
         return Err(format!("the same question with --threads=3 ends with {:?}: {}", second.code, second.stderr));
     }
