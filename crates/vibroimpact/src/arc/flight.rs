@@ -447,8 +447,11 @@ impl MachineFlight {
     /// Sine and cosine of each harmonic of the forcing at a time, from the modes there.
     pub(crate) fn turns_at(&self, modes: &Modes, to: &mut Vec<(f64, f64)>) {
         to.clear();
-        to.extend(self.turns.iter().zip(&modes.turned).map(|((sin, cos), turned)| {
-            (sin * turned.cos + cos * turned.sin, cos * turned.cos - sin * turned.sin)
-        }));
+        to.extend(
+            self.turns
+                .iter()
+                .zip(&modes.turned)
+                .map(|((sin, cos), turned)| (sin * turned.cos + cos * turned.sin, cos * turned.cos - sin * turned.sin)),
+        );
     }
 }

@@ -30,9 +30,9 @@ mod stretch;
 mod strike;
 mod within;
 
+pub(crate) use contact_force::contact_forces;
 pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;
-pub(crate) use contact_force::contact_forces;
 pub(crate) use passage::Passage;
 pub(crate) use place::{Place, Structures, standing_back};
 pub(crate) use saltation::{EventLaw, LinearEvent, StateShape, step_derivative};

@@ -152,17 +152,26 @@ const STEPS: u32 = 100_000;
 /// A motion that returns to its state to within this part of its size repeats.
 const CLOSED: f64 = 1e-10;
 
+/// A steady response attracts if all its multipliers are below this: without damping they are 1 to rounding.
+const ATTRACTS: f64 = 1.0 - 1e-9;
+
 /// The quantities of a motion without a further event, from one of its states.
 fn quiet(machine: &Machine, from: &Place) -> MachineQuantities {
     let frame = MachineFrame::new(machine);
     steady(&frame, from).unwrap_or_else(|| {
+        // nothing takes energy, so a motion that stays bounded gets none
+        let open = from.states.iter().all(|state| *state == ContactState::Open);
+        let idle = open && machine.parts().damping.largest() == 0.0;
         let zero = |part: MachinePart, quantity: MachineQuantity| match (part, quantity) {
             (_, MachineQuantity::Common(Quantity::ImpactSpeedMean)) => false,
             (MachinePart::Stop(j), _) => from.states[j] == ContactState::Open,
-            _ => quantity.of_events() && !matches!(part, MachinePart::Joint(_)),
+            (MachinePart::Whole, _) => idle || quantity.of_events(),
+            (MachinePart::Force(_), _) => idle,
+            (MachinePart::Joint(_) | MachinePart::Coordinate(_), _) => false,
         };
-        MachineQuantities::from_fn(machine, |part, quantity| {
-            Measured { value: if zero(part, quantity) { 0.0 } else { f64::NAN }, error: 0.0 }
+        MachineQuantities::from_fn(machine, |part, quantity| Measured {
+            value: if zero(part, quantity) { 0.0 } else { f64::NAN },
+            error: 0.0,
         })
     })
 }
@@ -173,9 +182,9 @@ fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<MachineQuantities> {
     let time = frame.machine.period().unwrap_or_else(|| 1.0 / structure.fastest().max(f64::MIN_POSITIVE).min(1e3));
     if frame.machine.period().is_some()
         && let Some(cycle) = MachineCycle::near(frame, from, 1)
-        && cycle.label.periods == 1
+        && cycle.multipliers.iter().all(|multiplier| multiplier.modulus() < ATTRACTS)
     {
-        return over_time(frame, cycle.strobes.first()?, time);
+        return over_time(frame, cycle.strobes.first()?, cycle.period);
     }
     let lap = MachineLap::fly(frame, from, time)?;
     let (size, speed) = lap.sizes;

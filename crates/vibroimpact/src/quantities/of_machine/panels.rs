@@ -6,14 +6,17 @@
 //! $`(2|\lambda|h)^{32}\,(16!)^4/(33\,(32!)^3)`$. For $`|\lambda|h \le 2.5`$ these are below $`3\cdot 10^{-17}`$ and
 //! $`10^{-32}`$. So integrals and extremes are right to rounding.
 //!
-//! A term that decays as $`e^{-\gamma t}`$ allows panels that grow as $`e^{\gamma t/32}`$: the error stays that at the
-//! beginning, relative to the size of the term there. So a stiff mode with damping costs little in a long flight.
+//! A term that decays as $`e^{-\gamma t}`$ allows panels that grow as $`e^{\gamma t/16}`$: the error of the polynomial stays
+//! that at the beginning, relative to the size of the term there, and the error of a product with a slow term grows to
+//! $`10^{-16}`$. After $`e^{-40}`$ nothing is left of it. So a stiff mode with damping costs little in a long flight.
 
 use crate::math::exp;
 use crate::regime::Structure;
 
 /// The longest panel, in units of the time in which a term changes.
 const PANEL: f64 = 2.5;
+/// A term is nothing after it has decayed by this power of e.
+const GONE: f64 = 40.0;
 
 /// The rates of the terms of a flight, each with the rate at which it decays.
 pub(super) fn rates(structure: &Structure) -> Vec<(f64, f64)> {
@@ -43,7 +46,10 @@ pub(super) fn panels(rates: &[(f64, f64)], duration: f64, most: usize) -> Option
         if all.len() >= most {
             return None;
         }
-        let allowed = |(rate, decay): &(f64, f64)| PANEL / rate * exp((decay * begin / 32.0).min(700.0));
+        let allowed = |(rate, decay): &(f64, f64)| {
+            let gone = decay * begin;
+            if gone > GONE { f64::INFINITY } else { PANEL / rate * exp(gone / 16.0) }
+        };
         let longest = rates.iter().map(allowed).fold(f64::INFINITY, f64::min);
         // the rest is divided into equal panels, rather than into long ones and a very short one
         let rest = duration - begin;

@@ -124,7 +124,9 @@ impl MachineQuantity {
             (Common(Quantity::ImpactSpeedMean), _) => "mean speed of closing",
             (Common(Quantity::ImpulseMax), _) => "largest impulse of an impact or contact",
             (Common(Quantity::StickingFraction), _) => "part of the time at rest on a stop",
-            (Common(Quantity::DampingLossPerPeriod), _) => "energy lost in the damping of the structure per forcing period",
+            (Common(Quantity::DampingLossPerPeriod), _) => {
+                "energy lost in the damping of the structure per forcing period"
+            }
             (Common(Quantity::DampingPower), _) => "power lost in the damping of the structure",
             (Common(quantity), _) => quantity.description(),
             (MomentumPerPeriod, _) => "impulse of all impacts, contact forces and reactions per forcing period",
