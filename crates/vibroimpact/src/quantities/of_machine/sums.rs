@@ -86,11 +86,11 @@ impl MachineSums {
     }
 
     fn over_stops(&self, of: impl Fn(&StopSums) -> f64) -> f64 {
-        self.stops.iter().map(of).sum()
+        self.stops.iter().fold(0.0, |sum, stop| sum + of(stop))
     }
 
     fn over_joints(&self, of: impl Fn(&JointSums) -> f64) -> f64 {
-        self.joints.iter().map(of).sum()
+        self.joints.iter().fold(0.0, |sum, joint| sum + of(joint))
     }
 
     /// The upper sum of a mean; `None` for an extreme.
@@ -100,7 +100,7 @@ impl MachineSums {
             MachinePart::Whole => Some(match quantity {
                 M::Common(Quantity::ImpactsPerPeriod | Quantity::ImpactRate) => self.over_stops(|stop| stop.closings),
                 M::Common(Quantity::WorkPerPeriod | Quantity::Power) => {
-                    let forces: f64 = self.forces.iter().map(|(_, work)| work).sum();
+                    let forces = self.forces.iter().fold(0.0, |sum, (_, work)| sum + work);
                     forces + self.over_stops(|stop| stop.work) + self.over_joints(|joint| joint.work)
                 }
                 M::Common(Quantity::ImpactLossPerPeriod | Quantity::ImpactPower) => {

@@ -31,6 +31,8 @@ pub(super) struct MachineTally<'a> {
     point: Point,
     /// The values at the points of a panel: of positions, velocities and accelerations, and of forces.
     values: Vec<[f64; POINTS]>,
+    /// The same at both ends of it.
+    ends: Vec<[f64; 2]>,
 }
 
 /// The impulse of a compliant stop since it closed.
@@ -52,6 +54,7 @@ struct Point {
     x: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
+    q: Vec<f64>,
     drag: Vec<f64>,
     turns: Vec<(f64, f64)>,
     forces: Vec<f64>,
@@ -80,6 +83,7 @@ impl<'a> MachineTally<'a> {
             contacts: vec![Contact::default(); machine.stops().len()],
             point: Point::default(),
             values: vec![[0.0; POINTS]; 3 * machine.n() + contacts],
+            ends: vec![[0.0; 2]; 3 * machine.n() + contacts],
         }
     }
 
@@ -104,6 +108,8 @@ impl<'a> MachineTally<'a> {
         self.left -= all.len();
         let flight = from.flight(&self.frame.normal, structure.clone());
         let leg = Leg { states: &from.states, flight: &flight, chatter };
+        self.go(&leg, 0.0);
+        self.told(|(_, ends), value| ends[1] = value);
         for panel in all {
             self.panel(&leg, panel);
         }
@@ -156,17 +162,27 @@ impl<'a> MachineTally<'a> {
             let (place, weight) = self.gauss.points[k];
             self.go(leg, middle + half * place);
             self.add(leg, half * weight);
-            self.keep(k, half * weight);
+            self.told(|(values, _), value| values[k] = value);
         }
+        for (sums, all) in self.sums.coordinates.iter_mut().zip(self.values.chunks_exact(3)) {
+            for (k, (_, weight)) in self.gauss.points.iter().enumerate() {
+                let (q, qdot) = (all[0][k], all[1][k]);
+                sums.x += half * weight * q;
+                sums.x_squared += half * weight * q * q;
+                sums.v_squared += half * weight * qdot * qdot;
+            }
+        }
+        self.go(leg, begin + length);
+        self.told(|(_, ends), value| *ends = [ends[1], value]);
         let n = self.sums.coordinates.len();
         let ranges = self.extremes.coordinates.iter_mut().flatten();
-        for (values, range) in self.values[..3 * n].iter().zip(ranges) {
-            self.gauss.widen(values, range);
+        for ((values, ends), range) in self.values[..3 * n].iter().zip(&self.ends).zip(ranges) {
+            self.gauss.widen(values, *ends, range);
         }
         for (at, range) in self.extremes.forces.iter_mut().enumerate() {
             let acts = matches!(leg.states[at], ContactState::Closed | ContactState::Resting | ContactState::Holding);
             if acts && leg.chatter != Some(at) {
-                self.gauss.widen(&self.values[3 * n + at], range);
+                self.gauss.widen(&self.values[3 * n + at], self.ends[3 * n + at], range);
             } else if !acts {
                 range.1 = range.1.max(self.point.forces[at].abs());
             }
@@ -230,21 +246,19 @@ impl<'a> MachineTally<'a> {
         }
     }
 
-    /// Adds the integrands of the coordinates at a point of a panel, and keeps all values of which ranges are searched for.
-    fn keep(&mut self, k: usize, weight: f64) {
+    /// Tells everything of which ranges are searched for, at the point where the flight is, with its place in a panel:
+    /// position, velocity and acceleration of each coordinate, and the forces.
+    fn told(&mut self, mut keep: impl FnMut((&mut [f64; POINTS], &mut [f64; 2]), f64)) {
         let normal = &self.frame.normal;
-        let [q, qdot, a] = [&self.point.x, &self.point.v, &self.point.a].map(|x| normal.to_machine(x));
-        for (i, sums) in self.sums.coordinates.iter_mut().enumerate() {
-            sums.x += weight * q[i];
-            sums.x_squared += weight * q[i] * q[i];
-            sums.v_squared += weight * qdot[i] * qdot[i];
-            for (d, value) in [q[i], qdot[i], a[i]].into_iter().enumerate() {
-                self.values[3 * i + d][k] = value;
-            }
+        let Point { q, x, v, a, forces, .. } = &mut self.point;
+        let n = x.len();
+        for (d, of) in [&*x, v, a].into_iter().enumerate() {
+            normal.to_machine_into(of, q);
+            let places = self.values.iter_mut().zip(&mut self.ends).skip(d).step_by(3);
+            places.zip(q.iter()).for_each(|(place, value)| keep(place, *value));
         }
-        for (at, force) in self.point.forces.iter().enumerate() {
-            self.values[3 * q.len() + at][k] = *force;
-        }
+        let places = self.values.iter_mut().zip(&mut self.ends).skip(3 * n);
+        places.zip(forces.iter()).for_each(|(place, value)| keep(place, *value));
     }
 
     /// Adds what happens at the end of a step: closings, and the impulses of impacts.
