@@ -179,7 +179,8 @@ fn quiet(machine: &Machine, from: &Place) -> MachineQuantities {
 /// Those of the steady motion or the rest to which it comes; `None` if it comes to none.
 fn steady(frame: &MachineFrame<'_>, from: &Place) -> Option<MachineQuantities> {
     let structure = frame.structure(&from.states)?;
-    let time = frame.machine.period().unwrap_or_else(|| 1.0 / structure.fastest().max(f64::MIN_POSITIVE).min(1e3));
+    let fastest = structure.fastest();
+    let time = frame.machine.period().unwrap_or(if fastest > 0.0 { 1.0 / fastest } else { 1.0 });
     if frame.machine.period().is_some()
         && let Some(cycle) = MachineCycle::near(frame, from, 1)
         && cycle.multipliers.iter().all(|multiplier| multiplier.modulus() < ATTRACTS)
