@@ -110,3 +110,27 @@ def test_the_command_answers_the_same(vibro: Callable[..., subprocess.CompletedP
     told = json.loads(vibro("settle", "--machine", "two-mass-hammer", "--json").stdout)
     found = HAMMER.settle()
     assert found.motion.to_dict() == told["motion"] and json.loads(found.plan)["task"] == told["plan"]["task"]
+
+
+def test_quantities_by_path() -> None:
+    """Of every part, with the energy balance of a cycle with a compliant stop and a friction joint, and error bars of chaos."""
+    machine = vi.Machine(
+        coordinates=["a", "b"], mass=[1, 0.5], stiffness=[[2, -1], [-1, 1]], damping=[0.1, 0.05], frequency=0.9,
+        forces=[{"at": "a", "sin": 1}],
+        stops={"pad": {"at": "a", "gap": 0.4, "stiffness": 50, "damping": 0.5}},
+        joints={"guide": {"at": "b", "sliding": 0.05}},
+    )
+    of = machine.settle().motion.quantities
+    assert of is not None
+    lost = sum(of[f"{kind}_power"] for kind in ("impact", "contact", "friction", "damping"))
+    assert abs(of["power"] - lost) < 1e-12 * lost
+    assert of["stop.pad.force_max"] > 0 and of["friction.guide.friction_loss_per_period"] > 0
+    assert of["force.1.work_per_period"] == pytest.approx(of["work_per_period"])
+    assert of["q.b.displacement_min"] < of["q.b.displacement_mean"] < of["q.b.displacement_max"]
+    chaotic = vi.Machine(
+        bodies={"mass": 1}, links=[{"between": ["mass", "ground"], "stiffness": 1}], frequency=1 / 1.11,
+        forces=[{"at": "mass", "sin": 1}], stops={"wall": {"at": "mass", "gap": 3, "restitution": 0.5}},
+    ).settle().motion
+    assert chaotic.kind == "chaotic" and chaotic.quantities is not None and chaotic.quantities_error is not None
+    assert 0 < chaotic.quantities_error["power"] < 0.05 * chaotic.quantities["power"]
+    assert "stop.wall.impact_speed_max" not in chaotic.quantities_error

@@ -4,8 +4,9 @@ use crate::report::diagram;
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
-use vibroimpact::machine::Machine;
+use vibroimpact::machine::{Machine, StopLaw};
 use vibroimpact::orbit::MachineCycle;
+use vibroimpact::quantities::{MachinePart, MachineQuantity, Quantity, machine_quantities};
 use vibroimpact::verdict::{MachineUndecided, MachineVerdict};
 use vibroimpact_report::MachineAnswer;
 use vibroimpact_report::json::undecided;
@@ -21,6 +22,7 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
         MachineResults::Simulate(_) => {}
         MachineResults::Settle(found) => {
             text.push_str(&motion(machine, &found.verdict));
+            text.push_str(&quantities(machine, &found.verdict));
             let _ =
                 writeln!(text, "  followed for {}, until time {}", counted(found.events, "event"), short(found.time));
             if found.transient.is_some() {
@@ -92,9 +94,9 @@ fn branch(machine: &Machine, points: &[MachinePoint]) -> String {
 fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
     match verdict {
         MachineVerdict::Periodic(cycle) => described(machine, cycle),
-        MachineVerdict::NoImpact => "0: no further event, for ever\n".to_owned(),
-        MachineVerdict::Stuck => "stuck: at rest on a stop, for ever\n".to_owned(),
-        MachineVerdict::Chaotic { spectrum, events } => {
+        MachineVerdict::NoImpact(_) => "0: no further event, for ever\n".to_owned(),
+        MachineVerdict::Stuck(_) => "stuck: at rest on a stop, for ever\n".to_owned(),
+        MachineVerdict::Chaotic { spectrum, events, .. } => {
             format!("chaotic, seen over {}\n{}", counted(*events, "event"), exponents(spectrum))
         }
         MachineVerdict::Undecided { why, events, .. } => {
@@ -105,6 +107,39 @@ fn motion(machine: &Machine, verdict: &MachineVerdict) -> String {
             format!("undecided after {}: {why}\n", counted(*events, "event"))
         }
     }
+}
+
+/// The quantities that matter: power and where it goes, and for each stop that closes the largest speed and the largest
+/// impulse, or force of a compliant one.
+fn quantities(machine: &Machine, verdict: &MachineVerdict) -> String {
+    let Some(found) = machine_quantities(machine, verdict) else { return String::new() };
+    let mut text = String::new();
+    let whole = |quantity| found.get(MachinePart::Whole, quantity);
+    let lost = [
+        (MachineQuantity::Common(Quantity::ImpactPower), "impacts"),
+        (MachineQuantity::ContactPower, "dampers of stops"),
+        (MachineQuantity::FrictionPower, "friction"),
+        (MachineQuantity::Common(Quantity::DampingPower), "damping"),
+    ];
+    let power = whole(MachineQuantity::Common(Quantity::Power));
+    let lost = lost.map(|(quantity, name)| (whole(quantity), name)).into_iter().filter(|(lost, _)| *lost > 0.0);
+    let lost: Vec<String> = lost.map(|(lost, name)| format!("{} in {name}", short(lost))).collect();
+    if power.is_finite() && !lost.is_empty() {
+        let _ = writeln!(text, "  power {}: lost {}", short(power), lost.join(", "));
+    }
+    for (j, stop) in machine.stops().iter().enumerate() {
+        let of = |quantity| found.get(MachinePart::Stop(j), quantity);
+        let speed = of(MachineQuantity::Common(Quantity::ImpactSpeedMax));
+        if speed > 0.0 {
+            let (what, most) = match stop.law {
+                StopLaw::Rigid { .. } => ("impulse", MachineQuantity::Common(Quantity::ImpulseMax)),
+                StopLaw::Compliant { .. } => ("force", MachineQuantity::ForceMax),
+            };
+            let _ =
+                writeln!(text, "  {}: speed at most {}, {what} at most {}", stop.name, short(speed), short(of(most)));
+        }
+    }
+    text
 }
 
 fn described(machine: &Machine, cycle: &MachineCycle) -> String {

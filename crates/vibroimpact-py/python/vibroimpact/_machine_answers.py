@@ -122,6 +122,13 @@ class MachineMotion:
         Lyapunov exponents of a chaotic or undecided motion, if they were measured.
     why : str or None
         Why a motion is undecided.
+    quantities : dict or None
+        Quantities of the motion by path, in the units of the machine: "power", "stop.anvil.impulse_per_period",
+        "friction.guide.force_max", "q.head.displacement_rms", "force.1.work_per_period" and others; nan where one is not
+        defined, and for infinitely many impacts. None for an undecided motion.
+    quantities_error : dict or None
+        For a chaotic motion: three standard errors of those of its quantities that are means, by path. None for other
+        motions, whose quantities are exact to rounding.
     """
 
     label: str
@@ -136,6 +143,8 @@ class MachineMotion:
     state: tuple[list[float], list[float], float] | None
     exponents: tuple[Measured, ...] | None
     why: str | None
+    quantities: dict[str, float] | None
+    quantities_error: dict[str, float] | None
     _object: dict[str, Any]
 
     def __repr__(self) -> str:
@@ -145,6 +154,21 @@ class MachineMotion:
     def to_dict(self) -> dict[str, Any]:
         """The object of the motion in the JSON of the command."""
         return dict(self._object)
+
+
+#: What the paths of the parts of a machine begin with.
+_HEADS = {"forces": "force", "stops": "stop", "joints": "friction", "coordinates": "q"}
+
+
+def _by_path(given: Mapping[str, Any] | None) -> dict[str, float] | None:
+    """Quantities of a machine by path, from the objects of its parts; null is infinite or not defined."""
+    if given is None:
+        return None
+    found = {name: value for name, value in given.items() if name not in _HEADS}
+    for kind, head in _HEADS.items():
+        for part, own in given.get(kind, {}).items():
+            found |= {f"{head}.{part}.{name}": value for name, value in own.items()}
+    return {path: math.nan if value is None else value for path, value in found.items()}
 
 
 def _motion(given: dict[str, Any], width: int) -> MachineMotion:
@@ -157,6 +181,8 @@ def _motion(given: dict[str, Any], width: int) -> MachineMotion:
         state=state and (state["q"], state["qdot"], state["phase"]),
         exponents=_all_measured(given.get("exponents")),
         why=given.get("why"),
+        quantities=_by_path(given["quantities"]),
+        quantities_error=_by_path(given.get("quantities_error")),
         _object=given,
     )
 

@@ -1,6 +1,7 @@
 //! A steady motion of a machine in JSON: label, counts of each stop, multipliers, events.
 
 use super::machine_event::{EventObject, event_object};
+use super::machine_quantities::{errors, values};
 use serde::Serialize;
 use serde_json::{Map, Value};
 use vibroimpact::chaos::{MachineSpectrum, Measured};
@@ -8,6 +9,7 @@ use vibroimpact::events::MachineEnd;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
 use vibroimpact::orbit::MachineCycle;
+use vibroimpact::quantities::{machine_cycle_quantities, machine_quantities};
 use vibroimpact::verdict::{Count, MachineUndecided, MachineVerdict};
 
 /// The JSON object of a motion.
@@ -37,6 +39,10 @@ pub(super) struct MotionObject<'a> {
     seen_events: Option<u64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     why: Option<&'static str>,
+    quantities: Option<Map<String, Value>>,
+    /// Three standard errors of the means among the quantities of a chaotic motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    quantities_error: Option<Map<String, Value>>,
 }
 
 #[derive(Serialize)]
@@ -84,6 +90,8 @@ fn empty<'a>(kind: &'static str, label: String) -> MotionObject<'a> {
         exponents: None,
         seen_events: None,
         why: None,
+        quantities: None,
+        quantities_error: None,
     }
 }
 
@@ -105,6 +113,7 @@ pub(super) fn cycle<'a>(machine: &'a Machine, cycle: &'a MachineCycle) -> Motion
         cycle: cycle.events.iter().map(|event| event_object(machine, event)).collect(),
         state: Some(StateObject { q: &cycle.state.q, qdot: &cycle.state.qdot, phase: cycle.state.phase }),
         residual: Some(cycle.residual),
+        quantities: machine_cycle_quantities(machine, cycle).map(|found| values(machine, &found)),
         ..empty("periodic", cycle.label.to_string())
     }
 }
@@ -117,11 +126,16 @@ pub(super) fn multipliers(of: &[Multiplier]) -> Vec<[f64; 2]> {
 /// The motion of a verdict.
 pub(super) fn motion<'a>(machine: &'a Machine, verdict: &'a MachineVerdict) -> MotionObject<'a> {
     let label = verdict.label();
+    let found =
+        if matches!(verdict, MachineVerdict::Periodic(_)) { None } else { machine_quantities(machine, verdict) };
+    let quantities = found.as_ref().map(|found| values(machine, found));
     match verdict {
         MachineVerdict::Periodic(found) => cycle(machine, found),
-        MachineVerdict::NoImpact => MotionObject { stable: Some(true), ..empty("no_impact", label) },
-        MachineVerdict::Stuck => MotionObject { stable: Some(true), ..empty("stuck", label) },
-        MachineVerdict::Chaotic { spectrum, events } => MotionObject {
+        MachineVerdict::NoImpact(_) => MotionObject { stable: Some(true), quantities, ..empty("no_impact", label) },
+        MachineVerdict::Stuck(_) => MotionObject { stable: Some(true), quantities, ..empty("stuck", label) },
+        MachineVerdict::Chaotic { spectrum, events, .. } => MotionObject {
+            quantities,
+            quantities_error: found.map(|found| errors(machine, &found)),
             stable: Some(false),
             lyapunov: spectrum.exponents.first().map(|first| Estimate::from(*first)),
             exponents: Some(estimates(spectrum)),

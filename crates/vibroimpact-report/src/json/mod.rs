@@ -11,6 +11,7 @@ pub mod lyapunov;
 mod machine;
 mod machine_event;
 mod machine_motion;
+mod machine_quantities;
 pub mod map;
 pub mod margins;
 pub mod motion;

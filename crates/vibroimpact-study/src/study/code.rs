@@ -54,9 +54,9 @@ pub fn code(verdict: &Verdict) -> i32 {
 pub(crate) fn of_machine(verdict: &MachineVerdict) -> i32 {
     match verdict {
         MachineVerdict::Periodic(cycle) => of(cycle.label),
-        MachineVerdict::NoImpact => NO_IMPACT,
+        MachineVerdict::NoImpact(_) => NO_IMPACT,
         MachineVerdict::Chaotic { .. } => CHAOTIC,
-        MachineVerdict::Stuck => STUCK,
+        MachineVerdict::Stuck(_) => STUCK,
         MachineVerdict::Undecided { .. } => UNDECIDED,
     }
 }

@@ -298,6 +298,13 @@ impl MachineFlight {
         }
     }
 
+    /// What drives a mode at the time of the modes.
+    fn push(&self, i: usize, modes: &Modes) -> f64 {
+        let push = self.drive.steady[i] + self.drive.ramp[i] * modes.s;
+        let harmonics = self.drive.of(i).iter().zip(&modes.turned);
+        harmonics.fold(push, |push, ((a, b), turned)| push + (a * turned.cos + b * turned.sin))
+    }
+
     /// The acceleration of a mode that is pushed with `push`.
     fn acceleration(&self, i: usize, push: f64, y: &[f64], v: &[f64]) -> f64 {
         match &self.structure.dense {
@@ -312,10 +319,7 @@ impl MachineFlight {
     /// Moves the modes on by a time so short that its third power is nothing beside rounding.
     pub(super) fn advance(&self, s: f64, modes: &mut Modes) {
         for i in 0..modes.moved.len() {
-            let mut push = self.drive.steady[i] + self.drive.ramp[i] * modes.s;
-            for ((a, b), turned) in self.drive.of(i).iter().zip(&modes.turned) {
-                push += a * turned.cos + b * turned.sin;
-            }
+            let push = self.push(i, modes);
             let mode = &self.structure.modes[i];
             let a = push - 2.0 * mode.d * modes.v[i] - mode.k * modes.moved[i];
             modes.moved[i] += (modes.v[i] + 0.5 * a * s) * s;
@@ -346,11 +350,7 @@ impl MachineFlight {
             if b != 0.0 {
                 let mode = &self.structure.modes[i];
                 value += b * (modes.v[i] - self.v[i]);
-                let mut push = self.drive.steady[i] + self.drive.ramp[i] * modes.s;
-                for ((a, b), turned) in self.drive.of(i).iter().zip(&modes.turned) {
-                    push += a * turned.cos + b * turned.sin;
-                }
-                rate += b * self.acceleration(i, push, &modes.moved, &modes.v);
+                rate += b * self.acceleration(i, self.push(i, modes), &modes.moved, &modes.v);
                 error +=
                     b.abs() * (modes.v[i].abs() + self.v[i].abs() + modes.error[i] * mode.rate.max(1e-300) / HALF_ULP);
             }
@@ -423,5 +423,35 @@ impl MachineFlight {
         };
         evaluate(&self.structure.x, &self.x, x);
         evaluate(&self.structure.v, &self.rate, v);
+    }
+
+    /// Mass-normalised accelerations at a time, from the modes there; `own` receives those of the modes.
+    pub(crate) fn accelerations(&self, modes: &Modes, own: &mut Vec<f64>, to: &mut Vec<f64>) {
+        let count = modes.moved.len();
+        own.clear();
+        own.extend((0..count).map(|i| self.acceleration(i, self.push(i, modes), &modes.moved, &modes.v)));
+        to.clear();
+        to.extend(self.structure.v.iter().map(|of| {
+            let mut sum = of.signal.ramp;
+            let turned = modes.turned.iter().zip(&self.structure.rates);
+            for ((a, b), (turned, w)) in of.signal.turned(&self.turns).zip(turned) {
+                sum += w * (b * turned.cos - a * turned.sin);
+            }
+            for (i, own) in own.iter().enumerate() {
+                sum += of.position[i] * modes.v[i] + of.velocity[i] * own;
+            }
+            sum
+        }));
+    }
+
+    /// Sine and cosine of each harmonic of the forcing at a time, from the modes there.
+    pub(crate) fn turns_at(&self, modes: &Modes, to: &mut Vec<(f64, f64)>) {
+        to.clear();
+        to.extend(
+            self.turns
+                .iter()
+                .zip(&modes.turned)
+                .map(|((sin, cos), turned)| (sin * turned.cos + cos * turned.sin, cos * turned.cos - sin * turned.sin)),
+        );
     }
 }

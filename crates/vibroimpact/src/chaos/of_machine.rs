@@ -1,11 +1,11 @@
 //! All Lyapunov exponents of the motion of a machine from a start.
 
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
-use crate::lyapunov::{MachineMeasure, MachineSpectrum, Measured};
+use crate::lyapunov::{MEASURED_IMPACTS, MachineMeasure, MachineSpectrum, Measured};
 use crate::machine::{Machine, MachineError};
 use crate::math::{general_eigenvalues, ln};
 use crate::orbit::MachineFrame;
-use crate::verdict::{MachineVerdict, Recorded, Recurring, SettleOptions, Step, settle_machine_while};
+use crate::verdict::{MachineTail, MachineVerdict, Recorded, Recurring, SettleOptions, Step, settle_machine_while};
 use std::sync::Arc;
 
 /// The exponents of a motion of a machine, and where they come from.
@@ -52,7 +52,7 @@ pub fn machine_exponents_while(
             let spectrum = Some(exact(rates, closings));
             return Ok(Some(MachineExponents { spectrum, motion: settled.verdict, exact: true }));
         }
-        MachineVerdict::NoImpact | MachineVerdict::Stuck => {
+        MachineVerdict::NoImpact(_) | MachineVerdict::Stuck(_) => {
             // those of the structure in its last regime
             let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
             while motion.step().is_some() {
@@ -76,6 +76,7 @@ pub fn machine_exponents_while(
     let mut motion = MachineMotion::new(machine, start, MachineLimits::default())?;
     let mut measure: Option<MachineMeasure> = None;
     let mut seen = 0_u32;
+    let mut tail = MachineTail::end(motion.place());
     while measure.as_ref().is_none_or(|measure| !measure.complete()) {
         if !go_on() {
             return Ok(None);
@@ -85,9 +86,13 @@ pub fn machine_exponents_while(
             break;
         }
         seen += 1;
+        tail.steps += 1;
         let (interval, step) = (step.passage.time(), Arc::new(step));
         match &mut measure {
             Some(measure) => {
+                if u64::from(measure.left()) == MEASURED_IMPACTS {
+                    tail = MachineTail { from: step.begin.clone(), steps: 1 };
+                }
                 system.add(measure, &step, interval);
             }
             None if seen >= transient => measure = Some(system.measure(&step, events)),
@@ -96,7 +101,10 @@ pub fn machine_exponents_while(
     }
     let spectrum = measure.and_then(|measure| measure.spectrum());
     let motion = match &spectrum {
-        Some(found) if found.chaotic() => MachineVerdict::Chaotic { spectrum: found.clone(), events: u64::from(seen) },
+        Some(found) if found.chaotic() => {
+            let tail = MachineTail { steps: tail.steps.min(MEASURED_IMPACTS), ..tail };
+            MachineVerdict::Chaotic { spectrum: found.clone(), events: u64::from(seen), tail }
+        }
         _ => settled.verdict,
     };
     Ok(Some(MachineExponents { spectrum, motion, exact: false }))
@@ -134,7 +142,7 @@ mod tests {
     fn without_contacts_those_of_the_structure() {
         let machine = machine(StopLaw::Rigid { restitution: 0.5 }, 100.0);
         let found = machine_exponents_while(&machine, &MachineStart::default(), (100, 100), || true).unwrap().unwrap();
-        assert!(matches!(found.motion, MachineVerdict::NoImpact));
+        assert!(matches!(found.motion, MachineVerdict::NoImpact(_)));
         assert!(found.spectrum.unwrap().exponents.iter().all(|exponent| (exponent.value + 0.025).abs() < 1e-12));
     }
 }

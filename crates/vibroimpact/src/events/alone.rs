@@ -3,6 +3,7 @@
 
 use super::event::MachineEventKind;
 use super::motion::MachineMotion;
+use super::passage::Blow;
 use crate::machine::StopLaw;
 use crate::math::{add_scaled, dot};
 use crate::regime::{ContactState, GuardKind};
@@ -29,6 +30,9 @@ impl MachineMotion<'_> {
                         self.largest_impact = self.largest_impact.max(speed);
                         self.place.known.push((GuardKind::Gap(j), 1));
                         self.record(&[(j, restitution)]);
+                        if let Some(passage) = &mut self.passage {
+                            passage.blows.push(Blow { stop: j, speed, impulse });
+                        }
                         self.announce(MachineEventKind::Impact, j, speed, Vec::new());
                         self.complete(j, &turns);
                     }

@@ -12,10 +12,12 @@
 //! | one step of a motion, and its derivative by the state | `passage`, `saltation` |
 //! | the motion as an iterator over its events | [`MachineMotion`] |
 //! | what it does between two events | `stretch` |
+//! | the forces of stops and joints during a flight | `contact_force` |
 //! | states, gaps and forces at equal steps | [`MachineSamples`], `samples` |
 
 mod alone;
 mod chatter;
+mod contact_force;
 mod event;
 mod impulses;
 mod motion;
@@ -28,6 +30,7 @@ mod stretch;
 mod strike;
 mod within;
 
+pub(crate) use contact_force::contact_forces;
 pub use event::{MachineEnd, MachineEvent, MachineEventKind, MachineLimits, MachineStart};
 pub use motion::MachineMotion;
 pub(crate) use passage::Passage;

@@ -4,6 +4,17 @@ use super::place::Place;
 use crate::regime::Structure;
 use std::sync::Arc;
 
+/// What a rigid stop does at an impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Blow {
+    /// The stop.
+    pub(crate) stop: usize,
+    /// Speed of closing before it, 0 for a stop on which the structure rested.
+    pub(crate) speed: f64,
+    /// Its impulse, against the direction of the stop; positive.
+    pub(crate) impulse: f64,
+}
+
 /// One step of a motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Passage {
@@ -17,6 +28,8 @@ pub(crate) struct Passage {
     pub(crate) before: Option<Place>,
     /// The rigid stops that pushed, with their restitution.
     pub(crate) pushed: Vec<(usize, f64)>,
+    /// The impulses of rigid stops, without those of a chatter that was summed.
+    pub(crate) blows: Vec<Blow>,
     /// The state after the event.
     pub(crate) after: Option<Place>,
     /// A chatter was summed after the event: the structure at rest, and the time for which it moved on in it.
@@ -25,7 +38,16 @@ pub(crate) struct Passage {
 
 impl Passage {
     pub(super) const fn new(structure: Arc<Structure>, duration: f64) -> Self {
-        Self { structure, duration, guards: Vec::new(), before: None, pushed: Vec::new(), after: None, rest: None }
+        Self {
+            structure,
+            duration,
+            guards: Vec::new(),
+            before: None,
+            pushed: Vec::new(),
+            blows: Vec::new(),
+            after: None,
+            rest: None,
+        }
     }
 
     /// The time from the beginning of the step to its end.

@@ -1,12 +1,13 @@
 //! A motion between its events: states, gaps and contact forces at equal steps of time. The events do not depend on
 //! them.
 
+use super::contact_force::contact_forces;
 use super::event::{MachineLimits, MachineStart};
 use super::motion::MachineMotion;
 use super::stretch::Stretch;
 use crate::arc::Buffers;
 use crate::machine::{Machine, MachineError};
-use crate::regime::{ContactState, GuardKind, compliant};
+use crate::regime::{ContactState, GuardKind};
 use std::collections::VecDeque;
 
 /// A machine at one time.
@@ -120,31 +121,17 @@ impl<'a> MachineSamples<'a> {
         let turns = here.turns(normal);
         let stops = machine.stops().len();
         let mut gaps: Vec<f64> = (0..stops).map(|j| here.gap(normal, &turns, j).0).collect();
-        let mut forces = vec![0.0; stops + machine.joints().len()];
-        for (j, joint) in machine.joints().iter().enumerate() {
-            forces[stops + j] = match place.states[stops + j] {
-                ContactState::Forward => joint.sliding,
-                ContactState::Backward => -joint.sliding,
-                _ => 0.0,
-            };
-        }
         // guards are counted from where they are zero exactly
         for (g, guard) in flight.structure.guards.iter().enumerate() {
-            let (value, rate, _) = flight.guard(g, &self.buffers.modes);
             match guard.kind {
-                GuardKind::Gap(j) if place.surfaces[j].is_none() => gaps[j] = value,
-                GuardKind::Depth(j) => {
-                    gaps[j] = 0.0 - value;
-                    if let Some((k, c, p)) = compliant(&machine.stops()[j].law) {
-                        forces[j] = k * value + c * rate + p;
-                    }
-                }
-                GuardKind::Force(j) => forces[j] = value,
-                GuardKind::Reaction(j) => (gaps[j], forces[j]) = (0.0, value),
-                GuardKind::LimitForward(j) => forces[stops + j] = machine.joints()[j].limit - value,
+                GuardKind::Gap(j) if place.surfaces[j].is_none() => gaps[j] = flight.guard(g, &self.buffers.modes).0,
+                GuardKind::Depth(j) => gaps[j] = 0.0 - flight.guard(g, &self.buffers.modes).0,
+                GuardKind::Reaction(j) => gaps[j] = 0.0,
                 _ => {}
             }
         }
+        let mut forces = Vec::new();
+        contact_forces(machine, &place.states, (flight, &self.buffers.modes), &mut forces);
         MachineSample {
             time,
             even,

@@ -2,6 +2,7 @@
 
 use super::impulses::impulses;
 use super::motion::MachineMotion;
+use super::passage::Blow;
 use super::place::Place;
 use crate::machine::StopLaw;
 use crate::math::{add_scaled, dot};
@@ -63,7 +64,10 @@ impl MachineMotion<'_> {
         self.place.v = after;
         if let Some(passage) = &mut self.passage {
             let pushing = set.iter().zip(&found).filter(|(_, impulse)| **impulse > 0.0);
-            passage.pushed = pushing.map(|((j, _, e), _)| (*j, *e)).collect();
+            passage.pushed = pushing.clone().map(|((j, _, e), _)| (*j, *e)).collect();
+            passage.blows = pushing
+                .map(|((j, rate, _), impulse)| Blow { stop: *j, speed: (-rate).max(0.0), impulse: *impulse })
+                .collect();
         }
         // an impulse takes a compliant stop at rest off its surface, or into it
         for j in (0..stops.len()).filter(|j| compliant(&stops[*j].law).is_some()) {

@@ -6,18 +6,8 @@
 //! $`\mu h \le 5`$. So the integrals are right to rounding.
 
 use super::{Flight, FlightPoint};
+use crate::math::RULE;
 
-/// Points and weights of the rule in [0, 1], for the points on both sides of the middle.
-const RULE: [(f64, f64); 8] = [
-    (0.095_012_509_837_637_44, 0.189_450_610_455_068_64),
-    (0.281_603_550_779_258_9, 0.182_603_415_044_923_64),
-    (0.458_016_777_657_227_37, 0.169_156_519_395_002_65),
-    (0.617_876_244_402_643_8, 0.149_595_988_816_576_77),
-    (0.755_404_408_355_003, 0.124_628_971_255_534_07),
-    (0.865_631_202_387_831_8, 0.095_158_511_682_492_6),
-    (0.944_575_023_073_232_6, 0.062_253_523_938_647_456),
-    (0.989_400_934_991_649_9, 0.027_152_459_411_754_176),
-];
 /// The longest panel, in units of the time in which a function changes.
 const PANEL: f64 = 5.0;
 

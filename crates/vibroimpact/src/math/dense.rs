@@ -208,14 +208,21 @@ impl Matrix {
     /// The solution of $`L^T x = v`$ for a lower triangular matrix.
     #[must_use]
     pub fn solve_lower_transposed(&self, vector: &[f64]) -> Vec<f64> {
-        let mut x = vector.to_vec();
+        let mut x = Vec::with_capacity(self.rows);
+        self.solve_lower_transposed_into(vector, &mut x);
+        x
+    }
+
+    /// The same into a vector that is used again.
+    pub(crate) fn solve_lower_transposed_into(&self, vector: &[f64], x: &mut Vec<f64>) {
+        x.clear();
+        x.extend_from_slice(vector);
         for i in (0..self.rows).rev() {
             for k in i + 1..self.rows {
                 x[i] -= self[(k, i)] * x[k];
             }
             x[i] /= self[(i, i)];
         }
-        x
     }
 }
 

@@ -8,6 +8,7 @@
 mod complex;
 mod dense;
 mod exact;
+mod gauss;
 mod general;
 mod lane;
 mod lu;
@@ -20,6 +21,7 @@ pub(crate) use complex::Complex;
 pub use dense::Matrix;
 pub(crate) use dense::{add_scaled, dot};
 pub(crate) use exact::{Sum, two_prod, two_sum};
+pub(crate) use gauss::{Gauss, POINTS, RULE};
 pub(crate) use general::general_eigenvalues;
 pub(crate) use lane::{Lane, Mask, Numbers, Single, turned};
 pub(crate) use lu::Lu;

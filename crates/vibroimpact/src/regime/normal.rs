@@ -80,6 +80,11 @@ impl Normal {
         self.factor.solve_lower_transposed(x)
     }
 
+    /// The same into a vector that is used again.
+    pub(crate) fn to_machine_into(&self, x: &[f64], q: &mut Vec<f64>) {
+        self.factor.solve_lower_transposed_into(x, q);
+    }
+
     /// The mass-normalised ones from coordinates or velocities.
     pub(crate) fn to_normal(&self, q: &[f64]) -> Vec<f64> {
         self.factor.apply_transposed(q)

@@ -32,7 +32,8 @@ pub use attractors::{Census, CountedMotion, StartBox, SteadyMotion, attractors, 
 pub(crate) use follow::{Follow, Releases, ended};
 pub use many::{KnownAttractors, Settlement, settle_many};
 pub use of_machine::{
-    MachineSettled, MachineUndecided, MachineVerdict, scattered_machine_starts, settle_machine, settle_machine_while,
+    MachineSettled, MachineTail, MachineUndecided, MachineVerdict, scattered_machine_starts, settle_machine,
+    settle_machine_while,
 };
 pub(crate) use of_machine::{Recorded, Step};
 pub use options::SettleOptions;

@@ -139,11 +139,11 @@ fn quiet_gears() {
             settle_machine(&gears(e), &start, &SettleOptions::default()).unwrap().verdict
         };
         assert!(
-            matches!(settled(limit * (1.0 - 1e-9)), MachineVerdict::Stuck),
+            matches!(settled(limit * (1.0 - 1e-9)), MachineVerdict::Stuck(_)),
             "{d} {:?}",
             settled(limit * (1.0 - 1e-9)).label()
         );
-        assert!(!matches!(settled(limit * (1.0 + 1e-9)), MachineVerdict::Stuck), "{d}");
+        assert!(!matches!(settled(limit * (1.0 + 1e-9)), MachineVerdict::Stuck(_)), "{d}");
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::case::{Case, cases};
 use vibroimpact::events::{MachineEventKind, MachineLimits, MachineMotion, MachineSample, MachineSamples};
+use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
 
 const UNTIL: f64 = 3.0;
@@ -19,8 +20,8 @@ fn chosen() -> impl Iterator<Item = Case> {
 }
 
 /// The force on each coordinate: all of the equation of motion but the acceleration.
-fn force(case: &Case, sample: &MachineSample) -> Vec<f64> {
-    let parts = case.machine.parts();
+pub(crate) fn force(machine: &Machine, sample: &MachineSample) -> Vec<f64> {
+    let parts = machine.parts();
     let n = parts.n();
     (0..n)
         .map(|i| {
@@ -52,7 +53,7 @@ fn the_forces_that_are_told_move_the_masses() {
             if !(equal && a.states == b.states && b.states == c.states) {
                 continue;
             }
-            let [fa, fb, fc] = [a, b, c].map(|sample| force(&case, sample));
+            let [fa, fb, fc] = [a, b, c].map(|sample| force(&case.machine, sample));
             let push = |i: usize| (c.time - a.time) / 6.0 * (fa[i] + 4.0 * fb[i] + fc[i]);
             for i in 0..parts.n() {
                 let gain: f64 = (0..parts.n()).map(|j| parts.mass[(i, j)] * (c.qdot[j] - a.qdot[j])).sum();

@@ -3,13 +3,16 @@
 //! | idea | file |
 //! |---|---|
 //! | what the record of a motion needs to know of a machine | `returns` |
+//! | the last part of a motion, for its quantities | [`MachineTail`] |
 //! | starts spread over the states of a machine | [`scattered_machine_starts`] |
 //! | from a start to a verdict | [`settle_machine`] |
 
 mod returns;
 mod settle;
 mod starts;
+mod tail;
 
 pub(crate) use returns::{Recorded, Step};
 pub use settle::{MachineSettled, MachineUndecided, MachineVerdict, settle_machine, settle_machine_while};
 pub use starts::scattered_machine_starts;
+pub use tail::MachineTail;

@@ -5,6 +5,7 @@ use super::super::options::SettleOptions;
 use super::super::record::{Record, Shown};
 use super::super::recurring::Recurring;
 use super::returns::{Recorded, Step};
+use super::tail::MachineTail;
 use crate::events::{MachineEnd, MachineLimits, MachineMotion, MachineStart};
 use crate::lyapunov::MachineSpectrum;
 use crate::machine::{Machine, MachineError};
@@ -17,15 +18,17 @@ pub enum MachineVerdict {
     /// A stable cycle, confirmed by Newton's method, that captures the motion.
     Periodic(MachineCycle),
     /// No further event, for ever.
-    NoImpact,
+    NoImpact(MachineTail),
     /// At rest on a stop, for ever.
-    Stuck,
+    Stuck(MachineTail),
     /// Chaotic by its largest Lyapunov exponent.
     Chaotic {
         /// The exponents.
         spectrum: MachineSpectrum,
         /// Events followed.
         events: u64,
+        /// The last of them.
+        tail: MachineTail,
     },
     /// None of these within the budget.
     Undecided {
@@ -66,8 +69,8 @@ impl MachineVerdict {
     pub fn label(&self) -> String {
         match self {
             Self::Periodic(cycle) => cycle.label.to_string(),
-            Self::NoImpact => "0".to_owned(),
-            Self::Stuck => "stuck".to_owned(),
+            Self::NoImpact(_) => "0".to_owned(),
+            Self::Stuck(_) => "stuck".to_owned(),
             Self::Chaotic { .. } => "chaotic".to_owned(),
             Self::Undecided { .. } => "undecided".to_owned(),
         }
@@ -173,15 +176,15 @@ fn settle_in<'a>(
         events += seen.len() as u64;
         if let Some(end) = motion.end() {
             let verdict = match end {
-                MachineEnd::Never => MachineVerdict::NoImpact,
-                MachineEnd::Stuck => MachineVerdict::Stuck,
+                MachineEnd::Never => MachineVerdict::NoImpact(MachineTail::end(motion.place())),
+                MachineEnd::Stuck => MachineVerdict::Stuck(MachineTail::end(motion.place())),
                 end => MachineVerdict::Undecided {
                     why: MachineUndecided::Ended(end),
                     spectrum: record.latest(&system),
                     events,
                 },
             };
-            let decided = matches!(verdict, MachineVerdict::NoImpact | MachineVerdict::Stuck);
+            let decided = matches!(verdict, MachineVerdict::NoImpact(_) | MachineVerdict::Stuck(_));
             return settled(verdict, events, if decided { before } else { time }, &record);
         }
         let (x, v) = MachineFrame::sizes(&step.begin);
@@ -210,7 +213,8 @@ fn settle_in<'a>(
                 return settled(MachineVerdict::Periodic(cycle), events, time, &record);
             }
             Some(Shown::Chaos(spectrum)) => {
-                return settled(MachineVerdict::Chaotic { spectrum, events }, events, time, &record);
+                let tail = MachineTail::last(&record.returns, motion.place());
+                return settled(MachineVerdict::Chaotic { spectrum, events, tail }, events, time, &record);
             }
             None => {}
         }
