@@ -4,7 +4,7 @@ use crate::door::{self, Watch};
 use crate::error::Trouble;
 use crate::machine::{MachineFile, Start, start};
 use pyo3::prelude::*;
-use vibroimpact_study::{MachineMotion, MachinePlan, MachineResults, MachineTask};
+use vibroimpact_study::{MachinePlan, MachineResults, MachineShare, MachineTask};
 
 /// The labels and the shares at each point of a map.
 type Cells = Vec<Vec<(String, f64)>>;
@@ -48,7 +48,7 @@ pub(crate) fn machine_answer(
         let answer = vibroimpact_report::machine_answer("", &plan, control)?;
         let json = answer.json();
         let MachineResults::Map(found) = answer.results else { return Ok((json, None)) };
-        let row = |cell: Vec<MachineMotion>| cell.into_iter().map(|motion| (motion.label(), motion.share)).collect();
+        let row = |cell: Vec<MachineShare>| cell.into_iter().map(|motion| (motion.label(), motion.share)).collect();
         Ok((json, Some(found.cells.into_iter().map(row).collect())))
     })
 }

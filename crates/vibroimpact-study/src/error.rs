@@ -57,7 +57,7 @@ pub enum PlanError {
     },
     /// Something that a diagram of a machine cannot show.
     #[error(
-        "`{given}` is nothing that a diagram of a machine shows\nhint: speed, q.NAME or qdot.NAME; the coordinates are {coordinates}"
+        "`{given}` is nothing that a diagram of a machine shows\nhint: speed, q.NAME, qdot.NAME, or a quantity by its path, as power or stop.NAME.impact_speed_max; the coordinates are {coordinates}"
     )]
     MachineShow {
         /// The given name.

@@ -88,8 +88,8 @@ pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
     MachineAxis, MachineBasin, MachineBasinPlan, MachineBranched, MachineDiagram, MachineDiagramPlan,
-    MachineDiagramPoint, MachineDiagramStep, MachineFollowed, MachineMap, MachineMapPlan, MachineMotion, MachinePlan,
-    MachineResults, MachineSimulated, MachineTask, is_machine_plan, run_machine,
+    MachineDiagramPoint, MachineDiagramStep, MachineFollowed, MachineMap, MachineMapPlan, MachinePlan, MachineResults,
+    MachineShare, MachineSimulated, MachineTask, is_machine_plan, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

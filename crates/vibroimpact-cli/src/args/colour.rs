@@ -1,6 +1,6 @@
 //! COLOUR: the quantity whose values are the colours of a map or basin.
 
-use super::quantity;
+use super::{FieldsArgs, quantity};
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
 use vibroimpact_report::figure::coloured::{Coloured, Of};
@@ -48,6 +48,16 @@ impl ColourArgs {
             Some(_) if !drawn => Err(Failure::bad("--colour says what the figure shows\nhint: --plot FILE")),
             colour => Ok(colour.map(|quantity| Coloured { quantity, of })),
         }
+    }
+
+    /// The paths of quantities of a machine to compute, whose figures have no colours by a quantity.
+    pub(crate) fn of_machine(&self, fields: &FieldsArgs) -> Result<Vec<String>, Failure> {
+        if self.colour.is_some() || self.of.is_some() {
+            return Err(Failure::bad(
+                "figures of machines have no colours by a quantity yet\nhint: --fields has them in tables and stores, and `vibro diagram --show` draws one over a number",
+            ));
+        }
+        Ok(fields.paths())
     }
 
     /// The quantities to compute: those of --fields, and that of the colours.

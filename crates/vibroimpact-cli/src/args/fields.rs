@@ -1,5 +1,6 @@
 //! FIELDS: quantities of each motion beside its label.
 
+use crate::failure::Failure;
 use clap::Args;
 use vibroimpact_study::{Quantity, unknown_quantity};
 
@@ -10,9 +11,44 @@ pub(crate) struct FieldsArgs {
     /// impacts-per-period, impact-rate, impulse-max, impulse-per-period, impact-loss-per-period, impact-power,
     /// damping-loss-per-period, damping-power, work-per-period, power, displacement-min, displacement-max,
     /// displacement-amplitude, displacement-mean, displacement-rms, velocity-max, velocity-rms, acceleration-max,
-    /// sticking-fraction
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = quantity, help_heading = "Output")]
-    pub(crate) fields: Vec<Quantity>,
+    /// sticking-fraction. Of a machine by path: power, stop.NAME.impact_speed_max, q.NAME.displacement_rms and all others that
+    /// `vibro settle --machine` has in JSON
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = named, help_heading = "Output")]
+    fields: Vec<FieldName>,
+}
+
+/// The name of a quantity: of an oscillator, or else of a machine.
+#[derive(Clone, Debug)]
+pub(crate) enum FieldName {
+    Quantity(Quantity),
+    Path(String),
+}
+
+impl FieldsArgs {
+    /// The quantities of an oscillator.
+    pub(crate) fn quantities(&self) -> Result<Vec<Quantity>, Failure> {
+        let one = |field: &FieldName| match field {
+            FieldName::Quantity(quantity) => Ok(*quantity),
+            FieldName::Path(path) => {
+                Err(Failure::bad(format!("--fields: {}", unknown_quantity(path).replace('_', "-"))))
+            }
+        };
+        self.fields.iter().map(one).collect()
+    }
+
+    /// The paths of quantities of a machine.
+    pub(crate) fn paths(&self) -> Vec<String> {
+        let one = |field: &FieldName| match field {
+            FieldName::Quantity(quantity) => quantity.name().to_owned(),
+            FieldName::Path(path) => path.clone(),
+        };
+        self.fields.iter().map(one).collect()
+    }
+}
+
+/// Parses the name of a quantity of an oscillator or machine. What a machine has is known only when it is read.
+fn named(name: &str) -> Result<FieldName, String> {
+    Ok(quantity(name).map_or_else(|_| FieldName::Path(name.trim().to_owned()), FieldName::Quantity))
 }
 
 /// Parses the name of a quantity.

@@ -97,7 +97,8 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let start = Some((&args.of_machine, args.phase));
     let task = || {
         let (axes, refine, impacts) = (args.axes.axes(), args.refine, args.impacts);
-        Ok(MachineTask::Basin(MachineBasinPlan { axes, refine, impacts }))
+        let fields = args.colour.of_machine(&args.fields)?;
+        Ok(MachineTask::Basin(MachineBasinPlan { axes, refine, impacts, fields }))
     };
     if let Some(answer) = of_machine::asked(&args.machine, start, task, files, Some(&args.store), session) {
         return answer;
@@ -111,7 +112,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let task = BasinPlan {
         refine: args.refine,
         impacts: args.impacts,
-        fields: args.colour.fields(&args.fields.fields),
+        fields: args.colour.fields(&args.fields.quantities()?),
         ..plane
     };
     let axes = task.axes.clone();

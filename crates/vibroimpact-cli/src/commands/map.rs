@@ -91,6 +91,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
             seed: args.seed,
             refine: args.refine,
             impacts: args.impacts,
+            fields: args.colour.of_machine(&args.fields)?,
         }))
     };
     if let Some(answer) = of_machine::asked(&args.machine, None, task, files, Some(&args.store), session) {
@@ -109,7 +110,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         seed: args.seed,
         refine: args.refine,
         impacts: args.impacts,
-        fields: args.colour.fields(&args.fields.fields),
+        fields: args.colour.fields(&args.fields.quantities()?),
     };
     let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(system, Task::Map(task)))?;

@@ -152,7 +152,15 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     }
     let (study, all) = (store.study(), store.study().fields());
     let units = units_of(store.plan());
-    let short = |field: &Field| is_short(field) || Quantity::from_name(&field.name).is_some();
+    let asked: &[String] = match store.plan() {
+        StudyPlan::Machine(plan) => plan.fields(),
+        StudyPlan::Oscillator(_) => &[],
+    };
+    let short = |field: &Field| {
+        is_short(field)
+            || Quantity::from_name(&field.name).is_some()
+            || asked.iter().any(|path| field.name.as_ref() == path.as_str())
+    };
     let shown: Vec<usize> = (0..all.len()).filter(|k| long || !has_short(&all) || short(&all[*k])).collect();
     // scattered starts have no axes; their coordinates are fields; those of machines are in their own units
     let axes = plan_axes(store.plan());

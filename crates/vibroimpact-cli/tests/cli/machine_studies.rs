@@ -28,6 +28,7 @@ fn walk(folder: &Path) -> Vec<std::path::PathBuf> {
     entries.flat_map(|path| if path.is_dir() { walk(&path) } else { vec![path] }).collect()
 }
 
+const FIELDS: &str = "map --machine two-mass-hammer --axis stop.anvil.gap=0.3:0.7:5 --starts 2 --fields power,stop.anvil.impact-speed-max,q.head.displacement_rms";
 const MAP: &str =
     "map --machine two-mass-hammer --axis frequency=0.8:1.2:9 --axis stop.anvil.gap=0.3,0.5,0.75 --starts 3";
 const BASIN: &str = "basin --machine impact-damper --axis q.particle=-0.3:0.3:7 --axis qdot.particle=-1:1:5";
@@ -43,7 +44,16 @@ fn stores_have_the_results_of_commands() {
         ("map", MAP),
         ("basin", BASIN),
         ("line", "map --machine soft-stop --axis frequency=0.7:0.9:5 --starts 2"),
+        ("fields", FIELDS),
+        (
+            "basin-fields",
+            "basin --machine soft-stop --axis q.mass=-1:2:4 --axis phase=0:6:3 --fields stop.stop.force_max",
+        ),
         ("diagram", DIAGRAM),
+        (
+            "quantity",
+            "diagram --machine two-mass-hammer --vary frequency --over 0.9:1.1:5 --show stop.anvil.impact_power",
+        ),
         (
             "scatter",
             "diagram --machine soft-stop --vary frequency --over 0.7:0.9:3 --show qdot.mass --direction scatter --starts 3 --transient 20",
@@ -110,6 +120,36 @@ fn refined_maps() {
 /// The oscillator at S of the 1971 paper as a machine.
 const ONE: &str = "[machine]\ncoordinates = [\"x\"]\nmass = [1]\nstiffness = [1]\nfrequency = 0.76923076923076927\n\
     force = [{ sin = [1] }]\nstop = [{ name = \"wall\", direction = [1], gap = 0.75, restitution = 0.5 }]\n";
+
+/// The values of fields are the quantities of the motions that `settle` reports.
+#[test]
+fn fields_are_quantities() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = done(folder.path(), &format!("{FIELDS} --csv -"));
+    let mut lines = table.lines();
+    let header = "stop.anvil.gap,label,share,power,stop.anvil.impact-speed-max,q.head.displacement_rms";
+    assert_eq!(lines.next(), Some(header));
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let settled = json(&format!("settle --machine two-mass-hammer --set stop.anvil.gap={}", cells[0]));
+        assert_eq!(settled["motion"]["label"], cells[1]);
+        let quantities = &settled["motion"]["quantities"];
+        let expected = [
+            &quantities["power"],
+            &quantities["stops"]["anvil"]["impact_speed_max"],
+            &quantities["coordinates"]["head"]["displacement_rms"],
+        ];
+        for (cell, value) in cells[3..].iter().zip(expected) {
+            let (a, b) = (cell.parse::<f64>().unwrap(), value.as_f64().unwrap());
+            assert!((a - b).abs() < 1e-7 * b.abs(), "{line}: {value}");
+        }
+    }
+    let said = vibro("map --machine two-mass-hammer --axis frequency=1:2:3 --starts 1 --fields stop.anvil.gap")
+        .output()
+        .unwrap();
+    let said = String::from_utf8(said.stderr).unwrap();
+    assert!(said.contains("stop.anvil.gap"), "{said}");
+}
 
 /// Sweeps of a machine of one coordinate are those of the oscillator, hysteresis included.
 #[test]

@@ -6,7 +6,7 @@ use crate::figure::point_motion::{PointMotion, group, points};
 use crate::figure::{shares, title_without};
 use crate::{Asked, ReportError};
 use vibroimpact_plot::{ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_text};
-use vibroimpact_study::{MachineMap, MachineMotion, MapPoint, RegionMap};
+use vibroimpact_study::{MachineMap, MachineShare, MapPoint, RegionMap};
 
 /// With more points than this, coexisting motions would be too small to be visible, and only the most frequent one is
 /// drawn.
@@ -34,7 +34,7 @@ pub fn figure(found: &RegionMap, asked: &Asked) -> Result<Figure, ReportError> {
 pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportError> {
     match Sides::of_machine(&found.axes)? {
         Sides::Line(side) => {
-            let motion = |motion: &MachineMotion| PointMotion {
+            let motion = |motion: &MachineShare| PointMotion {
                 group: group(&motion.label()),
                 share: motion.share,
                 value: Value::Undefined,
@@ -44,7 +44,7 @@ pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportErr
             Ok(shares::draw(&side, &points, title))
         }
         Sides::Plane(plane) => {
-            let cell = |cell: &Vec<MachineMotion>| groups(cell.iter().map(|motion| motion.label().into()));
+            let cell = |cell: &Vec<MachineShare>| groups(cell.iter().map(|motion| motion.label().into()));
             draw(&plane, &found.cells.iter().map(cell).collect::<Vec<_>>(), title)
         }
     }

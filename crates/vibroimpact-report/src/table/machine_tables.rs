@@ -6,7 +6,7 @@ use vibroimpact::continuation::MachinePoint;
 use vibroimpact::machine::Machine;
 use vibroimpact::math::Multiplier;
 use vibroimpact::verdict::{Census, MachineVerdict};
-use vibroimpact_study::{MachineAxis, MachineBasin, MachineMap};
+use vibroimpact_study::{MachineAxis, MachineBasin, MachineMap, MachineShare};
 
 /// One row a motion: label, share, starts, counts of each stop, real and imaginary part of all multipliers.
 pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVerdict>) -> Table<'a> {
@@ -67,20 +67,35 @@ fn values(axes: &[MachineAxis], k: usize) -> String {
     MachineAxis::at(axes, k as u64).into_iter().map(|value| format!("{},", Number(value))).collect()
 }
 
-/// One row a start: what varies, and the label; `refused` beyond a rigid stop.
+/// The values of quantities, each after a comma; empty where they are not defined or infinite.
+fn quantities(values: &[f64]) -> String {
+    let cell = |value: &f64| if value.is_finite() { format!(",{}", Number(*value)) } else { ",".to_owned() };
+    values.iter().map(cell).collect()
+}
+
+fn header<'a>(axes: &'a [MachineAxis], own: &[&'a str], fields: &'a [String]) -> String {
+    let fields = fields.iter().map(String::as_str);
+    heads(axes).into_iter().chain(own.iter().copied()).chain(fields).collect::<Vec<_>>().join(",")
+}
+
+/// One row a start: what varies, the label, and quantities; `refused` beyond a rigid stop.
 pub(crate) fn basin(found: &MachineBasin) -> Table<'_> {
     let rows = found.cells.iter().enumerate().map(|(k, cell)| {
         let label = cell.map_or_else(|| "refused".to_owned(), |cell| found.motions[cell].label());
-        format!("{}{label}", values(&found.axes, k))
+        let values = cell.map_or_else(|| ",".repeat(found.fields.len()), |cell| quantities(&found.quantities[cell]));
+        format!("{}{label}{values}", self::values(&found.axes, k))
     });
-    Table::new([heads(&found.axes), vec!["label"]].concat().join(","), rows)
+    Table::new(header(&found.axes, &["label"], &found.fields), rows)
 }
 
-/// One row a motion at a point: what varies, label, share.
+/// One row a motion at a point: what varies, label, share, and quantities.
 pub(crate) fn map(found: &MachineMap) -> Table<'_> {
     let rows = found.cells.iter().enumerate().flat_map(|(k, cell)| {
         let at = values(&found.axes, k);
-        cell.iter().map(move |motion| format!("{at}{},{}", motion.label(), Number(motion.share)))
+        let row = move |motion: &MachineShare| {
+            format!("{at}{},{}{}", motion.label(), Number(motion.share), quantities(&motion.quantities))
+        };
+        cell.iter().map(row)
     });
-    Table::new([heads(&found.axes), vec!["label", "share"]].concat().join(","), rows)
+    Table::new(header(&found.axes, &["label", "share"], &found.fields), rows)
 }

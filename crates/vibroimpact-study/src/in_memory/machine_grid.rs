@@ -2,7 +2,9 @@
 
 use super::join::{Joined, Part, joined};
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineMotion, check_memory};
+use crate::machine_plan::{
+    MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineShare, check_memory, values_of,
+};
 use crate::study::{Cell, Fill, MachineBasinFill, MapFill, tiles_of};
 use crate::{Control, RunError};
 use vibroimpact::events::MachineStart;
@@ -30,8 +32,9 @@ pub(crate) fn machine_basin(
     let unknown = MachineVerdict::Undecided { why: MachineUndecided::Events, spectrum: None, events: 0 };
     let first = |k| task.settled(&whole.index(k)).unwrap_or_else(|| unknown.clone());
     let Joined { motions, cells } = joined(&whole, parts, first);
-    let motions = motions.into_iter().map(|found| found.verdict).collect();
-    Ok(MachineBasin { axes: plan.axes.clone(), motions, cells })
+    let motions: Vec<MachineVerdict> = motions.into_iter().map(|found| found.verdict).collect();
+    let quantities = motions.iter().map(|verdict| values_of(problem.0, verdict, &plan.fields)).collect();
+    Ok(MachineBasin { axes: plan.axes.clone(), motions, cells, fields: plan.fields.clone(), quantities })
 }
 
 /// Settles scattered starts at every point of a grid of numbers, without refinement.
@@ -47,7 +50,7 @@ pub(crate) fn machine_map(
     // one point a tile, because one point may take a thousand times as long as another
     let task = MapFill::of_machine(source, &MachineMapPlan { refine: None, ..plan.clone() }, Some(1));
     let whole = task.grid().whole();
-    let mut cells: Vec<Vec<MachineMotion>> = vec![Vec::new(); whole.points()];
+    let mut cells: Vec<Vec<MachineShare>> = vec![Vec::new(); whole.points()];
     for (block, tile) in tiles_of(&task, control)? {
         for (k, cell) in tile.into_iter().enumerate() {
             // without refinement every point is computed; one whose numbers are not allowed has no motions
@@ -56,5 +59,5 @@ pub(crate) fn machine_map(
             }
         }
     }
-    Ok(MachineMap { axes: plan.axes.clone(), cells })
+    Ok(MachineMap { axes: plan.axes.clone(), cells, fields: plan.fields.clone() })
 }

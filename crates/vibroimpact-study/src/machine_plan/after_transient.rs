@@ -1,14 +1,17 @@
 //! A motion of a machine after its transient: its closings, or its states at phase 0.
 
+use super::grid::values_of;
 use super::simulate::limits;
 use crate::PlanError;
 use crate::diagram::{MotionKind, SAME};
+use crate::map::options;
 use core::f64::consts::TAU;
 use vibroimpact::events::{
     MachineEnd, MachineEvent, MachineLimits, MachineMotion, MachineSample, MachineSamples, MachineStart,
 };
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
+use vibroimpact::verdict::{Count, MachineVerdict, settle_machine};
 
 /// A point of the diagram of a machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,4 +164,20 @@ pub(super) fn strobes(
         _ => MotionKind::NoImpact,
     };
     Ok(Followed { kind, points, last })
+}
+
+/// The settled motion, with one point: the value of a quantity of it, if it is defined and finite.
+pub(super) fn settled(machine: &Machine, start: &MachineStart, quantity: &str) -> Result<Followed, PlanError> {
+    let found = settle_machine(machine, start, &options(None)).map_err(refused)?.verdict;
+    let value = values_of(machine, &found, &[quantity.to_owned()])[0];
+    let point = value.is_finite().then_some(MachineDiagramPoint { stop: None, phase: 0.0, value });
+    let kind = match &found {
+        MachineVerdict::Periodic(cycle) if cycle.label.impacts == Count::Finite(0) => MotionKind::NoImpact,
+        MachineVerdict::Periodic(_) | MachineVerdict::Chaotic { .. } => MotionKind::Impacts,
+        MachineVerdict::NoImpact(_) => MotionKind::NoImpact,
+        MachineVerdict::Stuck(_) => MotionKind::Stuck,
+        MachineVerdict::Undecided { .. } => MotionKind::Undecided,
+    };
+    let last = found.reached(machine).unwrap_or_else(|| start.clone());
+    Ok(Followed { kind, points: point.into_iter().collect(), last })
 }

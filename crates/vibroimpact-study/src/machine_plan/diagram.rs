@@ -1,6 +1,6 @@
 //! The orbit diagram of a machine: its motion after the transient at each value of a number.
 
-use super::after_transient::{Followed, closings, strobes};
+use super::after_transient::{Followed, closings, settled, strobes};
 use crate::diagram::{MotionKind, Sweep, SweepDirection, check_shown};
 use crate::machine::MachineSource;
 use crate::{PlanError, Span};
@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
+use vibroimpact::quantities::machine_quantity;
 use vibroimpact::verdict::scattered_machine_starts;
 
 pub use super::after_transient::MachineDiagramPoint;
@@ -20,8 +21,8 @@ pub struct MachineDiagramPlan {
     pub vary: String,
     /// Its values.
     pub over: Span,
-    /// What is shown: `speed`, the phase and speed of each closing of a stop, or the value of `q.COORDINATE` or
-    /// `qdot.COORDINATE` once in every forcing period, at phase 0.
+    /// What is shown: `speed`, the phase and speed of each closing of a stop; the value of `q.COORDINATE` or
+    /// `qdot.COORDINATE` once in every forcing period, at phase 0; or a quantity of the settled motion by its path.
     #[serde(default = "speed")]
     pub show: String,
     /// How the starts at each value are chosen.
@@ -48,6 +49,8 @@ pub enum MachineShow {
     Q(usize),
     /// A velocity at phase 0.
     Qdot(usize),
+    /// A quantity of the settled motion.
+    Quantity,
 }
 
 /// A motion at one value.
@@ -86,9 +89,11 @@ impl MachineDiagramPlan {
             None if self.show == "speed" => Some(MachineShow::Speed),
             _ => None,
         };
+        let quantity = || machine_quantity(machine, &self.show).ok().map(|_| MachineShow::Quantity);
+        let found = found.or_else(quantity);
         let show =
             found.ok_or_else(|| PlanError::MachineShow { given: self.show.clone(), coordinates: names.join(", ") })?;
-        if show != MachineShow::Speed && machine.period().is_none() {
+        if matches!(show, MachineShow::Q(_) | MachineShow::Qdot(_)) && machine.period().is_none() {
             return Err(PlanError::Unforced);
         }
         Ok(show)
@@ -130,6 +135,7 @@ pub(crate) fn step(
         MachineShow::Speed => closings(&machine, &start, length)?,
         MachineShow::Q(i) => strobes(&machine, &start, length, |sample| sample.q[i])?,
         MachineShow::Qdot(i) => strobes(&machine, &start, length, |sample| sample.qdot[i])?,
+        MachineShow::Quantity => settled(&machine, &start, &plan.show)?,
     };
     Ok((MachineDiagramStep { index, sweep, kind, points }, last))
 }

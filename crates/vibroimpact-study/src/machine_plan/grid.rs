@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
+use vibroimpact::quantities::{machine_quantities, machine_quantity};
 use vibroimpact::verdict::MachineVerdict;
 
 /// Starts of a machine over a grid.
@@ -27,6 +28,9 @@ pub struct MachineBasinPlan {
     /// Budget of events for each start: 1 to 1000000. 20000 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
+    /// Quantities of each motion to report beside its label, by path: `power`, `stop.wall.impact_speed_max`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fields: Vec<String>,
 }
 
 /// Scattered starts at each point of a grid over numbers of a machine.
@@ -46,6 +50,9 @@ pub struct MachineMapPlan {
     /// Budget of events for each start: 1 to 1000000. 20000 when absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impacts: Option<u32>,
+    /// Quantities of each motion to report beside its label, by path: `power`, `stop.wall.impact_speed_max`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fields: Vec<String>,
 }
 
 const fn one() -> u64 {
@@ -61,6 +68,10 @@ pub struct MachineBasin {
     pub motions: Vec<MachineVerdict>,
     /// The motion of each start as an index; `None` where a start lies beyond a rigid stop.
     pub cells: Vec<Option<usize>>,
+    /// The paths of the quantities that the plan asks for, and the values of each motion.
+    pub fields: Vec<String>,
+    /// For each motion a value of each field; not-a-number where it is not defined.
+    pub quantities: Vec<Vec<f64>>,
 }
 
 /// The motions at each point of a grid of numbers.
@@ -70,12 +81,14 @@ pub struct MachineMap {
     pub axes: Vec<MachineAxis>,
     /// The motions at each point, the most frequent first. Two motions of one label have a row each. Empty where the numbers
     /// are not allowed.
-    pub cells: Vec<Vec<MachineMotion>>,
+    pub cells: Vec<Vec<MachineShare>>,
+    /// The paths of the quantities that the plan asks for.
+    pub fields: Vec<String>,
 }
 
 /// A motion at a point of a map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MachineMotion {
+pub struct MachineShare {
     /// The [code](crate::study::code) of its label.
     pub code: i32,
     /// The share of the starts that lead to it, from 0 to 1.
@@ -84,9 +97,11 @@ pub struct MachineMotion {
     pub speed: f64,
     /// The largest modulus of the multipliers; not-a-number unless it is a cycle.
     pub multiplier: f64,
+    /// A value of each field of the plan; not-a-number where it is not defined.
+    pub quantities: Vec<f64>,
 }
 
-impl MachineMotion {
+impl MachineShare {
     /// The label as text.
     #[must_use]
     pub fn label(&self) -> String {
@@ -119,7 +134,7 @@ impl MachineMap {
         let mut labels = BTreeMap::new();
         for cell in &self.cells {
             // two motions at a point can have one label
-            let here: BTreeSet<String> = cell.iter().map(MachineMotion::label).collect();
+            let here: BTreeSet<String> = cell.iter().map(MachineShare::label).collect();
             here.into_iter().for_each(|label| *labels.entry(label).or_insert(0) += 1);
         }
         labels
@@ -187,9 +202,26 @@ impl MachineBasinPlan {
         for axis in &self.axes {
             StartAxis::of(machine, &axis.vary)?;
         }
+        check_fields(machine, &self.fields)?;
         check_refine(self.refine)?;
         check_impacts(self.impacts)
     }
+}
+
+/// Checks that the paths lead to quantities of a machine.
+pub(super) fn check_fields(machine: &Machine, fields: &[String]) -> Result<(), PlanError> {
+    let known = |path: &String| machine_quantity(machine, path).map(|_| ());
+    fields.iter().try_for_each(known).map_err(|error| PlanError::Machine(error.into()))
+}
+
+/// The values of the fields for a motion; not-a-number where they are not defined.
+pub(crate) fn values_of(machine: &Machine, verdict: &MachineVerdict, fields: &[String]) -> Vec<f64> {
+    if fields.is_empty() {
+        return Vec::new();
+    }
+    let found = machine_quantities(machine, verdict);
+    let value = |path: &String| found.as_ref().and_then(|found| found.value(machine, path).ok()).unwrap_or(f64::NAN);
+    fields.iter().map(value).collect()
 }
 
 impl MachineMapPlan {
@@ -202,6 +234,7 @@ impl MachineMapPlan {
         for axis in &self.axes {
             source.number(&axis.vary)?;
         }
+        check_fields(&source.machine()?, &self.fields)?;
         limits::starts(self.starts, limits::MOST_STARTS)?;
         check_refine(self.refine)?;
         check_impacts(self.impacts)

@@ -181,6 +181,16 @@ impl MachinePlan {
         }
     }
 
+    /// The paths of the quantities that the task reports beside labels.
+    #[must_use]
+    pub fn fields(&self) -> &[String] {
+        match &self.task {
+            MachineTask::Basin(basin) => &basin.fields,
+            MachineTask::Map(map) => &map.fields,
+            _ => &[],
+        }
+    }
+
     /// Whether the task fills a grid, which a store keeps.
     #[must_use]
     pub const fn fills_a_grid(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use super::cycles;
 use crate::grid::Dimension;
-use crate::{Axis, Block, Column, Field, Grid, MachineAxis, Unit};
+use crate::{Axis, Block, Column, Extra, Field, Grid, MachineAxis, NumberType, Unit};
 use std::borrow::Cow;
 
 /// The coordinate values along a dimension of the grid.
@@ -126,6 +126,21 @@ pub(super) fn along_machine(axes: &[MachineAxis]) -> Vec<Along> {
         unit: Unit::CONSISTENT,
     };
     axes.iter().rev().map(one).collect()
+}
+
+/// The fields of quantities of a machine, which have the paths as names.
+pub(super) fn machine_fields(paths: &[String], extra: &[Extra]) -> Vec<Field> {
+    let field = |path: &String| Field {
+        name: path.clone().into(),
+        long_name: format!("{path} of the motion").into(),
+        unit: Unit::CONSISTENT,
+        kind: NumberType::F64,
+        fill: 0,
+        extra: extra.to_vec(),
+        flags: Vec::new(),
+        comment: "",
+    };
+    paths.iter().map(field).collect()
 }
 
 /// Numbers of `count` points spread evenly over `total`; all of them if there are fewer.

@@ -2,12 +2,12 @@
 
 use super::code;
 use super::cycles::{self, Numbered, Numbering};
-use super::fill::{Along, Fill, along_machine, machine_grid, on_axis, spread};
+use super::fill::{Along, Fill, along_machine, machine_fields, machine_grid, on_axis, spread};
 use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
 use super::stored_motion::StoredMotion;
 use crate::field::{Column, Field, NumberType};
-use crate::machine_plan::{MachineBasinPlan, StartAxis};
+use crate::machine_plan::{MachineBasinPlan, StartAxis, values_of};
 use crate::map::options;
 use crate::{Block, Grid, PlanError, Unit};
 use core::cell::RefCell;
@@ -134,6 +134,7 @@ impl Fill for MachineBasinFill {
         let mut cycle = cycles::field(label.clone());
         cycle.flags.push((cycles::BEYOND, "beyond_a_stop"));
         let mut fields = vec![label, cycle];
+        fields.extend(machine_fields(&self.plan.fields, &[]));
         if self.plan.refine.is_some() {
             fields.push(computed());
         }
@@ -157,22 +158,31 @@ impl Fill for MachineBasinFill {
 
     fn columns(&self, _: &Block, tile: MachineBasinTile) -> Vec<Column> {
         let (leads, _) = self.leads(&tile);
-        let of = |cell: &Cell<Option<u32>>| {
-            let number = match cell {
-                Cell::Computed(number) => *number,
-                Cell::Like(corner) => match tile.cells[*corner] {
-                    Cell::Computed(number) => number,
-                    // a corner is always computed
-                    Cell::Like(_) => None,
-                },
-            };
-            number.map_or((super::REFUSED, cycles::BEYOND), |number| leads[number as usize])
+        let number = |cell: &Cell<Option<u32>>| match cell {
+            Cell::Computed(number) => *number,
+            Cell::Like(corner) => match tile.cells[*corner] {
+                Cell::Computed(number) => number,
+                // a corner is always computed
+                Cell::Like(_) => None,
+            },
         };
-        let stored: Vec<Leads> = tile.cells.iter().map(of).collect();
+        let numbers: Vec<Option<u32>> = tile.cells.iter().map(number).collect();
+        let of =
+            |number: &Option<u32>| number.map_or((super::REFUSED, cycles::BEYOND), |number| leads[number as usize]);
+        let stored: Vec<Leads> = numbers.iter().map(of).collect();
         let mut columns = vec![
             Column::I32(stored.iter().map(|(label, _)| *label).collect()),
             Column::I32(stored.iter().map(|(_, cycle)| *cycle).collect()),
         ];
+        // those of a cycle that the survey has found are those of the survey, so that they are the same in all tiles
+        let same = |found: &MachineVerdict| self.survey().iter().find(|known| cycles::same(*known, found));
+        let motions = tile.met.motions().iter().map(|found| same(&found.verdict).unwrap_or(&found.verdict));
+        let values: Vec<Vec<f64>> =
+            motions.map(|verdict| values_of(&self.machine, verdict, &self.plan.fields)).collect();
+        for k in 0..self.plan.fields.len() {
+            let value = |number: &Option<u32>| number.map_or(f64::NAN, |number| values[number as usize][k]);
+            columns.push(Column::F64(numbers.iter().map(value).collect()));
+        }
         if self.plan.refine.is_some() {
             columns.push(computed_column(&tile.cells));
         }

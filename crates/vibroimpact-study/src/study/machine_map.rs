@@ -1,12 +1,12 @@
 //! The tiles of a map of a machine: the motions at each point of a grid over numbers of the machine.
 
 use super::code;
-use super::fill::{Along, along_machine, machine_grid, on_axis};
+use super::fill::{Along, along_machine, machine_fields, machine_grid, on_axis};
 use super::map::{MapFill, Mapped, side};
 use super::stored_motion::StoredMotion;
 use crate::field::{Extra, Field};
 use crate::machine::MachineSource;
-use crate::machine_plan::{MachineMapPlan, MachineMotion};
+use crate::machine_plan::{MachineMapPlan, MachineShare, values_of};
 use crate::map::options;
 use crate::{PlanError, Unit};
 use vibroimpact::verdict::{
@@ -44,14 +44,14 @@ impl MachinesOver {
 }
 
 impl Mapped for MachinesOver {
-    type Motion = MachineMotion;
+    type Motion = MachineShare;
     const VELOCITY: Unit = Unit::CONSISTENT;
 
     fn coordinates(&self) -> Vec<Along> {
         along_machine(&self.plan.axes)
     }
 
-    fn motions(&self, index: &[usize]) -> Result<Vec<MachineMotion>, PlanError> {
+    fn motions(&self, index: &[usize]) -> Result<Vec<MachineShare>, PlanError> {
         let machine = self.source(index)?.machine()?;
         let mut census: Census<MachineVerdict> = Census::default();
         for k in 0..self.plan.starts {
@@ -65,25 +65,27 @@ impl Mapped for MachinesOver {
             let verdict = &found.verdict;
             let cycle = verdict.stored_cycle();
             let fastest = if let MachineVerdict::Periodic(cycle) = verdict { cycle.fastest() } else { f64::NAN };
-            MachineMotion {
+            MachineShare {
                 code: code::of_machine(verdict),
                 share: census.share(found),
                 speed: fastest,
                 multiplier: cycle.map_or(f64::NAN, |cycle| cycle.multiplier),
+                quantities: values_of(&machine, verdict, &self.plan.fields),
             }
         };
         Ok(census.by_share().into_iter().map(motion).collect())
     }
 
-    fn label(motion: &MachineMotion) -> (i32, f64) {
+    fn label(motion: &MachineShare) -> (i32, f64) {
         (motion.code, motion.share)
     }
 
-    fn quantities(&self, _: &[Extra]) -> Vec<Field> {
-        Vec::new()
+    fn quantities(&self, extra: &[Extra]) -> Vec<Field> {
+        machine_fields(&self.plan.fields, extra)
     }
 
-    fn numbers(&self, _: &[usize], motions: &[MachineMotion]) -> Vec<Vec<f64>> {
-        motions.iter().map(|motion| vec![motion.speed, motion.multiplier]).collect()
+    fn numbers(&self, _: &[usize], motions: &[MachineShare]) -> Vec<Vec<f64>> {
+        let of = |motion: &MachineShare| [vec![motion.speed, motion.multiplier], motion.quantities.clone()].concat();
+        motions.iter().map(of).collect()
     }
 }

@@ -75,6 +75,17 @@ impl MachineVerdict {
             Self::Undecided { .. } => "undecided".to_owned(),
         }
     }
+
+    /// A state of the motion that is reached: on the cycle, at the beginning of the last part of chaos that is measured, or
+    /// after the last event; `None` for an undecided motion.
+    #[must_use]
+    pub fn reached(&self, machine: &Machine) -> Option<MachineStart> {
+        match self {
+            Self::Periodic(cycle) => Some(cycle.state.clone()),
+            Self::NoImpact(tail) | Self::Stuck(tail) | Self::Chaotic { tail, .. } => Some(tail.start(machine)),
+            Self::Undecided { .. } => None,
+        }
+    }
 }
 
 impl SteadyMotion for MachineVerdict {

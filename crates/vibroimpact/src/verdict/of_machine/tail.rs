@@ -1,8 +1,10 @@
 //! The last part of a motion of a machine, from which its quantities are computed.
 
 use super::returns::Step;
-use crate::events::Place;
+use crate::events::{MachineStart, Place};
 use crate::lyapunov::MEASURED_IMPACTS;
+use crate::machine::Machine;
+use crate::regime::Normal;
 use std::sync::Arc;
 
 /// The last steps of a motion, each to an event, over which the quantities of a chaotic motion are measured: at most
@@ -29,5 +31,12 @@ impl MachineTail {
             Some((step, _)) => Self { from: step.begin.clone(), steps: count as u64 },
             None => Self::end(end),
         }
+    }
+
+    /// The state before them as a start.
+    pub(crate) fn start(&self, machine: &Machine) -> MachineStart {
+        let normal = Normal::new(machine);
+        let Place { x, v, phase, .. } = &self.from;
+        MachineStart { q: normal.to_machine(x), qdot: normal.to_machine(v), phase: *phase }
     }
 }
