@@ -40,7 +40,11 @@ impl FieldsArgs {
     pub(crate) fn paths(&self) -> Vec<String> {
         let one = |field: &FieldName| match field {
             FieldName::Quantity(quantity) => quantity.name().to_owned(),
-            FieldName::Path(path) => path.clone(),
+            // the names of quantities have underscores there, those of stops are as they are
+            FieldName::Path(path) => match path.rsplit_once('.') {
+                Some((part, name)) => format!("{part}.{}", name.replace('-', "_")),
+                None => path.replace('-', "_"),
+            },
         };
         self.fields.iter().map(one).collect()
     }

@@ -127,7 +127,7 @@ fn fields_are_quantities() {
     let folder = tempfile::tempdir().unwrap();
     let table = done(folder.path(), &format!("{FIELDS} --csv -"));
     let mut lines = table.lines();
-    let header = "stop.anvil.gap,label,share,power,stop.anvil.impact-speed-max,q.head.displacement_rms";
+    let header = "stop.anvil.gap,label,share,power,stop.anvil.impact_speed_max,q.head.displacement_rms";
     assert_eq!(lines.next(), Some(header));
     for line in lines {
         let cells: Vec<&str> = line.split(',').collect();
