@@ -1,0 +1,61 @@
+"""Grids over machines as Datasets: in memory, in stores, and as `Machine` has them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from vibroimpact import Machine, Plan, QuestionError, basin, open, orbit_diagram, region_map, run
+
+HAMMER = Machine.named("two-mass-hammer")
+AXES = {"frequency": "0.8:1.2:5", "stop.anvil.gap": [0.3, 0.5, 0.75]}
+
+
+def test_a_map_is_that_of_the_machine_and_of_its_store(tmp_path: Path) -> None:
+    ds = region_map(HAMMER, AXES, starts=2, fields=["power", "stop.anvil.impact_speed_max"])
+    assert ds["label"].dims == ("stop.anvil.gap", "frequency", "motion")
+    stored = region_map(
+        HAMMER, AXES, starts=2, fields=["power", "stop.anvil.impact_speed_max"], store=tmp_path / "m.zarr", tile=2
+    )
+    for name in ("label", "share", "speed", "multiplier", "power", "stop.anvil.impact_speed_max"):
+        np.testing.assert_array_equal(stored[name].values, ds[name].values, err_msg=name)
+    for gap in (0.3, 0.75):
+        own = HAMMER.set({"stop.anvil.gap": gap}).map({"frequency": (0.8, 1.2, 5)}, starts=2)
+        labels = ds.vibro.labels().sel({"stop.anvil.gap": gap}).isel(motion=0).values
+        assert labels.tolist() == own.labels[:, 0].tolist()
+    settled = HAMMER.set({"stop.anvil.gap": 0.3, "frequency": 1.2}).settle().motion
+    power = ds["power"].sel({"stop.anvil.gap": 0.3, "frequency": 1.2}).isel(motion=0).item()
+    assert power == pytest.approx(settled.quantities["power"], rel=1e-7)
+    assert ds.vibro.plot().get_xlabel() == "frequency"
+
+
+def test_basins_have_starts_of_machines() -> None:
+    ds = basin(HAMMER, {"q.head": "-1:1:5", "phase": "0:6:3"}, qdot=[0, 0.5])
+    own = HAMMER.basin({"q.head": (-1, 1, 5), "phase": (0, 6, 3)}, qdot=[0, 0.5])
+    codes = ds["label"].transpose("q.head", "phase").values
+    assert ((codes == -5) == (own.labels == "refused")).all()
+    assert ds["cycle_share"].sum() == 1
+    with pytest.raises(QuestionError, match="x is no part of the start"):
+        Plan.basin(HAMMER, {"q.head": "0:1:2"}, x=0.5)
+    with pytest.raises(QuestionError, match="q.NAME, qdot.NAME or phase"):
+        basin(HAMMER, {"q.hed": "0:1:3"})
+
+
+def test_plans_of_machines_are_plans(tmp_path: Path) -> None:
+    plan = Plan.map(HAMMER, AXES, starts=1, tile=2)
+    assert Plan(plan.json) == plan and plan.points == 15
+    assert run(plan, tmp_path / "m.zarr").computed == 6
+    assert open(tmp_path / "m.zarr").attrs["plan_hash"] == plan.hash
+
+
+def test_diagrams_of_machines(tmp_path: Path) -> None:
+    ds = orbit_diagram(HAMMER, "frequency", "1:1.2:5", transient=100)
+    assert ds["speed"].sel(sweep=1, frequency=1.0).dropna("point").size == 2
+    assert set(ds["stop"].values.ravel().tolist()) == {-1, 0}
+    rows = ds.vibro.points()
+    assert list(rows.columns) == ["frequency", "sweep", "kind", "stop", "phase", "speed"]
+    assert set(rows["stop"]) == {"anvil"}
+    assert ds.vibro.plot().get_ylabel() == "speed of closing"
+    strobe = orbit_diagram(HAMMER, "frequency", "1:1.2:5", show="q.head", store=tmp_path / "d.zarr")
+    assert strobe.vibro.plot().get_ylabel() == "q.head at phase 0"
+    with pytest.raises(QuestionError, match="nothing that a diagram of a machine shows"):
+        orbit_diagram(HAMMER, "frequency", "1:1.2:5", show="velocity")
