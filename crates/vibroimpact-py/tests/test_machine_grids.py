@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from vibroimpact import Machine, Plan, QuestionError, basin, open, orbit_diagram, region_map, run
+from vibroimpact._points import table
 
 HAMMER = Machine.named("two-mass-hammer")
 AXES = {"frequency": "0.8:1.2:5", "stop.anvil.gap": [0.3, 0.5, 0.75]}
@@ -51,7 +52,7 @@ def test_diagrams_of_machines(tmp_path: Path) -> None:
     ds = orbit_diagram(HAMMER, "frequency", "1:1.2:5", transient=100)
     assert ds["speed"].sel(sweep=1, frequency=1.0).dropna("point").size == 2
     assert set(ds["stop"].values.ravel().tolist()) == {-1, 0}
-    rows = ds.vibro.points()
+    rows = table(ds)
     assert list(rows.columns) == ["frequency", "sweep", "kind", "stop", "phase", "speed"]
     assert set(rows["stop"]) == {"anvil"}
     assert ds.vibro.plot().get_ylabel() == "speed of closing"
