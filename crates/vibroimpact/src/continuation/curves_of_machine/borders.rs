@@ -6,7 +6,7 @@
 //! $$`\begin{pmatrix} A & b\\ c^T & 0\end{pmatrix}\begin{pmatrix} v\\ g\end{pmatrix} = \begin{pmatrix} 0\\ 1\end{pmatrix}`$$
 //!
 //! is regular also where $`A`$ is singular, and g is zero there and only there (A. Griewank and G. W. Reddien, "Characterization
-//! and computation of generalized turning points", SIAM J. Numer. Anal. 21 (1984) 176-185). Unlike the multipliers, g is
+//! and computation of generalized turning points", SIAM Journal on Numerical Analysis 21 (1984) 176-185). Unlike the multipliers, g is
 //! smooth through grazing impacts, at which multipliers are infinite.
 
 use crate::math::{Lu, Matrix, dot};
