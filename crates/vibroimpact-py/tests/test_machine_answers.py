@@ -58,7 +58,21 @@ def test_a_branch_has_columns() -> None:
     ordinary = np.setdiff1d(np.arange(len(found)), at)
     assert np.array_equal(stable[ordinary], found.stable[ordinary]) and not found.stable.all()
     same = HAMMER.branch("frequency", 1.05, label="1/1", points=5)
-    assert len(same) < 10 and same.event_kind.tolist() == ["step limit"] and set(same.label) == {"1/1"}
+    assert len(same) == 5 and same.event_kind.tolist() == ["step limit"] and set(same.label) == {"1/1"}
+
+
+def test_a_curve_is_that_of_the_closed_form() -> None:
+    ball = vi.Machine.named("bouncing-ball").set(Gamma=1.2)
+    found = ball.curve("fold", {"Gamma": (0.2, 3), "e": (0.3, 0.8)}, label="1/1")
+    gamma, e = found.values.T
+    assert len(found) > 10 and np.allclose(gamma, math.pi * (1 - e) / (1 + e), rtol=0, atol=1e-9)
+    assert found.parameters == ("Gamma", "e") and found.event_kind.tolist() == ["end of box"] * 2
+    assert found.multipliers.shape == (len(found), 2) and np.all(found.residual < 1e-9)
+    assert np.allclose(found.values[found.through[1]], [found.found_at[found.through[0] - 1], 0.5], atol=1e-9)
+    with pytest.raises(TypeError, match="two paths"):
+        ball.curve("fold", {"Gamma": (0.2, 3)})
+    with pytest.raises(vi.QuestionError, match="unknown variant"):
+        ball.curve("folds", {"Gamma": (0.2, 3), "e": (0.3, 0.8)})
 
 
 def test_basins_and_maps_have_the_shape_of_their_axes() -> None:

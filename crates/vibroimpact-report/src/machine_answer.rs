@@ -84,6 +84,10 @@ impl MachineAnswer {
                 let from = self.plan.machine.number(vary).map_err(PlanError::from).map_err(ReportError::from)?;
                 figure::branch::of_machine(found, (vary, (from, *to)), title)
             }
+            MachineResults::Curve(found) => {
+                let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
+                figure::curve::of_machine(found, plan, title)
+            }
             MachineResults::Basin(found) => figure::basin::of_machine(found, title)?,
             MachineResults::Map(found) => figure::map::of_machine(found, title)?,
             MachineResults::Diagram(found) => figure::diagram::of_machine(found, title)?,
@@ -119,6 +123,10 @@ impl MachineAnswer {
             MachineResults::Branch(found) => {
                 let MachineTask::Branch { vary, .. } = &self.plan.task else { return Ok(None) };
                 table::machine_tables::branch(&self.machine, vary, &found.points)
+            }
+            MachineResults::Curve(found) => {
+                let MachineTask::Curve(plan) = &self.plan.task else { return Ok(None) };
+                table::machine_curve::table(&self.machine, plan, found)
             }
             MachineResults::Basin(found) => table::machine_tables::basin(found),
             MachineResults::Map(found) => table::machine_tables::map(found),

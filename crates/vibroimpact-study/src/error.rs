@@ -47,6 +47,52 @@ pub enum PlanError {
     /// A branch of a machine cannot begin.
     #[error("{0}")]
     MachineBranch(String),
+    /// The range of a number of a machine along a curve.
+    #[error("{path} from {from} to {to} is no range\nhint: two finite numbers, the smaller one first")]
+    MachineStretch {
+        /// The path.
+        path: String,
+        /// The smaller value.
+        from: f64,
+        /// The larger one.
+        to: f64,
+    },
+    /// A number of the machine lies outside the range over which an orbit is followed.
+    #[error(
+        "{path} = {value} lies outside the range from {from} to {to}\nhint: the orbit is followed from the machine given; --set {path}=VALUE changes it"
+    )]
+    MachineOutside {
+        /// The path.
+        path: String,
+        /// Its value in the machine.
+        value: f64,
+        /// The smaller end.
+        from: f64,
+        /// The larger end.
+        to: f64,
+    },
+    /// The branch of an orbit of a machine has no such event.
+    #[error("{}", [
+        asked.map_or_else(|| format!("no {kind} was found"), |n| format!("there is no {kind} number {n}")),
+        format!(" on the branch of {label} over {path} from {from} to {to}"),
+        if *count == 0 { String::new() } else { format!(": {count} found") }
+    ].concat())]
+    NoMachineEvent {
+        /// The kind of event.
+        kind: &'static str,
+        /// The label of the branch.
+        label: Label,
+        /// The path of the number that varies.
+        path: String,
+        /// Smallest value of its range.
+        from: f64,
+        /// Largest value of the range.
+        to: f64,
+        /// The number of events of this kind.
+        count: usize,
+        /// The number of the event asked for.
+        asked: Option<u32>,
+    },
     /// An axis of a basin of a machine that is no part of a start.
     #[error("`{given}` is no part of a start\nhint: q.NAME, qdot.NAME or phase; the coordinates are {coordinates}")]
     MachineStartAxis {

@@ -87,9 +87,10 @@ pub use grid::{Block, Dimension, Grid};
 pub use limits::PLAN_VERSION;
 pub use lyapunov::{DEFAULT_POINTS, LyapunovPlan};
 pub use machine_plan::{
-    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranched, MachineDiagram, MachineDiagramPlan,
-    MachineDiagramPoint, MachineDiagramStep, MachineFollowed, MachineMap, MachineMapPlan, MachinePlan, MachineResults,
-    MachineShare, MachineSimulated, MachineTask, is_machine_plan, run_machine,
+    MachineAxis, MachineBasin, MachineBasinPlan, MachineBranched, MachineCurvePlan, MachineDiagram, MachineDiagramPlan,
+    MachineDiagramPoint, MachineDiagramStep, MachineEventCurve, MachineFollowed, MachineFollowedEvent, MachineMap,
+    MachineMapPlan, MachinePlan, MachineResults, MachineShare, MachineSimulated, MachineStretch, MachineTask,
+    is_machine_plan, run_machine,
 };
 pub use map::{MapPlan, MapPoint, RegionMap, Share};
 pub use margins::{

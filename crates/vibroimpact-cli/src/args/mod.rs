@@ -29,7 +29,7 @@ pub(crate) use of_machine::{MachineArgs, MachineAxesArgs, StartOfMachineArgs};
 pub(crate) use output::Globals;
 pub(crate) use parameter_flag::{ParameterFlag, Varied, parameter, varied};
 pub(crate) use physical::PhysicalArgs;
-pub(crate) use plane::{Ends, Named, Over, Place, Value};
+pub(crate) use plane::{Ends, Named, Over, Place, Value, VariedOver};
 pub(crate) use ranged::Ranged;
 pub(crate) use ranged_system::RangedSystemArgs;
 pub(crate) use start::StartArgs;

@@ -1,10 +1,11 @@
 //! PLANE: ranges of parameters, `A:B`, with or without the name of the parameter.
 
 use super::numbers::{self, shown};
-use super::parameter_flag::ParameterFlag;
+use super::parameter_flag::{ParameterFlag, Varied};
+use crate::failure::Failure;
 use core::str::FromStr;
 use vibroimpact_study::typed::{self, decimal, meant};
-use vibroimpact_study::{Parameter, Stretch};
+use vibroimpact_study::{MachineStretch, Parameter, Stretch};
 
 /// `A:B`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,6 +121,43 @@ impl<T: FromStr<Err: core::fmt::Display>> FromStr for Named<T> {
             return Err(format!("`{0}` has no values\nhint: {0}= and its value or range behind it", shown(text)));
         };
         Ok(Self(named, range.trim().parse().map_err(|error: T::Err| error.to_string())?))
+    }
+}
+
+/// `PARAMETER=A:B` or `PATH=A:B`: what varies over an interval.
+#[derive(Clone, Debug)]
+pub(crate) struct VariedOver(pub(crate) Varied, pub(crate) Interval);
+
+impl VariedOver {
+    /// A parameter of the oscillator.
+    pub(crate) fn over(&self) -> Result<Over, Failure> {
+        Ok(Named(self.0.parameter()?, self.1))
+    }
+
+    /// A number of a machine.
+    pub(crate) fn stretch(&self) -> MachineStretch {
+        MachineStretch { path: self.0.path(), from: self.1.0, to: self.1.1 }
+    }
+}
+
+impl FromStr for VariedOver {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let unknown = match text.parse::<Over>() {
+            Ok(Named(named, range)) => return Ok(Self(Varied::Parameter(named), range)),
+            Err(error) => error,
+        };
+        let Some((name, range)) = text.split_once('=') else { return Err(unknown) };
+        let name = name.trim();
+        // the range of a parameter is wrong
+        if ParameterFlag::all().any(|named| named.flag() == name) {
+            return Err(unknown);
+        }
+        let range = range.trim().parse()?;
+        let path = name.contains('.') || name == "frequency";
+        // whether a machine has this parameter is not known here
+        Ok(Self(if path { Varied::Path(name.to_owned()) } else { Varied::Name(name.to_owned(), unknown) }, range))
     }
 }
 

@@ -1,14 +1,19 @@
 //! `vibro curve`: a fold, flip or grazing impact of an orbit in a plane of two parameters.
 
-use crate::args::{FigureArgs, Named, Over, SystemArgs, of_oscillator, whole};
+use crate::args::{
+    FigureArgs, MachineArgs, Named, Over, StartOfMachineArgs, SystemArgs, VariedOver, of_oscillator, whole,
+};
 use crate::commands::outputs::Outputs;
-use crate::commands::respond;
+use crate::commands::{of_machine, respond};
 use crate::failure::Failure;
 use crate::session::Session;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use vibroimpact_report::{Shown, Units};
-use vibroimpact_study::{CurvePlan, FollowedEvent, Parameter, Plan, Stretch, Task};
+use vibroimpact_study::{
+    CurvePlan, DEFAULT_BRANCH_POINTS, FollowedEvent, MachineCurvePlan, MachineFollowedEvent, MachineTask, Parameter,
+    Plan, Stretch, Task,
+};
 
 /// The curve of an event of an orbit over two parameters: fold, flip or grazing
 ///
@@ -17,22 +22,38 @@ use vibroimpact_study::{CurvePlan, FollowedEvent, Parameter, Plan, Stretch, Task
 /// of codimension two are named: cusp, resonant grazing (curves of folds and flips end there), double grazing, degenerate
 /// grazing, touch (beyond it the orbit is inadmissible), 1:2. The cycles of a grazing curve include the impact of speed
 /// zero.
+///
+/// Of a machine any two numbers vary, by their paths. Its curves are those of folds, flips, torus bifurcations, grazing and
+/// corners, at which two events happen at the same time. They end where the orbit ceases to be admissible.
 #[derive(Clone, Debug, Args)]
 #[command(
-    override_usage = "vibro curve --beta B --gap D --restitution E --label m/n --kind KIND --vary PARAMETER=A:B --and PARAMETER=A:B [OPTIONS]",
+    override_usage = "vibro curve --beta B --gap D --restitution E --label m/n --kind KIND --vary PARAMETER=A:B --and PARAMETER=A:B [OPTIONS]\n       \
+        vibro curve --machine NAME|FILE [--label m/n] --kind KIND --vary PATH=A:B --and PATH=A:B [OPTIONS]",
     after_help = "Examples: where 1/1 doubles its period; where it begins\n  \
         vibro curve --inverse-beta 1.11 --gap 1.5 --restitution 0.5 --label 1/1 --kind flip \\\n    \
         --vary gap=0:3 --and inverse-beta=1.05:1.2 --plot flip.png\n  \
         vibro curve --inverse-beta 0.7 --gap 2 --restitution 0.5 --label 1/1 --kind fold \\\n    \
-        --vary gap=1:5 --and inverse-beta=0.6:0.9 --csv fold.csv"
+        --vary gap=1:5 --and inverse-beta=0.6:0.9 --csv fold.csv\n  \
+        vibro curve --machine bouncing-ball --set Gamma=1.2 --label 1/1 --kind flip --vary Gamma=0.2:4 --and e=0.2:0.9"
 )]
 pub(crate) struct Curve {
     #[command(flatten)]
     system: SystemArgs,
+    #[command(flatten)]
+    machine: MachineArgs,
+    #[command(flatten)]
+    of_machine: StartOfMachineArgs,
 
-    /// m impacts in n forcing periods, for example 2/1: the orbit at the system given
-    #[arg(long, value_name = "m/n", allow_hyphen_values = true, help_heading = "Curve")]
-    label: String,
+    /// m impacts in n forcing periods, for example 2/1: the orbit at the system given [default for a machine: the motion
+    /// from the start]
+    #[arg(
+        long,
+        value_name = "m/n",
+        allow_hyphen_values = true,
+        required_unless_present = "machine",
+        help_heading = "Curve"
+    )]
+    label: Option<String>,
 
     /// Which of several orbits, as `vibro orbit` numbers them [default: the stable one, else the fastest motion]
     #[arg(long, value_parser = whole::<u32>, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
@@ -42,17 +63,21 @@ pub(crate) struct Curve {
     #[arg(long, value_enum, value_name = "KIND", help_heading = "Curve")]
     kind: Kind,
 
-    /// The parameter in which the orbit is followed to the event, and its range
-    #[arg(long, value_name = "PARAMETER=A:B", help_heading = "Curve")]
-    vary: Over,
+    /// The parameter in which the orbit is followed to the event, and its range; of a machine the path of a number
+    #[arg(long, value_name = "PARAMETER|PATH=A:B", help_heading = "Curve")]
+    vary: VariedOver,
 
     /// The other parameter and its range
-    #[arg(long, value_name = "PARAMETER=A:B", help_heading = "Curve")]
-    and: Over,
+    #[arg(long, value_name = "PARAMETER|PATH=A:B", help_heading = "Curve")]
+    and: VariedOver,
 
     /// Which of several events, counted from 1 from small values to large [default: the nearest]
     #[arg(long, value_parser = whole::<u32>, value_name = "K", allow_hyphen_values = true, help_heading = "Curve")]
     event: Option<u32>,
+
+    /// Points in each direction at most, 2 to 100000, for a machine
+    #[arg(long, value_parser = whole::<u32>, value_name = "N", requires = "machine", allow_hyphen_values = true, help_heading = "Curve")]
+    points: Option<u32>,
 
     /// Write one row a point to this file; - for stdout. Columns: both parameters, physical, event, real and
     /// imaginary part of both multipliers, phases and velocities of the impacts (lists with blanks between)
@@ -79,34 +104,67 @@ enum Kind {
     Flip,
     /// An impact has speed zero: one appears, disappears, or the mass no longer reaches the stop
     Grazing,
+    /// Of a machine: a pair of complex multipliers lies on the unit circle
+    Torus,
+    /// Of a machine: two events happen at the same time
+    Corner,
 }
 
 impl Curve {
-    fn plan(&self, units: &Units, parameters: &[Parameter]) -> CurvePlan {
+    fn plan(&self, (vary, and): (&Over, &Over), units: &Units, parameters: &[Parameter]) -> Result<CurvePlan, Failure> {
         let stretch = |k: usize, Named(_, range): &Over| {
             let (parameter, unit) = (parameters[k], units.of(parameters[k]));
             Stretch { parameter, from: range.0 / unit, to: range.1 / unit }
         };
-        CurvePlan {
-            label: self.label.clone(),
+        Ok(CurvePlan {
+            label: self.label.clone().unwrap_or_default(),
             kind: match self.kind {
                 Kind::Fold => FollowedEvent::Fold,
                 Kind::Flip => FollowedEvent::Flip,
                 Kind::Grazing => FollowedEvent::Grazing,
+                Kind::Torus | Kind::Corner => {
+                    return Err(Failure::bad("torus and corner are curves of machines\nhint: --machine NAME|FILE"));
+                }
             },
-            vary: stretch(0, &self.vary),
-            and: stretch(1, &self.and),
+            vary: stretch(0, vary),
+            and: stretch(1, and),
             orbit: self.orbit,
             event: self.event,
+        })
+    }
+
+    fn of_machine(&self) -> Result<MachineTask, Failure> {
+        if self.orbit.is_some() {
+            return Err(Failure::bad("--orbit is not there for machines yet"));
         }
+        Ok(MachineTask::Curve(MachineCurvePlan {
+            label: self.label.clone(),
+            kind: match self.kind {
+                Kind::Fold => MachineFollowedEvent::Fold,
+                Kind::Flip => MachineFollowedEvent::Flip,
+                Kind::Grazing => MachineFollowedEvent::Grazing,
+                Kind::Torus => MachineFollowedEvent::Torus,
+                Kind::Corner => MachineFollowedEvent::Corner,
+            },
+            vary: self.vary.stretch(),
+            and: self.and.stretch(),
+            event: self.event,
+            points: self.points.unwrap_or(DEFAULT_BRANCH_POINTS),
+        }))
     }
 }
 
 pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
-    let varied = [args.vary.0, args.and.0];
+    let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
+    let start = Some((&args.of_machine, None));
+    if let Some(answer) = of_machine::asked(&args.machine, start, || args.of_machine(), files, None, session) {
+        return answer;
+    }
+    let over = (args.vary.over()?, args.and.over()?);
+    let varied = [over.0.0, over.1.0];
     let mut asked = args.system.over(&varied)?;
     let parameters = of_oscillator(&mut asked, &varied)?;
-    let plan = Plan::new(asked.system, Task::Curve(args.plan(&asked.units, &parameters)));
+    let plan = Plan::new(asked.system, Task::Curve(args.plan((&over.0, &over.1), &asked.units, &parameters)?));
     plan.check()?;
     let outputs = Outputs::reserve(args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json, session)?;
     respond::run(&plan, asked.units, (outputs, Shown::default()), None, session)

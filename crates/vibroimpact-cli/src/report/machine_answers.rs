@@ -1,6 +1,7 @@
 //! Answers about machines as text.
 
 use crate::report::diagram;
+use crate::report::machine_curve;
 use core::fmt::Write;
 use vibroimpact::chaos::MachineSpectrum;
 use vibroimpact::continuation::MachinePoint;
@@ -58,6 +59,7 @@ pub(crate) fn text(answer: &MachineAnswer) -> String {
                 text.push_str(&branch(machine, &followed.points));
             }
         }
+        MachineResults::Curve(found) => text.push_str(&machine_curve::text(machine, &answer.plan.task, found)),
         MachineResults::Basin(found) => {
             for (verdict, (_, share)) in found.motions.iter().zip(found.shares()) {
                 let _ = write!(text, "{:>6.1} %  {}", 100.0 * share, motion(machine, verdict));

@@ -9,6 +9,7 @@ mod leading;
 mod lyapunov;
 pub(crate) mod machine;
 pub(crate) mod machine_answers;
+pub(crate) mod machine_curve;
 pub(crate) mod machine_events;
 mod map;
 mod margins;

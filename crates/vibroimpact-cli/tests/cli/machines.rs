@@ -306,6 +306,34 @@ fn branches() {
     assert!(text.contains("end of range") && text.contains("stable"), "{text}");
 }
 
+/// The curve of flips of the ball on a table in closed form.
+#[test]
+fn curves() {
+    let line =
+        "curve --machine bouncing-ball --set Gamma=1.2 --label 1/1 --kind flip --vary Gamma=0.2:3 --and e=0.3:0.8";
+    let found = json(line);
+    assert_eq!((&found["kind"], &found["parameters"]), (&"flip".into(), &serde_json::json!(["Gamma", "e"])));
+    let points = found["points"].as_array().unwrap();
+    for point in points {
+        let (gamma, e) = (point["values"][0].as_f64().unwrap(), point["values"][1].as_f64().unwrap());
+        let fold = core::f64::consts::PI * (1.0 - e) / (1.0 + e);
+        let flip = fold.hypot(2.0 * (1.0 + e * e) / ((1.0 + e) * (1.0 + e)));
+        assert!((gamma - flip).abs() < 1e-9 && point["residual"].as_f64().unwrap() < 1e-9, "{point}");
+    }
+    let kinds: Vec<&str> =
+        found["events"].as_array().unwrap().iter().map(|event| event["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["end of box", "end of box"]);
+    let text = printed(line);
+    assert!(text.starts_with("flip of 1/1\n  found at Gamma 1.5268") && text.contains("end of box"), "{text}");
+    let folder = tempfile::tempdir().unwrap();
+    let (svg, csv) = (folder.path().join("curve.svg"), folder.path().join("curve.csv"));
+    printed(&format!("{line} --points 20 --plot {} --csv {}", svg.display(), csv.display()));
+    let (svg, csv) = (fs::read_to_string(svg).unwrap(), fs::read_to_string(csv).unwrap());
+    assert!(svg.contains(">Gamma<") && svg.contains(">flip of 1/1<") && svg.contains(">found on the branch<"));
+    assert!(csv.starts_with("Gamma,e,label,event,stop,residual,touch,multiplier_1_re,"), "{csv}");
+    assert_eq!(csv.lines().count(), 1 + 39);
+}
+
 #[test]
 fn basins_and_maps() {
     let table = printed("basin --machine two-mass-hammer --axis q.head=-1:1:3 --axis qdot.head=0:1:2 --csv -");
@@ -378,6 +406,22 @@ fn refusals_of_questions() {
         ("map --machine two-mass-hammer --axis mu=0:1 --starts 2", "--axis <PATH=A:B:N>"),
         ("branch --machine two-mass-hammer --vary nothing --to 1", "error: nothing: no such number in this machine"),
         ("branch --machine two-mass-hammer --vary frequency --to 1.2", "error: "),
+        (
+            "curve --machine two-mass-hammer --kind torus --vary frequency=1.1:1.3 --and b=0.4:0.6",
+            "error: no torus was found on the branch of 1/1 over frequency from 1.1 to 1.3",
+        ),
+        (
+            "curve --machine two-mass-hammer --kind flip --vary frequency=1.3:1.4 --and b=0.4:0.6",
+            "error: frequency = 1.2 lies outside the range from 1.3 to 1.4",
+        ),
+        (
+            "curve --machine two-mass-hammer --kind flip --vary frequency=1:1.4 --and c=0.4:0.6",
+            "error: c: no such number in this machine",
+        ),
+        (
+            "curve --beta 1 --gap 1 --restitution 0.5 --label 1/1 --kind torus --vary gap=0:2 --and beta=1:2",
+            "hint: --machine NAME|FILE",
+        ),
         ("settle --machine two-mass-hammer --q 1,2,3", "start.q: has 3 numbers, and 2 are needed"),
         ("settle --machine two-mass-hammer --impacts 0", "error: "),
         // without a machine all of the system is needed

@@ -126,7 +126,8 @@ fn bad_questions_are_named() {
         ),
         (format!("curve {S} --label 1/1 --kind flip --vary gap=0:1 --and gap=0:1"), "do not span a plane"),
         (format!("curve {S} --label 1/1 --kind flip --vary gap=0.7:0.8 --and beta=0.5:1"), "no flip was found"),
-        (format!("curve {S} --label 1/1 --kind torus --vary gap=0:1 --and beta=1:2"), "invalid value 'torus'"),
+        (format!("curve {S} --label 1/1 --kind tori --vary gap=0:1 --and beta=1:2"), "invalid value 'tori'"),
+        (format!("curve {S} --label 1/1 --kind torus --vary gap=0:1 --and beta=1:2"), "are curves of machines"),
         ("region --label 1/1 --inverse-beta 1:2 --gap 1 --restitution 0.5".into(), "ranges A:B are given for 1"),
         ("region --label 1/1 --inverse-beta 1:2 --gap 1:2 --restitution 0.5:0.6".into(), "ranges A:B are given for 3"),
         (

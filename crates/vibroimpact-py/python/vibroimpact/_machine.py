@@ -18,13 +18,14 @@ from vibroimpact._machine_answers import (
     MachineAxes,
     MachineBasin,
     MachineBranch,
+    MachineCurve,
     MachineLyapunov,
     MachineMap,
     MachineOrbits,
     MachineSettled,
 )
 from vibroimpact._progress import Progress
-from vibroimpact._whole import BRANCH, BUDGET, POINT_STARTS, SEED, SIMULATED, STARTS, TRANSIENT, maybe, whole
+from vibroimpact._whole import BRANCH, BUDGET, NUMBER, POINT_STARTS, SEED, SIMULATED, STARTS, TRANSIENT, maybe, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -415,6 +416,53 @@ class Machine:
         points = whole("points", points, BRANCH)
         task = {"branch": {"label": label, "vary": vary, "to": float(to), "points": points}}
         return _machine_answers.branch(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
+
+    def curve(
+        self, kind: str, vary: Mapping[str, tuple[float, float]], *, label: str | None = None, event: int | None = None,
+        points: int = 5000, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
+    ) -> MachineCurve:
+        """Follow an event of an orbit in a plane of two numbers of the machine.
+
+        The orbit is followed in the first number to both ends of its range, while it keeps its label. From an event of the
+        kind the curve is followed in both directions.
+
+        Parameters
+        ----------
+        kind : str
+            "fold", "flip", "torus", "grazing" or "corner".
+        vary : dict
+            Two paths, each with its range (a, b). Both ranges contain the values of the machine.
+        label : str
+            The label m/n of the orbit at the machine. Default: that of the motion from the start.
+        event : int
+            Which of several events, counted from 1 from small values to large. Default: the nearest.
+        points : int
+            The largest number of points in each direction, 2 to 100 000.
+        q, qdot, phase : array, array, float
+            Start: coordinates, velocities and phase of the forcing. Default: those of `start`, or 0.
+
+        Examples
+        --------
+        >>> import vibroimpact as vi
+        >>> hammer = vi.Machine.named("two-mass-hammer")
+        >>> found = hammer.curve("grazing", {"frequency": (0.9, 1.3), "b": (0.4, 0.6)})
+        >>> found.kind, found.event_kind.tolist()
+        ('grazing', ['end of box', 'end of box'])
+        """
+        if not isinstance(vary, Mapping) or len(vary) != 2:
+            raise TypeError("a curve varies two numbers: a dict of two paths, each with its range (a, b)")
+        sides = []
+        for path, ends in vary.items():
+            try:
+                first, last = (float(end) for end in ends)
+            except (TypeError, ValueError):
+                raise TypeError(f"the range of {path} is (a, b), not {ends!r}") from None
+            sides.append({"path": path, "from": first, "to": last})
+        task = {"curve": {
+            "label": label, "kind": kind, "vary": sides[0], "and": sides[1], "event": maybe("event", event, NUMBER),
+            "points": whole("points", points, BRANCH),
+        }}
+        return _machine_answers.curve(_machine_answers.ask(self._file, self._start(q, qdot, phase), task)[0])
 
     def basin(
         self, axes: MachineAxes, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,

@@ -419,6 +419,86 @@ def branch(found: Mapping[str, Any]) -> MachineBranch:
     )
 
 
+@dataclass(frozen=True, eq=False, repr=False, slots=True)
+class MachineCurve:
+    """A curve of an event of an orbit of a machine in a plane of two numbers, from one end to the other.
+
+    Attributes
+    ----------
+    kind, label : str
+        "fold", "flip", "torus", "grazing" or "corner"; the label m/n of the orbit whose branch contains the event.
+    of : tuple of str
+        The stop of a curve of grazing, or the stops and joints of a corner.
+    parameters : (str, str)
+        The paths of the two numbers.
+    values : ndarray, points x 2
+        Their values.
+    multipliers : ndarray of complex128, points x (two for each coordinate)
+        Floquet multipliers; on a curve of grazing those of the cycle without the contact.
+    residual : ndarray
+        By how much the condition of the curve fails at each point: the distance of a multiplier from +1 or -1, or of its
+        modulus from 1; the speed at the touch divided by the largest velocity; the difference of the phases at a corner.
+    cycles : tuple of MachineCycle
+        The events at each point; on a curve of grazing without the touch.
+    event_kind, event_stop : ndarray of str
+        Points of codimension two and ends: "cusp", "1:1", "1:2", "fold-flip", "double grazing", "end of box", ...; the stop
+        or joint, if there is one.
+    event_point : ndarray
+        The index of the point of each event.
+    found_at : ndarray
+        Values of the first number at the events of this kind on the branch.
+    through : (int, int)
+        The number, counted from 1, of the event through which the curve passes, and its index among the points.
+    plan : str
+        The plan as JSON.
+    """
+
+    kind: str
+    label: str
+    of: tuple[str, ...]
+    parameters: tuple[str, str]
+    values: _Floats
+    multipliers: NDArray[np.complex128]
+    residual: _Floats
+    cycles: tuple[MachineCycle, ...]
+    event_kind: NDArray[np.str_]
+    event_stop: NDArray[np.str_]
+    event_point: NDArray[np.int64]
+    found_at: _Floats
+    through: tuple[int, int]
+    plan: str
+
+    def __repr__(self) -> str:
+        p, q = self.parameters
+        return f"<MachineCurve of {self.kind} of {self.label} over {p} and {q}, {len(self)} points, {len(self.event_kind)} events>"
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+
+def curve(found: Mapping[str, Any]) -> MachineCurve:
+    """Of the JSON object."""
+    width, points, events = len(found["coordinates"]), found["points"], found["events"]
+    flat = [pair for point in points for pair in point["multipliers"]]
+    one, two = found["parameters"]
+    return MachineCurve(
+        kind=found["kind"],
+        label=found["label"],
+        of=tuple(found.get("of", ())),
+        parameters=(one, two),
+        values=np.array([point["values"] for point in points], dtype=np.float64).reshape(len(points), 2),
+        multipliers=_complex(flat).reshape(len(points), 2 * width),
+        residual=np.array([point["residual"] for point in points], dtype=np.float64),
+        cycles=tuple(_cycle(point["cycle"], width) for point in points),
+        event_kind=np.array([event["kind"] for event in events], dtype=np.str_),
+        event_stop=np.array([event.get("stop", "") for event in events], dtype=np.str_),
+        event_point=np.array([event["point"] for event in events], dtype=np.int64),
+        found_at=np.array(found["found_at"], dtype=np.float64),
+        through=(found["through"]["event"], found["through"]["point"]),
+        plan=json.dumps(found["plan"]),
+    )
+
+
 def spans(axes: MachineAxes) -> list[dict[str, str]]:
     """The axes of a plan."""
     if not isinstance(axes, Mapping):

@@ -3,7 +3,7 @@
 
 use vibroimpact::continuation::{Bound, CurveEvent};
 use vibroimpact_plot::{Colour, Dash, SERIES, Shape};
-use vibroimpact_study::FollowedEvent;
+use vibroimpact_study::{FollowedEvent, MachineFollowedEvent};
 
 /// The colours of curves of events in two parameters.
 pub const EVENT_COLOURS: [(FollowedEvent, Colour); 3] =
@@ -48,6 +48,37 @@ pub const CURVE_MARKS: [(CurveEvent, Shape); 10] = [
     (CurveEvent::Unbounded, Shape::Plus),
 ];
 
+/// The colours of curves of events of machines.
+pub const MACHINE_EVENT_COLOURS: [(MachineFollowedEvent, Colour); 5] = [
+    (MachineFollowedEvent::Fold, SERIES[1]),
+    (MachineFollowedEvent::Flip, SERIES[0]),
+    (MachineFollowedEvent::Torus, SERIES[3]),
+    (MachineFollowedEvent::Grazing, SERIES[2]),
+    (MachineFollowedEvent::Corner, SERIES[5]),
+];
+
+/// The marks of points of codimension two on curves of machines, by name. Ends of a curve have no mark.
+pub const MACHINE_CURVE_MARKS: [(&str, Shape); 18] = [
+    ("cusp", Shape::TriangleDown),
+    ("fold-flip", Shape::Circle),
+    ("1:1", Shape::Circle),
+    ("1:2", Shape::Circle),
+    ("1:3", Shape::Circle),
+    ("1:4", Shape::Circle),
+    ("fold-torus", Shape::Plus),
+    ("flip-torus", Shape::Plus),
+    ("fold-grazing", Shape::Diamond),
+    ("flip-grazing", Shape::Diamond),
+    ("torus-grazing", Shape::Diamond),
+    ("resonant grazing", Shape::Diamond),
+    ("degenerate grazing", Shape::TriangleUp),
+    ("double grazing", Shape::Square),
+    ("touch", Shape::Circle),
+    ("corner", Shape::Cross),
+    ("rest", Shape::Cross),
+    ("degenerate flip", Shape::Cross),
+];
+
 /// Colour, dash and text of each bound of a region, in the order of the legend. The frame is the edge of the figure and
 /// is not drawn.
 pub const BOUND_STYLES: [(Bound, Colour, Dash, &str); 5] = [
@@ -63,6 +94,33 @@ mod tests {
     use super::*;
     use vibroimpact::continuation::{BranchEvent, MachineBranchEvent};
     use vibroimpact::{Label, Side};
+
+    #[test]
+    fn marks_on_curves_of_machines_have_the_names_of_events() {
+        use vibroimpact::continuation::MachineCurveEvent as Event;
+        let (stop, first, second, place) = (0, 0, 1, 0);
+        let events = [
+            Event::Cusp,
+            Event::FoldFlip,
+            Event::OneToOne,
+            Event::OneToTwo,
+            Event::OneToThree,
+            Event::OneToFour,
+            Event::FoldTorus,
+            Event::FlipTorus,
+            Event::FoldGrazing,
+            Event::FlipGrazing,
+            Event::TorusGrazing,
+            Event::ResonantGrazing { stop },
+            Event::DegenerateGrazing { stop },
+            Event::DoubleGrazing { stop },
+            Event::Touch { stop },
+            Event::Corner { first, second },
+            Event::Rest { place },
+            Event::DegenerateFlip,
+        ];
+        assert_eq!(MACHINE_CURVE_MARKS.map(|(name, _)| name), events.map(|event| event.name()));
+    }
 
     /// A renamed event would lose its mark without an error.
     #[test]

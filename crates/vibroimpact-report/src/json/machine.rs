@@ -1,6 +1,7 @@
 //! The object of a machine: its start, the events of its motion, and the reason why the list ends.
 
 use super::diagram::{Counts, machine_counts};
+use super::machine_curve::curved;
 use super::machine_event::{EventObject, event_object};
 use super::machine_motion::{Estimate, MotionObject, cycle, estimates, motion, multipliers};
 use crate::{MachineAnswer, PROGRAM};
@@ -221,6 +222,12 @@ impl Serialize for MachineAnswer {
                     .map(|followed| FollowedObject { flip: followed.flip, branch: self.points(&followed.points) });
                 let followed = followed.collect();
                 self.document(Branched { vary, main: self.points(&found.points), followed }, to)
+            }
+            MachineResults::Curve(found) => {
+                let MachineTask::Curve(plan) = &self.plan.task else {
+                    return Err(serde::ser::Error::custom("the plan is that of another task"));
+                };
+                self.document(curved(machine, plan, found), to)
             }
             MachineResults::Basin(found) => {
                 let motions = found.motions.iter().zip(found.shares()).map(|(verdict, (count, share))| Shared {

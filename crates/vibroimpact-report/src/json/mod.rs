@@ -9,6 +9,7 @@ pub mod curve;
 pub mod diagram;
 pub mod lyapunov;
 mod machine;
+mod machine_curve;
 mod machine_event;
 mod machine_motion;
 mod machine_quantities;

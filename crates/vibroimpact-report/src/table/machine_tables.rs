@@ -28,11 +28,11 @@ pub(crate) fn attractors<'a>(machine: &'a Machine, census: &'a Census<MachineVer
 }
 
 /// The names of the columns of multipliers.
-fn numbered(machine: &Machine) -> impl Iterator<Item = String> {
+pub(super) fn numbered(machine: &Machine) -> impl Iterator<Item = String> {
     (1..=2 * machine.n()).flat_map(|k| [format!("multiplier_{k}_re"), format!("multiplier_{k}_im")])
 }
 
-fn push(row: &mut String, multipliers: Option<&Vec<Multiplier>>, n: usize) {
+pub(super) fn push(row: &mut String, multipliers: Option<&Vec<Multiplier>>, n: usize) {
     for k in 0..2 * n {
         match multipliers.and_then(|all| all.get(k)) {
             Some(multiplier) => row.push_str(&format!(",{},{}", Number(multiplier.re), Number(multiplier.im))),

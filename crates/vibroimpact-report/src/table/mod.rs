@@ -6,6 +6,7 @@ pub mod basin;
 pub mod branch;
 pub mod curve;
 pub mod diagram;
+pub(crate) mod machine_curve;
 pub(crate) mod machine_tables;
 pub mod machine_waveform;
 pub mod map;

@@ -7,6 +7,7 @@
 //! | the function that turns a plan into its result | [`run_machine`], [`MachineResults`], `run` |
 //! | what motions settle into, their exponents | `verdicts` |
 //! | orbits, and branches of them | [`MachineBranched`], `orbits` |
+//! | curves of events over two numbers | [`MachineCurvePlan`], [`MachineEventCurve`], `curve` |
 //! | an axis of a grid | [`MachineAxis`] |
 //! | basins and maps: plans and results | [`MachineBasinPlan`], [`MachineBasin`], [`MachineMapPlan`], [`MachineMap`], `grid` |
 //! | a motion after its transient at each value of a number | [`MachineDiagramPlan`], [`MachineDiagram`], `diagram`, `after_transient` |
@@ -14,6 +15,7 @@
 
 mod after_transient;
 mod axis;
+mod curve;
 mod diagram;
 mod grid;
 mod orbits;
@@ -24,6 +26,7 @@ mod text;
 mod verdicts;
 
 pub use axis::MachineAxis;
+pub use curve::{MachineCurvePlan, MachineEventCurve, MachineFollowedEvent, MachineStretch};
 pub(crate) use diagram::step as diagram_step;
 pub use diagram::{MachineDiagram, MachineDiagramPlan, MachineDiagramPoint, MachineDiagramStep};
 pub use grid::{MachineBasin, MachineBasinPlan, MachineMap, MachineMapPlan, MachineShare};

@@ -49,6 +49,25 @@ pub(super) fn orbits(machine: &Machine, label: Label, control: &Control<'_>) -> 
     found.ok_or_else(|| Stopped { done: 0, total: 1 }.into())
 }
 
+/// The orbit with a label, the stable one or else the fastest; without a label, the motion from the start.
+pub(super) fn chosen(
+    (machine, start): (&Machine, &MachineStart),
+    label: Option<Label>,
+    control: &Control<'_>,
+) -> Result<MachineCycle, RunError> {
+    match label {
+        None => match settle(machine, start, None, control)?.verdict {
+            MachineVerdict::Periodic(cycle) => Ok(cycle),
+            other => Err(PlanError::NotPeriodic(other.label()).into()),
+        },
+        Some(label) => {
+            let found = orbits(machine, label, control)?;
+            let stable = found.iter().rev().find(|cycle| cycle.stable());
+            Ok(stable.or(found.last()).cloned().ok_or(PlanError::NoMachineOrbit(label))?)
+        }
+    }
+}
+
 /// Checks the number that varies and its range.
 pub(super) fn check(source: &MachineSource, vary: &str, to: f64, points: u32) -> Result<(), PlanError> {
     let from = source.number(vary).map_err(PlanError::from)?;
@@ -71,18 +90,7 @@ pub(super) fn branch(
     control: &Control<'_>,
 ) -> Result<MachineBranched, RunError> {
     let from = source.number(vary).map_err(PlanError::from)?;
-    let cycle = match label {
-        None => match settle(machine, start, None, control)?.verdict {
-            MachineVerdict::Periodic(cycle) => cycle,
-            other => return Err(PlanError::NotPeriodic(other.label()).into()),
-        },
-        Some(label) => {
-            let found = orbits(machine, label, control)?;
-            let stable = found.iter().rev().find(|cycle| cycle.stable());
-            let chosen = stable.or(found.last()).cloned();
-            chosen.ok_or(PlanError::NoMachineOrbit(label))?
-        }
-    };
+    let cycle = chosen((machine, start), label, control)?;
     let (source, path) = (source.clone(), vary.to_owned());
     let family = MachineFamily::new(move |value| source.with(&path, value).ok()?.machine().ok());
     let range = from.min(to)..=from.max(to);

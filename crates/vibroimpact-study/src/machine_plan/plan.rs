@@ -1,6 +1,7 @@
 //! A plan of a machine: everything on which a result depends, and nothing else.
 
 use super::axis::MachineAxis;
+use super::curve::MachineCurvePlan;
 use super::diagram::MachineDiagramPlan;
 use super::grid::{MachineBasinPlan, MachineMapPlan};
 use super::simulate::check;
@@ -107,6 +108,8 @@ pub enum MachineTask {
         #[serde(default, skip_serializing_if = "is_zero")]
         follow: u32,
     },
+    /// A curve of an event of an orbit over two numbers.
+    Curve(MachineCurvePlan),
     /// The motion to which each start of a grid leads.
     Basin(MachineBasinPlan),
     /// The motions at each point of a grid of numbers of the machine.
@@ -253,6 +256,7 @@ impl MachinePlan {
                 orbits::label(&machine, label.as_deref().unwrap_or("1/1"))?;
                 orbits::check(&self.machine, vary, *to, *points)
             }
+            MachineTask::Curve(curve) => curve.check(&self.machine, &machine),
             MachineTask::Basin(basin) => basin.check(&machine),
             MachineTask::Map(map) => map.check(&self.machine),
             MachineTask::Diagram(diagram) => diagram.check(&self.machine),

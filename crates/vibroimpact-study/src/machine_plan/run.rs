@@ -1,5 +1,6 @@
 //! The function that computes the result of a plan of a machine. The command and the Python package call it.
 
+use super::curve::{self, MachineEventCurve};
 use super::diagram::MachineDiagram;
 use super::grid::{MachineBasin, MachineMap};
 use super::orbits::MachineBranched;
@@ -26,6 +27,8 @@ pub enum MachineResults {
     Orbit(Vec<MachineCycle>),
     /// The branch.
     Branch(MachineBranched),
+    /// The curve.
+    Curve(MachineEventCurve),
     /// The basin.
     Basin(MachineBasin),
     /// The map.
@@ -66,6 +69,9 @@ pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineR
                 (*points, *follow),
                 control,
             )?)
+        }
+        MachineTask::Curve(asked) => {
+            MachineResults::Curve(curve::curve(&plan.machine, (&machine, &start), asked, control)?)
         }
         MachineTask::Basin(basin) => {
             MachineResults::Basin(in_memory::machine_basin((&machine, &start), basin, control)?)

@@ -75,6 +75,7 @@ impl Study {
             MachineTask::Lyapunov { .. } => return none("measure the exponents of a machine"),
             MachineTask::Orbit { .. } => return none("find orbits"),
             MachineTask::Branch { .. } => return none("follow a branch"),
+            MachineTask::Curve(_) => return none("follow a curve"),
         };
         Ok(Self { fill })
     }

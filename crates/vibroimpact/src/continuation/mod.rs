@@ -7,10 +7,12 @@
 //! | branches: how a cycle changes with one parameter | [`Branch`], [`BranchEvent`], [`SolutionPoint`] |
 //! | curves of folds, flips and grazing impacts in a plane of two parameters | [`Curve`], [`CurvePoint`], [`Frame`] |
 //! | branches of cycles of machines | [`MachineBranch`], [`MachinePoint`] |
+//! | curves of events of machines in a plane of two numbers | [`MachineCurve`], [`MachineCurvePoint`], [`MachinePlane`] |
 //! | where in such a plane an orbit exists or is stable, as polygons bounded by these curves | [`region`], [`Region`] |
 
 mod branches;
 mod curves;
+mod curves_of_machine;
 mod equations;
 mod of_machine;
 mod regions;
@@ -18,5 +20,8 @@ mod trace;
 
 pub use branches::{Branch, BranchError, BranchEvent, BranchOptions, Change, Direction, SolutionPoint, Touch};
 pub use curves::{Curve, CurveEvent, CurveKind, CurveOptions, CurvePoint, Frame};
+pub use curves_of_machine::{
+    MachineCurve, MachineCurveError, MachineCurveEvent, MachineCurveKind, MachineCurvePoint, MachinePlane,
+};
 pub use of_machine::{MachineBranch, MachineBranchError, MachineBranchEvent, MachineFamily, MachinePoint};
 pub use regions::{Bound, Polygon, Region, RegionKind, RegionOptions, Vertex, region, region_while};

@@ -4,8 +4,9 @@ use super::event::MachineStart;
 use crate::machine::{Machine, StopLaw};
 use crate::math::{dot, sin_cos};
 
-/// The largest number of rounds over all stops; stops that are independent need one, and one more against rounding.
-const ROUNDS: u32 = 16;
+/// The largest number of rounds over all stops. Independent stops need one; of stops that move each other, each round leaves a part
+/// of the gap.
+const ROUNDS: u32 = 256;
 
 impl MachineStart {
     /// The same start if it lies beyond no rigid stop; else with coordinates that lie on the stops that it was beyond. Each

@@ -8,7 +8,7 @@ use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
 use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
 use vibroimpact::{Oscillator, Parameter, Start};
 
-fn of(osc: &Oscillator) -> Machine {
+pub(crate) fn of(osc: &Oscillator) -> Machine {
     let parts = MachineParts::new(["mass"])
         .with_mass(0, 1.0)
         .with_link(&[1.0], 1.0, 2.0 * osc.damping())
@@ -59,8 +59,17 @@ fn the_same_events() {
     }
 }
 
+/// Numbers between 0 and 1.
+pub(crate) fn sequence() -> impl FnMut() -> f64 {
+    let mut state = 5_u64;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
+    }
+}
+
 /// A machine of two coordinates with one stop of each kind.
-fn random_machine(case: usize, random: &mut impl FnMut() -> f64) -> Machine {
+pub(crate) fn random_machine(case: usize, random: &mut impl FnMut() -> f64) -> Machine {
     let parts = MachineParts::new(["a", "b"])
         .with_mass(0, 1.0)
         .with_mass(1, 0.5 + random())
@@ -84,11 +93,7 @@ fn random_machine(case: usize, random: &mut impl FnMut() -> f64) -> Machine {
 /// it is stable, and leave it otherwise.
 #[test]
 fn simulation_beside_events() {
-    let mut state = 5_u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
-    };
+    let mut random = sequence();
     let options = SettleOptions::default();
     let mut confirmed = std::collections::BTreeMap::new();
     for case in 0..7 {
@@ -163,11 +168,7 @@ fn doubled_beside_a_flip() {
 /// to the cycle leave it; beyond both they settle into it.
 #[test]
 fn torus_bifurcations() {
-    let mut state = 5_u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
-    };
+    let mut random = sequence();
     let machines: Vec<Machine> = (0..34).map(|case| random_machine(case, &mut random)).collect();
     let options = SettleOptions::default();
     let (mut found, mut inside, mut outside) = (0, 0, 0);

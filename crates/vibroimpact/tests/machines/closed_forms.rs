@@ -15,7 +15,7 @@ fn soft(stiffness: f64, damping: f64) -> StopLaw {
 }
 
 /// A ball on a table that moves with acceleration Gamma times gravity.
-fn ball(gamma: f64, e: f64) -> Machine {
+pub(crate) fn ball(gamma: f64, e: f64) -> Machine {
     let mut parts = MachineParts::new(["height"])
         .with_mass(0, 1.0)
         .with_constant(0, -1.0)

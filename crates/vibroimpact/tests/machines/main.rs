@@ -7,6 +7,8 @@ mod case;
 #[cfg(test)]
 mod closed_forms;
 #[cfg(test)]
+mod curves;
+#[cfg(test)]
 mod quantities;
 #[cfg(test)]
 mod samples;

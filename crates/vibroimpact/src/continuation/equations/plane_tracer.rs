@@ -30,10 +30,26 @@ impl PlaneTracer {
     ) -> Option<Self> {
         plane.weigh(&w);
         let along = tangent(&plane, &w, row)?;
-        let step = StepLength { now: (0.1 * longest).min(FIRST), longest, shortest: SHORTEST };
-        Self::new(PlaneProblem { plane, watched }, w, along, step)
+        Self::new(PlaneProblem { plane, watched }, w, along, first_step(longest))
     }
 }
+
+/// The length of the first step of a curve whose steps have at most this length.
+pub(crate) fn first_step(longest: f64) -> StepLength {
+    StepLength { now: (0.1 * longest).min(FIRST), longest, shortest: SHORTEST }
+}
+
+/// The rules for steps along curves in a plane.
+pub(crate) const PLANE_RULES: StepRules = StepRules {
+    stray: 0.2,
+    rounding: 0.0,
+    bend: 0.98,
+    straight: 0.998,
+    few: 4,
+    many: u32::MAX,
+    zero: 1e-9,
+    beside: 0.0,
+};
 
 impl Equations for PlaneProblem {
     fn weights(&self) -> &[f64] {
@@ -49,16 +65,7 @@ impl Problem for PlaneProblem {
     type Known = ();
 
     fn rules(&self) -> StepRules {
-        StepRules {
-            stray: 0.2,
-            rounding: 0.0,
-            bend: 0.98,
-            straight: 0.998,
-            few: 4,
-            many: u32::MAX,
-            zero: 1e-9,
-            beside: 0.0,
-        }
+        PLANE_RULES
     }
 
     fn tests(&self) -> usize {

@@ -7,12 +7,12 @@
 
 use super::beginning::{begun, last, traced};
 use super::change::Difference;
+use super::closest::closest;
 use super::equations::MachineEquations;
 use super::problem::{MachineProblem, MachineSolution};
 use crate::continuation::branches::BranchOptions;
 use crate::continuation::trace::equations::{Equations, correct, tangent};
 use crate::continuation::trace::tracer::Tracer;
-use crate::events::Place;
 use crate::machine::{Machine, StopLaw};
 use crate::orbit::{MachineCycle, MachineFrame, MachineRing, RingEvent};
 use crate::regime::GuardKind;
@@ -38,7 +38,7 @@ pub(super) fn beyond(
         }
         _ => None,
     };
-    through_grazing.or_else(|| replayed(tracer, at, options))
+    through_grazing.or_else(|| replayed(tracer, at, (options, false)))
 }
 
 /// The problem with another ring at the same machine.
@@ -89,38 +89,12 @@ fn appearing(
     options: &BranchOptions,
 ) -> Option<Tracer<MachineProblem>> {
     let frame = MachineFrame::new(machine);
-    let frequency = machine.parts().frequency?;
     let m = ring.len();
     let leg = (before + m - 1) % m;
-    let from = ring.place(leg);
-    let structure = frame.structure(&from.states)?;
-    let time = ring.time(leg, frequency);
-    // the lowest point of the gap on this flight
-    let gap = |s: f64| {
-        let place = frame.moved(&from, &structure, s);
-        let turns = place.turns(&frame.normal);
-        let (gap, rate, ..) = place.gap(&frame.normal, &turns, stop);
-        (gap, rate, place)
-    };
-    let count = 400_u32;
-    let steps: Vec<(f64, f64)> =
-        (0..=count).map(|k| time * f64::from(k) / f64::from(count)).map(|s| (s, gap(s).1)).collect();
-    let turning = steps.windows(2).filter(|pair| pair[0].1 < 0.0 && pair[1].1 >= 0.0);
-    let lowest = turning
-        .map(|pair| {
-            let (mut low, mut high) = (pair[0].0, pair[1].0);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if gap(middle).1 < 0.0 { low = middle } else { high = middle }
-            }
-            0.5 * (low + high)
-        })
-        .min_by(|a, b| gap(*a).0.total_cmp(&gap(*b).0))?;
-    let mut place: Place = gap(lowest).2;
-    place.phase = ring.theta(leg) + frequency * lowest;
+    let (_, place) = closest(&frame, ring, (leg, stop))?;
     let event = RingEvent {
         guard: GuardKind::Gap(stop),
-        after: from.states.clone(),
+        after: place.states.clone(),
         pushed: vec![(stop, false)],
         back: place.surfaces.iter().map(Option::is_some).collect(),
     };
@@ -165,11 +139,11 @@ fn disappearing(
 /// How far beyond a change the motion is followed, in the scale of the number.
 const BESIDE: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-2];
 
-/// The cycle a little beyond, from the last one.
+/// The cycle a little beyond, from the last one. Beyond a `corner` its events may be the same in cyclic order.
 pub(super) fn replayed(
     tracer: &Tracer<MachineProblem>,
     at: &MachineSolution,
-    options: &BranchOptions,
+    (options, corner): (&BranchOptions, bool),
 ) -> Option<Tracer<MachineProblem>> {
     let equations = &tracer.problem.equations;
     let (machine, ring) = equations.split(&at.w)?;
@@ -190,7 +164,7 @@ pub(super) fn replayed(
                 continue;
             }
             let Some(next) = MachineRing::of(&frame, cycle.strobes.first()?, ring.periods) else { continue };
-            if same_signature(&next, &ring) {
+            if same_signature(&next, &ring) && !(corner && up == forward) {
                 continue;
             }
             let w = MachineEquations::join(&moved, &next, there);

@@ -2,7 +2,8 @@
 
 use super::beginning::{begun, last};
 use super::beyond::{beyond, replayed};
-use super::change::{Difference, difference};
+use super::change::{Difference, difference, place};
+use super::edge::edge;
 use super::equations::MachineEquations;
 use super::family::MachineFamily;
 use super::point::{MachineBranchEvent, MachinePoint};
@@ -13,6 +14,9 @@ use crate::orbit::{MachineCycle, MachineFrame, MachineRing};
 use core::ops::RangeInclusive;
 use std::collections::VecDeque;
 use thiserror::Error;
+
+/// Events with phases that differ by less, where no further step converges, happen at the same time.
+const TOGETHER: f64 = 1e-6;
 
 /// Why a branch of a machine cannot begin.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -80,7 +84,7 @@ impl MachineBranch {
         let tracer = begun(problem, &w, value, up, options).ok_or(MachineBranchError::NoCycle)?;
         let first = Self::point(&tracer.here, None).ok_or(MachineBranchError::NoCycle)?;
         let begin = Some(tracer.here.clone());
-        Ok(Self { options, tracer, begin, passed: Vec::new(), count: 0, pending: VecDeque::from([first]), over: false })
+        Ok(Self { options, tracer, begin, passed: Vec::new(), count: 1, pending: VecDeque::from([first]), over: false })
     }
 
     fn point(at: &MachineSolution, event: Option<MachineBranchEvent>) -> Option<MachinePoint> {
@@ -88,7 +92,11 @@ impl MachineBranch {
         Some(MachinePoint { value: last(&at.w), cycle, event })
     }
 
+    /// Adds a point. An ordinary one with which the largest number is reached ends the branch.
     fn add(&mut self, at: &MachineSolution, event: Option<MachineBranchEvent>) {
+        let last_one = event.is_none() && self.count + 1 >= self.options.points;
+        let event = if last_one { Some(MachineBranchEvent::StepLimit) } else { event };
+        self.over |= last_one;
         // at an event rounding can make a solution inadmissible: the cycle of the last point stands for it
         let cycle = at.known.cycle.clone().or_else(|| self.tracer.here.known.cycle.clone());
         if let Some(cycle) = cycle {
@@ -109,12 +117,25 @@ impl MachineBranch {
         }
         match self.tracer.step() {
             Some(step) => self.go_through(step),
-            None => match replayed(&self.tracer, &here, &self.options) {
+            None => {
                 // the events change so close by that no step ends before
-                Some(next) => self.go_on(&here, MachineBranchEvent::Change { place: None }, next),
-                None => self.end(&here, MachineBranchEvent::NoConvergence),
-            },
+                let corner = self.meeting(&here);
+                let event = corner.unwrap_or(MachineBranchEvent::Change { place: None });
+                match replayed(&self.tracer, &here, (&self.options, corner.is_some())) {
+                    Some(next) => self.go_on(&here, event, next),
+                    None => self.end(&here, MachineBranchEvent::NoConvergence),
+                }
+            }
         }
+    }
+
+    /// The corner at a solution at which two events happen at the same time.
+    fn meeting(&self, here: &MachineSolution) -> Option<MachineBranchEvent> {
+        let (machine, ring) = self.tracer.problem.equations.split(&here.w)?;
+        let (stops, m) = (machine.stops().len(), ring.len());
+        let of = |k: usize| place(ring.events[k % m].guard, stops);
+        let at = (0..m).find(|k| ring.theta(k + 1) - ring.theta(*k) < TOGETHER && of(*k) != of(k + 1))?;
+        Some(MachineBranchEvent::Corner { first: of(at), second: of(at + 1) })
     }
 
     /// Reports the events of a step in order, up to one that changes the signature or ends the branch.
@@ -172,7 +193,7 @@ impl MachineBranch {
         let closed = self.count > 3 && self.begin.as_ref().is_some_and(|begin| self.tracer.closes(begin, &step.there));
         self.add(&step.there, closed.then_some(MachineBranchEvent::Closed));
         self.tracer.take(step.there);
-        self.over = closed;
+        self.over |= closed;
     }
 
     /// The solution at which the number turns back and a cycle repeats itself after half its period.
@@ -200,24 +221,8 @@ impl MachineBranch {
     /// The last admissible solution before an inadmissible one on a step: its distance, the solution, and how the events
     /// differ beyond it.
     fn edge(&self, step: &Step<Judged>, outside: f64) -> Option<(f64, MachineSolution, Difference)> {
-        let at = |s: f64| self.tracer.between(step, s).and_then(|w| self.tracer.solution(w));
-        let (mut low, mut high) = (0.0, outside);
-        let mut inside = self.tracer.here.clone();
-        let mut beyond =
-            if outside == step.length { Some(step.there.known.clone()) } else { at(outside).map(|at| at.known) };
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if high - low <= 1e-14 * step.length.max(1e-3) {
-                break;
-            }
-            match at(middle) {
-                Some(solution) if solution.known.physical() => (low, inside) = (middle, solution),
-                Some(solution) => (high, beyond) = (middle, Some(solution.known)),
-                None => high = middle,
-            }
-        }
-        let found = difference(&self.tracer.problem.equations.ring, &beyond?);
-        Some((low, inside, found))
+        let (s, inside, beyond) = edge(&self.tracer, step, outside, Judged::physical)?;
+        Some((s, inside, difference(&self.tracer.problem.equations.ring, &beyond)))
     }
 
     /// Reports the change of the events at `at` and goes on with the events beyond.

@@ -35,7 +35,7 @@ impl Difference {
 }
 
 /// The stop of a guard, or the joint, counted after the stops.
-fn place(guard: GuardKind, stops: usize) -> usize {
+pub(crate) fn place(guard: GuardKind, stops: usize) -> usize {
     match guard {
         GuardKind::Gap(j)
         | GuardKind::Depth(j)
@@ -47,7 +47,7 @@ fn place(guard: GuardKind, stops: usize) -> usize {
 }
 
 /// The first difference between a signature and the events of the motion from one of its solutions.
-pub(super) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
+pub(crate) fn difference(ring: &MachineRing, judged: &Judged) -> Difference {
     let m = ring.len();
     let stops = ring.events.first().map_or(0, |event| event.back.len());
     if let Some(at) = judged.rising {

@@ -1,6 +1,7 @@
 //! The equations of a cycle of a machine with one of its numbers among the unknowns.
 
 use super::family::MachineFamily;
+use super::linear;
 use crate::continuation::trace::equations::Equations;
 use crate::events::StateShape;
 use crate::machine::Machine;
@@ -25,20 +26,7 @@ impl MachineEquations {
         sizes: (f64, f64),
         scale: f64,
     ) -> Self {
-        #[allow(clippy::cast_precision_loss)] // a few dozen
-        let m = ring.len() as f64;
-        let width = StateShape::of(machine).size() + 1;
-        let n = machine.n();
-        let weight = |i: usize| {
-            let size = match i {
-                0 => 1.0,
-                i if i <= n => sizes.0,
-                i if i <= 2 * n => sizes.1,
-                _ => sizes.0,
-            };
-            1.0 / (m * size * size).max(f64::MIN_POSITIVE)
-        };
-        let mut weights: Vec<f64> = (0..ring.len() * width).map(|i| weight(i % width)).collect();
+        let mut weights = linear::weights(machine, &ring, sizes);
         weights.push(1.0 / (scale * scale));
         Self { family, ring, weights, scale }
     }
@@ -65,33 +53,7 @@ impl MachineEquations {
         let (machine, ring) = self.split(&other)?;
         ring.misses(&MachineFrame::new(&machine))
     }
-
-    /// The derivatives of all residuals by the number, from differences of the fourth order whose own error is about
-    /// 1e-12 of the largest terms.
-    fn by_number(&self, w: &[f64]) -> Option<Vec<f64>> {
-        let value = *w.last()?;
-        let mut h = STEP * self.scale.min(value.abs().max(0.1 * self.scale));
-        for _ in 0..8 {
-            let at = |k: f64| self.misses(w, value + k * h);
-            if let (Some(a), Some(b), Some(c), Some(d)) = (at(1.0), at(-1.0), at(2.0), at(-2.0)) {
-                let slope = |i: usize| (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * h);
-                return Some((0..a.len()).map(slope).collect());
-            }
-            // beside the end of the allowed numbers: one-sided differences of the second order
-            for side in [1.0, -1.0] {
-                if let (Some(a), Some(b), Some(c)) = (at(0.0), at(0.05 * side), at(0.1 * side)) {
-                    let slope = |i: usize| side * (4.0 * b[i] - 3.0 * a[i] - c[i]) / (0.1 * h);
-                    return Some((0..a.len()).map(slope).collect());
-                }
-            }
-            h *= 0.1;
-        }
-        None
-    }
 }
-
-/// The step of the differences, relative to the scale of the number.
-const STEP: f64 = 1e-3;
 
 impl Equations for MachineEquations {
     fn weights(&self) -> &[f64] {
@@ -100,23 +62,11 @@ impl Equations for MachineEquations {
 
     fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let (machine, ring) = self.split(w)?;
-        let blocks = ring.blocks(&MachineFrame::new(&machine))?;
+        let (miss, mut rows) = linear::linearised(&MachineFrame::new(&machine), &ring, w)?;
         let length = w.len();
-        let mut rows = vec![0.0; length * length];
-        ring.fill(&mut rows, length, &blocks);
-        for (row, slope) in self.by_number(w)?.into_iter().enumerate() {
+        let slopes = linear::by_number(|value| self.misses(w, value), (*w.last()?, self.scale))?;
+        for (row, slope) in slopes.into_iter().enumerate() {
             rows[row * length + length - 1] = slope;
-        }
-        let mut miss: Vec<f64> = blocks.into_iter().flat_map(|block| block.miss).collect();
-        // the sizes of surfaces that do not stand back are 0
-        let (m, n) = (ring.len(), machine.n());
-        let shape = StateShape::of(&machine);
-        let width = shape.size() + 1;
-        for (k, event) in ring.events.iter().enumerate() {
-            for (s, _) in shape.surfaces.iter().enumerate().filter(|(_, j)| !event.back[**j]) {
-                let place = 1 + 2 * n + s;
-                miss[((k + m - 1) % m) * width + place] -= w[k * width + place];
-            }
         }
         Some((miss, rows))
     }

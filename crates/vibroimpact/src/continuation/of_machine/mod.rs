@@ -3,11 +3,14 @@
 //! | idea | file |
 //! |---|---|
 //! | a machine as a function of one number | [`MachineFamily`] |
+//! | what these equations share with those of curves | `linear` |
 //! | the equations of all events, with a number of the machine among the unknowns | `equations` |
 //! | the problem that the tracer solves: test functions, admissible solutions | `problem` |
 //! | a point of a branch, and its events | [`MachinePoint`], [`MachineBranchEvent`] |
 //! | where a tracer begins | `beginning` |
 //! | how the events of a motion differ from those of a signature | `change` |
+//! | where the solutions along a step cease to be admissible | `edge` |
+//! | where a flight comes closest to a stop | `closest` |
 //! | the branch beyond such a change | `beyond` |
 //! | the cycle of twice the period beside a flip | `switch` |
 //! | the branch | [`MachineBranch`] |
@@ -16,12 +19,20 @@ mod beginning;
 mod beyond;
 mod branch;
 mod change;
+mod closest;
+mod edge;
 mod equations;
 mod family;
+mod linear;
 mod point;
 mod problem;
 mod switch;
 
 pub use branch::{MachineBranch, MachineBranchError};
+pub(crate) use change::{Difference, difference, place};
+pub(crate) use closest::closest;
+pub(crate) use edge::edge;
 pub use family::MachineFamily;
+pub(crate) use linear::{by_number, linearised, weights};
 pub use point::{MachineBranchEvent, MachinePoint};
+pub(crate) use problem::{CLOSED, Judged, judge, over_pairs};

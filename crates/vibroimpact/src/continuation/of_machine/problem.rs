@@ -54,7 +54,7 @@ impl Equations for MachineProblem {
 }
 
 /// A motion with the same events that misses its beginning by more than this is another one.
-const CLOSED: f64 = 1e-5;
+pub(crate) const CLOSED: f64 = 1e-5;
 
 /// The determinant of a matrix with `shift` added on its diagonal.
 fn shifted_determinant(matrix: &Matrix, shift: f64) -> f64 {
@@ -63,6 +63,21 @@ fn shifted_determinant(matrix: &Matrix, shift: f64) -> f64 {
         other[(i, i)] += shift;
     }
     Lu::new(other.values().to_vec(), other.rows()).map_or(0.0, |lu| lu.determinant())
+}
+
+/// The product over all pairs of multipliers of their product less 1: it changes its sign where a product of two is 1.
+pub(crate) fn over_pairs(multipliers: &[Multiplier]) -> f64 {
+    let mut torus = 1.0;
+    for (i, a) in multipliers.iter().enumerate() {
+        for b in &multipliers[i + 1..] {
+            let (re, im) = (a.re * b.re - a.im * b.im - 1.0, a.re * b.im + a.im * b.re);
+            // two factors that are conjugate are positive together
+            let conjugate = a.im != 0.0 && b.im != 0.0 && !(a.re == b.re && a.im == -b.im);
+            let factor = if im == 0.0 && !conjugate { re } else { crate::math::hypot(re, im) };
+            torus *= factor.clamp(-1e3, 1e3);
+        }
+    }
+    torus
 }
 
 impl MachineProblem {
@@ -79,47 +94,37 @@ impl MachineProblem {
         let turn = MachineRing::monodromy(&blocks)?;
         let mut multipliers = general_eigenvalues(&turn)?;
         let even = if turn.rows().is_multiple_of(2) { 1.0 } else { -1.0 };
-        // the product over all pairs changes its sign where a product of two multipliers is 1
-        let mut torus = 1.0;
-        for (i, a) in multipliers.iter().enumerate() {
-            for b in &multipliers[i + 1..] {
-                let (re, im) = (a.re * b.re - a.im * b.im - 1.0, a.re * b.im + a.im * b.re);
-                // two factors that are conjugate are positive together
-                let conjugate = a.im != 0.0 && b.im != 0.0 && !(a.re == b.re && a.im == -b.im);
-                let factor = if im == 0.0 && !conjugate { re } else { crate::math::hypot(re, im) };
-                torus *= factor.clamp(-1e3, 1e3);
-            }
-        }
+        let torus = over_pairs(&multipliers);
         let pace = tangent.last().map_or(0.0, |last| last / self.equations.scale);
         let values = vec![pace, even * shifted_determinant(&turn, -1.0), shifted_determinant(&turn, 1.0), torus];
         multipliers.truncate(2 * frame.shape.n);
         Some((values, multipliers, rising))
     }
+}
 
-    /// The motion from the middle of the longest flight over one period, and the cycle if its events are those of the
-    /// ring.
-    fn judge(
-        frame: &MachineFrame<'_>,
-        ring: &MachineRing,
-        (multipliers, rising): (Vec<Multiplier>, Option<usize>),
-    ) -> Judged {
-        let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: 0, rising };
-        let Some((from, begin)) = ring.middle(frame) else { return nothing(multipliers) };
-        let Some(time) = frame.machine.period().map(|period| period * f64::from(ring.periods)) else {
-            return nothing(multipliers);
-        };
-        let Some(lap) = MachineLap::fly(frame, &begin, time) else { return nothing(multipliers) };
-        let seen: Vec<RingEvent> =
-            lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
-        let m = ring.len();
-        let alike = seen.len() == m && (0..m).all(|i| seen[i] == ring.events[(from + 1 + i) % m]);
-        let residual = crate::orbit::machine_distance(&begin, &lap.end, lap.sizes);
-        let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| MachineCycle {
-            multipliers: multipliers.clone(),
-            ..MachineCycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])
-        });
-        Judged { cycle, multipliers, seen, from, rising }
-    }
+/// The motion from the middle of the longest flight over one period, and the cycle if its events are those of the
+/// ring.
+pub(crate) fn judge(
+    frame: &MachineFrame<'_>,
+    ring: &MachineRing,
+    (multipliers, rising): (Vec<Multiplier>, Option<usize>),
+) -> Judged {
+    let nothing = |multipliers| Judged { cycle: None, multipliers, seen: Vec::new(), from: 0, rising };
+    let Some((from, begin)) = ring.middle(frame) else { return nothing(multipliers) };
+    let Some(time) = frame.machine.period().map(|period| period * f64::from(ring.periods)) else {
+        return nothing(multipliers);
+    };
+    let Some(lap) = MachineLap::fly(frame, &begin, time) else { return nothing(multipliers) };
+    let seen: Vec<RingEvent> =
+        lap.steps[..lap.steps.len() - 1].iter().filter_map(|step| RingEvent::of(&step.2)).collect();
+    let m = ring.len();
+    let alike = seen.len() == m && (0..m).all(|i| seen[i] == ring.events[(from + 1 + i) % m]);
+    let residual = crate::orbit::machine_distance(&begin, &lap.end, lap.sizes);
+    let cycle = (alike && rising.is_none() && residual < CLOSED).then(|| MachineCycle {
+        multipliers: multipliers.clone(),
+        ..MachineCycle::of(frame, (&begin, ring.periods), &lap, residual, vec![begin.clone()])
+    });
+    Judged { cycle, multipliers, seen, from, rising }
 }
 
 impl Problem for MachineProblem {
@@ -137,7 +142,7 @@ impl Problem for MachineProblem {
         let (machine, ring) = self.equations.split(w)?;
         let frame = MachineFrame::new(&machine);
         let (values, multipliers, rising) = self.values(&frame, &ring, tangent)?;
-        Some((values, Self::judge(&frame, &ring, (multipliers, rising))))
+        Some((values, judge(&frame, &ring, (multipliers, rising))))
     }
 
     fn test(&self, j: usize, w: &[f64], tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {

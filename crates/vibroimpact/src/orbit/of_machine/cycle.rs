@@ -173,8 +173,12 @@ impl MachineCycle {
         }
         let counts: Vec<u32> = (0..frame.machine.stops().len())
             .map(|j| {
-                let own =
-                    lap.events.iter().filter(|event| event.closes() && (event.place == j || event.with.contains(&j)));
+                // stops that are struck at the same time have an event each
+                let own = |event: &&MachineEvent| {
+                    let struck = |other: &MachineEvent| other.closes() && other.place == j && other.time == event.time;
+                    event.closes() && (event.place == j || event.with.contains(&j) && !lap.events.iter().any(struck))
+                };
+                let own = lap.events.iter().filter(own);
                 u32::try_from(own.count()).unwrap_or(u32::MAX)
             })
             .collect();

@@ -1,5 +1,6 @@
 //! Periodic motions of a machine with a label, stable or not, from many guesses.
 
+use super::border::on_border;
 use super::cycle::MachineCycle;
 use super::frame::MachineFrame;
 use crate::events::{MachineLimits, MachineMotion, MachineStart};
@@ -13,9 +14,14 @@ const SAME: f64 = 1e-6;
 /// The largest number of events of the motion from one start.
 const EVENTS: usize = 20_000;
 
+/// The largest number of stable orbits between which further guesses lie.
+const BETWEEN: usize = 4;
+
 /// The orbits of `machine` with the label `label` to which Newton's method leads from the motions from `starts`, the fastest
-/// last; stopped when `go_on` returns false, and then `None`. A start that is not allowed is passed over, and an orbit to
-/// which no guess leads is not found.
+/// last; stopped when `go_on` returns false, and then `None`. A start that is not allowed is passed over.
+///
+/// Further guesses lie on the border between the motions that lead to two stable orbits of as many forcing periods, whatever
+/// their number of impacts. An orbit to which no guess leads is not found.
 #[must_use]
 pub fn find_machine_while(
     machine: &Machine,
@@ -24,8 +30,9 @@ pub fn find_machine_while(
     go_on: impl Fn() -> bool,
 ) -> Option<Vec<MachineCycle>> {
     let frame = MachineFrame::new(machine);
-    let mut found: Vec<MachineCycle> = Vec::new();
-    let Some(period) = machine.period() else { return Some(found) };
+    // of all labels of as many periods
+    let mut known: Vec<MachineCycle> = Vec::new();
+    let Some(period) = machine.period() else { return Some(known) };
     for start in starts {
         let Ok(mut motion) = MachineMotion::new(machine, &start, MachineLimits::default()) else { continue };
         let mut seen = 0;
@@ -37,14 +44,28 @@ pub fn find_machine_while(
             if !go_on() {
                 return None;
             }
-            if let Some(cycle) = MachineCycle::near(&frame, motion.place(), label.periods)
-                && cycle.label == label
-                && !found.iter().any(|known| known.same_as(&cycle, SAME))
-            {
-                found.push(cycle);
-            }
+            learn(&mut known, MachineCycle::near(&frame, motion.place(), label.periods));
         }
     }
+    let stable: Vec<MachineCycle> = known.iter().filter(|cycle| cycle.stable()).take(BETWEEN).cloned().collect();
+    for (i, j) in (0..stable.len()).flat_map(|i| (0..i).map(move |j| (i, j))) {
+        for guess in on_border(&frame, (&stable[i], &stable[j]), &go_on) {
+            if !go_on() {
+                return None;
+            }
+            learn(&mut known, MachineCycle::near(&frame, &guess, label.periods));
+        }
+    }
+    let mut found: Vec<MachineCycle> = known.into_iter().filter(|cycle| cycle.label == label).collect();
     found.sort_by(|a, b| a.fastest().total_cmp(&b.fastest()));
     Some(found)
+}
+
+/// Adds a cycle that is new.
+fn learn(known: &mut Vec<MachineCycle>, cycle: Option<MachineCycle>) {
+    if let Some(cycle) = cycle
+        && !known.iter().any(|other| other.same_as(&cycle, SAME))
+    {
+        known.push(cycle);
+    }
 }

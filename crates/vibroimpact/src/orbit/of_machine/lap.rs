@@ -22,10 +22,13 @@ pub(crate) struct MachineLap {
 /// The largest number of steps of a lap.
 const STEPS: usize = 100_000;
 
+/// How far flights are followed, in units of the time of the lap.
+const BEYOND: f64 = 1.25;
+
 impl MachineLap {
     /// The motion from `begin` over a time. `None` if it ends before.
     pub(crate) fn fly(frame: &MachineFrame<'_>, begin: &Place, time: f64) -> Option<Self> {
-        let mut motion = frame.resume(begin.clone());
+        let mut motion = frame.resume(begin.clone()).limited(BEYOND * time);
         let mut derivative = Some(Matrix::identity(frame.shape.size()));
         let mut steps: Vec<(f64, Place, Passage)> = Vec::new();
         let mut events = Vec::new();

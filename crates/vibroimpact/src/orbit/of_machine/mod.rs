@@ -5,9 +5,11 @@
 //! | a machine and the structures of its regimes | `frame` |
 //! | the motion over a time, with its derivative | `lap` |
 //! | the events of a cycle as unknowns, and their equations | `ring` |
+//! | guesses of unstable ones between two that are stable | `border` |
 //! | all with a label, from many guesses | [`find_machine_while`] |
 //! | a cycle, by Newton's method on the state between two events | [`MachineCycle`] |
 
+mod border;
 mod cycle;
 mod find;
 mod frame;

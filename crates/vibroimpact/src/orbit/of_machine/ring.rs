@@ -35,6 +35,16 @@ pub(crate) struct RingEvent {
 }
 
 impl RingEvent {
+    /// A touch of a stop at which the motion goes on as if the stop were not there; `after` are the states on both sides.
+    pub(crate) fn touch(stop: usize, after: &[ContactState], back: Vec<bool>) -> Self {
+        Self { guard: GuardKind::Gap(stop), after: after.to_vec(), pushed: Vec::new(), back }
+    }
+
+    /// Whether nothing happens at it, where `before` are the states before.
+    fn touches(&self, before: &[ContactState]) -> bool {
+        matches!(self.guard, GuardKind::Gap(_)) && self.pushed.is_empty() && self.after == before
+    }
+
     /// The event at the end of a step; `None` if there is none.
     pub(crate) fn of(passage: &Passage) -> Option<Self> {
         let after = passage.after.as_ref()?;
@@ -54,6 +64,8 @@ pub(crate) struct MachineRing {
     /// The states after the events. Their phases increase along the cycle beyond 2 pi.
     pub(crate) places: Vec<Place>,
     pub(crate) periods: u32,
+    /// An event that may come at the same time as the next one, or by rounding after it.
+    pub(crate) together: Option<usize>,
 }
 
 /// One flight of a cycle and the event at its end, to first order.
@@ -89,7 +101,7 @@ impl MachineRing {
             events.push(event);
             places.push(place);
         }
-        (!events.is_empty()).then_some(Self { events, places, periods })
+        (!events.is_empty()).then_some(Self { events, places, periods, together: None })
     }
 
     /// The number of events.
@@ -138,13 +150,13 @@ impl MachineRing {
     }
 
     /// The flight after event `k` and the event at its end; the derivatives only if `linear`.
-    fn block(&self, frame: &MachineFrame<'_>, k: usize, linear: bool) -> Option<MachineBlock> {
+    pub(crate) fn block(&self, frame: &MachineFrame<'_>, k: usize, linear: bool) -> Option<MachineBlock> {
         let frequency = frame.machine.parts().frequency?;
         let (mut from, next) = (self.place(k), (k + 1) % self.len());
         frame.constrain(&mut from)?;
         let event = &self.events[next];
         let time = self.time(k, frequency);
-        if !(time > 0.0 && time.is_finite()) {
+        if !((time > 0.0 || self.together == Some(k)) && time.is_finite()) {
             return None;
         }
         let structure = frame.structure(&from.states)?;
@@ -197,7 +209,12 @@ impl MachineRing {
             left.row_mut(i + 1)[1..].copy_from_slice(through.row(i));
             late.push((ended[i] + linear.reset_rate[i]) / frequency);
         }
-        let step = linear.saltation().map(|saltation| saltation.times(&transition));
+        // nothing jumps at a touch
+        let step = if event.touches(&from.states) {
+            Some(through)
+        } else {
+            linear.saltation().map(|saltation| saltation.times(&transition))
+        };
         Some(MachineBlock { miss, left, late, step })
     }
 
@@ -212,20 +229,22 @@ impl MachineRing {
         Some(blocks?.into_iter().flat_map(|block| block.miss).collect())
     }
 
-    /// Writes the derivatives of all residuals into the first columns of a matrix of rows of this length.
-    pub(crate) fn fill(&self, rows: &mut [f64], length: usize, blocks: &[MachineBlock]) {
+    /// Writes the derivatives of all residuals into the first columns of a matrix of rows of this length. After one period
+    /// the changes of the first event are multiplied by `turn`: 1 for cycles.
+    pub(crate) fn fill(&self, rows: &mut [f64], length: usize, blocks: &[MachineBlock], turn: f64) {
         let m = self.len();
         for (k, block) in blocks.iter().enumerate() {
             let width = block.late.len();
+            let turn = if k + 1 == m { turn } else { 1.0 };
             let (own, next) = (k * width, ((k + 1) % m) * width);
             for i in 0..width {
                 let row = &mut rows[(k * width + i) * length..(k * width + i + 1) * length];
                 for (j, value) in block.left.row(i).iter().enumerate() {
                     row[own + j] += value;
                 }
-                row[next] += block.late[i];
+                row[next] += turn * block.late[i];
                 if i > 0 {
-                    row[next + i] -= 1.0;
+                    row[next + i] -= turn;
                 }
             }
         }

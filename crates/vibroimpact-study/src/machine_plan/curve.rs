@@ -1,0 +1,271 @@
+//! Curves of events of an orbit of a machine in a plane of two of its numbers. A curve begins at an event on a branch in the
+//! first one.
+
+use super::orbits;
+use crate::machine::MachineSource;
+use crate::{Control, DEFAULT_BRANCH_POINTS, PlanError, RunError, Stopped};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use vibroimpact::Label;
+use vibroimpact::continuation::{
+    BranchOptions, CurveOptions, Direction, MachineBranch, MachineBranchEvent, MachineCurve, MachineCurveEvent,
+    MachineCurveKind, MachineCurvePoint, MachineFamily, MachinePlane, MachinePoint,
+};
+use vibroimpact::events::MachineStart;
+use vibroimpact::machine::Machine;
+
+/// What holds along a curve of a machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MachineFollowedEvent {
+    /// A multiplier is +1 and the numbers turn.
+    Fold,
+    /// A multiplier is -1.
+    Flip,
+    /// A pair of complex multipliers lies on the unit circle.
+    Torus,
+    /// A stop is touched with speed zero.
+    Grazing,
+    /// Two events happen at the same time.
+    Corner,
+}
+
+impl MachineFollowedEvent {
+    /// Its name in plans and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::Flip => "flip",
+            Self::Torus => "torus",
+            Self::Grazing => "grazing",
+            Self::Corner => "corner",
+        }
+    }
+
+    const fn is(self, event: MachineBranchEvent) -> bool {
+        match self {
+            Self::Fold => matches!(event, MachineBranchEvent::Fold),
+            Self::Flip => matches!(event, MachineBranchEvent::Flip),
+            Self::Torus => matches!(event, MachineBranchEvent::Torus),
+            Self::Grazing => {
+                matches!(event, MachineBranchEvent::Grazing { .. } | MachineBranchEvent::LossOfContact { .. })
+            }
+            Self::Corner => matches!(event, MachineBranchEvent::Corner { .. }),
+        }
+    }
+}
+
+/// A number of a machine and its range.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineStretch {
+    /// The path of the number.
+    pub path: String,
+    /// Its smallest value.
+    pub from: f64,
+    /// Its largest value.
+    pub to: f64,
+}
+
+/// A curve of an event of an orbit over two numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineCurvePlan {
+    /// The label of the orbit at the machine; that of the motion from the start when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// What holds along the curve.
+    pub kind: MachineFollowedEvent,
+    /// The number in which the orbit is followed to the event, and its range.
+    pub vary: MachineStretch,
+    /// The other one.
+    pub and: MachineStretch,
+    /// Which of the events of that kind, counted from 1 from small values to large; the nearest when absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub event: Option<u32>,
+    /// The largest number of points in each direction: 2 to 100000.
+    #[serde(default = "points")]
+    pub points: u32,
+}
+
+const fn points() -> u32 {
+    DEFAULT_BRANCH_POINTS
+}
+
+/// A curve, followed in both directions from the event at which it begins.
+#[derive(Clone, Debug)]
+pub struct MachineEventCurve {
+    /// The label of the orbit whose branch contains the event.
+    pub label: Label,
+    /// What holds along the curve, with the stop or the events.
+    pub kind: MachineCurveKind,
+    /// The events of the requested kind on its branch, in order of rising values.
+    pub events: Vec<MachinePoint>,
+    /// Index of the event through which the curve passes.
+    pub through: usize,
+    /// The points of the curve from one end to the other.
+    pub points: Vec<MachineCurvePoint>,
+    /// Index of the event among the points.
+    pub begin: usize,
+}
+
+/// The longest step: longer than that of the oscillator, because a point takes more work.
+const LONGEST: f64 = 0.1;
+
+impl MachineCurvePlan {
+    /// Checks the label, both numbers and their ranges.
+    pub(super) fn check(&self, source: &MachineSource, machine: &Machine) -> Result<(), PlanError> {
+        orbits::label(machine, self.label.as_deref().unwrap_or("1/1"))?;
+        let Self { vary, and, points, .. } = self;
+        for MachineStretch { path, from, to } in [vary, and] {
+            let value = source.number(path).map_err(PlanError::from)?;
+            let (path, from, to) = (path.clone(), *from, *to);
+            if !(from.is_finite() && to.is_finite() && from < to) {
+                return Err(PlanError::MachineStretch { path, from, to });
+            }
+            if !(from..=to).contains(&value) {
+                return Err(PlanError::MachineOutside { path, value, from, to });
+            }
+        }
+        if vary.path == and.path {
+            return Err(PlanError::MachineAxisTwice(vary.path.clone()));
+        }
+        if !(2..=100_000).contains(points) {
+            return Err(PlanError::BranchPoints { given: *points, most: 100_000 });
+        }
+        for p in [vary.from, vary.to] {
+            for q in [and.from, and.to] {
+                source.with(&vary.path, p)?.with(&and.path, q)?.machine()?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Follows an orbit in the first number to an event, and then follows the event in the plane.
+pub(super) fn curve(
+    source: &MachineSource,
+    (machine, start): (&Machine, &MachineStart),
+    asked: &MachineCurvePlan,
+    control: &Control<'_>,
+) -> Result<MachineEventCurve, RunError> {
+    let MachineCurvePlan { vary, and, .. } = asked;
+    let label = asked.label.as_deref().map(|label| orbits::label(machine, label)).transpose()?;
+    let cycle = orbits::chosen((machine, start), label, control)?;
+    let label = cycle.label;
+    let stopped = |done| if control.stopping() { Err(Stopped { done, total: 2 }) } else { Ok(()) };
+    stopped(0)?;
+    let own = source.number(&vary.path).map_err(PlanError::from)?;
+    let (file, path) = (source.clone(), vary.path.clone());
+    let family = MachineFamily::new(move |value| file.with(&path, value).ok()?.machine().ok());
+    let mut events: Vec<MachinePoint> = Vec::new();
+    for (direction, end) in [(Direction::Up, vary.to), (Direction::Down, vary.from)] {
+        if own == end {
+            continue;
+        }
+        let range = vary.from..=vary.to;
+        let branch = MachineBranch::new((&family, own), &cycle, &range, direction, BranchOptions::default())
+            .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
+        for point in branch.take_while(|point| point.cycle.label == label && !control.stopping()) {
+            let known = |other: &MachinePoint| (other.value - point.value).abs() <= 1e-9 * (1.0 + point.value.abs());
+            if point.event.is_some_and(|event| asked.kind.is(event)) && !events.iter().any(known) {
+                events.push(point);
+            }
+        }
+    }
+    stopped(0)?;
+    events.sort_by(|a, b| a.value.total_cmp(&b.value));
+    let off = |index: &usize| (events[*index].value - own).abs();
+    let through = match asked.event {
+        Some(given) => (given as usize).checked_sub(1).filter(|index| *index < events.len()),
+        None => (0..events.len()).min_by(|a, b| off(a).total_cmp(&off(b))),
+    };
+    let through = through.ok_or_else(|| PlanError::NoMachineEvent {
+        kind: asked.kind.name(),
+        label,
+        path: vary.path.clone(),
+        from: vary.from,
+        to: vary.to,
+        count: events.len(),
+        asked: asked.event,
+    })?;
+    let (file, one, two) = (source.clone(), vary.path.clone(), and.path.clone());
+    let plane = MachinePlane::new(
+        move |p, q| file.with(&one, p).ok()?.with(&two, q).ok()?.machine().ok(),
+        (vary.from..=vary.to, and.from..=and.to),
+    );
+    let at = (events[through].value, source.number(&and.path).map_err(PlanError::from)?);
+    let options = CurveOptions { longest: LONGEST, points: asked.points };
+    let [forth, back] = MachineCurve::through(&plane, at, &events[through], options)
+        .map_err(|error| PlanError::MachineBranch(error.to_string()))?;
+    let kind = forth.kind();
+    let forth: Vec<MachineCurvePoint> = forth.take_while(|_| !control.stopping()).collect();
+    let closed = forth.last().is_some_and(|point| point.event == Some(MachineCurveEvent::Closed));
+    // the event itself is the first point of both directions, so one copy is skipped
+    let mut points: Vec<MachineCurvePoint> =
+        if closed { Vec::new() } else { back.skip(1).take_while(|_| !control.stopping()).collect() };
+    stopped(1)?;
+    points.reverse();
+    let begin = points.len();
+    points.extend(forth);
+    Ok(MachineEventCurve { label, kind, events, through, points, begin })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::CATALOGUE;
+    use crate::{MachinePlan, MachineResults, MachineTask, run_machine};
+
+    fn plan(kind: MachineFollowedEvent, event: Option<u32>) -> MachinePlan {
+        let entry = CATALOGUE.iter().find(|entry| entry.name == "bouncing-ball").unwrap();
+        let source = entry.source().unwrap().with("Gamma", 1.2).unwrap();
+        let stretch = |path: &str, from, to| MachineStretch { path: path.to_owned(), from, to };
+        MachinePlan::new(
+            source,
+            MachineTask::Curve(MachineCurvePlan {
+                label: Some("1/1".to_owned()),
+                kind,
+                vary: stretch("Gamma", 0.2, 3.0),
+                and: stretch("e", 0.2, 0.9),
+                event,
+                points: 500,
+            }),
+        )
+    }
+
+    /// The fold of the ball on a table in closed form.
+    #[test]
+    fn the_ball_on_a_table() {
+        let plan = plan(MachineFollowedEvent::Fold, None);
+        let text = serde_json::to_string(&plan).unwrap();
+        assert_eq!(serde_json::from_str::<MachinePlan>(&text).unwrap(), plan);
+        let MachineResults::Curve(found) = run_machine(&plan, &Control::default()).unwrap() else { panic!() };
+        assert!(found.points.len() > 20 && found.points[found.begin].event.is_none());
+        for point in &found.points {
+            let (gamma, e) = point.values;
+            assert!((gamma - core::f64::consts::PI * (1.0 - e) / (1.0 + e)).abs() < 1e-9, "{gamma} {e}");
+        }
+        assert!(found.points[0].event.is_some() && found.points.last().unwrap().event.is_some());
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let told = |plan: &MachinePlan| run_machine(plan, &Control::default()).unwrap_err().to_string();
+        assert!(told(&plan(MachineFollowedEvent::Torus, None)).starts_with("no torus was found on the branch of 1/1"));
+        assert!(
+            told(&plan(MachineFollowedEvent::Flip, Some(4))).starts_with("there is no flip number 4 on the branch")
+        );
+        let changed = |of: &dyn Fn(&mut MachineStretch, &mut MachineStretch)| {
+            let mut plan = plan(MachineFollowedEvent::Fold, None);
+            let MachineTask::Curve(MachineCurvePlan { vary, and, .. }) = &mut plan.task else { panic!() };
+            of(vary, and);
+            told(&plan)
+        };
+        assert!(changed(&|_, and| and.to = 1.5).contains("restitution"), "{}", changed(&|_, and| and.to = 1.5));
+        assert!(changed(&|vary, _| vary.from = 2.0).starts_with("Gamma = 1.2 lies outside the range from 2 to 3"));
+        assert!(changed(&|vary, _| vary.to = -1.0).starts_with("Gamma from 0.2 to -1 is no range"));
+        assert!(changed(&|vary, and| *and = vary.clone()).contains("Gamma"));
+    }
+}

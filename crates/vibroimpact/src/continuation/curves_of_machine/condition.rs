@@ -1,0 +1,95 @@
+//! The condition that holds along a curve, as the zero of a function of the events and of the machine.
+
+use super::borders::Borders;
+use crate::math::{Matrix, Multiplier, general_eigenvalues, hypot};
+use crate::orbit::{MachineFrame, MachineRing};
+
+/// A condition.
+#[derive(Clone, Debug)]
+pub(super) enum Condition {
+    /// A multiplier is `turn`: +1 or -1.
+    Singular { turn: f64, borders: Borders },
+    /// The product of two multipliers is 1; `cosine` is half their sum at the last solution.
+    Pair { cosine: f64 },
+    /// The guard of this event, which is a touch, has the rate zero; rates are divided by `size`.
+    Touch { at: usize, size: f64 },
+    /// This event and the next one have the same phase.
+    Together { at: usize },
+}
+
+/// The matrix of the linear equations of a cycle whose changes return multiplied by `turn`.
+pub(super) fn turned(frame: &MachineFrame<'_>, ring: &MachineRing, turn: f64) -> Option<Matrix> {
+    let blocks = ring.blocks(frame)?;
+    let size = ring.len() * (frame.shape.size() + 1);
+    let mut rows = vec![0.0; size * size];
+    ring.fill(&mut rows, size, &blocks, turn);
+    Matrix::from_rows(&rows.chunks_exact(size).map(<[f64]>::to_vec).collect::<Vec<_>>())
+}
+
+/// The multipliers of a ring, as many as the machine has states; `None` where one is infinite.
+pub(super) fn multipliers(frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<(Matrix, Vec<Multiplier>)> {
+    let turn = MachineRing::monodromy(&ring.blocks(frame)?)?;
+    let mut all = general_eigenvalues(&turn)?;
+    all.truncate(2 * frame.shape.n);
+    Some((turn, all))
+}
+
+/// The two multipliers whose product is nearest to 1 and half whose sum is nearest to `cosine`: their places, their product
+/// less 1, and half their sum.
+pub(super) fn pair(all: &[Multiplier], cosine: f64) -> Option<((usize, usize), f64, f64)> {
+    let pairs = (0..all.len()).flat_map(|i| (i + 1..all.len()).map(move |j| (i, j)));
+    pairs
+        .filter_map(|(i, j)| {
+            let (a, b) = (all[i], all[j]);
+            let real = a.im == 0.0 && b.im == 0.0;
+            let conjugate = a.re == b.re && a.im == -b.im;
+            (real || conjugate).then_some(((i, j), a.re * b.re - a.im * b.im - 1.0, 0.5 * (a.re + b.re)))
+        })
+        .min_by(|a, b| (a.1.abs() + (a.2 - cosine).abs()).total_cmp(&(b.1.abs() + (b.2 - cosine).abs())))
+}
+
+impl Condition {
+    /// The value of the function that is zero.
+    pub(super) fn value(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<f64> {
+        match self {
+            Self::Singular { turn, borders } => Some(borders.test(&turned(frame, ring, *turn)?)?.0),
+            Self::Pair { cosine } => Some(pair(&multipliers(frame, ring)?.1, *cosine)?.1),
+            Self::Touch { at, size } => {
+                let before = (at + ring.len() - 1) % ring.len();
+                Some(ring.block(frame, before, true)?.late[0] * frame.machine.parts().frequency? / size)
+            }
+            Self::Together { at } => Some(ring.theta(at + 1) - ring.theta(*at)),
+        }
+    }
+
+    /// The condition adapted to a solution: borders at it, and half the sum of the pair.
+    pub(super) fn renewed(&self, frame: &MachineFrame<'_>, ring: &MachineRing) -> Option<Self> {
+        Some(match self {
+            Self::Singular { turn, borders } => {
+                let matrix = turned(frame, ring, *turn)?;
+                Self::Singular { turn: *turn, borders: borders.renewed(&matrix)? }
+            }
+            Self::Pair { cosine } => Self::Pair { cosine: pair(&multipliers(frame, ring)?.1, *cosine)?.2 },
+            other => other.clone(),
+        })
+    }
+
+    /// By how much the condition fails in a quantity with a meaning; see [`residual`](super::MachineCurvePoint::residual).
+    pub(super) fn residual(&self, frame: &MachineFrame<'_>, ring: &MachineRing, all: &[Multiplier]) -> f64 {
+        let nearest = |to: f64| all.iter().map(|m| hypot(m.re - to, m.im)).fold(f64::INFINITY, f64::min);
+        match self {
+            Self::Singular { turn, .. } => nearest(*turn),
+            Self::Pair { cosine } => pair(all, *cosine).map_or(f64::INFINITY, |(_, product, _)| 0.5 * product.abs()),
+            _ => self.value(frame, ring).map_or(f64::INFINITY, f64::abs),
+        }
+    }
+
+    /// The events between which the cycle has no equations of its own: the touch, or both events of a corner.
+    pub(super) fn special(&self, count: usize) -> Option<(usize, usize)> {
+        match self {
+            Self::Touch { at, .. } => Some((*at, *at)),
+            Self::Together { at } => Some((*at, (at + 1) % count)),
+            _ => None,
+        }
+    }
+}

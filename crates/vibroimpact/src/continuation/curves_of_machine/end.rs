@@ -1,0 +1,33 @@
+//! The reason why a curve of a machine ends where no further step converges.
+//!
+//! Steps become ever shorter towards a point at which the equations are singular. The last solution shows its kind: a flight
+//! takes no time any more, or both halves of the cycle have become equal.
+
+use super::point::{MachineCurveEvent, MachineCurveKind};
+use super::problem::{CurveProblem, CurveSolution};
+use crate::continuation::of_machine::place;
+
+/// A flight that is shorter than this, in forcing periods, takes no time.
+const SHORT: f64 = 1e-3;
+
+/// The event at the end of a curve; `None` if no reason is known.
+pub(super) fn reason(problem: &CurveProblem, here: &CurveSolution) -> Option<MachineCurveEvent> {
+    let (machine, ring) = problem.equations.split(&here.w)?;
+    let (m, stops) = (ring.len(), machine.stops().len());
+    let period = machine.period()?;
+    let frequency = machine.parts().frequency?;
+    let own = problem.equations.condition.special(m);
+    let corner = |k: usize| own.is_some_and(|(first, last)| first != last && k == first);
+    let shortest =
+        (0..m).filter(|k| !corner(*k)).min_by(|a, b| ring.time(*a, frequency).total_cmp(&ring.time(*b, frequency)))?;
+    if m > 1 && ring.time(shortest, frequency) < SHORT * period {
+        let (first, second) =
+            (place(ring.events[shortest].guard, stops), place(ring.events[(shortest + 1) % m].guard, stops));
+        return Some(match problem.kind {
+            _ if first != second || first >= stops => MachineCurveEvent::Corner { first, second },
+            MachineCurveKind::Grazing { .. } => MachineCurveEvent::DoubleGrazing { stop: first },
+            _ => MachineCurveEvent::Touch { stop: first },
+        });
+    }
+    ring.is_twice(here.known.cycle.as_ref()?.sizes).then_some(MachineCurveEvent::DegenerateFlip)
+}

@@ -1,0 +1,163 @@
+//! The equations of a cycle of a machine with two of its numbers among the unknowns, and one condition.
+
+use super::borders::Borders;
+use super::condition::{Condition, turned};
+use super::plane::MachinePlane;
+use crate::continuation::of_machine::{by_number, linearised, weights};
+use crate::continuation::trace::equations::Equations;
+use crate::events::StateShape;
+use crate::machine::Machine;
+use crate::orbit::{MachineFrame, MachineRing};
+
+/// The equations of a curve. The unknowns are phases and states of the events and, last, the two numbers.
+#[derive(Clone, Debug)]
+pub(super) struct CurveEquations {
+    pub(super) plane: MachinePlane,
+    ring: MachineRing,
+    weights: Vec<f64>,
+    pub(super) condition: Condition,
+}
+
+/// Half the width of a difference, relative to the size of the unknown.
+const DIFFERENCE: f64 = 1e-6;
+
+impl CurveEquations {
+    /// The equations for the signature of `ring`; `sizes` are the largest coordinates and velocities.
+    pub(super) fn new(
+        (machine, plane): (&Machine, MachinePlane),
+        ring: MachineRing,
+        sizes: (f64, f64),
+        condition: Condition,
+    ) -> Self {
+        let mut weights = weights(machine, &ring, sizes);
+        let scales = plane.scales();
+        weights.extend([1.0 / (scales.0 * scales.0), 1.0 / (scales.1 * scales.1)]);
+        Self { plane, ring, weights, condition }
+    }
+
+    /// The same with the condition that a multiplier is `turn`, with borders at the cycle itself.
+    pub(super) fn singular(mut self, machine: &Machine, turn: f64) -> Option<Self> {
+        let matrix = turned(&MachineFrame::new(machine), &self.ring, turn)?;
+        let columns = self.sizes(matrix.rows());
+        self.condition = Condition::Singular { turn, borders: Borders::new(&matrix, columns, None)? };
+        Some(self)
+    }
+
+    /// The sizes of the first unknowns.
+    fn sizes(&self, count: usize) -> Vec<f64> {
+        self.weights[..count].iter().map(|weight| 1.0 / weight.sqrt()).collect()
+    }
+
+    /// The values of the two numbers.
+    pub(super) fn values(w: &[f64]) -> (f64, f64) {
+        (w[w.len() - 2], w[w.len() - 1])
+    }
+
+    /// The vector of unknowns of a ring and two values.
+    pub(super) fn join(machine: &Machine, ring: &MachineRing, (p, q): (f64, f64)) -> Vec<f64> {
+        let mut w = ring.unknowns(&StateShape::of(machine));
+        w.extend([p, q]);
+        w
+    }
+
+    /// The machine and the ring that belong to these unknowns; `None` if the numbers are not allowed.
+    pub(super) fn split(&self, w: &[f64]) -> Option<(Machine, MachineRing)> {
+        let machine = self.plane.at(Self::values(w))?;
+        let ring = self.ring.with(&machine, &w[..w.len() - 2]);
+        Some((machine, ring))
+    }
+
+    /// The ring of the first unknowns.
+    pub(super) fn ring(&self, machine: &Machine, unknowns: &[f64]) -> MachineRing {
+        self.ring.with(machine, unknowns)
+    }
+
+    /// The signature, with the unknowns at which the curve begins.
+    pub(super) const fn signature(&self) -> &MachineRing {
+        &self.ring
+    }
+
+    /// The change of the two numbers along a tangent, divided by the scales.
+    pub(super) fn course(&self, tangent: &[f64]) -> (f64, f64) {
+        let (scales, (p, q)) = (self.plane.scales(), Self::values(tangent));
+        (p / scales.0, q / scales.1)
+    }
+
+    /// The gradient of the function of the condition, by central differences; one-sided at the end of the allowed numbers.
+    fn gradient(&self, frame: &MachineFrame<'_>, w: &[f64], here: f64) -> Option<Vec<f64>> {
+        let count = w.len() - 2;
+        let value = |moved: &[f64], i: usize| {
+            if i < count {
+                self.condition.value(frame, &self.ring(frame.machine, &moved[..count]))
+            } else {
+                let (machine, ring) = self.split(moved)?;
+                self.condition.value(&MachineFrame::new(&machine), &ring)
+            }
+        };
+        let mut moved = w.to_vec();
+        let mut row = vec![0.0; w.len()];
+        for (i, slope) in row.iter_mut().enumerate() {
+            let h = DIFFERENCE / self.weights[i].sqrt();
+            let mut at = |x: f64| {
+                moved[i] = x;
+                let value = value(&moved, i);
+                moved[i] = w[i];
+                value
+            };
+            *slope = match (at(w[i] + h), at(w[i] - h)) {
+                (Some(up), Some(down)) => (up - down) / (2.0 * h),
+                (Some(up), None) => (up - here) / h,
+                (None, Some(down)) => (here - down) / h,
+                (None, None) => return None,
+            };
+        }
+        Some(row)
+    }
+
+    /// How fast the condition changes in the direction in which the equations of a fold are singular: zero at a cusp.
+    pub(super) fn bending(&self, w: &[f64]) -> Option<f64> {
+        let Condition::Singular { turn, borders } = &self.condition else { return None };
+        let (machine, ring) = self.split(w)?;
+        let frame = MachineFrame::new(&machine);
+        let (_, vector) = borders.test(&turned(&frame, &ring, *turn)?)?;
+        let length = self.weights.iter().zip(&vector).map(|(w, v)| w * v * v).sum::<f64>().sqrt();
+        let at = |h: f64| {
+            let moved: Vec<f64> = w.iter().zip(&vector).map(|(w, v)| w + h / length * v).collect();
+            self.condition.value(&frame, &self.ring(&machine, &moved))
+        };
+        Some((at(ALONG)? - at(-ALONG)?) / (2.0 * ALONG))
+    }
+}
+
+/// Half the width of the difference along a null vector.
+const ALONG: f64 = 1e-4;
+
+impl Equations for CurveEquations {
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        let (machine, ring) = self.split(w)?;
+        let frame = MachineFrame::new(&machine);
+        let (mut miss, mut rows) = linearised(&frame, &ring, w)?;
+        let length = w.len();
+        let ((p, q), scales) = (Self::values(w), self.plane.scales());
+        for (column, (value, scale)) in [(length - 2, (p, scales.0)), (length - 1, (q, scales.1))] {
+            let misses = |value: f64| {
+                let mut other = w.to_vec();
+                other[column] = value;
+                let (machine, ring) = self.split(&other)?;
+                ring.misses(&MachineFrame::new(&machine))
+            };
+            for (row, slope) in by_number(misses, (value, scale))?.into_iter().enumerate() {
+                rows[row * length + column] = slope;
+            }
+        }
+        let here = self.condition.value(&frame, &ring)?;
+        let last = (length - 2) * length;
+        rows[last..last + length].copy_from_slice(&self.gradient(&frame, w, here)?);
+        miss.push(here);
+        Some((miss, rows))
+    }
+}

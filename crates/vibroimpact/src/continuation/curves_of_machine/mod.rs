@@ -1,0 +1,29 @@
+//! Curves of events of machines in a plane of two numbers, with the same tracer as those of the oscillator.
+//!
+//! | idea | file |
+//! |---|---|
+//! | a machine as a function of two numbers, and their ranges | [`MachinePlane`] |
+//! | singular equations of a cycle: a multiplier +1 or -1, smooth through grazing | `borders` |
+//! | the condition that holds along a curve | `condition` |
+//! | the equations of all events with two numbers and one condition | `equations` |
+//! | whether a solution with a touch or a corner is admissible | `beside` |
+//! | the problem that the tracer solves: points of codimension two | `problem` |
+//! | the events and the condition of a curve, from an event of a branch | `origin` |
+//! | why a curve ends | `end` |
+//! | a point of a curve, and its event | [`MachineCurvePoint`], [`MachineCurveEvent`] |
+//! | the curve | [`MachineCurve`] |
+
+mod beside;
+mod borders;
+mod condition;
+mod curve;
+mod end;
+mod equations;
+mod origin;
+mod plane;
+mod point;
+mod problem;
+
+pub use curve::MachineCurve;
+pub use plane::{MachineCurveError, MachinePlane};
+pub use point::{MachineCurveEvent, MachineCurveKind, MachineCurvePoint};

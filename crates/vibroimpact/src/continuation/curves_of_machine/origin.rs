@@ -1,0 +1,146 @@
+//! The events and the condition of a curve, from an event of a branch.
+
+use super::condition::{Condition, multipliers, pair};
+use super::equations::CurveEquations;
+use super::plane::{MachineCurveError, MachinePlane};
+use super::point::MachineCurveKind;
+use super::problem::CurveProblem;
+use crate::continuation::of_machine::{MachineBranchEvent, MachinePoint, closest, place};
+use crate::events::standing_back;
+use crate::machine::Machine;
+use crate::orbit::{MachineFrame, MachineRing, RingEvent};
+use crate::regime::{ContactState, GuardKind};
+
+/// The equations and test functions of the curve through an event of a branch, and its unknowns there.
+pub(super) fn origin(
+    plane: &MachinePlane,
+    values: (f64, f64),
+    point: &MachinePoint,
+) -> Result<(CurveProblem, Vec<f64>), MachineCurveError> {
+    plane.check(values)?;
+    let machine = plane.at(values).ok_or(MachineCurveError::NoCurve)?;
+    let event = point.event.ok_or(MachineCurveError::NotThere)?;
+    begin(plane, (&machine, values), point, event).unwrap_or(Err(MachineCurveError::NoCurve))
+}
+
+type Origin = Result<(CurveProblem, Vec<f64>), MachineCurveError>;
+
+fn begin(
+    plane: &MachinePlane,
+    (machine, values): (&Machine, (f64, f64)),
+    point: &MachinePoint,
+    event: MachineBranchEvent,
+) -> Option<Origin> {
+    let frame = MachineFrame::new(machine);
+    let sizes = point.cycle.sizes;
+    let mut ring = MachineRing::of(&frame, point.cycle.strobes.first()?, point.cycle.label.periods)?;
+    let (kind, condition) = match event {
+        MachineBranchEvent::Fold => (MachineCurveKind::Fold, None),
+        MachineBranchEvent::Flip => (MachineCurveKind::Flip, None),
+        MachineBranchEvent::Torus => {
+            let all = multipliers(&frame, &ring)?.1;
+            // of the pairs of complex multipliers the one nearest to the circle
+            let complex: Vec<_> = all.iter().copied().filter(|m| m.im != 0.0).collect();
+            let nearest =
+                complex.iter().min_by(|a, b| (a.modulus() - 1.0).abs().total_cmp(&(b.modulus() - 1.0).abs()))?;
+            (MachineCurveKind::Torus, Some(Condition::Pair { cosine: pair(&all, nearest.re)?.2 }))
+        }
+        MachineBranchEvent::Grazing { stop, appears: true, .. } => {
+            let open = |leg: usize| ring.events[leg].after[stop] == ContactState::Open;
+            let legs = (0..ring.len()).filter(|leg| open(*leg));
+            let lowest = legs.filter_map(|leg| Some((leg, closest(&frame, &ring, (leg, stop))?)));
+            let (leg, (gap, place)) = lowest.min_by(|a, b| a.1.0.abs().total_cmp(&b.1.0.abs()))?;
+            if gap.abs() > NEAR * sizes.0 {
+                return Some(Err(MachineCurveError::NotThere));
+            }
+            let back = place.surfaces.iter().map(Option::is_some).collect();
+            ring.events.insert(leg + 1, RingEvent::touch(stop, &place.states, back));
+            ring.places.insert(leg + 1, place);
+            (MachineCurveKind::Grazing { stop }, Some(Condition::Touch { at: leg + 1, size: sizes.1 }))
+        }
+        MachineBranchEvent::Grazing { stop, .. } | MachineBranchEvent::LossOfContact { stop } => {
+            let Some(at) = without_contact(&frame, &mut ring, (stop, NEAR * sizes.1)) else {
+                return Some(Err(MachineCurveError::NotThere));
+            };
+            (MachineCurveKind::Grazing { stop }, Some(Condition::Touch { at, size: sizes.1 }))
+        }
+        MachineBranchEvent::Corner { first, second } => {
+            let stops = machine.stops().len();
+            let of = |k: usize| place(ring.events[k % ring.len()].guard, stops);
+            let both = |k: &usize| {
+                let (a, b) = (of(*k), of(k + 1));
+                (a, b) == (first, second) || (b, a) == (first, second)
+            };
+            let at = (0..ring.len())
+                .filter(both)
+                .min_by(|a, b| (ring.theta(a + 1) - ring.theta(*a)).total_cmp(&(ring.theta(b + 1) - ring.theta(*b))))?;
+            let kind = MachineCurveKind::Corner { first: of(at), second: of(at + 1) };
+            ring.together = Some(at);
+            (kind, Some(Condition::Together { at }))
+        }
+        _ => return Some(Err(MachineCurveError::NotThere)),
+    };
+    let w = CurveEquations::join(machine, &ring, values);
+    let rigid = if let MachineCurveKind::Grazing { stop } = kind {
+        CurveProblem::rigid(&machine.stops()[stop].law)
+    } else {
+        false
+    };
+    let together = Condition::Together { at: 0 };
+    let equations = CurveEquations::new((machine, plane.clone()), ring, sizes, condition.unwrap_or(together));
+    let equations = match kind {
+        MachineCurveKind::Fold => equations.singular(machine, 1.0)?,
+        MachineCurveKind::Flip => equations.singular(machine, -1.0)?,
+        _ => equations,
+    };
+    Some(Ok((CurveProblem::new(equations, kind, (sizes.1, rigid)), w)))
+}
+
+/// A gap or a speed that is larger, relative to the motion, is not that of a grazing contact.
+const NEAR: f64 = 1e-3;
+
+/// Replaces the slowest closing of a stop, with the opening that follows it, by a touch; returns the place of that. `None`
+/// if its speed is not below `slow`.
+fn without_contact(frame: &MachineFrame<'_>, ring: &mut MachineRing, (stop, slow): (usize, f64)) -> Option<usize> {
+    let blocks = ring.blocks(frame)?;
+    let m = ring.len();
+    let rate = |k: usize| blocks[(k + m - 1) % m].late[0];
+    let at = (0..m)
+        .filter(|k| ring.events[*k].guard == GuardKind::Gap(stop))
+        .max_by(|a, b| rate(*a).total_cmp(&rate(*b)))?;
+    if rate(at).abs() * frame.machine.parts().frequency? > slow {
+        return None;
+    }
+    let contact = ring.events[at].after[stop] != ContactState::Open;
+    if contact && (m < 2 || ring.events[(at + 1) % m].after[stop] != ContactState::Open) {
+        return None;
+    }
+    let before = ring.events[(at + m - 1) % m].clone();
+    let surface = ring.places[(at + m - 1) % m].surfaces[stop];
+    ring.events[at] = RingEvent::touch(stop, &before.after, before.back.clone());
+    ring.places[at].states.clone_from(&before.after);
+    let mut at = at;
+    if contact {
+        let opened = (at + 1) % m;
+        ring.events.remove(opened);
+        ring.places.remove(opened);
+        if opened < at {
+            at -= 1;
+        }
+    }
+    // until the next event of the stop its surface stands back as before the contact
+    let m = ring.len();
+    let law = &frame.machine.stops()[stop].law;
+    let standing = before.back[stop].then(|| surface.or_else(|| standing_back(law, 0.0))).flatten();
+    for i in 0..m {
+        let k = (at + i) % m;
+        let own =
+            matches!(ring.events[k].guard, GuardKind::Gap(j) | GuardKind::Depth(j) | GuardKind::Force(j) if j == stop);
+        if i > 0 && own {
+            break;
+        }
+        ring.events[k].back[stop] = standing.is_some();
+        ring.places[k].surfaces[stop] = standing;
+    }
+    Some(at)
+}

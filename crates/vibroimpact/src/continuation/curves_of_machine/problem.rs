@@ -1,0 +1,261 @@
+//! The problem that the tracer solves along a curve of a machine: its equations, and the test functions whose zeros are
+//! points of codimension two or edges of the frame.
+
+use super::beside::judge_beside;
+use super::condition::{Condition, multipliers, pair};
+use super::equations::CurveEquations;
+use super::point::{MachineCurveEvent, MachineCurveKind};
+use crate::continuation::equations::plane_tracer::PLANE_RULES;
+use crate::continuation::of_machine::{Judged, judge, over_pairs};
+use crate::continuation::trace::equations::Equations;
+use crate::continuation::trace::tracer::{Problem, Solution, StepRules};
+use crate::machine::StopLaw;
+use crate::math::{Matrix, Multiplier, dot};
+use crate::orbit::{MachineFrame, MachineRing};
+
+/// A test function of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Watched {
+    /// The distance of a number from an edge of the frame, in quarters of its range: which number, and whether it is the
+    /// upper edge.
+    Edge(usize, bool),
+    /// Zero at a cusp.
+    Bending,
+    /// Half the sum of the pair on the unit circle, less this.
+    Cosine(f64),
+    /// Zero where another multiplier is +1,
+    PlusOne,
+    /// where another one is -1,
+    MinusOne,
+    /// or where the product of two others is 1.
+    Pair,
+    /// The second derivative of the gap at the touch, in units of the largest velocity and the frequency.
+    Pull,
+    /// The factor of the inverse of the speed in the trace of the derivative over one cycle with an impact instead of the
+    /// touch.
+    Trace,
+}
+
+/// The equations of a curve, what holds along it, and the test functions.
+#[derive(Clone, Debug)]
+pub(super) struct CurveProblem {
+    pub(super) equations: CurveEquations,
+    pub(super) kind: MachineCurveKind,
+    pub(super) watched: Vec<Watched>,
+    /// The largest velocity.
+    pub(super) speed: f64,
+}
+
+/// A solution on a curve.
+pub(super) type CurveSolution = Solution<Judged>;
+
+impl CurveProblem {
+    pub(super) fn new(equations: CurveEquations, kind: MachineCurveKind, (speed, rigid): (f64, bool)) -> Self {
+        let mut watched =
+            vec![Watched::Edge(0, false), Watched::Edge(0, true), Watched::Edge(1, false), Watched::Edge(1, true)];
+        let others = [Watched::PlusOne, Watched::MinusOne, Watched::Pair];
+        match kind {
+            MachineCurveKind::Fold => watched.extend([Watched::Bending].into_iter().chain(others)),
+            MachineCurveKind::Flip => watched.extend(others),
+            MachineCurveKind::Torus => {
+                watched.extend([1.0, -1.0, -0.5, 0.0].map(Watched::Cosine));
+                watched.extend([Watched::PlusOne, Watched::MinusOne]);
+            }
+            MachineCurveKind::Grazing { .. } => {
+                watched.extend([Watched::Pull].into_iter().chain(rigid.then_some(Watched::Trace)).chain(others));
+            }
+            MachineCurveKind::Corner { .. } => {}
+        }
+        Self { equations, kind, watched, speed }
+    }
+
+    /// Adapts the condition to a solution.
+    pub(super) fn renew(&mut self, w: &[f64]) {
+        let renewed = self
+            .equations
+            .split(w)
+            .and_then(|(machine, ring)| self.equations.condition.renewed(&MachineFrame::new(&machine), &ring));
+        if let Some(condition) = renewed {
+            self.equations.condition = condition;
+        }
+    }
+
+    /// Whether a stop is rigid and pushes back.
+    pub(super) const fn rigid(law: &StopLaw) -> bool {
+        matches!(law, StopLaw::Rigid { restitution } if *restitution > 0.0)
+    }
+
+    /// The multipliers that the condition does not determine.
+    fn others(&self, all: &[Multiplier]) -> Vec<Multiplier> {
+        let off = |to: f64| {
+            let nearest = (0..all.len()).min_by(|i, j| {
+                let distance = |k: usize| crate::math::hypot(all[k].re - to, all[k].im);
+                distance(*i).total_cmp(&distance(*j))
+            });
+            nearest.into_iter().collect::<Vec<usize>>()
+        };
+        let own = match &self.equations.condition {
+            Condition::Singular { turn, .. } => off(*turn),
+            Condition::Pair { cosine } => pair(all, *cosine).map_or_else(Vec::new, |((i, j), ..)| vec![i, j]),
+            _ => Vec::new(),
+        };
+        (0..all.len()).filter(|k| !own.contains(k)).map(|k| all[k]).collect()
+    }
+
+    /// The value of a test function; `at` are the monodromy matrix and the multipliers.
+    fn value(
+        &self,
+        what: Watched,
+        (frame, ring): (&MachineFrame<'_>, &MachineRing),
+        w: &[f64],
+        at: &Option<(Matrix, Vec<Multiplier>)>,
+    ) -> Option<f64> {
+        let all = || at.as_ref().map(|(_, all)| all.as_slice());
+        let product = |to: f64| {
+            Some(self.others(all()?).iter().fold(1.0, |product, m| {
+                // the factors of a pair are positive together
+                let factor = if m.im == 0.0 { m.re - to } else { crate::math::hypot(m.re - to, m.im) };
+                product * factor.clamp(-1e3, 1e3)
+            }))
+        };
+        match what {
+            Watched::Edge(which, upper) => {
+                let ((p, q), scales) = (CurveEquations::values(w), self.equations.plane.scales());
+                let ranges = &self.equations.plane.ranges;
+                let (value, scale, range) =
+                    if which == 0 { (p, scales.0, &ranges.0) } else { (q, scales.1, &ranges.1) };
+                Some(if upper { (range.end() - value) / scale } else { (value - range.start()) / scale })
+            }
+            Watched::Bending => self.equations.bending(w),
+            Watched::Cosine(to) => match &self.equations.condition {
+                Condition::Pair { cosine } => Some(pair(all()?, *cosine)?.2 - to),
+                _ => None,
+            },
+            Watched::PlusOne => product(1.0),
+            Watched::MinusOne => product(-1.0),
+            Watched::Pair => Some(over_pairs(&self.others(all()?))),
+            Watched::Pull => {
+                let (touch, _) = self.equations.condition.special(ring.len())?;
+                let MachineCurveKind::Grazing { stop } = self.kind else { return None };
+                let place = ring.place(touch);
+                let structure = frame.structure(&place.states)?;
+                let rate = structure.gap(&frame.normal, stop).1;
+                let mut pull = place.flight(&frame.normal, structure).first(&rate).1;
+                if let Some(surface) = place.surfaces[stop] {
+                    pull += surface.rate * surface.rate * surface.size;
+                }
+                Some(pull / (self.speed * frame.machine.parts().frequency?))
+            }
+            Watched::Trace => {
+                let (touch, _) = self.equations.condition.special(ring.len())?;
+                let MachineCurveKind::Grazing { stop } = self.kind else { return None };
+                // what an impulse at the touch changes of the gap at the next touch
+                let m = ring.len();
+                let steps = (0..m).map(|i| ring.block(frame, (touch + i) % m, true)?.step);
+                let direction = &frame.normal.directions[stop];
+                let mut change = vec![0.0; frame.shape.size()];
+                change[frame.shape.n..2 * frame.shape.n].copy_from_slice(direction);
+                for step in steps {
+                    change = step?.apply(&change);
+                }
+                let moved = dot(direction, &change[..frame.shape.n]);
+                Some(moved * frame.machine.parts().frequency? / dot(direction, direction))
+            }
+        }
+    }
+
+    /// The event where a test function is zero, and whether the curve ends there; `None` for the edge of the frame.
+    pub(super) fn event(&self, what: Watched) -> Option<(MachineCurveEvent, bool)> {
+        let stop = if let MachineCurveKind::Grazing { stop } = self.kind { Some(stop) } else { None };
+        let event = match (what, self.kind) {
+            (Watched::Edge(..), _) => return None,
+            (Watched::Bending, _) => MachineCurveEvent::Cusp,
+            (Watched::Cosine(1.0), _) => return Some((MachineCurveEvent::OneToOne, true)),
+            (Watched::Cosine(-1.0), _) => return Some((MachineCurveEvent::OneToTwo, true)),
+            (Watched::Cosine(0.0), _) => MachineCurveEvent::OneToFour,
+            (Watched::Cosine(_), _) => MachineCurveEvent::OneToThree,
+            (Watched::PlusOne, MachineCurveKind::Fold) => MachineCurveEvent::OneToOne,
+            (Watched::PlusOne, MachineCurveKind::Torus) | (Watched::Pair, MachineCurveKind::Fold) => {
+                MachineCurveEvent::FoldTorus
+            }
+            (Watched::MinusOne, MachineCurveKind::Flip) => MachineCurveEvent::OneToTwo,
+            (Watched::MinusOne, MachineCurveKind::Torus) | (Watched::Pair, MachineCurveKind::Flip) => {
+                MachineCurveEvent::FlipTorus
+            }
+            (Watched::PlusOne, MachineCurveKind::Grazing { .. }) => MachineCurveEvent::FoldGrazing,
+            (Watched::MinusOne, MachineCurveKind::Grazing { .. }) => MachineCurveEvent::FlipGrazing,
+            (Watched::PlusOne | Watched::MinusOne, _) => MachineCurveEvent::FoldFlip,
+            (Watched::Pair, _) => MachineCurveEvent::TorusGrazing,
+            (Watched::Pull, _) => return Some((MachineCurveEvent::DegenerateGrazing { stop: stop? }, true)),
+            (Watched::Trace, _) => MachineCurveEvent::ResonantGrazing { stop: stop? },
+        };
+        Some((event, false))
+    }
+}
+
+impl Equations for CurveProblem {
+    fn weights(&self) -> &[f64] {
+        self.equations.weights()
+    }
+
+    fn at(&self, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+        self.equations.at(w)
+    }
+}
+
+impl Problem for CurveProblem {
+    type Known = Judged;
+
+    fn rules(&self) -> StepRules {
+        PLANE_RULES
+    }
+
+    fn tests(&self) -> usize {
+        self.watched.len()
+    }
+
+    fn look(&self, w: &[f64], _tangent: &[f64]) -> Option<(Vec<f64>, Judged)> {
+        let (machine, ring) = self.equations.split(w)?;
+        let frame = MachineFrame::new(&machine);
+        let at = multipliers(&frame, &ring);
+        let values: Option<Vec<f64>> =
+            self.watched.iter().map(|what| self.value(*what, (&frame, &ring), w, &at)).collect();
+        let special = self.equations.condition.special(ring.len());
+        // every guard must fall to zero at its event
+        let rising = (0..ring.len()).find_map(|k| {
+            let event = (k + 1) % ring.len();
+            let own = special.is_some_and(|(first, last)| event == first || event == last);
+            (!own && ring.block(&frame, k, true).is_none_or(|block| block.late[0] >= 0.0)).then_some(event)
+        });
+        let all = at.map_or_else(Vec::new, |(_, all)| all);
+        let judged = match special {
+            Some(special) => judge_beside(&frame, &ring, special, (all, rising)),
+            None => judge(&frame, &ring, (all, rising)),
+        };
+        Some((values?, judged))
+    }
+
+    fn test(&self, j: usize, w: &[f64], _tangent: impl Fn() -> Option<Vec<f64>>) -> Option<f64> {
+        let (machine, ring) = self.equations.split(w)?;
+        let frame = MachineFrame::new(&machine);
+        let at = if matches!(self.watched[j], Watched::Edge(..)) { None } else { multipliers(&frame, &ring) };
+        self.value(self.watched[j], (&frame, &ring), w, &at)
+    }
+
+    fn resolution(&self, _j: usize) -> f64 {
+        RESOLUTION
+    }
+
+    fn phases(&self) -> usize {
+        0
+    }
+
+    /// Adapts the condition to the solution. The weights stay.
+    fn weigh(&mut self, w: &[f64]) -> bool {
+        self.renew(w);
+        false
+    }
+}
+
+/// The resolution to which zeros of test functions are located along the step.
+const RESOLUTION: f64 = 1e-13;

@@ -1,0 +1,69 @@
+//! What the equations of branches and of curves share: weights, residuals with their derivatives by the unknowns of the
+//! events, and derivatives by a number of the machine.
+
+use crate::events::StateShape;
+use crate::machine::Machine;
+use crate::orbit::{MachineFrame, MachineRing};
+
+/// The step of differences by a number, relative to its scale.
+const STEP: f64 = 1e-3;
+
+/// The weights of the unknowns of a ring, for the largest coordinates and velocities `sizes`.
+pub(crate) fn weights(machine: &Machine, ring: &MachineRing, sizes: (f64, f64)) -> Vec<f64> {
+    #[allow(clippy::cast_precision_loss)] // a few dozen
+    let m = ring.len() as f64;
+    let width = StateShape::of(machine).size() + 1;
+    let n = machine.n();
+    let weight = |i: usize| {
+        let size = match i {
+            0 => 1.0,
+            i if i <= n => sizes.0,
+            i if i <= 2 * n => sizes.1,
+            _ => sizes.0,
+        };
+        1.0 / (m * size * size).max(f64::MIN_POSITIVE)
+    };
+    (0..ring.len() * width).map(|i| weight(i % width)).collect()
+}
+
+/// The residuals of the events of `ring`, whose unknowns are the first of `w`, and their derivatives in rows as long as `w`.
+/// The columns of the unknowns that follow are zero.
+pub(crate) fn linearised(frame: &MachineFrame<'_>, ring: &MachineRing, w: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
+    let blocks = ring.blocks(frame)?;
+    let length = w.len();
+    let mut rows = vec![0.0; length * length];
+    ring.fill(&mut rows, length, &blocks, 1.0);
+    let mut miss: Vec<f64> = blocks.into_iter().flat_map(|block| block.miss).collect();
+    // the sizes of surfaces that do not stand back are 0
+    let (m, shape) = (ring.len(), &frame.shape);
+    let width = shape.size() + 1;
+    for (k, event) in ring.events.iter().enumerate() {
+        for (s, _) in shape.surfaces.iter().enumerate().filter(|(_, j)| !event.back[**j]) {
+            let place = 1 + 2 * shape.n + s;
+            miss[((k + m - 1) % m) * width + place] -= w[k * width + place];
+        }
+    }
+    Some((miss, rows))
+}
+
+/// The derivatives of the residuals `misses` by a number of this `scale` at `value`, from differences of the fourth order
+/// whose own error is about 1e-12 of the largest terms.
+pub(crate) fn by_number(misses: impl Fn(f64) -> Option<Vec<f64>>, (value, scale): (f64, f64)) -> Option<Vec<f64>> {
+    let mut h = STEP * scale.min(value.abs().max(0.1 * scale));
+    for _ in 0..8 {
+        let at = |k: f64| misses(value + k * h);
+        if let (Some(a), Some(b), Some(c), Some(d)) = (at(1.0), at(-1.0), at(2.0), at(-2.0)) {
+            let slope = |i: usize| (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * h);
+            return Some((0..a.len()).map(slope).collect());
+        }
+        // beside the end of the allowed numbers: one-sided differences of the second order
+        for side in [1.0, -1.0] {
+            if let (Some(a), Some(b), Some(c)) = (at(0.0), at(0.05 * side), at(0.1 * side)) {
+                let slope = |i: usize| side * (4.0 * b[i] - 3.0 * a[i] - c[i]) / (0.1 * h);
+                return Some((0..a.len()).map(slope).collect());
+            }
+        }
+        h *= 0.1;
+    }
+    None
+}
