@@ -52,7 +52,7 @@ fn stores_have_the_results_of_commands() {
         ("diagram", DIAGRAM),
         (
             "quantity",
-            "diagram --machine two-mass-hammer --vary frequency --over 0.9:1.1:5 --show stop.anvil.impact_power",
+            "diagram --machine two-mass-hammer --vary frequency --over 0.9:1.1:5 --show stop.anvil.impact_loss_per_period",
         ),
         (
             "scatter",
