@@ -7,12 +7,12 @@ use vibroimpact_study::{Quantity, unknown_quantity};
 /// The quantities to report.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct FieldsArgs {
-    /// Quantities of each motion to report too: impact-speed-max,power. All: impact-speed-max, impact-speed-mean,
-    /// impacts-per-period, impact-rate, impulse-max, impulse-per-period, impact-loss-per-period, impact-power,
-    /// damping-loss-per-period, damping-power, work-per-period, power, displacement-min, displacement-max,
-    /// displacement-amplitude, displacement-mean, displacement-rms, velocity-max, velocity-rms, acceleration-max,
-    /// sticking-fraction. Of a machine by path: power, stop.NAME.impact_speed_max, q.NAME.displacement_rms and all others that
-    /// `vibro settle --machine` has in JSON
+    /// Quantities of each motion to report too: impact-speed-max,power. Of a machine by path: power,
+    /// stop.NAME.impact-speed-max, q.NAME.displacement-rms and all others that `vibro settle --machine` has in JSON. All
+    /// of an oscillator: impact-speed-max, impact-speed-mean, impacts-per-period, impact-rate, impulse-max,
+    /// impulse-per-period, impact-loss-per-period, impact-power, damping-loss-per-period, damping-power, work-per-period,
+    /// power, displacement-min, displacement-max, displacement-amplitude, displacement-mean, displacement-rms,
+    /// velocity-max, velocity-rms, acceleration-max, sticking-fraction
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = named, help_heading = "Output")]
     fields: Vec<FieldName>,
 }

@@ -32,8 +32,8 @@ const STARTS: &[&str] = &["q.a", "qdot.a", "q.b", "qdot.c", "phase", "q.head", "
 /// A number in a file: usual ones, and now and then an extreme one or a text.
 fn value(low: f64, high: f64) -> ProptestText {
     prop_oneof![
-        40 => (low..high).prop_map(typed),
-        4 => prop::sample::select(vec!["0", "1", "0.5", "1e-9", "1e6"]).prop_map(str::to_owned),
+        150 => (low..high).prop_map(typed),
+        10 => prop::sample::select(vec!["0", "1", "0.5", "1e-9", "1e6"]).prop_map(str::to_owned),
         1 => plain(),
         1 => prop::sample::select(vec!["nan", "inf", "-1", "1e300", "1e-300", "\"x\"", "[1]", "\"2*mu\"", "true"])
             .prop_map(str::to_owned),
@@ -43,7 +43,7 @@ fn value(low: f64, high: f64) -> ProptestText {
 
 /// One of the bodies that a machine has, and seldom another name.
 fn body(n: usize) -> ProptestText {
-    prop_oneof![30 => prop::sample::select(BODIES[..n].to_vec()), 1 => prop::sample::select(vec!["ground", "d", ""])]
+    prop_oneof![100 => prop::sample::select(BODIES[..n].to_vec()), 1 => prop::sample::select(vec!["ground", "d", ""])]
         .prop_map(str::to_owned)
         .boxed()
 }
@@ -52,6 +52,7 @@ fn body(n: usize) -> ProptestText {
 fn between(n: usize) -> ProptestText {
     let second = prop_oneof![1 => Just("ground".to_owned()).boxed(), 1 => body(n)];
     (body(n), second, any::<bool>())
+        .prop_map(|(a, b, turned)| (if a == b { "ground".to_owned() } else { a }, b, turned))
         .prop_map(|(a, b, turned)| if turned { format!("[\"{b}\", \"{a}\"]") } else { format!("[\"{a}\", \"{b}\"]") })
         .boxed()
 }
