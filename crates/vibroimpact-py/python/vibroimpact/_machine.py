@@ -462,7 +462,7 @@ class Machine:
             "label": label, "kind": kind, "vary": sides[0], "and": sides[1], "event": maybe("event", event, NUMBER),
             "points": whole("points", points, BRANCH),
         }}
-        return _machine_answers.curve(_machine_answers.ask(self._file, self._start(q, qdot, phase), task)[0])
+        return _machine_answers.curve(_machine_answers.ask(self._file, self.start_of(q, qdot, phase), task)[0])
 
     def basin(
         self, axes: MachineAxes, *, q: ArrayLike | None = None, qdot: ArrayLike | None = None, phase: float | None = None,
