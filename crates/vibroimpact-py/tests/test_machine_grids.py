@@ -38,7 +38,7 @@ def test_basins_have_starts_of_machines() -> None:
     with pytest.raises(QuestionError, match="x is no part of the start"):
         Plan.basin(HAMMER, {"q.head": "0:1:2"}, x=0.5)
     with pytest.raises(QuestionError, match="q.NAME, qdot.NAME or phase"):
-        basin(HAMMER, {"q.hed": "0:1:3"})
+        basin(HAMMER, {"q.tail": "0:1:3"})
 
 
 def test_plans_of_machines_are_plans(tmp_path: Path) -> None:
