@@ -179,10 +179,14 @@ impl Fill for MachineBasinFill {
         let motions = tile.met.motions().iter().map(|found| same(&found.verdict).unwrap_or(&found.verdict));
         let values: Vec<Vec<f64>> =
             motions.map(|verdict| values_of(&self.machine, verdict, &self.plan.fields)).collect();
-        for k in 0..self.plan.fields.len() {
-            let value = |number: &Option<u32>| number.map_or(f64::NAN, |number| values[number as usize][k]);
-            columns.push(Column::F64(numbers.iter().map(value).collect()));
+        let mut fields = vec![Vec::with_capacity(numbers.len()); self.plan.fields.len()];
+        for number in &numbers {
+            let row = number.map(|number| &values[number as usize]);
+            for (k, field) in fields.iter_mut().enumerate() {
+                field.push(row.map_or(f64::NAN, |row| row[k]));
+            }
         }
+        columns.extend(fields.into_iter().map(Column::F64));
         if self.plan.refine.is_some() {
             columns.push(computed_column(&tile.cells));
         }
