@@ -95,41 +95,65 @@ fn the_page_on_studies_runs() {
     assert_eq!(vibroimpact_study::Study::new(&plan).unwrap().grid().points(), 3201 * 4001);
 }
 
-/// Writes the files of the page on machines, whose first line is their name, and runs its command lines.
-#[test]
-fn the_page_on_machines_runs() {
-    let text = page("docs/machines.md");
-    let folder = tempfile::tempdir().unwrap();
+/// Writes the files of a page about machines, whose first line is their name, runs its command lines in one folder, and
+/// counts them.
+fn runs(name: &str, folder: &Path) -> usize {
+    let text = page(name);
     let files = ["csv", "toml"].map(|language| blocks(&text, language)).concat();
     for block in &files {
-        let name = block.lines().next().and_then(|line| line.strip_prefix("# ")).expect("the first line is the name");
-        fs::write(folder.path().join(name), block).unwrap();
-        if name.ends_with(".toml") && !block.contains("[task.") {
-            let output = vibro(&format!("vibro machine show {name}"), folder.path());
-            assert!(output.status.success(), "{name}\n{}", String::from_utf8_lossy(&output.stderr));
+        let file = block.lines().next().and_then(|line| line.strip_prefix("# ")).expect("the first line is the name");
+        fs::write(folder.join(file), block).unwrap();
+        if file.ends_with(".toml") && !block.contains("[task.") {
+            let output = vibro(&format!("vibro machine show {file}"), folder);
+            assert!(output.status.success(), "{name}: {file}\n{}", String::from_utf8_lossy(&output.stderr));
         }
     }
     let mut ran = files.len();
     for block in blocks(&text, "console") {
         let (command, expected) = block.split_once('\n').unwrap();
-        let output = vibro(command.trim_start_matches("$ "), folder.path());
+        let output = vibro(command.trim_start_matches("$ "), folder);
         let out = String::from_utf8(output.stdout).unwrap();
         let mut lines = out.lines();
         for want in expected.lines() {
             assert!(
                 lines.any(|line| line == want),
-                "{command}\nshould print, in this order\n{want}\nbut prints\n{out}"
+                "{name}: {command}\nshould print, in this order\n{want}\nbut prints\n{out}"
             );
         }
         ran += 1;
     }
     for line in blocks(&text, "sh").iter().flat_map(|block| block.lines()) {
-        let output = vibro(line, folder.path());
-        assert!(output.status.success(), "{line}\n{}", String::from_utf8_lossy(&output.stderr));
+        let output = vibro(line, folder);
+        assert!(output.status.success(), "{name}: {line}\n{}", String::from_utf8_lossy(&output.stderr));
         ran += 1;
     }
+    ran
+}
+
+#[test]
+fn the_page_on_machines_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let ran = runs("docs/machines.md", folder.path());
     assert!(ran >= 12, "{ran}");
     let expansion = |name: &str| vibro(&format!("vibro machine show {name} --toml"), folder.path()).stdout;
     assert_eq!(expansion("beam.toml"), expansion("table.toml"));
     assert!(folder.path().join("hammer.png").exists() && folder.path().join("waveform.png").exists());
+}
+
+/// Every machine of the catalogue has a page in the gallery, and every page runs and draws its figure.
+#[test]
+fn the_gallery_of_machines_runs() {
+    let index = page("papers/machines/README.md");
+    let entries = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../papers/machines")).unwrap();
+    let files: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    for name in vibroimpact_study::machine::CATALOGUE.iter().map(|entry| entry.name) {
+        assert!(files.contains(&format!("{name}.md")), "{name} has no page");
+    }
+    for name in files.iter().filter_map(|file| file.strip_suffix(".md")).filter(|name| *name != "README") {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(runs(&format!("papers/machines/{name}.md"), folder.path()) >= 2, "{name}");
+        let picture = format!("{name}.png");
+        assert!(folder.path().join(&picture).exists() && files.contains(&picture), "{name} draws no figure");
+        assert!(index.contains(&picture) && index.contains(&format!("({name}.md)")), "{name}");
+    }
 }
