@@ -35,7 +35,7 @@ pub struct MachineAnswer {
 /// [`AnswerError`] for an invalid plan, or when stopped.
 pub fn machine_answer(name: &str, plan: &MachinePlan, control: &Control<'_>) -> Result<MachineAnswer, AnswerError> {
     let results = run_machine(plan, control)?;
-    let (machine, start) = plan.problem()?;
+    let (machine, start) = plan.described()?;
     Ok(MachineAnswer { name: name.to_owned(), plan: plan.clone(), machine, start, results })
 }
 

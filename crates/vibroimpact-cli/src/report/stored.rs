@@ -145,7 +145,7 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
         StudyPlan::Machine(plan) => {
             if let MachineTask::Diagram(task) = &plan.task {
                 let found = machine_diagram_of(task, &columns().map_err(io::Error::other)?);
-                let (machine, _) = plan.problem().map_err(io::Error::other)?;
+                let (machine, _) = plan.described().map_err(io::Error::other)?;
                 return diagram::of_machine(&found, &machine).write(out);
             }
         }

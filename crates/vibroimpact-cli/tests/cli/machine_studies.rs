@@ -192,6 +192,21 @@ fn a_diagram_of_one_coordinate_is_that_of_the_oscillator() {
     assert_eq!((here_at("up"), here_at("down")), (2, 1));
 }
 
+/// The start of a diagram is legal or is put onto the stop at its first value, whatever the machine's own value is; so are
+/// scattered starts.
+#[test]
+fn starts_of_diagrams() {
+    let folder = tempfile::tempdir().unwrap();
+    for line in [
+        "diagram --machine bouncing-ball --set e=0.5 --vary Gamma --over 1.1:1.75:3 --direction up --phase 0.51 --q 1 --qdot 4.1",
+        "diagram --machine impact-pair --vary a --over 0.1:2:4 --direction scatter --starts 3 --transient 50",
+    ] {
+        let told = done(folder.path(), &format!("{line} --json"));
+        let told: Value = serde_json::from_str(&told).unwrap();
+        assert!(told["sweeps"][0]["points"].as_u64() > Some(0), "{told}");
+    }
+}
+
 /// The starts of a machine of one coordinate lead to the motions to which those of the oscillator lead.
 #[test]
 fn a_basin_of_one_coordinate_is_that_of_the_oscillator() {

@@ -123,7 +123,9 @@ pub(crate) fn step(
 ) -> Result<(MachineDiagramStep, MachineStart), PlanError> {
     let machine = source.with(&plan.vary, plan.over.at(index))?.machine()?;
     let start = match (plan.direction, sweep, before) {
-        (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => scattered_machine_starts(&machine, seed, k),
+        (SweepDirection::Scatter { seed, .. }, Sweep::Start(k), _) => {
+            scattered_machine_starts(&machine, seed, k).within_stops(&machine)
+        }
         (_, _, Some(left)) => left.within_stops(&machine),
         (_, _, None) => {
             let start = source.start()?;

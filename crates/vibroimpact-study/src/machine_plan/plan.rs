@@ -216,12 +216,21 @@ impl MachinePlan {
         Ok(MachineStart { q, qdot, phase })
     }
 
+    /// The machine, checked, and the start, which may lie beyond a rigid stop. The tasks that vary a number have their own
+    /// starts at each value.
+    ///
+    /// # Errors
+    /// [`PlanError::Machine`] with the path of the first number that is not allowed.
+    pub fn described(&self) -> Result<(Machine, MachineStart), PlanError> {
+        Ok((self.machine.machine()?, self.start()?))
+    }
+
     /// The machine and the start, both checked.
     ///
     /// # Errors
     /// [`PlanError::Machine`] with the path of the first number that is not allowed.
     pub fn problem(&self) -> Result<(Machine, MachineStart), PlanError> {
-        let (machine, start) = (self.machine.machine()?, self.start()?);
+        let (machine, start) = self.described()?;
         let limits = MachineLimits::default();
         MachineMotion::new(&machine, &start, limits).map_err(|error| PlanError::Machine(error.into()))?;
         Ok((machine, start))
@@ -236,7 +245,10 @@ impl MachinePlan {
             return Err(PlanError::Version(self.version));
         }
         check_tile(self.tile)?;
-        let (machine, _) = self.problem()?;
+        let (machine, _) = match &self.task {
+            MachineTask::Map(_) | MachineTask::Diagram(_) => self.described()?,
+            _ => self.problem()?,
+        };
         match &self.task {
             MachineTask::Simulate { impacts, periods } => check(&machine, (*impacts, *periods)),
             MachineTask::Settle { impacts } => check_impacts(*impacts),

@@ -43,7 +43,8 @@ pub enum MachineResults {
 /// [`RunError`] for an invalid plan, or when stopped.
 pub fn run_machine(plan: &MachinePlan, control: &Control<'_>) -> Result<MachineResults, RunError> {
     plan.check()?;
-    let (machine, start) = plan.problem()?;
+    // the plan was checked
+    let (machine, start) = plan.described()?;
     Ok(match &plan.task {
         MachineTask::Simulate { impacts, periods } => {
             MachineResults::Simulate(simulate(&machine, &start, (*impacts, *periods), control)?)
