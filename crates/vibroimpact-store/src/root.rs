@@ -6,7 +6,7 @@ use crate::shelf::Shelf;
 use crate::{FORMAT, Store, StoreError};
 use serde_json::{Map, Value, json};
 use std::io;
-use vibroimpact_study::study::Cells;
+use vibroimpact_study::study::{Cells, StudyPlan};
 
 /// The key of the root, which describes the whole store. It is the last of the initial objects to be written.
 pub(crate) const ROOT: &str = "zarr.json";
@@ -66,7 +66,7 @@ impl Store {
                 "Conventions": "CF-1.11",
                 "title": self.plan.title(),
                 "source": format!("vibroimpact {}", self.begun_by),
-                "references": "Fukaya and Irie (1971); every motion is settled to a proved verdict",
+                "references": references(&self.plan),
                 "vibroimpact_format": FORMAT,
                 "vibroimpact_version": self.begun_by,
                 "plan": plan,
@@ -87,6 +87,14 @@ impl Store {
             root["attributes"]["coordinates"] = beside.join(" ").into();
         }
         Ok(pretty(&root))
+    }
+}
+
+/// The sources of what a study is about.
+fn references(plan: &StudyPlan) -> &str {
+    match plan {
+        StudyPlan::Oscillator(_) => "Fukaya and Irie (1971); every motion is settled to a proved verdict",
+        StudyPlan::Machine(plan) => plan.machine.source.as_deref().unwrap_or_default(),
     }
 }
 
