@@ -102,7 +102,7 @@ fn runs(name: &str, folder: &Path) -> usize {
     let files = ["csv", "toml"].map(|language| blocks(&text, language)).concat();
     for block in &files {
         let file = block.lines().next().and_then(|line| line.strip_prefix("# ")).expect("the first line is the name");
-        fs::write(folder.join(file), block).unwrap();
+        fs::write(folder.join(file), block).expect("a file in the folder of the test");
         if file.ends_with(".toml") && !block.contains("[task.") {
             let output = vibro(&format!("vibro machine show {file}"), folder);
             assert!(output.status.success(), "{name}: {file}\n{}", String::from_utf8_lossy(&output.stderr));
@@ -110,9 +110,9 @@ fn runs(name: &str, folder: &Path) -> usize {
     }
     let mut ran = files.len();
     for block in blocks(&text, "console") {
-        let (command, expected) = block.split_once('\n').unwrap();
+        let (command, expected) = block.split_once('\n').expect("a command and its output");
         let output = vibro(command.trim_start_matches("$ "), folder);
-        let out = String::from_utf8(output.stdout).unwrap();
+        let out = String::from_utf8(output.stdout).expect("the output is text");
         let mut lines = out.lines();
         for want in expected.lines() {
             assert!(
