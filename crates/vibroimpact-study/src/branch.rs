@@ -3,7 +3,9 @@
 
 use crate::chosen::{Chosen, choose};
 use crate::diagram::{DEFAULT_KEEP, DEFAULT_TRANSIENT, Show, SweepDirection};
-use crate::{Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stopped, Stretch, SystemPlan, Target};
+use crate::{
+    Control, Cut, DiagramPlan, Parameter, PlanError, RunError, Span, Stopped, Stretch, SystemPlan, Target, limits,
+};
 use core::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 use vibroimpact::continuation::{Branch, BranchError, BranchEvent, BranchOptions, Direction, SolutionPoint};
@@ -12,8 +14,6 @@ use vibroimpact::{Label, Oscillator, ParameterPath};
 
 /// Default maximum number of points of a branch.
 pub const DEFAULT_BRANCH_POINTS: u32 = 5_000;
-/// Largest allowed value of the maximum number of points of a branch.
-const MOST_POINTS: u32 = 100_000;
 /// Maximum number of further branches.
 const MOST_FOLLOWED: u32 = 100;
 /// Number of values of the orbit diagram drawn behind a branch.
@@ -64,10 +64,7 @@ impl BranchPlan {
         if self.follow > MOST_FOLLOWED {
             return Err(PlanError::Follow { given: self.follow, most: MOST_FOLLOWED });
         }
-        if !(2..=MOST_POINTS).contains(&self.points) {
-            return Err(PlanError::BranchPoints { given: self.points, most: MOST_POINTS });
-        }
-        Ok(())
+        limits::branch_points(self.points)
     }
 
     /// The line along which the orbit is followed.

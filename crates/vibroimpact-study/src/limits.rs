@@ -10,6 +10,17 @@ pub(crate) const MOST_CELLS: u64 = 100_000_000;
 /// Maximum number of starts of one question.
 pub(crate) const MOST_STARTS: u64 = 1_000_000_000;
 
+/// Maximum number of points of a branch or curve.
+pub(crate) const MOST_POINTS: u32 = 100_000;
+
+/// Checks a largest number of points of a branch or curve.
+///
+/// # Errors
+/// [`PlanError::BranchPoints`] unless it lies between 2 and 100 000.
+pub(crate) fn branch_points(given: u32) -> Result<(), PlanError> {
+    if (2..=MOST_POINTS).contains(&given) { Ok(()) } else { Err(PlanError::BranchPoints { given, most: MOST_POINTS }) }
+}
+
 /// Checks a number of starts.
 ///
 /// # Errors

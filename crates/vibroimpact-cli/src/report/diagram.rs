@@ -62,7 +62,7 @@ fn of_sweeps(counts: &[Counts]) -> String {
 pub(crate) fn of_machine(found: &MachineDiagram) -> String {
     let plan = &found.plan;
     let (from, to) = plan.over.ends();
-    let noun = if plan.show == "speed" { "closing" } else { "forcing period" };
+    let noun = if plan.shows_closings() { "closing" } else { "forcing period" };
     format!(
         "{} of {} from {} to {}\n\n{}{}",
         counted(u64::from(plan.over.count()), "value"),

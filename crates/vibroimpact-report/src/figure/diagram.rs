@@ -71,11 +71,9 @@ pub fn of_machine(found: &MachineDiagram, title: String) -> Result<Figure, Repor
     let motions: Vec<Motion> = found.steps.iter().map(motion).collect();
     let name = plain(&plan.vary);
     let side = PlaneAxis::new(name.clone(), &plan.over.into())?;
-    let sampled =
-        ["q.", "qdot."].iter().any(|head| plan.show.strip_prefix(head).is_some_and(|name| !name.contains('.')));
     let shown = match plan.show.as_str() {
-        "speed" => "speed of closing".to_owned(),
-        show if sampled => format!("{} at phase 0", plain(show)),
+        _ if plan.shows_closings() => "speed of closing".to_owned(),
+        show if plan.shows_states() => format!("{} at phase 0", plain(show)),
         show => plain(show),
     };
     let figure = draw(&motions, (&plan.over, plan.direction, &name), (&side, FigureAxis::new(shown)))?;

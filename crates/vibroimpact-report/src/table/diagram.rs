@@ -79,7 +79,7 @@ fn row(step: &DiagramStep, point: &DiagramPoint, units: Units) -> String {
 #[must_use]
 pub fn of_machine<'a>(found: &'a MachineDiagram, machine: &'a Machine) -> Table<'a> {
     let plan = &found.plan;
-    let closings = plan.show == "speed";
+    let closings = plan.shows_closings();
     let shown: &[&str] = if closings { &["stop", "phase", "speed"] } else { &[&plan.show] };
     let header = [&[plan.vary.as_str(), "sweep", "kind"], shown].concat().join(",");
     let rows = found.steps.iter().flat_map(move |step| {

@@ -11,6 +11,7 @@ use vibroimpact::events::{
 };
 use vibroimpact::machine::Machine;
 use vibroimpact::regime::ContactState;
+use vibroimpact::system::phase;
 use vibroimpact::verdict::{Count, MachineVerdict, settle_machine};
 
 /// A point of the diagram of a machine.
@@ -82,12 +83,10 @@ pub(super) fn closings(
             continue;
         }
         let point = MachineDiagramPoint { stop: Some(event.place), phase: event.phase, value: event.speed };
-        let turned = |a: f64, b: f64| {
-            let apart = (a - b).abs();
-            apart.min(TAU - apart) <= SAME
-        };
         let again = points.first().is_some_and(|first| {
-            first.stop == point.stop && near(first.value, point.value) && turned(first.phase, point.phase)
+            first.stop == point.stop
+                && near(first.value, point.value)
+                && phase::difference(first.phase, point.phase).abs() <= SAME
         });
         if again {
             break;

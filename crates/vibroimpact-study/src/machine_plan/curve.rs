@@ -3,7 +3,7 @@
 
 use super::orbits;
 use crate::machine::MachineSource;
-use crate::{Control, DEFAULT_BRANCH_POINTS, PlanError, RunError, Stopped};
+use crate::{Control, DEFAULT_BRANCH_POINTS, PlanError, RunError, Stopped, limits};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use vibroimpact::Label;
@@ -131,9 +131,7 @@ impl MachineCurvePlan {
         if vary.path == and.path {
             return Err(PlanError::MachineAxisTwice(vary.path.clone()));
         }
-        if !(2..=100_000).contains(points) {
-            return Err(PlanError::BranchPoints { given: *points, most: 100_000 });
-        }
+        limits::branch_points(*points)?;
         for p in [vary.from, vary.to] {
             for q in [and.from, and.to] {
                 source.with(&vary.path, p)?.with(&and.path, q)?.machine()?;

@@ -36,8 +36,11 @@ pub struct MachineDiagramPlan {
     pub keep: u64,
 }
 
+/// What is shown of closings.
+const SPEED: &str = "speed";
+
 fn speed() -> String {
-    "speed".to_owned()
+    SPEED.to_owned()
 }
 
 /// What is shown of a motion of a machine.
@@ -76,6 +79,18 @@ pub struct MachineDiagram {
 }
 
 impl MachineDiagramPlan {
+    /// Whether closings are shown, each with its phase and stop.
+    #[must_use]
+    pub fn shows_closings(&self) -> bool {
+        self.show == SPEED
+    }
+
+    /// Whether a coordinate or velocity at phase 0 is shown. The path of a quantity of a coordinate has one more name.
+    #[must_use]
+    pub fn shows_states(&self) -> bool {
+        self.show.split_once('.').is_some_and(|(head, name)| matches!(head, "q" | "qdot") && !name.contains('.'))
+    }
+
     /// What is shown.
     ///
     /// # Errors
@@ -86,7 +101,7 @@ impl MachineDiagramPlan {
         let found = match self.show.split_once('.') {
             Some(("q", name)) => of(name).map(MachineShow::Q),
             Some(("qdot", name)) => of(name).map(MachineShow::Qdot),
-            None if self.show == "speed" => Some(MachineShow::Speed),
+            None if self.shows_closings() => Some(MachineShow::Speed),
             _ => None,
         };
         let quantity = || machine_quantity(machine, &self.show).ok().map(|_| MachineShow::Quantity);

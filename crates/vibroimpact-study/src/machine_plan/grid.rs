@@ -1,8 +1,9 @@
 //! Plans and results of basins over coordinates, and of maps over numbers, of a machine.
 
 use super::axis::MachineAxis;
+use super::verdicts::check_starts;
 use crate::PlanError;
-use crate::limits::{self, MOST_CELLS};
+use crate::limits::MOST_CELLS;
 use crate::machine::MachineSource;
 use crate::map::{check_impacts, check_refine};
 use crate::study::label_of;
@@ -235,8 +236,7 @@ impl MachineMapPlan {
             source.number(&axis.vary)?;
         }
         check_fields(&source.machine()?, &self.fields)?;
-        limits::starts(self.starts, limits::MOST_STARTS)?;
         check_refine(self.refine)?;
-        check_impacts(self.impacts)
+        check_starts(self.starts, self.impacts)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::verdicts::settle;
 use crate::machine::MachineSource;
-use crate::{Control, PlanError, RunError, Stopped};
+use crate::{Control, PlanError, RunError, Stopped, limits};
 use std::collections::VecDeque;
 use vibroimpact::Label;
 use vibroimpact::continuation::{
@@ -74,9 +74,7 @@ pub(super) fn check(source: &MachineSource, vary: &str, to: f64, points: u32) ->
     if !to.is_finite() || to == from {
         return Err(PlanError::MachineRange { path: vary.to_owned(), from, to });
     }
-    if !(2..=100_000).contains(&points) {
-        return Err(PlanError::BranchPoints { given: points, most: 100_000 });
-    }
+    limits::branch_points(points)?;
     source.with(vary, to)?.parts()?;
     Ok(())
 }

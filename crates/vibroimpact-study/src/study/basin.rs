@@ -228,14 +228,9 @@ impl BasinFill {
             None => tile.codes.iter().map(|(_, quantities)| *quantities).collect(),
         };
         for cell in &tile.cells {
-            let number = match cell {
-                Cell::Computed(number) => Some(number),
-                Cell::Like(corner) => match &tile.cells[*corner] {
-                    Cell::Computed(number) if self.one.is_some() => Some(number),
-                    _ => None,
-                },
-            };
-            let of = number.and_then(|number| known.get(*number as usize).copied().flatten());
+            let own = |(_, own): &(&u32, bool)| *own || self.one.is_some();
+            let number = cell.result(&tile.cells).filter(own);
+            let of = number.and_then(|(number, _)| known.get(*number as usize).copied().flatten());
             columns.iter_mut().zip(quantity::values(asked, of)).for_each(|(column, value)| column.push(value));
         }
         columns.into_iter().map(Column::F64).collect()
@@ -265,16 +260,7 @@ impl Fill for BasinFill {
     }
 
     fn fields(&self) -> Vec<Field> {
-        let label = Field {
-            name: "label".into(),
-            long_name: "motion m/n that the start leads to".into(),
-            unit: Unit::NUMBER,
-            kind: NumberType::I32,
-            fill: super::NOT_COMPUTED,
-            extra: Vec::new(),
-            flags: code::FLAGS.to_vec(),
-            comment: code::COMMENT,
-        };
+        let label = code::field("motion m/n that the start leads to", Vec::new());
         let mut fields = vec![label.clone()];
         if self.one.is_some() {
             fields.push(cycles::field(label.clone()));
@@ -323,12 +309,8 @@ impl Fill for BasinFill {
     fn columns(&self, block: &Block, tile: BasinTile) -> Vec<Column> {
         let (leads, _) = self.leads(&tile);
         let cells = &tile.cells;
-        let of = |cell: &Cell<u32>| match cell {
-            Cell::Computed(number) => leads[*number as usize],
-            Cell::Like(corner) => match cells[*corner] {
-                Cell::Computed(number) => leads[number as usize],
-                Cell::Like(_) => (super::UNDECIDED, cycles::NONE),
-            },
+        let of = |cell: &Cell<u32>| {
+            cell.result(cells).map_or((super::UNDECIDED, cycles::NONE), |(number, _)| leads[*number as usize])
         };
         let mut columns = vec![Column::I32(cells.iter().map(|cell| of(cell).0).collect())];
         if self.one.is_some() {

@@ -4,6 +4,8 @@
 //! impacts is 0. Results that are no periodic motion are negative. A number of periods above 9999 is stored as 0, a
 //! number of impacts above 99 999 as 99 999.
 
+use crate::field::{Extra, Field, NumberType};
+use crate::unit::Unit;
 use vibroimpact::Label;
 use vibroimpact::verdict::{Count, MachineVerdict, Verdict};
 
@@ -37,6 +39,20 @@ pub(super) const FLAGS: [(i32, &str); 6] = [
 
 pub(super) const COMMENT: &str = "10000 m + n for a motion m/n with m impacts in n forcing periods, 1000000000 + n for \
                                   inf/n with a complete chatter; n = 0 stands for more than 9999 periods";
+
+/// The field of labels; further dimensions are `extra`.
+pub(super) fn field(long_name: &'static str, extra: Vec<Extra>) -> Field {
+    Field {
+        name: "label".into(),
+        long_name: long_name.into(),
+        unit: Unit::NUMBER,
+        kind: NumberType::I32,
+        fill: NOT_COMPUTED,
+        extra,
+        flags: FLAGS.to_vec(),
+        comment: COMMENT,
+    }
+}
 
 /// The code of a motion.
 #[must_use]

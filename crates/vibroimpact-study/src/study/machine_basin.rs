@@ -6,10 +6,10 @@ use super::fill::{Along, Fill, along_machine, machine_fields, machine_grid, on_a
 use super::map::{computed, computed_column, side};
 use super::refine::{self, Cell};
 use super::stored_motion::StoredMotion;
-use crate::field::{Column, Field, NumberType};
+use crate::field::{Column, Field};
 use crate::machine_plan::{MachineBasinPlan, StartAxis, values_of};
 use crate::map::options;
-use crate::{Block, Grid, PlanError, Unit};
+use crate::{Block, Grid, PlanError};
 use core::cell::RefCell;
 use std::sync::OnceLock;
 use vibroimpact::events::MachineStart;
@@ -121,16 +121,7 @@ impl Fill for MachineBasinFill {
     fn fields(&self) -> Vec<Field> {
         let mut flags = code::FLAGS.to_vec();
         flags.push((super::REFUSED, "beyond_a_stop"));
-        let label = Field {
-            name: "label".into(),
-            long_name: "motion m/n that the start leads to".into(),
-            unit: Unit::NUMBER,
-            kind: NumberType::I32,
-            fill: super::NOT_COMPUTED,
-            extra: Vec::new(),
-            flags,
-            comment: code::COMMENT,
-        };
+        let label = Field { flags, ..code::field("motion m/n that the start leads to", Vec::new()) };
         let mut cycle = cycles::field(label.clone());
         cycle.flags.push((cycles::BEYOND, "beyond_a_stop"));
         let mut fields = vec![label, cycle];
@@ -158,14 +149,7 @@ impl Fill for MachineBasinFill {
 
     fn columns(&self, _: &Block, tile: MachineBasinTile) -> Vec<Column> {
         let (leads, _) = self.leads(&tile);
-        let number = |cell: &Cell<Option<u32>>| match cell {
-            Cell::Computed(number) => *number,
-            Cell::Like(corner) => match tile.cells[*corner] {
-                Cell::Computed(number) => number,
-                // a corner is always computed
-                Cell::Like(_) => None,
-            },
-        };
+        let number = |cell: &Cell<Option<u32>>| cell.result(&tile.cells).and_then(|(number, _)| *number);
         let numbers: Vec<Option<u32>> = tile.cells.iter().map(number).collect();
         let of =
             |number: &Option<u32>| number.map_or((super::REFUSED, cycles::BEYOND), |number| leads[number as usize]);

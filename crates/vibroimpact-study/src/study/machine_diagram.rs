@@ -16,11 +16,6 @@ pub(crate) struct MachineSweep {
     keep: usize,
 }
 
-/// Whether the diagram shows closings, each with its phase and stop.
-fn shows_speed(plan: &MachineDiagramPlan) -> bool {
-    plan.show == "speed"
-}
-
 impl SweepFill<MachineSweep> {
     pub(crate) fn of_machine(source: &MachineSource, plan: &MachineDiagramPlan, tile: Option<u32>) -> Self {
         let keep = usize::try_from(plan.keep).unwrap_or(usize::MAX);
@@ -54,7 +49,7 @@ impl Swept for MachineSweep {
         let extra = vec![Extra { name: "point", count: self.keep }];
         let real =
             Field { unit: Unit::CONSISTENT, kind: NumberType::F64, fill: 0, extra, flags: Vec::new(), ..kind.clone() };
-        if !shows_speed(&self.plan) {
+        if !self.plan.shows_closings() {
             let long_name = format!("{} at phase 0 of the forcing", self.plan.show).into();
             return vec![kind, Field { name: self.plan.show.clone().into(), long_name, ..real }];
         }
@@ -101,7 +96,7 @@ impl Swept for MachineSweep {
             }
         }
         let mut columns = vec![Column::I8(kind), Column::F64(value)];
-        if shows_speed(&self.plan) {
+        if self.plan.shows_closings() {
             columns.extend([Column::F64(phase), Column::I32(stop)]);
         }
         columns

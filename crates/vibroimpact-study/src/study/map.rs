@@ -169,15 +169,7 @@ impl<M: Mapped> Fill for MapFill<M> {
             comment: "",
         };
         let mut fields = vec![
-            Field {
-                name: "label".into(),
-                long_name: "motion m/n, the most frequent first".into(),
-                kind: NumberType::I32,
-                fill: super::NOT_COMPUTED,
-                flags: code::FLAGS.to_vec(),
-                comment: code::COMMENT,
-                ..real.clone()
-            },
+            code::field("motion m/n, the most frequent first", motion.clone()),
             real.clone(),
             Field {
                 name: "speed".into(),
@@ -212,14 +204,7 @@ impl<M: Mapped> Fill for MapFill<M> {
         // the largest speed, the largest multiplier, and the quantities
         let mut numbers = vec![vec![f64::NAN; points * self.kept]; 2 + self.mapped.quantities(&[]).len()];
         for (k, cell) in cells.iter().enumerate() {
-            let (point, own) = match cell {
-                Cell::Computed(point) => (point, true),
-                Cell::Like(corner) => match &cells[*corner] {
-                    Cell::Computed(point) => (point, false),
-                    // only computed points have numbers of their own
-                    Cell::Like(_) => continue,
-                },
-            };
+            let Some((point, own)) = cell.result(&cells) else { continue };
             let kept = self.kept(point);
             for (i, found) in kept.iter().enumerate() {
                 (label[k * self.kept + i], share[k * self.kept + i]) = M::label(found);

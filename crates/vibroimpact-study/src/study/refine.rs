@@ -17,6 +17,20 @@ pub(crate) enum Cell<T> {
     Like(usize),
 }
 
+impl<T> Cell<T> {
+    /// The result of the point, and whether it was computed itself. `cells` are those of its block.
+    pub(super) fn result<'a>(&'a self, cells: &'a [Self]) -> Option<(&'a T, bool)> {
+        match self {
+            Self::Computed(result) => Some((result, true)),
+            Self::Like(corner) => match &cells[*corner] {
+                Self::Computed(result) => Some((result, false)),
+                // a corner is always computed
+                Self::Like(_) => None,
+            },
+        }
+    }
+}
+
 /// A box: the lowest and highest index of each dimension within the block.
 type Cuboid = Vec<(usize, usize)>;
 
