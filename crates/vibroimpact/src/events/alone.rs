@@ -28,7 +28,8 @@ impl MachineMotion<'_> {
                         let impulse = -((1.0 + restitution) * -speed) / square;
                         add_scaled(&mut self.place.v, -impulse, w);
                         self.largest_impact = self.largest_impact.max(speed);
-                        self.place.known.push((GuardKind::Gap(j), 1));
+                        self.place.jolt();
+                        self.place.note(GuardKind::Gap(j), 1);
                         self.record(&[(j, restitution)]);
                         if let Some(passage) = &mut self.passage {
                             passage.blows.push(Blow { stop: j, speed, impulse });
@@ -39,7 +40,7 @@ impl MachineMotion<'_> {
                     StopLaw::Compliant { .. } => {
                         if self.place.surfaces[j].take().is_none() {
                             add_scaled(&mut self.place.x, gap / square, w);
-                            self.place.known.push((GuardKind::Depth(j), 1));
+                            self.place.note(GuardKind::Depth(j), 1);
                         }
                         self.place.states[j] = ContactState::Closed;
                         self.record(&[]);

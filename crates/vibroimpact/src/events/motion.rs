@@ -149,7 +149,7 @@ impl<'a> MachineMotion<'a> {
                 }
                 _ if on && approaching => closing.push(j),
                 _ if on && still => candidates.push(j),
-                _ if on => self.place.known.push((GuardKind::Gap(j), 1)),
+                _ if on => self.place.note(GuardKind::Gap(j), 1),
                 _ => {}
             }
         }
@@ -207,7 +207,7 @@ impl<'a> MachineMotion<'a> {
             self.place.states[j] = ContactState::Closed;
             // on a surface that has not come back the stop is deep already
             if self.place.surfaces[j].take().is_none() {
-                self.place.known.push((GuardKind::Depth(j), 1));
+                self.place.note(GuardKind::Depth(j), 1);
             }
         }
         // a force that jumps can end any rest
@@ -219,8 +219,11 @@ impl<'a> MachineMotion<'a> {
         candidates.sort_unstable();
         if !candidates.is_empty() {
             self.place.states = resolve(self.machine, &self.normal, &mut self.structures, &self.place, &candidates)?;
-            let begun: Vec<(GuardKind, usize)> = candidates.iter().filter_map(|at| self.begun(*at)).collect();
-            self.place.known.extend(begun);
+            for at in candidates {
+                if let Some((kind, count)) = self.begun(at) {
+                    self.place.note(kind, count);
+                }
+            }
         }
         for (at, was) in before.iter().enumerate() {
             let now = self.place.states[at];
@@ -291,7 +294,7 @@ impl<'a> MachineMotion<'a> {
             // the surface leaves the body with the velocity of the body
             known = 2;
         }
-        self.place.known.push((GuardKind::Gap(j), known));
+        self.place.note(GuardKind::Gap(j), known);
     }
 
     pub(super) fn announce(&mut self, kind: MachineEventKind, place: usize, speed: f64, with: Vec<usize>) {
@@ -495,12 +498,12 @@ impl<'a> MachineMotion<'a> {
                 }
                 GuardKind::Reaction(j) => {
                     self.place.states[j] = ContactState::Open;
-                    self.place.known.push((GuardKind::Gap(j), 3));
+                    self.place.note(GuardKind::Gap(j), 3);
                     fixed.push(j);
                 }
                 GuardKind::Preload(j) => {
                     self.place.states[j] = ContactState::Closed;
-                    self.place.known.push((GuardKind::Depth(j), 3));
+                    self.place.note(GuardKind::Depth(j), 3);
                     fixed.push(j);
                 }
                 GuardKind::Sliding(joint) => {
@@ -514,7 +517,7 @@ impl<'a> MachineMotion<'a> {
                     self.place.states[stops + joint] =
                         if forward { ContactState::Forward } else { ContactState::Backward };
                     let equal = self.machine.joints()[joint].limit == self.machine.joints()[joint].sliding;
-                    self.place.known.push((GuardKind::Sliding(joint), if equal { 2 } else { 1 }));
+                    self.place.note(GuardKind::Sliding(joint), if equal { 2 } else { 1 });
                     fixed.push(stops + joint);
                 }
             }

@@ -140,7 +140,28 @@ impl Place {
         if let Some(frequency) = frequency {
             self.phase = phase::advance(self.phase, frequency, s);
         }
-        self.known.clear();
+        if s > 0.0 {
+            self.known.clear();
+        } else {
+            // another event at the same time: what is zero stays zero, but a force may jump
+            for (kind, count) in &mut self.known {
+                *count = (*count).min(if matches!(kind, GuardKind::Sliding(_)) { 1 } else { 2 });
+            }
+        }
+    }
+
+    /// Notes how many derivatives of a guard are zero now.
+    pub(super) fn note(&mut self, kind: GuardKind, count: usize) {
+        self.known.retain(|(of, _)| *of != kind);
+        self.known.push((kind, count));
+    }
+
+    /// Forgets what does not hold after a jump of the velocities: gaps and depths stay zero, rates do not.
+    pub(super) fn jolt(&mut self) {
+        self.known.retain_mut(|(kind, count)| {
+            *count = 1;
+            matches!(kind, GuardKind::Gap(_) | GuardKind::Depth(_))
+        });
     }
 
     /// The gap of a stop, its rate, and the sizes of the terms of both. `turns` are sine and cosine of all harmonics.

@@ -41,6 +41,7 @@ impl MachineMotion<'_> {
         for (direction, impulse) in directions.iter().zip(&found) {
             add_scaled(&mut after, -impulse, direction);
         }
+        self.place.jolt();
         let size = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         for ((j, before, e), (w, impulse)) in set.iter().zip(directions.iter().zip(&found)) {
             let rate = before - (dot(w, &after) - dot(w, &self.place.v));
@@ -54,7 +55,7 @@ impl MachineMotion<'_> {
             };
             if opens {
                 self.place.states[*j] = ContactState::Open;
-                self.place.known.push((GuardKind::Gap(*j), 1));
+                self.place.note(GuardKind::Gap(*j), 1);
             } else {
                 // exactly no velocity, so that the stop does not open by rounding
                 add_scaled(&mut after, rate / dot(w, w), w);
@@ -80,10 +81,10 @@ impl MachineMotion<'_> {
                 candidates.push(j);
             } else if rate > 0.0 {
                 self.place.states[j] = ContactState::Open;
-                self.place.known.push((GuardKind::Gap(j), 1));
+                self.place.note(GuardKind::Gap(j), 1);
             } else {
                 self.place.states[j] = ContactState::Closed;
-                self.place.known.push((GuardKind::Depth(j), 1));
+                self.place.note(GuardKind::Depth(j), 1);
             }
         }
         // and changes the velocities of the joints

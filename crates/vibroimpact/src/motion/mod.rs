@@ -7,19 +7,25 @@
 //! | from one impact to the next, with its derivative | [`impact_map`] |
 //! | from one forcing period to the next | [`stroboscopic_map`] |
 //! | the states at one phase of the force, once in every period | [`Strobes`] |
+//! | the states at given times | [`states_at`] |
+//! | the crossings of a position | [`Level`] |
 //! | points of the waveform, for display | [`sample`] |
 
+mod crossings;
 mod event;
 mod impact_map;
 mod legs;
 mod sample;
+mod states;
 mod strobes;
 mod stroboscopic;
 
 pub use crate::contact::ImpactState;
+pub use crossings::{Crossing, Level};
 pub use event::{End, Event, EventKind};
 pub use impact_map::{MAX_TOUCHES, Mapped, derivative, impact_map};
 pub use legs::{Leg, Motion, Path};
 pub use sample::{Sample, sample};
+pub use states::states_at;
 pub use strobes::Strobes;
 pub use stroboscopic::{Strobe, stroboscopic_map};

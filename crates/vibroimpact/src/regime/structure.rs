@@ -361,6 +361,11 @@ impl Structure {
         Some(structure)
     }
 
+    /// Whether nothing can move.
+    pub(crate) const fn is_still(&self) -> bool {
+        self.modes.is_empty()
+    }
+
     /// The fastest rate of the free motion and of the forcing.
     pub(crate) const fn fastest(&self) -> f64 {
         self.fastest

@@ -152,7 +152,7 @@ impl Follow {
     ) -> Option<Verdict> {
         self.since += interval;
         let now = self.count();
-        self.record.forgotten = now;
+        self.record.forget();
         let first = &mut self.released[usize::from(side == Side::Lower)];
         let again = first.map(|then| now - then);
         first.get_or_insert(now);

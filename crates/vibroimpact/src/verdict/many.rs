@@ -12,7 +12,7 @@ use super::CountedMotion;
 use super::attractors::SAME;
 use super::follow::{Follow, Releases, ended};
 use super::options::SettleOptions;
-use super::outcome::Verdict;
+use super::outcome::{Reason, Verdict};
 use super::settle::{Drive, settle, settle_knowing};
 use super::trapping_region::TrappingRegion;
 use crate::flight::Contact;
@@ -53,6 +53,18 @@ pub struct Settlement {
     pub motions: Vec<CountedMotion>,
     /// The index of its motion for each start; shorter than the range if stopped.
     pub cells: Vec<u32>,
+    /// How each start was decided, one for each cell.
+    pub endings: Vec<Ending>,
+}
+
+/// How a start was decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ending {
+    /// Why the verdict on this start holds.
+    pub reason: Reason,
+    /// The number of impacts from the start to the decision: those of [`Settled`](super::Settled), or fewer where the
+    /// motion entered the trapping region of a cycle that was known.
+    pub impacts: u32,
 }
 
 /// Settles the starts with these indices. `tick` is called after each start; if it returns true, the computation stops.
@@ -102,6 +114,8 @@ struct Part {
     motions: Vec<Local>,
     /// The index of its motion for each start; [`OPEN`] if not decided.
     cells: Vec<u32>,
+    /// How each start was decided; without meaning where it is not.
+    endings: Vec<Ending>,
 }
 
 const OPEN: u32 = u32::MAX;
@@ -119,16 +133,24 @@ impl Part {
         })
     }
 
-    /// Records the motion to which a start leads.
-    fn caught(&mut self, place: usize, index: u64, verdict: &Verdict) {
+    /// No start of a range of this length is decided.
+    fn open(count: usize) -> Self {
+        let nothing = Ending { reason: Reason::Impacts, impacts: 0 };
+        Self { motions: Vec::new(), cells: vec![OPEN; count], endings: vec![nothing; count] }
+    }
+
+    /// Records the motion to which a start leads, decided after this number of impacts.
+    fn caught(&mut self, place: usize, index: u64, verdict: &Verdict, impacts: u64) {
+        let impacts = u32::try_from(impacts).unwrap_or(u32::MAX);
+        self.endings[place] = Ending { reason: verdict.reason(), impacts };
         let number = self.number(verdict, index);
         self.motions[number].first = self.motions[number].first.min(index);
         self.cells[place] = u32::try_from(number).unwrap_or(OPEN);
     }
 
     /// Records the motion to which a start leads, with the full verdict on this start.
-    fn followed(&mut self, place: usize, index: u64, verdict: Verdict) {
-        self.caught(place, index, &verdict);
+    fn followed(&mut self, place: usize, index: u64, verdict: Verdict, impacts: u64) {
+        self.caught(place, index, &verdict, impacts);
         let motion = &mut self.motions[self.cells[place] as usize];
         if motion.followed.as_ref().is_none_or(|(other, _)| index < *other) {
             motion.followed = Some((index, verdict));
@@ -139,6 +161,7 @@ impl Part {
     /// is another motion.
     fn settlement(mut self, first: u64, full: impl Fn(u64) -> Verdict) -> Option<Settlement> {
         self.cells.truncate(self.cells.iter().position(|&cell| cell == OPEN).unwrap_or(self.cells.len()));
+        self.endings.truncate(self.cells.len());
         let end = first + self.cells.len() as u64;
         let mut order: Vec<usize> = (0..self.motions.len()).filter(|&k| self.motions[k].first < end).collect();
         order.sort_by_key(|&k| self.motions[k].first);
@@ -160,7 +183,7 @@ impl Part {
             *cell = renamed[*cell as usize];
             motions[*cell as usize].count += 1;
         }
-        Some(Settlement { motions, cells: self.cells })
+        Some(Settlement { motions, cells: self.cells, endings: self.endings })
     }
 }
 
@@ -184,7 +207,7 @@ impl Question<'_> {
     /// follow them.
     fn decide(&self, range: Range<u64>, start: &impl Fn(u64) -> Start, survey: &KnownAttractors) -> Part {
         let count = usize::try_from(range.end - range.start).unwrap_or(usize::MAX);
-        let mut part = Part { motions: Vec::new(), cells: vec![OPEN; count] };
+        let mut part = Part::open(count);
         let alone = count < FEW && survey.known.is_empty();
         let batch = if alone { None } else { Batch::new(self.osc, ABREAST.min(count), self.width) };
         let batch = batch.filter(|batch| batch.longest() < self.options.limits.horizon(self.osc));
@@ -192,7 +215,7 @@ impl Question<'_> {
         let Some(batch) = batch else {
             for (place, index) in range.enumerate() {
                 let settled = settle_knowing(self.osc, start(index), self.options, &mut releases);
-                part.followed(place, index, settled.verdict);
+                part.followed(place, index, settled.verdict, settled.impacts);
                 if (self.tick)() {
                     break;
                 }
@@ -266,7 +289,8 @@ impl Pool<'_> {
     fn followed(&mut self, slot: u32, verdict: Verdict) {
         let track = &mut self.tracks[slot as usize];
         track.done = true;
-        self.part.followed(track.place, self.first + track.place as u64, verdict);
+        let impacts = track.follow.count() as u64;
+        self.part.followed(track.place, self.first + track.place as u64, verdict, impacts);
     }
 
     /// Records the impact of a slot whose motion continues with a flight.
@@ -279,7 +303,8 @@ impl Pool<'_> {
             && track.follow.reaches(trap.depth(), options)
         {
             track.done = true;
-            self.part.caught(track.place, self.first + track.place as u64, verdict);
+            let impacts = track.follow.count() as u64;
+            self.part.caught(track.place, self.first + track.place as u64, verdict, impacts);
             return;
         }
         if let Some(verdict) = track.follow.impact(osc, options, state, interval) {
@@ -374,16 +399,27 @@ mod tests {
             let area = StartBox::natural(&osc);
             let start = |k: u64| scattered_starts(&osc, area, 3, k);
             let mut census = Census::default();
-            let cells: Vec<u32> = (0..60)
-                .map(|k| u32::try_from(census.add(&settle(&osc, start(k), &options).verdict)).unwrap())
-                .collect();
-            let expected = Settlement { motions: census.motions().to_vec(), cells };
+            let mut expected = Settlement::default();
+            for settled in (0..60).map(|k| settle(&osc, start(k), &options)) {
+                expected.cells.push(u32::try_from(census.add(&settled.verdict)).unwrap());
+                let impacts = u32::try_from(settled.impacts).unwrap();
+                expected.endings.push(Ending { reason: settled.verdict.reason(), impacts });
+            }
+            expected.motions = census.motions().to_vec();
+            let reasons = |of: &Settlement| of.endings.iter().map(|ending| ending.reason).collect::<Vec<_>>();
             let none = KnownAttractors::default();
             let survey = KnownAttractors::survey(&osc, (100..110).map(start), &options);
             for width in Width::ALL.into_iter().filter(|width| width.available()) {
                 for survey in [&none, &survey] {
                     let got = settle_many(&osc, 0..60, start, survey, &options, width, &|| false);
-                    assert_eq!(got, expected, "{osc:?} {width:?}");
+                    assert_eq!(reasons(&got), reasons(&expected), "{osc:?} {width:?}");
+                    if *survey != none {
+                        // a motion that a trapping region has captured is not followed to the end
+                        let mut shorter = got.endings.iter().zip(&expected.endings);
+                        assert!(shorter.all(|(got, whole)| got.impacts <= whole.impacts), "{osc:?} {width:?}");
+                    }
+                    let endings = if *survey == none { got.endings.clone() } else { expected.endings.clone() };
+                    assert_eq!(Settlement { endings, ..got }, expected, "{osc:?} {width:?}");
                     // a small number is followed one by one
                     let few = settle_many(&osc, 0..20, start, survey, &options, width, &|| false);
                     assert_eq!(few.cells, expected.cells[..20], "{osc:?} {width:?}");

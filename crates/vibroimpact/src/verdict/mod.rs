@@ -30,14 +30,14 @@ mod trapping_region;
 pub use crate::orbit::{Count, Label, LabelError};
 pub use attractors::{Census, CountedMotion, StartBox, SteadyMotion, attractors, scattered_starts};
 pub(crate) use follow::{Follow, Releases, ended};
-pub use many::{KnownAttractors, Settlement, settle_many};
+pub use many::{Ending, KnownAttractors, Settlement, settle_many};
 pub use of_machine::{
     MachineSettled, MachineTail, MachineUndecided, MachineVerdict, scattered_machine_starts, settle_machine,
     settle_machine_while,
 };
 pub(crate) use of_machine::{Recorded, Step};
 pub use options::SettleOptions;
-pub use outcome::{Chaos, NoImpact, Undecided, Verdict};
+pub use outcome::{Chaos, NoImpact, Reason, Undecided, Verdict};
 pub use paper_rule::{PaperRule, PaperVerdict, paper_rule};
 pub(crate) use recurring::Recurring;
 pub use settle::{Settled, settle, settle_while};

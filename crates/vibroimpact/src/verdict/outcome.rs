@@ -94,7 +94,87 @@ pub enum Undecided {
     },
 }
 
+/// Why a verdict holds, without its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Reason {
+    /// Newton's method, or a release, has confirmed a cycle.
+    Cycle,
+    /// The largest Lyapunov exponent exceeds its error bar.
+    Exponent,
+    /// The force never pulls the mass off the stop.
+    Stuck,
+    /// The amplitude of the flight does not reach a stop.
+    Amplitude,
+    /// The flight does not reach a stop in the common period of the force and the free oscillation.
+    CommonPeriod,
+    /// The impacts become gentler without end.
+    GrazeLimit,
+    /// Each release leads to a landing without speed.
+    Landing,
+    /// The mass grazes the stop again and again.
+    Grazing,
+    /// There is no impact in the longest flight that is searched.
+    Search,
+    /// Undecided within the budget of impacts.
+    Impacts,
+    /// Undecided within the budget of a search.
+    SearchLimit,
+}
+
+impl Reason {
+    /// All reasons.
+    pub const ALL: [Self; 11] = [
+        Self::Cycle,
+        Self::Exponent,
+        Self::Stuck,
+        Self::Amplitude,
+        Self::CommonPeriod,
+        Self::GrazeLimit,
+        Self::Landing,
+        Self::Grazing,
+        Self::Search,
+        Self::Impacts,
+        Self::SearchLimit,
+    ];
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Cycle => "cycle",
+            Self::Exponent => "exponent",
+            Self::Stuck => "stuck",
+            Self::Amplitude => "amplitude",
+            Self::CommonPeriod => "common_period",
+            Self::GrazeLimit => "graze_limit",
+            Self::Landing => "landing",
+            Self::Grazing => "grazing",
+            Self::Search => "search",
+            Self::Impacts => "impact_budget",
+            Self::SearchLimit => "search_budget",
+        }
+    }
+}
+
 impl Verdict {
+    /// Why it holds.
+    #[must_use]
+    pub const fn reason(&self) -> Reason {
+        match self {
+            Self::Periodic(_) => Reason::Cycle,
+            Self::Chaotic(_) => Reason::Exponent,
+            Self::Stuck(_) => Reason::Stuck,
+            Self::NoImpact(NoImpact::Flight(Horizon::Amplitude)) => Reason::Amplitude,
+            Self::NoImpact(NoImpact::Flight(Horizon::CommonPeriod { .. })) => Reason::CommonPeriod,
+            Self::NoImpact(NoImpact::GrazeLimit { .. }) => Reason::GrazeLimit,
+            Self::NoImpact(NoImpact::Landing { .. }) => Reason::Landing,
+            Self::NoImpact(NoImpact::Grazing { .. }) => Reason::Grazing,
+            Self::NoImpact(NoImpact::ForPeriods(_)) => Reason::Search,
+            Self::Undecided(Undecided::Impacts { .. }) => Reason::Impacts,
+            Self::Undecided(Undecided::Search { .. }) => Reason::SearchLimit,
+        }
+    }
+
     /// The label of the motion as text: `4/1`, `inf/1`, `0`, `chaotic`, `stuck`, `undecided`.
     #[must_use]
     pub fn label(&self) -> Cow<'static, str> {

@@ -14,7 +14,7 @@ pub(crate) struct Record<R: Recurring> {
     /// The number of returns before those.
     earlier: usize,
     /// The number of returns before the motion last forgot its past.
-    pub(super) forgotten: usize,
+    forgotten: usize,
     candidate: Option<R::Cycle>,
     next_look: usize,
     /// The current measurement for chaos. It is boxed, because most motions settle before it begins and a reset writes
@@ -154,6 +154,12 @@ impl<R: Recurring> Record<R> {
     /// Exponents of the measurement in progress or of the last one that show chaos.
     pub(super) fn was_chaotic(&self, system: &R) -> Option<R::Spectrum> {
         self.so_far(system).into_iter().chain(self.spectrum.clone()).find(Diverging::chaotic)
+    }
+
+    /// The motion from here on does not depend on what was before: chaos is measured anew, from here.
+    pub(super) fn forget(&mut self) {
+        self.forgotten = self.count();
+        self.unmeasured();
     }
 
     /// Forgets all measurements.

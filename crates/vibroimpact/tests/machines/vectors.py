@@ -104,6 +104,24 @@ def disturbance(seed, size):
     return number
 
 
+def changed(paths, size):
+    """A `number` that changes only the numbers at these paths relatively by `size`."""
+    return lambda path, x: (arb(x) * (1 + size)).mid() if path in paths else arb(x)
+
+
+def paths_of(data, start):
+    """The paths of all numbers of a machine and its start that are not zero."""
+    paths = {}
+
+    def number(path, x):
+        if x != 0:
+            paths[path] = None
+        return arb(x)
+
+    Simulation(data, number, start)
+    return list(paths)
+
+
 def agree(a, b):
     return a["kind"] == b["kind"] and a["stop"] == b["stop"]
 
@@ -117,14 +135,14 @@ def change(a, b):
     ]
 
 
-def conditions(base, others):
-    """For each event that all versions share: its largest changes, per relative change of all numbers."""
+def conditions(base, others, combine):
+    """For each event that all versions share: its changes, combined by `max` or `sum`, per relative change of the numbers."""
     out = []
     for i, event in enumerate(base):
         if not all(i < len(o) and agree(event, o[i]) for o in others):
             break
         changes = [change(event, o[i]) for o in others]
-        out.append([max(c[k] for c in changes) / SMALL for k in range(3)])
+        out.append([combine(c[k] for c in changes) / SMALL for k in range(3)])
     return out
 
 
@@ -161,7 +179,7 @@ def pack(events, condition):
 
 
 def case(task):
-    kind, seed, index = task
+    kind, seed, index, whole_sums = task
     name = f"{kind}-{index}"
     events = 20 if index % 4 == 0 else 7
     data, start = draw(kind, seed, index)
@@ -174,10 +192,14 @@ def case(task):
         return name, None, end
     if len(base.events) < 2 and index % 4 and kind != "grazing":
         return name, None, "few events"
-    versions = [whole(data, start, disturbance(f"{name}/{i}", SMALL), events, ties)[0].events for i in range(3)]
+    if name in whole_sums:
+        combine, numbers = sum, [changed({path}, SMALL) for path in paths_of(data, start)]
+    else:
+        combine, numbers = max, [disturbance(f"{name}/{i}", SMALL) for i in range(3)]
+    versions = [whole(data, start, number, events, ties)[0].events for number in numbers]
     large = [whole(data, start, disturbance(f"{name}/0", size), events, ties)[0].events for size in (LARGE, -LARGE)]
     at = stick_place(base.events)
-    condition = conditions(base.events[:events], versions)
+    condition = conditions(base.events[:events], versions, combine)
     listed = len(condition)
     if listed < min(events, len(base.events)):
         end = "a change in the order of events"
@@ -192,7 +214,7 @@ def case(task):
     if at is not None and at < RAW:
         tails = [v[stick_place(v) :] if stick_place(v) is not None else [] for v in versions]
         tail = base.events[at : at + 1 + AFTER]
-        condition = conditions(tail, tails)
+        condition = conditions(tail, tails, combine)
         if condition:
             rows, states = pack(tail, condition)
             tails = [v[stick_place(v) :] if stick_place(v) is not None else [] for v in large]
@@ -230,9 +252,12 @@ def main():
     if args.summary:
         return summary(args.out)
     os.makedirs(args.out, exist_ok=True)
+    # the cases whose conditions are sums over all numbers
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "whole_conditions.txt")) as file:
+        whole_sums = set(file.read().split())
     with multiprocessing.Pool(args.processes) as pool:
         for kind in args.kind or KINDS:
-            tasks = [(kind, args.seed, i) for i in range(args.first, args.first + args.count)]
+            tasks = [(kind, args.seed, i, whole_sums) for i in range(args.first, args.first + args.count)]
             ends, kinds, kept, chatters = Counter(), Counter(), 0, 0
             with open(os.path.join(args.out, f"{kind}.json"), "w") as file:
                 for _, out, end in pool.imap(case, tasks):

@@ -1,61 +1,8 @@
-//! Verdicts on machines of one coordinate against those on the oscillator.
+//! Verdicts on machines: what the multipliers, energy and momentum must be.
 
 use vibroimpact::events::{MachineLimits, MachineMotion, MachineStart};
 use vibroimpact::machine::{Machine, MachineParts, Opening, StopLaw};
-use vibroimpact::verdict::{MachineVerdict, SettleOptions, Verdict, settle, settle_machine};
-use vibroimpact::{Oscillator, Start};
-
-/// Random systems: the same labels, cycles and multipliers, and exponents within their error bars. What one of them leaves
-/// undecided, and motions without damping, whose verdicts the oscillator decides by rules of its own, are not compared.
-#[test]
-fn the_same_motions() {
-    let mut state = 11_u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
-    };
-    let options = SettleOptions { chaos_over: 1_000, chaos_after: 500, max_impacts: 6_000, ..SettleOptions::default() };
-    let (mut periodic, mut chaotic, mut others, mut differ) = (0, 0, 0, Vec::new());
-    for case in 0..500 {
-        let (inverse, gap) = (0.3 + 2.0 * random(), -0.5 + 2.5 * random());
-        let (eps, zeta) = (0.95 * random(), 0.005 + 0.3 * random() * random());
-        let osc = Oscillator::from_inverse_beta(inverse, gap, eps).unwrap().with_damping(zeta).unwrap();
-        let parts = MachineParts::new(["mass"])
-            .with_mass(0, 1.0)
-            .with_link(&[1.0], 1.0, 2.0 * zeta)
-            .with_frequency(osc.beta())
-            .with_force(0, 1, 0.0, 1.0)
-            .with_rigid_stop("stop", &[1.0], gap, eps);
-        let machine = Machine::new(parts).unwrap();
-        let (x, v, phase) = (gap - 2.0 * random(), 2.0 * random() - 1.0, 6.0 * random());
-        let expected = settle(&osc, Start { x, v, phase }, &options).verdict;
-        let start = MachineStart { q: vec![x], qdot: vec![v], phase };
-        let found = settle_machine(&machine, &start, &options).unwrap().verdict;
-        let system = || format!("case {case}: 1/beta {inverse} gap {gap} eps {eps} zeta {zeta} from {x} {v} {phase}");
-        match (&expected, &found) {
-            (Verdict::Periodic(a), MachineVerdict::Periodic(b)) if a.label == b.label => {
-                periodic += 1;
-                assert!((a.fastest() - b.fastest()).abs() < 1e-9 * (1.0 + a.fastest()), "{}", system());
-                // a chatter that is summed has a derivative to about 1e-5, which is 0 for the oscillator
-                let within = if a.rests.is_empty() { 1e-8 } else { 1e-3 };
-                for (one, two) in a.multipliers.iter().zip(&b.multipliers) {
-                    assert!((one.modulus() - two.modulus()).abs() < within, "{} {one:?} {two:?}", system());
-                }
-            }
-            (Verdict::Chaotic(a), MachineVerdict::Chaotic { spectrum, .. }) => {
-                chaotic += 1;
-                let (a, b) = (a.spectrum.exponents[0], spectrum.exponents[0]);
-                // three standard errors of each, over different lengths
-                assert!((a.value - b.value).abs() < 2.0 * (a.error + b.error), "{} {a:?} {b:?}", system());
-            }
-            _ if expected.label() == found.label() => others += 1,
-            (Verdict::Undecided(_), _) | (_, MachineVerdict::Undecided { .. }) => {}
-            _ => differ.push(format!("{}: {} {}", system(), expected.label(), found.label())),
-        }
-    }
-    assert!(differ.is_empty(), "{differ:#?}");
-    assert!(periodic > 300 && others > 10 && chaotic > 4, "{periodic} {chaotic} {others}");
-}
+use vibroimpact::verdict::{MachineVerdict, SettleOptions, settle_machine};
 
 /// The multipliers of a cycle multiply to the product of all $`e^2`$ and $`\exp(-\int \mathrm{tr} M^{-1}C\,dt)`$; an
 /// undamped soft stop changes no volume.

@@ -33,6 +33,11 @@ impl Step {
         matches!(self.passage.guards.first().and_then(kind), Some(GuardKind::Reaction(_)))
     }
 
+    /// Whether nothing could move before: then the motion from here on depends on the phase alone.
+    pub(crate) fn was_still(&self) -> bool {
+        self.passage.structure.is_still()
+    }
+
     /// The next step of a motion, and the events on it; `None` at the end of the motion.
     pub(crate) fn next(motion: &mut MachineMotion<'_>) -> Option<(Self, Vec<MachineEvent>)> {
         let begin = motion.place().clone();

@@ -167,11 +167,13 @@ fn settle_in<'a>(
     let mut record: Record<Recorded<'a>> = Record::default();
     let mut sizes: std::collections::VecDeque<(f64, f64)> = std::collections::VecDeque::new();
     let mut events = 0_u64;
-    let mut release: Option<(Arc<Step>, f64)> = None;
+    // the latest release from each stop, and chaos that has ended by a rest
+    let mut releases: Vec<(Arc<Step>, f64)> = Vec::new();
+    let over = core::cell::RefCell::new(None);
     let settled = |verdict, events, time, record: &Record<Recorded<'a>>| {
         let transient = match &verdict {
             MachineVerdict::Chaotic { .. } | MachineVerdict::Undecided { .. } => None,
-            _ => record.was_chaotic(&system),
+            _ => record.was_chaotic(&system).or_else(|| over.take()),
         };
         Ok(Some(MachineSettled { verdict, events, time, transient }))
     };
@@ -208,13 +210,20 @@ fn settle_in<'a>(
         record.push(options, step.clone(), interval);
         // a rest can make a motion forget its past: it is the same from one release to another, however far apart
         if step.releases() {
-            if let Some((earlier, then)) = &release
-                && system.distance(&step, earlier) < FORGOTTEN
+            let earlier = releases.iter().position(|(earlier, _)| earlier.passage.guards == step.passage.guards);
+            if let Some((earlier, then)) = earlier.map(|at| releases.swap_remove(at))
+                && system.distance(&step, &earlier) < FORGOTTEN
                 && let Some(cycle) = system.same(&step, time - then)
             {
                 return settled(MachineVerdict::Periodic(cycle), events, time, &record);
             }
-            release = Some((step, time));
+            if step.was_still() {
+                if let Some(spectrum) = record.was_chaotic(&system) {
+                    over.replace(Some(spectrum));
+                }
+                record.forget();
+            }
+            releases.push((step, time));
         }
         if record.count().is_multiple_of(64) {
             system.frame.keep(&motion);

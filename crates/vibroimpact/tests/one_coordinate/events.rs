@@ -1,19 +1,15 @@
-//! An oscillator written as a machine of one coordinate has the events of the oscillator: 500 random ones with one or two
-//! stops, any restitution and damping.
+//! The events of both.
 //!
 //! What an event may differ by is measured: the oscillator's motion is started again behind each event from states that
 //! differ by a few roundings, and the changes of each later event are added up. Where such a change alters the sequence
 //! of events, the rest of the motion is not determined by its numbers and is not compared.
 
-#![allow(clippy::unwrap_used, reason = "a test")]
-
-use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion, MachineStart};
+use crate::{System, systems};
+use vibroimpact::events::{MachineEvent, MachineEventKind, MachineLimits, MachineMotion};
 use vibroimpact::flight::SearchLimits;
-use vibroimpact::machine::{Machine, MachineParts};
 use vibroimpact::motion::{End, Event, EventKind, Motion};
 use vibroimpact::{Oscillator, Side, Start};
 
-const SYSTEMS: usize = 500;
 const EVENTS: usize = 50;
 /// Longer flights are not compared.
 const SEARCH: SearchLimits = SearchLimits { periods: 40.0, steps: 4000 };
@@ -23,73 +19,6 @@ const CHANGE: f64 = 8.0;
 const OFTEN: f64 = 2.0;
 /// Relative error of the duration of a chatter that is summed: that of a machine has two terms, not three.
 const SUMMED: f64 = 1e-10;
-
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        f64::from(u32::try_from(self.0 >> 32).unwrap()) / 2.0_f64.powi(32)
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn one_in(&mut self, n: f64) -> bool {
-        self.unit() * n < 1.0
-    }
-
-    fn restitution(&mut self) -> f64 {
-        if self.one_in(6.0) {
-            0.0
-        } else if self.one_in(6.0) {
-            1.0
-        } else {
-            self.unit()
-        }
-    }
-}
-
-struct System {
-    oscillator: Oscillator,
-    start: Start,
-    text: String,
-}
-
-fn random(random: &mut Random) -> System {
-    let beta = (random.within(0.05_f64.ln(), 20.0_f64.ln())).exp();
-    let (gap, restitution) = (random.within(-1.0, 5.0), random.restitution());
-    let damping = if random.one_in(3.0) { 0.0 } else { random.within(0.0, 1.5) };
-    let mut oscillator = Oscillator::new(beta, gap, restitution).unwrap().with_damping(damping).unwrap();
-    let mut lowest = gap - 4.0;
-    let mut text = format!("beta {beta} gap {gap} restitution {restitution} damping {damping}");
-    if random.one_in(2.0) {
-        let (lower, other) = (random.within(-gap.min(4.0) + 0.05, 5.0), random.restitution());
-        oscillator = oscillator.with_second_stop(lower, other).unwrap();
-        lowest = -lower;
-        text += &format!(" lower {lower} restitution {other}");
-    }
-    let start = Start {
-        x: random.within(lowest, gap),
-        v: random.within(-4.0, 4.0),
-        phase: random.within(0.0, core::f64::consts::TAU),
-    };
-    System { oscillator, start, text: format!("{text} from {start:?}") }
-}
-
-fn machine(of: &Oscillator) -> Machine {
-    let mut parts = MachineParts::new(["x"])
-        .with_mass(0, 1.0)
-        .with_link(&[1.0], 1.0, 2.0 * of.damping())
-        .with_frequency(of.beta())
-        .with_force(0, 1, 0.0, 1.0);
-    for (side, stop) in of.stops() {
-        let name = if side == Side::Upper { "upper" } else { "lower" };
-        parts = parts.with_rigid_stop(name, &[side.sign()], stop.gap, stop.restitution);
-    }
-    Machine::new(parts).unwrap()
-}
 
 /// Kind, place and speed as a machine has them.
 fn told(event: &Event) -> (MachineEventKind, usize, f64) {
@@ -199,8 +128,7 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
     tally.grazes[0] += all.iter().filter(|event| is_graze(event)).count();
     let events: Vec<Event> = all.into_iter().filter(|event| !is_graze(event)).collect();
     let (sums, determined) = allowed(system, &events);
-    let machine = machine(osc);
-    let start = MachineStart { q: vec![system.start.x], qdot: vec![system.start.v], phase: system.start.phase };
+    let (machine, start) = (system.machine(), system.machine_start());
     let limits = MachineLimits { time: 300.0, ..MachineLimits::default() };
     let mut own = MachineMotion::new(&machine, &start, limits).map_err(|error| error.to_string())?;
     let mut next = |tally: &mut Tally| -> Option<MachineEvent> {
@@ -286,10 +214,8 @@ fn compare(system: &System, tally: &mut Tally) -> Result<(), String> {
 
 #[test]
 fn the_same_events() {
-    let mut numbers = Random(1971);
     let mut tally = Tally::default();
-    for _ in 0..SYSTEMS {
-        let system = random(&mut numbers);
+    for system in systems() {
         tally.systems += 1;
         if let Err(fault) = compare(&system, &mut tally) {
             tally.faults.push(format!("{}\n    {fault}", system.text));
