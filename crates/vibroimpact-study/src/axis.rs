@@ -304,19 +304,29 @@ pub(crate) fn check(
     if !(least..=most).contains(&axes.len()) {
         return Err(PlanError::Axes { given: axes.len(), task, least, most });
     }
-    let same_number = |a: Coordinate, b: Coordinate| match (a, b) {
-        (Coordinate::Parameter(a), Coordinate::Parameter(b)) => a.same_number(b),
-        (a, b) => a == b,
-    };
-    for (k, axis) in axes.iter().enumerate() {
+    for axis in axes {
         if !allowed(axis.vary) {
             return Err(PlanError::WrongAxis { task, name: axis.vary.name(), known });
         }
-        let same = |other: &&Axis| same_number(other.vary, axis.vary);
-        if let Some(other) = axes[..k].iter().find(same) {
-            return Err(PlanError::SameParameter(other.vary.name(), axis.vary.name()));
-        }
         axis.over.check()?;
+    }
+    none_twice(axes.iter().map(|axis| axis.vary))
+}
+
+/// Checks that nothing varies twice.
+///
+/// # Errors
+/// [`PlanError::SameParameter`] for the first number that does.
+pub(crate) fn none_twice(varied: impl IntoIterator<Item = Coordinate>) -> Result<(), PlanError> {
+    let varied: Vec<Coordinate> = varied.into_iter().collect();
+    for (k, one) in varied.iter().enumerate() {
+        let same = |other: &&Coordinate| match (**other, *one) {
+            (Coordinate::Parameter(a), Coordinate::Parameter(b)) => a.same_number(b),
+            (a, b) => a == b,
+        };
+        if let Some(other) = varied[..k].iter().find(same) {
+            return Err(PlanError::SameParameter(other.name(), one.name()));
+        }
     }
     Ok(())
 }

@@ -8,6 +8,14 @@ use vibroimpact::continuation::BranchError;
 use vibroimpact::verdict::LabelError;
 use vibroimpact::{Label, SystemError};
 
+/// The message about a point: its number is written in the first line, before a hint.
+fn at_point(error: &PlanError, point: u64) -> String {
+    let text = error.to_string();
+    let (first, rest) = text.split_once('\n').map_or((text.as_str(), None), |(first, rest)| (first, Some(rest)));
+    let rest = rest.map_or_else(String::new, |rest| format!("\n{rest}"));
+    format!("{first} (point {point}){rest}")
+}
+
 /// An error in a plan. The message names the value, the allowed range and often a hint.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -179,6 +187,51 @@ pub enum PlanError {
         /// The invalid value; `None` if the length is the error.
         wrong: Option<f64>,
     },
+    /// A point of a list that is invalid.
+    #[error("{}", at_point(error, *point))]
+    AtPoint {
+        /// The number of the point, counted from 0.
+        point: u64,
+        /// What is invalid.
+        error: Box<Self>,
+    },
+    /// The number of points.
+    #[error("points = {given} lies outside 1 <= points <= {most}")]
+    PointCount {
+        /// The number given.
+        given: u64,
+        /// The largest number allowed.
+        most: u64,
+    },
+    /// Columns of points that have different lengths.
+    #[error("{} has {} values and {} has {}: every column has one value for each point", names.0, counts.0, names.1, counts.1)]
+    PointColumns {
+        /// The names of two columns.
+        names: (&'static str, &'static str),
+        /// Their lengths.
+        counts: (usize, usize),
+    },
+    /// A value of a point that is not finite.
+    #[error("{name} = {value} is not finite (point {point})")]
+    PointValue {
+        /// The name of the column.
+        name: &'static str,
+        /// The value.
+        value: f64,
+        /// The number of the point, counted from 0.
+        point: u64,
+    },
+    /// The number of sides of the box from which points are drawn.
+    #[error("ranges given: {given}; points are drawn from 1 to {most}")]
+    PointSides {
+        /// The number given.
+        given: usize,
+        /// The largest number allowed.
+        most: usize,
+    },
+    /// Points with a refinement between neighbours.
+    #[error("points have no neighbours, so nothing is between them to refine")]
+    PointsRefined,
     /// The number of axes is too small or too large for the task.
     #[error("axes given: {given}; a {task} has {least} to {most}")]
     Axes {
@@ -211,6 +264,11 @@ pub enum PlanError {
         "a plan that asks to {0} fills no grid, so there is nothing to store\nhint: tasks for a store are map, basin, attractors, diagram and lyapunov"
     )]
     NoStudy(&'static str),
+    /// A task of a machine without a grid, which cannot be stored as a study.
+    #[error(
+        "a plan of a machine that asks to {0} fills no grid, so there is nothing to store\nhint: tasks of machines for a store are map, basin and diagram"
+    )]
+    NoMachineStudy(&'static str),
     /// A diagram of a quantity, which has no store.
     #[error(
         "a diagram of a quantity is computed in memory, and has no store\nhint: a map over one parameter with --fields has one, and all coexisting motions"

@@ -14,6 +14,7 @@
 //! | a grid and its tiles, the arrays over it | [`Grid`], [`Field`] |
 //! | the arrays that a tile of a plan holds | [`Study`], [`study`] |
 //! | tiles over threads, with a stop flag and progress | [`Control`], [`tiles`] |
+//! | points of parameters and starts, listed or drawn from a box | [`PointsPlan`] |
 //! | the events of one motion | [`Simulated`] |
 //! | the motion to which each start of a plane leads | [`BasinPlan`], [`Basin`] |
 //! | the motions at each point of a parameter plane | [`MapPlan`], [`RegionMap`] |
@@ -57,6 +58,7 @@ mod parameter;
 mod physical;
 mod plan;
 mod plan_text;
+mod points;
 mod quantity;
 mod region;
 mod response;
@@ -100,11 +102,12 @@ pub use margins::{
 pub use parameter::{Parameter, is_length};
 pub use physical::PhysicalPlan;
 pub use plan::{Plan, Task};
+pub use points::{DrawnPoints, ListedColumn, PointRange, PointRule, PointsPlan};
 pub use quantity::{Quantities, Quantity, unknown as unknown_quantity};
 pub use region::{DEFAULT_GRID, RegionPlan, Regions, stability_regions};
 pub use response::{ResponseBranch, ResponseCurves, ResponsePlan, ResponsePoint, SweptMotion};
 pub use run::{Results, run};
-pub use simulate::Simulated;
+pub use simulate::{Simulated, simulate};
 pub use span::Span;
 pub use stretch::Stretch;
 pub use study::{Study, StudyPlan};

@@ -71,7 +71,13 @@ impl Plan {
         let over = |axes: &[crate::Axis]| axes.iter().map(|axis| axis.vary.name()).collect::<Vec<_>>().join(", ");
         match &self.task {
             Task::Map(map) => format!("motions of an impact oscillator over {}", over(&map.axes)),
-            Task::Basin(basin) => format!("motions an impact oscillator settles into over {}", over(&basin.axes)),
+            Task::Basin(basin) => {
+                let of_points = basin.points.iter().flat_map(crate::PointsPlan::varied);
+                let all = of_points.chain(basin.axes.iter().map(|axis| axis.vary));
+                let names: Vec<_> = all.map(crate::Coordinate::name).collect();
+                let points = if basin.points.is_some() { "points of " } else { "" };
+                format!("motions an impact oscillator settles into over {points}{}", names.join(", "))
+            }
             Task::Attractors { .. } => "motions an impact oscillator settles into from scattered starts".to_owned(),
             Task::Diagram(diagram) => {
                 let names: Vec<_> = diagram.cut().parameters().map(Parameter::name).collect();

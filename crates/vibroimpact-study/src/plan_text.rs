@@ -60,11 +60,14 @@ impl Task {
                 Coordinate::Parameter(parameter) if axis.over.count() > 0 => Some((parameter, axis.over.at(0))),
                 _ => None,
             };
-            axes.iter().filter_map(first).collect()
+            axes.iter().filter_map(first).collect::<Vec<_>>()
         };
         match self {
             Self::Map(map) => on(&map.axes),
-            Self::Basin(basin) => on(&basin.axes),
+            Self::Basin(basin) => {
+                let points = basin.points.iter().filter(|points| points.count() > 0);
+                points.flat_map(|points| points.parameters(0)).chain(on(&basin.axes)).collect()
+            }
             Self::Lyapunov(lyapunov) => on(&lyapunov.axes),
             Self::Diagram(diagram) => diagram.cut().values(diagram.over.at(0)).collect(),
             Self::Response(response) => vec![(response.vary, response.over.at(0))],

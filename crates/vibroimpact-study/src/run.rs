@@ -12,6 +12,7 @@ use crate::{
     Basin, Branches, Control, Diagram, EventCurve, MotionMargins, Plan, PlanError, RegionMap, Regions, ResponseCurves,
     RunError, Simulated, Stopped, Task,
 };
+use core::sync::atomic::{AtomicU64, Ordering};
 use vibroimpact::chaos::{Exponents, Section, exponents_while, section_while};
 use vibroimpact::orbit::{FindOptions, Orbit, find_while};
 use vibroimpact::verdict::{Census, Settled, settle_while};
@@ -49,6 +50,9 @@ pub enum Results {
     Margins(MotionMargins),
 }
 
+/// Number of impacts of one motion between two reports.
+const TELL: u64 = 1024;
+
 /// Computes the result of a plan: every point of a grid, without refinement.
 ///
 /// `control.stop` is read at every point of a grid, every event of a motion, every seed of a search for orbits, every
@@ -69,7 +73,15 @@ pub fn run(plan: &Plan, control: &Control<'_>) -> Result<Results, RunError> {
     plan.check()?;
     let system = &plan.system;
     let osc = system.oscillator()?;
-    let go_on = || !control.stopping();
+    // one motion reports its impacts
+    let impacts = AtomicU64::new(0);
+    let go_on = || {
+        let now = impacts.fetch_add(1, Ordering::Relaxed) + 1;
+        if now.is_multiple_of(TELL) {
+            (control.progress)(now);
+        }
+        !control.stopping()
+    };
     let stopped = Stopped { done: 0, total: plan.work().map_or(1, |(total, _)| total) };
     if control.stopping() {
         return Err(stopped.into());

@@ -14,6 +14,9 @@ const MOST_IMPACTS: u64 = 1_000_000;
 /// further.
 const IDLE: u32 = 1000;
 
+/// Number of impacts between two reports of progress.
+const TELL: u64 = 1024;
+
 /// The events of a motion and the reason why the list ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulated {
@@ -33,8 +36,12 @@ pub(crate) fn most_impacts(impacts: Option<u64>, periods: Option<f64>) -> u64 {
     impacts.unwrap_or(if periods.is_some() { MOST_IMPACTS } else { DEFAULT_IMPACTS })
 }
 
-/// Follows a motion up to the given number of impacts and of forcing periods.
-pub(crate) fn simulate(
+/// Follows a motion up to the given number of impacts and of forcing periods; 100 impacts, or a million with `periods`,
+/// when absent.
+///
+/// # Errors
+/// [`Stopped`] when stopped by its control.
+pub fn simulate(
     osc: &Oscillator,
     start: Start,
     (impacts, periods): (Option<u64>, Option<f64>),
@@ -61,6 +68,9 @@ pub(crate) fn simulate(
         events.push(event);
         if let EventKind::Impact { .. } = event.kind {
             (struck, idle) = (struck + 1, 0);
+            if struck % TELL == 0 {
+                (control.progress)(struck);
+            }
             if struck >= impacts {
                 break ("impact_limit", event.time, None);
             }

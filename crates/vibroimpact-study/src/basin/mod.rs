@@ -8,7 +8,7 @@ pub use measures::{BasinMeasures, UncertaintyExponent, measures, missed_share, s
 pub use merging::Merging;
 pub use plan::BasinPlan;
 
-use crate::{SystemPlan, axis};
+use crate::{Axis, StartPlan, SystemPlan, axis};
 use vibroimpact::verdict::CountedMotion;
 use vibroimpact::{Oscillator, Start};
 
@@ -56,18 +56,18 @@ pub fn start(osc: &Oscillator, plan: &BasinPlan, k: u64) -> Start {
         rest /= count;
     }
     let same = SystemPlan::default();
-    start_at(osc, (&same, &same), plan, |k| place[k])
+    start_at(osc, (&same, &same), (&plan.start, &plan.axes), |k| place[k])
 }
 
 /// The start at a point of the axes, given the oscillator at that point. `systems` are that of the plan and that at the
-/// point.
+/// point; `start` has the coordinates that are on no axis.
 pub(crate) fn start_at(
     osc: &Oscillator,
     systems: (&SystemPlan, &SystemPlan),
-    plan: &BasinPlan,
+    (start, axes): (&StartPlan, &[Axis]),
     place: impl Fn(usize) -> usize,
 ) -> Start {
-    let given = axis::start_at(systems, &plan.start, &plan.axes, place);
+    let given = axis::start_at(systems, start, axes, place);
     let (lowest, highest) = Start::room(osc);
     Start {
         // the ends of an axis lie within the stops; the clamp keeps rounded values between them within the stops too

@@ -3,16 +3,20 @@
 use crate::axis::{self, Axis, Coordinate};
 use crate::map::{check_impacts, check_refine, options};
 use crate::quantity::Quantity;
-use crate::{PlanError, Span, StartPlan, SystemPlan};
+use crate::{PlanError, PointsPlan, Span, StartPlan, SystemPlan};
 use serde::{Deserialize, Serialize};
 use vibroimpact::verdict::SettleOptions;
 
-/// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters.
+/// The starts of a basin: a grid over coordinates of the start, and perhaps over parameters, or points of both.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BasinPlan {
     /// What varies; the first runs fastest and is drawn to the right, the second upwards.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub axes: Vec<Axis>,
+    /// Points of parameters and starts, each with the whole grid over the axes, if there are any axes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<PointsPlan>,
     /// The coordinates that are on no axis.
     #[serde(default)]
     pub start: StartPlan,
@@ -28,6 +32,10 @@ pub struct BasinPlan {
     #[serde(default, with = "crate::quantity", skip_serializing_if = "Vec::is_empty")]
     #[schemars(with = "crate::quantity::Names")]
     pub fields: Vec<Quantity>,
+    /// Whether to report the number of impacts after which each motion was decided. Many starts of one system take longer
+    /// then.
+    #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+    pub transient: bool,
 }
 
 /// Maximum number of axes.
@@ -40,10 +48,26 @@ impl BasinPlan {
         let axes = vec![Axis::new(Coordinate::X, x), Axis::new(Coordinate::V, v)];
         Self {
             axes,
+            points: None,
             start: StartPlan { phase, ..StartPlan::default() },
             refine: None,
             impacts: None,
             fields: Vec::new(),
+            transient: false,
+        }
+    }
+
+    /// One start for each point.
+    #[must_use]
+    pub const fn of_points(points: PointsPlan, start: StartPlan) -> Self {
+        Self {
+            axes: Vec::new(),
+            points: Some(points),
+            start,
+            refine: None,
+            impacts: None,
+            fields: Vec::new(),
+            transient: false,
         }
     }
 
@@ -54,15 +78,35 @@ impl BasinPlan {
     /// system.
     pub fn check(&self, system: &SystemPlan) -> Result<(), PlanError> {
         let allowed = (|_| true) as fn(Coordinate) -> bool;
-        axis::check("basin", &self.axes, (1, MOST_AXES), (allowed, "anything"))?;
+        let counts = if self.points.is_some() { (0, MOST_AXES - 1) } else { (1, MOST_AXES) };
+        axis::check("basin", &self.axes, counts, (allowed, "anything"))?;
+        check_refine(self.refine)?;
+        check_impacts(self.impacts)?;
+        if let Some(points) = &self.points {
+            if self.refine.is_some() {
+                return Err(PlanError::PointsRefined);
+            }
+            axis::none_twice(points.varied().chain(self.axes.iter().map(|axis| axis.vary)))?;
+            if points.one_system() && self.axes.is_empty() {
+                let osc = system.oscillator()?;
+                return points.check(system, &self.start, |_, start| start.start(&osc).map(|_| ()));
+            }
+            return points.check(system, &self.start, |there, start| self.corners(there, start));
+        }
         if !self.axes.iter().any(|axis| axis.vary.is_start()) {
             return Err(PlanError::NoStartAxis);
         }
-        check_refine(self.refine)?;
-        check_impacts(self.impacts)?;
+        self.corners(system, &self.start)
+    }
+
+    /// Checks the corners of the grid over the axes, from a start of a system.
+    fn corners(&self, system: &SystemPlan, start: &StartPlan) -> Result<(), PlanError> {
+        if self.axes.is_empty() {
+            return start.start(&system.oscillator()?).map(|_| ());
+        }
         for corner in axis::corners(&self.axes) {
             let there = axis::system_at(system, &self.axes, |k| corner[k])?;
-            let start = axis::start_at((system, &there), &self.start, &self.axes, |k| corner[k]);
+            let start = axis::start_at((system, &there), start, &self.axes, |k| corner[k]);
             start.start(&there.oscillator()?)?;
         }
         Ok(())
@@ -77,13 +121,15 @@ impl BasinPlan {
     /// Total number of starts.
     #[must_use]
     pub fn starts(&self) -> u64 {
-        axis::points(&self.axes)
+        let points = self.points.as_ref().map_or(1, PointsPlan::count);
+        points.saturating_mul(axis::points(&self.axes))
     }
 
     /// Whether all starts belong to one system, that is, no axis varies a parameter.
     #[must_use]
     pub fn one_system(&self) -> bool {
-        self.axes.iter().all(|axis| axis.vary.is_start())
+        let points = self.points.as_ref().is_none_or(PointsPlan::one_system);
+        points && self.axes.iter().all(|axis| axis.vary.is_start())
     }
 }
 

@@ -26,6 +26,10 @@ fn in_tiles(system: &SystemPlan, plan: &BasinPlan, control: &Control<'_>, tile: 
         let (task, name) = ("basin of one system", axis.vary.name());
         return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
     }
+    if plan.points.is_some() {
+        let (task, name) = ("basin of one system", "point");
+        return Err(PlanError::WrongAxis { task, name, known: "x, v and phase" }.into());
+    }
     if total > MOST_CELLS {
         return Err(axis::too_many("starts", &plan.axes).into());
     }

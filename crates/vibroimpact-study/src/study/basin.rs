@@ -2,40 +2,32 @@
 
 use super::code;
 use super::cycles::{self, Numbered, Numbering};
-use super::fill::{Along, Fill, along, grid_of, on_axis, spread};
-use super::map::{computed, computed_column, side};
+use super::fill::{Along, Fill, spread};
+use super::map::{computed, computed_column};
+use super::reason;
 use super::refine::{self, Cell};
-use crate::axis;
-use crate::basin::start_at;
+use super::starts::Starts;
 use crate::field::{Column, Field, NumberType};
-use crate::grid::{Block, Dimension, Grid};
+use crate::grid::{Block, Grid};
 use crate::limits::MOST_STARTS;
 use crate::quantity::{self, Quantities, Quantity};
 use crate::{BasinPlan, PlanError, SystemPlan, Unit};
 use core::cell::RefCell;
+use std::collections::HashMap;
 use std::sync::OnceLock;
 use vibroimpact::lanes::Width;
+use vibroimpact::math::Multiplier;
 use vibroimpact::quantities::of_verdict_only;
 use vibroimpact::verdict::{
-    Census, CountedMotion, KnownAttractors, SettleOptions, StartBox, Verdict, scattered_starts, settle_many,
+    Census, CountedMotion, Ending, KnownAttractors, Reason, SettleOptions, StartBox, Verdict, settle_many,
 };
 use vibroimpact::{Oscillator, Start};
 
-/// Default number of points of a tile along each of two axes; a tile takes about a tenth of a second.
-const TILE: usize = 256;
 /// Number of starts, spread over the grid, that are settled in the survey, before the first tile, to find the cycles of
 /// the system.
 const SURVEY: u64 = 96;
 /// Number of these starts whose cycles get trapping regions.
 const TRAPS: u64 = 24;
-
-/// The position of the starts.
-enum Starts {
-    /// At the points of the axes.
-    Grid(BasinPlan),
-    /// Scattered over an area, by the sequence with this seed.
-    Scattered { area: StartBox, seed: u64 },
-}
 
 pub(crate) struct BasinFill {
     system: SystemPlan,
@@ -60,12 +52,31 @@ pub(crate) struct BasinTile {
     /// For a basin of one oscillator: the motions of the tile, in the order of the first start that was settled into
     /// each.
     pub(crate) met: Census,
-    /// For a basin that also varies parameters: the codes of the labels in the tile. With quantities, each start has
-    /// an entry of its own.
-    codes: Vec<(i32, Option<Quantities>)>,
-    /// For each point, the index of its motion in `met` or of its code in `codes`.
+    /// For a basin that also varies parameters: the motions of each system.
+    found: Vec<Found>,
+    /// For each point, the index of its motion in `met` or in `found`.
     pub(crate) cells: Vec<Cell<u32>>,
+    /// How each point was decided; without meaning at points that were not computed.
+    endings: Vec<Ending>,
 }
+
+/// A motion of one of the systems of a tile.
+struct Found {
+    code: i32,
+    multipliers: Option<[Multiplier; 2]>,
+    quantities: Option<Quantities>,
+}
+
+/// The motions of a tile while it is computed.
+#[derive(Default)]
+struct Settled {
+    met: Census,
+    found: Vec<Found>,
+    endings: Vec<Ending>,
+}
+
+/// A point that was not computed, or has no valid system.
+const NOTHING: Ending = Ending { reason: Reason::SearchLimit, impacts: 0 };
 
 /// The result of a start as it is stored: the code of its label and the number of its cycle.
 type Leads = (i32, i32);
@@ -75,11 +86,8 @@ const WORTH_A_SURVEY: u64 = 500;
 
 impl BasinFill {
     pub(crate) fn plane(system: &SystemPlan, plan: &BasinPlan, tile: Option<u32>) -> Result<Self, PlanError> {
-        let starts = Starts::Grid(plan.clone());
-        let grid = grid_of(&plan.axes, tile, side(TILE, plan.axes.len()));
         let osc = if plan.one_system() { Some(system.oscillator()?) } else { None };
-        Ok(Self { system: *system, one: None, starts, grid, refine: plan.refine, options: plan.options() }
-            .surveyed(osc))
+        Ok(Self::of((system, osc), Starts::Grid(plan.clone()), (plan.refine, plan.options()), tile))
     }
 
     pub(crate) fn scattered(
@@ -90,21 +98,25 @@ impl BasinFill {
     ) -> Result<Self, PlanError> {
         let osc = system.oscillator()?;
         let count = usize::try_from(starts).map_err(|_| PlanError::Starts { given: starts, most: MOST_STARTS })?;
-        let tile = tile.map_or(side(TILE, 1), |tile| tile as usize).min(count);
-        let dimension = Dimension { name: "start".into(), count, tile };
-        let grid = Grid { dimensions: vec![dimension] };
-        let starts = Starts::Scattered { area: StartBox::natural(&osc), seed };
-        Ok(Self { system: *system, one: None, starts, grid, refine: None, options: *options }.surveyed(Some(osc)))
+        let starts = Starts::Scattered { area: StartBox::natural(&osc), seed, count };
+        Ok(Self::of((system, Some(osc)), starts, (None, *options), tile))
     }
 
-    fn surveyed(self, osc: Option<Oscillator>) -> Self {
+    fn of(
+        (system, osc): (&SystemPlan, Option<Oscillator>),
+        starts: Starts,
+        (refine, options): (Option<u32>, SettleOptions),
+        tile: Option<u32>,
+    ) -> Self {
+        let bare = Self { system: *system, one: None, grid: starts.grid(tile), starts, refine, options };
         let one = osc.map(|osc| {
-            let total = self.grid.points();
-            let traps = if total > WORTH_A_SURVEY { TRAPS } else { 0 };
-            let starts = spread(total, traps).map(|k| self.nth(&osc, k));
-            Surveyed { survey: KnownAttractors::survey(&osc, starts, &self.options), cycles: OnceLock::new(), osc }
+            let total = bare.grid.points();
+            // a motion that a trapping region captures is not followed to its end, so its length is not known
+            let traps = if total > WORTH_A_SURVEY && !bare.transient() { TRAPS } else { 0 };
+            let starts = spread(total, traps).map(|k| bare.nth(&osc, k));
+            Surveyed { survey: KnownAttractors::survey(&osc, starts, &bare.options), cycles: OnceLock::new(), osc }
         });
-        Self { one, ..self }
+        Self { one, ..bare }
     }
 
     /// The start at point number `k` of the grid.
@@ -135,67 +147,100 @@ impl BasinFill {
 
     /// The start at a point of the grid.
     fn start(&self, osc: &Oscillator, there: &SystemPlan, index: &[usize]) -> Start {
-        match &self.starts {
-            Starts::Scattered { area, seed } => scattered_starts(osc, *area, *seed, index[0] as u64),
-            Starts::Grid(plan) => start_at(osc, (&self.system, there), plan, |k| on_axis(index, k)),
-        }
+        self.starts.at(osc, (&self.system, there), index)
     }
 
-    /// The system at a point of the grid. The corners have been checked, so this fails only between valid corners.
-    fn there(&self, index: &[usize]) -> Option<(SystemPlan, Oscillator)> {
-        let Starts::Grid(plan) = &self.starts else { return None };
-        let there = axis::system_at(&self.system, &plan.axes, |k| on_axis(index, k)).ok()?;
-        Some((there, there.oscillator().ok()?))
-    }
-
-    /// Settles the given points of a tile. Returns for each point the index of its motion or code in the tile.
+    /// Settles the given points of a tile. Returns for each point the index of its motion in the tile.
     fn settled(
         &self,
         block: &Block,
         wanted: &[usize],
-        (met, codes): (&mut Census, &mut Vec<(i32, Option<Quantities>)>),
+        into: &mut Settled,
         tick: &(dyn Fn() -> bool + Sync),
     ) -> Option<Vec<u32>> {
-        let options = self.options;
-        let whole = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
-        let Some(one) = &self.one else {
-            let alone = |k: &usize| {
-                let index = block.index(*k);
-                // the corners are valid; a point between them that is not is undecided
-                let found = self.there(&index).map_or((super::UNDECIDED, None), |(there, osc)| {
-                    let start = self.start(&osc, &there, &index);
-                    let verdict = vibroimpact::verdict::settle(&osc, start, &options).verdict;
-                    let quantities =
-                        if self.asked().is_empty() { None } else { of_verdict_only(&osc, &verdict, self.asked()) };
-                    (code(&verdict), quantities)
-                });
-                let known = codes.iter().position(|known| *known == found).filter(|_| self.asked().is_empty());
-                let number = known.unwrap_or_else(|| {
-                    codes.push(found);
-                    codes.len() - 1
-                });
-                (!tick()).then(|| whole(number))
+        into.endings.resize(block.points(), NOTHING);
+        if let Some(one) = &self.one {
+            let start = |k: usize| self.start(&one.osc, &self.system, &block.index(wanted[k]));
+            let all: Vec<usize> = (0..wanted.len()).collect();
+            let (motions, cells) = self.among(&one.osc, (&all, wanted), start, &one.survey, &mut into.endings, tick)?;
+            let numbers: Vec<u32> = motions.iter().map(|found| whole(into.met.add_found(found))).collect();
+            return Some(cells.into_iter().map(|cell| numbers[cell as usize]).collect());
+        }
+        // starts of one system are settled together
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
+        for (k, number) in wanted.iter().enumerate() {
+            let group = *known.entry(self.starts.key(&block.index(*number))).or_insert_with(|| {
+                groups.push(Vec::new());
+                groups.len() - 1
+            });
+            groups[group].push(k);
+        }
+        let mut numbers = vec![0; wanted.len()];
+        for group in groups {
+            let first = block.index(wanted[group[0]]);
+            // the corners are valid; a point between them that is not is undecided
+            let Some((there, osc)) = self.starts.system(&self.system, &first) else {
+                let number = whole(into.found.len());
+                into.found.push(Found { code: super::UNDECIDED, multipliers: None, quantities: None });
+                group.iter().for_each(|k| numbers[*k] = number);
+                if group.iter().any(|_| tick()) {
+                    return None;
+                }
+                continue;
             };
-            return wanted.iter().map(alone).collect();
-        };
-        let start = |k: u64| {
-            let number = usize::try_from(k).ok().and_then(|k| wanted.get(k)).copied().unwrap_or(0);
-            self.start(&one.osc, &self.system, &block.index(number))
-        };
-        let range = 0..wanted.len() as u64;
-        let settlement = settle_many(&one.osc, range, start, &one.survey, &options, Width::best(), &|| tick());
-        if settlement.cells.len() < wanted.len() {
+            let start = |k: usize| self.start(&osc, &there, &block.index(wanted[group[k]]));
+            let traps = if group.len() as u64 > WORTH_A_SURVEY && !self.transient() { TRAPS } else { 0 };
+            let chosen = spread(group.len() as u64, traps).filter_map(|k| usize::try_from(k).ok()).map(start);
+            let survey = KnownAttractors::survey(&osc, chosen, &self.options);
+            let (motions, cells) = self.among(&osc, (&group, wanted), start, &survey, &mut into.endings, tick)?;
+            let own: Vec<u32> = motions.iter().map(|found| self.found(&osc, &found.verdict, &mut into.found)).collect();
+            group.iter().zip(cells).for_each(|(k, cell)| numbers[*k] = own[cell as usize]);
+        }
+        Some(numbers)
+    }
+
+    /// Settles starts of one oscillator, and notes how each was decided. `group` are the places of the starts in `wanted`.
+    fn among(
+        &self,
+        osc: &Oscillator,
+        (group, wanted): (&[usize], &[usize]),
+        start: impl Fn(usize) -> Start,
+        survey: &KnownAttractors,
+        endings: &mut [Ending],
+        tick: &(dyn Fn() -> bool + Sync),
+    ) -> Option<(Vec<CountedMotion>, Vec<u32>)> {
+        let start = |k: u64| start(usize::try_from(k).unwrap_or(0));
+        let range = 0..group.len() as u64;
+        let settlement = settle_many(osc, range, start, survey, &self.options, Width::best(), &|| tick());
+        if settlement.cells.len() < group.len() {
             return None;
         }
-        let numbers: Vec<u32> = settlement.motions.iter().map(|found| whole(met.add_found(found))).collect();
-        Some(settlement.cells.iter().map(|cell| numbers[*cell as usize]).collect())
+        for (k, ending) in group.iter().zip(&settlement.endings) {
+            endings[wanted[*k]] = *ending;
+        }
+        Some((settlement.motions, settlement.cells))
+    }
+
+    /// The number of a motion in a tile of several systems. Without quantities and multipliers motions are their labels.
+    fn found(&self, osc: &Oscillator, verdict: &Verdict, all: &mut Vec<Found>) -> u32 {
+        let code = code(verdict);
+        let bare = self.asked().is_empty() && !self.of_points();
+        let known = if bare { all.iter().position(|known| known.code == code) } else { None };
+        whole(known.unwrap_or_else(|| {
+            let asked = self.asked();
+            let quantities = if asked.is_empty() { None } else { of_verdict_only(osc, verdict, asked) };
+            let multipliers = if self.of_systems() { verdict.multipliers(osc) } else { None };
+            all.push(Found { code, multipliers, quantities });
+            all.len() - 1
+        }))
     }
 
     /// The stored result of each motion of a tile, and the cycles that the survey has not found.
     fn leads(&self, tile: &BasinTile) -> (Vec<Leads>, Census) {
         let mut unknown = Census::default();
         let Some(one) = &self.one else {
-            return (tile.codes.iter().map(|(code, _)| (*code, cycles::NONE)).collect(), unknown);
+            return (tile.found.iter().map(|found| (found.code, cycles::NONE)).collect(), unknown);
         };
         let known = self.cycles(one);
         let leads = |found: &CountedMotion| (code(&found.verdict), cycles::number(known, &mut unknown, found));
@@ -204,7 +249,53 @@ impl BasinFill {
 
     /// The quantities that the plan asks for.
     fn asked(&self) -> &[Quantity] {
-        if let Starts::Grid(plan) = &self.starts { &plan.fields } else { &[] }
+        self.starts.plan().map_or(&[], |plan| &plan.fields)
+    }
+
+    /// Whether the starts are points, for which further numbers of each motion are reported.
+    fn of_points(&self) -> bool {
+        self.starts.plan().is_some_and(|plan| plan.points.is_some())
+    }
+
+    /// Whether the starts are points of several systems, for which the multipliers of each motion are reported. Those of one
+    /// system are in the tables of its cycles.
+    fn of_systems(&self) -> bool {
+        self.of_points() && self.one.is_none()
+    }
+
+    /// Whether the length of each transient is reported.
+    fn transient(&self) -> bool {
+        self.starts.plan().is_some_and(|plan| plan.transient)
+    }
+
+    /// The verdict on a motion as it is stored: of a cycle that the survey has found, that of the survey, so that it is the
+    /// same in all tiles.
+    fn stored<'a>(&'a self, one: &'a Surveyed, found: &'a Verdict) -> &'a Verdict {
+        self.cycles(one).iter().find(|known| cycles::same(*known, found)).unwrap_or(found)
+    }
+
+    /// The columns of reasons, where the starts are points, of multipliers, and of the lengths of the transients.
+    fn details(&self, tile: &BasinTile) -> Vec<Column> {
+        let mut columns = Vec::new();
+        if self.of_points() {
+            columns.push(reason::column(&tile.endings));
+        }
+        if self.of_systems() {
+            for part in MULTIPLIERS.map(|(_, _, part)| part) {
+                let known: Vec<f64> =
+                    tile.found.iter().map(|found| found.multipliers.as_ref().map_or(f64::NAN, part)).collect();
+                let number = |cell: &Cell<u32>| cell.result(&tile.cells).map_or(0, |(number, _)| *number as usize);
+                columns.push(Column::F64(tile.cells.iter().map(|cell| known[number(cell)]).collect()));
+            }
+        }
+        if self.transient() {
+            let own = |(cell, ending): (&Cell<u32>, &Ending)| match cell {
+                Cell::Computed(_) => i32::try_from(ending.impacts).unwrap_or(i32::MAX),
+                Cell::Like(_) => -1,
+            };
+            columns.push(Column::I32(tile.cells.iter().zip(&tile.endings).map(own).collect()));
+        }
+        columns
     }
 
     /// The columns of the quantities that the plan asks for. The quantities of a cycle that the survey has found are
@@ -218,14 +309,10 @@ impl BasinFill {
         }
         let known: Vec<Option<Quantities>> = match &self.one {
             Some(one) => {
-                let survey = self.cycles(one);
-                let same = |found: &Verdict| survey.iter().find(|known| cycles::same(*known, found));
-                let of = |found: &CountedMotion| {
-                    of_verdict_only(&one.osc, same(&found.verdict).unwrap_or(&found.verdict), asked)
-                };
+                let of = |found: &CountedMotion| of_verdict_only(&one.osc, self.stored(one, &found.verdict), asked);
                 tile.met.motions().iter().map(of).collect()
             }
-            None => tile.codes.iter().map(|(_, quantities)| *quantities).collect(),
+            None => tile.found.iter().map(|found| found.quantities).collect(),
         };
         for cell in &tile.cells {
             let own = |(_, own): &(&u32, bool)| *own || self.one.is_some();
@@ -245,6 +332,22 @@ impl BasinFill {
     }
 }
 
+/// The name, the description and the value of a part of the two multipliers of a motion.
+type PartOfMultipliers = (&'static str, &'static str, fn(&[Multiplier; 2]) -> f64);
+
+/// The multipliers as they are stored for points.
+const MULTIPLIERS: [PartOfMultipliers; 4] = [
+    ("multiplier_1_re", "real part of the larger Floquet multiplier", |of| of[0].re),
+    ("multiplier_1_im", "imaginary part of the larger Floquet multiplier", |of| of[0].im),
+    ("multiplier_2_re", "real part of the smaller Floquet multiplier", |of| of[1].re),
+    ("multiplier_2_im", "imaginary part of the smaller Floquet multiplier", |of| of[1].im),
+];
+
+/// An index of a motion.
+fn whole(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or(u32::MAX)
+}
+
 impl Fill for BasinFill {
     type Tile = BasinTile;
 
@@ -253,10 +356,7 @@ impl Fill for BasinFill {
     }
 
     fn coordinates(&self) -> Vec<Along> {
-        match &self.starts {
-            Starts::Grid(plan) => along(&plan.axes),
-            Starts::Scattered { .. } => Vec::new(),
-        }
+        self.starts.coordinates()
     }
 
     fn fields(&self) -> Vec<Field> {
@@ -266,6 +366,26 @@ impl Fill for BasinFill {
             fields.push(cycles::field(label.clone()));
         }
         fields.extend(self.asked().iter().map(|quantity| quantity::field(*quantity, Vec::new())));
+        let number = |name: &'static str, long_name: &'static str| Field {
+            name: name.into(),
+            long_name: long_name.into(),
+            unit: Unit::NUMBER,
+            kind: NumberType::F64,
+            flags: Vec::new(),
+            comment: "",
+            ..label.clone()
+        };
+        if self.of_points() {
+            fields.push(reason::field());
+        }
+        if self.of_systems() {
+            fields.extend(MULTIPLIERS.map(|(name, long_name, _)| number(name, long_name)));
+        }
+        if self.transient() {
+            let long_name = "impacts until the motion was decided";
+            let flags = vec![(super::NOT_COMPUTED, "not_computed"), (-1, "taken_from_agreeing_neighbours")];
+            fields.push(Field { kind: NumberType::I32, flags, ..number("transient", long_name) });
+        }
         if let Starts::Scattered { .. } = self.starts {
             let coordinate = |name: &'static str, long_name: &'static str, unit| Field {
                 name: name.into(),
@@ -287,23 +407,21 @@ impl Fill for BasinFill {
     }
 
     fn compute(&self, block: &Block, tick: &(dyn Fn() -> bool + Sync)) -> Option<BasinTile> {
-        let (mut met, mut codes) = (Census::default(), Vec::new());
+        let mut settled = Settled::default();
         let cells = match self.refine {
             None => {
                 let all: Vec<usize> = (0..block.points()).collect();
-                let numbers = self.settled(block, &all, (&mut met, &mut codes), tick)?;
+                let numbers = self.settled(block, &all, &mut settled, tick)?;
                 numbers.into_iter().map(Cell::Computed).collect()
             }
             Some(step) => {
-                let shared = RefCell::new((&mut met, &mut codes));
-                let compute = |wanted: &[usize]| {
-                    let (met, codes) = &mut *shared.borrow_mut();
-                    self.settled(block, wanted, (met, codes), tick)
-                };
-                refine::fill(block, step as usize, compute, |a, b| self.alike(shared.borrow().0, *a, *b))?
+                let shared = RefCell::new(&mut settled);
+                let compute = |wanted: &[usize]| self.settled(block, wanted, &mut shared.borrow_mut(), tick);
+                refine::fill(block, step as usize, compute, |a, b| self.alike(&shared.borrow().met, *a, *b))?
             }
         };
-        Some(BasinTile { met, codes, cells })
+        let Settled { met, found, endings } = settled;
+        Some(BasinTile { met, found, cells, endings })
     }
 
     fn columns(&self, block: &Block, tile: BasinTile) -> Vec<Column> {
@@ -317,6 +435,7 @@ impl Fill for BasinFill {
             columns.push(Column::I32(cells.iter().map(|cell| of(cell).1).collect()));
         }
         columns.extend(self.quantities(&tile));
+        columns.extend(self.details(&tile));
         if let (Starts::Scattered { .. }, Some(one)) = (&self.starts, &self.one) {
             let starts: Vec<Start> =
                 (0..block.points()).map(|k| self.start(&one.osc, &self.system, &block.index(k))).collect();

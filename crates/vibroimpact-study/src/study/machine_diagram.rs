@@ -50,7 +50,11 @@ impl Swept for MachineSweep {
         let real =
             Field { unit: Unit::CONSISTENT, kind: NumberType::F64, fill: 0, extra, flags: Vec::new(), ..kind.clone() };
         if !self.plan.shows_closings() {
-            let long_name = format!("{} at phase 0 of the forcing", self.plan.show).into();
+            let show = &self.plan.show;
+            let states = self.plan.shows_states();
+            let long_name =
+                if states { format!("{show} at phase 0 of the forcing") } else { format!("{show} of the motion") };
+            let long_name = long_name.into();
             return vec![kind, Field { name: self.plan.show.clone().into(), long_name, ..real }];
         }
         let stop = Field {

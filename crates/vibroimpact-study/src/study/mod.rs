@@ -16,7 +16,9 @@ mod machine_map;
 mod map;
 mod memory;
 mod plan;
+mod reason;
 mod refine;
+mod starts;
 mod stored_motion;
 mod sweeps;
 mod tables;
@@ -61,7 +63,7 @@ impl Study {
     }
 
     fn of_machine(plan: &MachinePlan) -> Result<Self, PlanError> {
-        let none = |what| Err(PlanError::NoStudy(what));
+        let none = |what| Err(PlanError::NoMachineStudy(what));
         let fill: Box<dyn fill::Columns> = match &plan.task {
             MachineTask::Basin(basin) => {
                 let (machine, start) = plan.problem()?;
@@ -71,8 +73,8 @@ impl Study {
             MachineTask::Diagram(diagram) => Box::new(SweepFill::of_machine(&plan.machine, diagram, plan.tile)),
             MachineTask::Simulate { .. } => return none("simulate"),
             MachineTask::Settle { .. } => return none("settle"),
-            MachineTask::Attractors { .. } => return none("find the attractors of a machine"),
-            MachineTask::Lyapunov { .. } => return none("measure the exponents of a machine"),
+            MachineTask::Attractors { .. } => return none("find attractors"),
+            MachineTask::Lyapunov { .. } => return none("measure exponents"),
             MachineTask::Orbit { .. } => return none("find orbits"),
             MachineTask::Branch { .. } => return none("follow a branch"),
             MachineTask::Curve(_) => return none("follow a curve"),

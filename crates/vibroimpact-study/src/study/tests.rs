@@ -3,8 +3,11 @@
 use super::*;
 use crate::Axis;
 use crate::axis::{Coordinate, Values};
-use crate::{BasinPlan, Control, DiagramPlan, LyapunovPlan, MapPlan, Parameter, Span, StartPlan, Stretch, SystemPlan};
-use vibroimpact::verdict::SettleOptions;
+use crate::{
+    BasinPlan, Control, DiagramPlan, DrawnPoints, ListedColumn, LyapunovPlan, MapPlan, Parameter, PointRange,
+    PointRule, PointsPlan, Span, StartPlan, Stretch, SystemPlan,
+};
+use vibroimpact::verdict::{Reason, SettleOptions};
 
 const S: SystemPlan = SystemPlan {
     beta: None,
@@ -18,6 +21,11 @@ const S: SystemPlan = SystemPlan {
 
 fn span(text: &str) -> Span {
     text.parse().unwrap()
+}
+
+/// A basin without axes.
+fn no_axes() -> BasinPlan {
+    BasinPlan { axes: Vec::new(), ..BasinPlan::plane(span("0:1:2"), span("0:1:2"), 0.0) }
 }
 
 fn sheet(system: SystemPlan, task: Task, tile: Option<u32>, threads: usize) -> Sheet {
@@ -147,14 +155,14 @@ fn scattered_starts_exponents_and_three_axes() {
         assert!(row[0] > 0.005 && row[2] < -0.005, "{row:?}");
     }
     let axes = vec![speeds, Axis::new(Coordinate::X, span("-1:0:2")), gaps];
-    let basin = BasinPlan { axes, start: StartPlan::default(), refine: None, impacts: None, fields: Vec::new() };
+    let basin = BasinPlan { axes, ..no_axes() };
     let found = sheet(u, Task::Basin(basin), None, 1);
     assert!(found.tables.is_empty() && found.fields.len() == 1);
     let labels = columns(&found, "label").whole();
     let second = crate::SecondStop { gap: 1.0, restitution: 0.5 };
     let two = SystemPlan { second_stop: Some(second), ..u };
     let over = vec![Axis::new(Coordinate::V, span("-9:9:5")), Axis::parameter(Parameter::SecondGap, span("1:2:2"))];
-    let starts = BasinPlan { axes: over, start: StartPlan::default(), refine: None, impacts: None, fields: Vec::new() };
+    let starts = BasinPlan { axes: over, ..no_axes() };
     let between = sheet(two, Task::Basin(starts), None, 1);
     for (k, found) in columns(&between, "label").whole().iter().enumerate() {
         let gap = if k < 5 { 1.0 } else { 2.0 };
@@ -217,4 +225,97 @@ fn a_diagram_is_that_of_its_steps() {
 fn questions_without_a_grid_are_no_studies() {
     let refusal = Study::new(&Plan::new(S, Task::Settle { start: StartPlan::default(), impacts: None })).err().unwrap();
     assert!(refusal.to_string().starts_with("a plan that asks to settle fills no grid"), "{refusal}");
+}
+
+/// Points of several systems, with starts of one system among them.
+fn some_points() -> PointsPlan {
+    let column = |vary, values: Vec<f64>| ListedColumn { vary, values };
+    let gaps: Vec<f64> = (0..90).map(|k| if k % 3 == 0 { 0.75 } else { 0.5 + 0.02 * f64::from(k) }).collect();
+    let speeds: Vec<f64> = (0..90).map(|k| -2.0 + 0.05 * f64::from(k)).collect();
+    PointsPlan::Listed(vec![column(Coordinate::Parameter(Parameter::Gap), gaps), column(Coordinate::V, speeds)])
+}
+
+#[test]
+fn points_are_settled_as_one_by_one() {
+    let (points, start) = (some_points(), StartPlan { x: None, v: 0.0, phase: 0.5 });
+    let plan = BasinPlan { transient: true, ..BasinPlan::of_points(points.clone(), start) };
+    let found = sheet(S, Task::Basin(plan.clone()), Some(7), 2);
+    let (labels, reasons) = (columns(&found, "label").whole(), columns(&found, "reason").flags());
+    let (transients, largest) = (columns(&found, "transient").whole(), columns(&found, "multiplier_1_re").real());
+    for k in 0..90 {
+        let (osc, start) = points.problem(&S, &start, k).unwrap();
+        let settled = vibroimpact::verdict::settle(&osc, start, &SettleOptions::default());
+        assert_eq!(labels[k], code(&settled.verdict));
+        assert_eq!(Reason::ALL[usize::try_from(reasons[k]).unwrap()], settled.verdict.reason());
+        assert_eq!(u64::try_from(transients[k]).unwrap(), settled.impacts);
+        let modulus = settled.verdict.multipliers(&osc).map_or(f64::NAN, |[first, _]| first.re);
+        assert!((largest[k] - modulus).abs() < 1e-9 || largest[k].is_nan() && modulus.is_nan());
+    }
+    assert!(labels.iter().collect::<std::collections::HashSet<_>>().len() > 2);
+    let other = sheet(S, Task::Basin(plan), Some(64), 3);
+    assert_eq!(columns(&other, "label").whole(), labels);
+    assert_eq!(columns(&other, "transient").whole(), transients);
+    let names: Vec<String> = found.study.coordinates().into_iter().map(|of| of.name).collect();
+    assert_eq!(names, ["gap", "v"]);
+}
+
+/// Points of starts of one system are a basin: its cycles are numbered.
+#[test]
+fn points_of_one_system_are_a_basin() {
+    let plane = BasinPlan::plane(span("-4:0.75:25"), span("-4:4:24"), 0.0);
+    let direct = sheet(S, Task::Basin(plane), None, 2);
+    let column = |vary, of: fn(usize) -> f64| ListedColumn { vary, values: (0..600).map(of).collect() };
+    let points = PointsPlan::Listed(vec![
+        column(Coordinate::X, |k| -4.0 + 4.75 * (k % 25) as f64 / 24.0),
+        column(Coordinate::V, |k| -4.0 + 8.0 * (k / 25) as f64 / 23.0),
+    ]);
+    let found = sheet(S, Task::Basin(BasinPlan::of_points(points, StartPlan::default())), Some(100), 2);
+    assert_eq!(columns(&found, "label").whole(), columns(&direct, "label").whole());
+    assert_eq!(found.tables.len(), direct.tables.len());
+}
+
+/// A point may have a grid of its own.
+#[test]
+fn points_with_axes() {
+    let points = DrawnPoints {
+        rule: PointRule::Lhs,
+        count: 5,
+        seed: 2,
+        over: vec![PointRange { vary: Coordinate::Parameter(Parameter::Gap), from: 0.75, to: 1.5 }],
+    };
+    let points = PointsPlan::Drawn(points);
+    let plane = BasinPlan::plane(span("-1:0.5:3"), span("-1:1:2"), 0.25);
+    let plan = BasinPlan { points: Some(points.clone()), ..plane.clone() };
+    assert_eq!(plan.starts(), 30);
+    let found = sheet(S, Task::Basin(plan), None, 2);
+    for k in 0..5 {
+        let (_, gap) = points.parameters(k).next().unwrap();
+        let alone = sheet(SystemPlan { gap, ..S }, Task::Basin(plane.clone()), None, 1);
+        assert_eq!(columns(&found, "label").whole()[6 * k..6 * k + 6], *columns(&alone, "label").whole());
+    }
+}
+
+#[test]
+fn points_that_make_no_sense() {
+    let start = StartPlan::default();
+    let listed = |vary, values: Vec<f64>| ListedColumn { vary, values };
+    let gap = Coordinate::Parameter(Parameter::Gap);
+    let of = |columns| Plan::new(S, Task::Basin(BasinPlan::of_points(PointsPlan::Listed(columns), start)));
+    for (plan, sentence) in [
+        (of(vec![]), "points = 0 lies outside 1 <= points <= 1000000000"),
+        (of(vec![listed(gap, vec![1.0]), listed(Coordinate::V, vec![1.0, 2.0])]), "gap has 1 values and v has 2"),
+        (of(vec![listed(Coordinate::V, vec![0.0, f64::INFINITY])]), "v = inf is not finite (point 1)"),
+        (of(vec![listed(Coordinate::X, vec![0.0, 0.8])]), "start x = 0.8 lies beyond the stop"),
+        (of(vec![listed(gap, vec![1.0]), listed(gap, vec![1.0])]), "gap and gap do not span a plane"),
+    ] {
+        let message = plan.check().unwrap_err().to_string();
+        assert!(message.starts_with(sentence), "{message}");
+    }
+    let refined = BasinPlan { refine: Some(4), ..BasinPlan::of_points(some_points(), start) };
+    assert_eq!(Plan::new(S, Task::Basin(refined)).check(), Err(PlanError::PointsRefined));
+    let fine = Plan::new(S, Task::Basin(BasinPlan::of_points(some_points(), start)));
+    assert!(matches!(crate::run(&fine, &Control::default()), Err(crate::RunError::Plan(PlanError::WrongAxis { .. }))));
+    for text in [fine.to_toml(), serde_json::to_string(&fine).unwrap()] {
+        assert_eq!(Plan::from_text(&text).unwrap(), fine);
+    }
 }

@@ -1,0 +1,45 @@
+//! Points that are given one by one.
+
+use crate::{Coordinate, PlanError};
+use serde::{Deserialize, Serialize};
+
+/// The values of one number at all points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ListedColumn {
+    /// What varies.
+    pub vary: Coordinate,
+    /// Its value at each point.
+    pub values: Vec<f64>,
+}
+
+/// Maximum number of points.
+const MOST: u64 = 1_000_000_000;
+
+/// A number of points as a length in memory.
+pub(super) fn length(count: u64) -> usize {
+    usize::try_from(count).unwrap_or(usize::MAX)
+}
+
+/// Checks that there are points, that all columns have the same length, and that their values are finite.
+///
+/// # Errors
+/// [`PlanError`] for the first column that is invalid.
+pub(super) fn check(columns: &[ListedColumn]) -> Result<(), PlanError> {
+    let count = columns.first().map_or(0, |column| column.values.len());
+    if count == 0 || count as u64 > MOST {
+        return Err(PlanError::PointCount { given: count as u64, most: MOST });
+    }
+    for column in columns {
+        if column.values.len() != count {
+            return Err(PlanError::PointColumns {
+                names: (columns[0].vary.name(), column.vary.name()),
+                counts: (count, column.values.len()),
+            });
+        }
+        if let Some(k) = column.values.iter().position(|value| !value.is_finite()) {
+            return Err(PlanError::PointValue { name: column.vary.name(), value: column.values[k], point: k as u64 });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,167 @@
+//! Points in the space of the parameters of a system and the coordinates of a start: listed, or drawn from a box. They are
+//! an axis of a grid along which several of them vary at once.
+
+mod drawn;
+mod listed;
+mod over;
+mod rule;
+
+pub use drawn::{DrawnPoints, PointRange};
+pub use listed::ListedColumn;
+pub use rule::PointRule;
+
+use crate::axis::none_twice;
+use crate::{Coordinate, Parameter, PlanError, StartPlan, SystemPlan};
+use serde::{Deserialize, Serialize};
+
+/// Points of a study.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum PointsPlan {
+    /// Points that are given, as one column for each number that varies.
+    Listed(Vec<ListedColumn>),
+    /// Points of a low-discrepancy sequence or a Latin hypercube.
+    Drawn(DrawnPoints),
+}
+
+/// The name of the dimension of points.
+pub(crate) const DIMENSION: &str = "sample";
+
+impl PointsPlan {
+    /// The number of points.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        match self {
+            Self::Listed(columns) => columns.first().map_or(0, |column| column.values.len() as u64),
+            Self::Drawn(drawn) => drawn.count,
+        }
+    }
+
+    /// The number of numbers that vary.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        match self {
+            Self::Listed(columns) => columns.len(),
+            Self::Drawn(drawn) => drawn.over.len(),
+        }
+    }
+
+    /// What column number `column` varies.
+    ///
+    /// # Panics
+    /// If there is no such column.
+    #[must_use]
+    pub fn vary(&self, column: usize) -> Coordinate {
+        match self {
+            Self::Listed(columns) => columns[column].vary,
+            Self::Drawn(drawn) => drawn.over[column].vary,
+        }
+    }
+
+    /// The value of column number `column` at point number `k`.
+    ///
+    /// # Panics
+    /// If there is no such column or point.
+    #[must_use]
+    pub fn at(&self, column: usize, k: usize) -> f64 {
+        match self {
+            Self::Listed(columns) => columns[column].values[k],
+            Self::Drawn(drawn) => drawn.at(column, k),
+        }
+    }
+
+    /// What the columns vary, in order.
+    pub fn varied(&self) -> impl Iterator<Item = Coordinate> + '_ {
+        (0..self.width()).map(|column| self.vary(column))
+    }
+
+    /// Whether all points belong to one system.
+    #[must_use]
+    pub fn one_system(&self) -> bool {
+        self.varied().all(Coordinate::is_start)
+    }
+
+    /// The parameters of the system at point number `k`.
+    pub fn parameters(&self, k: usize) -> impl Iterator<Item = (Parameter, f64)> + '_ {
+        (0..self.width()).filter_map(move |column| match self.vary(column) {
+            Coordinate::Parameter(parameter) => Some((parameter, self.at(column, k))),
+            _ => None,
+        })
+    }
+
+    /// The start at point number `k`; coordinates that do not vary are those of `start`.
+    #[must_use]
+    pub fn start(&self, start: &StartPlan, k: usize) -> StartPlan {
+        let mut there = *start;
+        for column in 0..self.width() {
+            match self.vary(column) {
+                Coordinate::Parameter(_) => {}
+                Coordinate::X => there.x = Some(self.at(column, k)),
+                Coordinate::V => there.v = self.at(column, k),
+                Coordinate::Phase => there.phase = self.at(column, k),
+            }
+        }
+        there
+    }
+
+    /// Checks the number of points and their values, and that `valid` accepts each listed point, or the corners
+    /// of the box from which points are drawn.
+    ///
+    /// # Errors
+    /// [`PlanError`] for the first error; those of a point name its number.
+    pub(crate) fn check(
+        &self,
+        system: &SystemPlan,
+        start: &StartPlan,
+        valid: impl Fn(&SystemPlan, &StartPlan) -> Result<(), PlanError>,
+    ) -> Result<(), PlanError> {
+        none_twice(self.varied())?;
+        match self {
+            Self::Listed(columns) => listed::check(columns)?,
+            Self::Drawn(drawn) => {
+                drawn.check()?;
+                return Self::Listed(drawn.corners()).check(system, start, valid);
+            }
+        }
+        let fixed = self.one_system();
+        // the starts of one system are a convex set, so the corners of a box that holds the points say that all are valid
+        if fixed && self.hull(start).iter().all(|corner| valid(system, corner).is_ok()) {
+            return Ok(());
+        }
+        (0..listed::length(self.count())).try_for_each(|k| {
+            let here = || {
+                if fixed {
+                    return valid(system, &self.start(start, k));
+                }
+                let there = system.with_all(self.parameters(k))?;
+                valid(&there, &self.start_in((system, &there), start, k))
+            };
+            here().map_err(|error| PlanError::AtPoint { point: k as u64, error: Box::new(error) })
+        })
+    }
+
+    /// The start with the smallest of all listed coordinates, and that with the largest.
+    fn hull(&self, start: &StartPlan) -> [StartPlan; 2] {
+        [f64::min, f64::max].map(|choose| {
+            let mut corner = *start;
+            let Self::Listed(columns) = self else { return corner };
+            for column in columns {
+                let end = column.values.iter().copied().reduce(choose).unwrap_or(f64::NAN);
+                match column.vary {
+                    Coordinate::Parameter(_) => {}
+                    Coordinate::X => corner.x = Some(end),
+                    Coordinate::V => corner.v = end,
+                    Coordinate::Phase => corner.phase = end,
+                }
+            }
+            corner
+        })
+    }
+
+    /// As [`Self::start`], in the units of the system `there` at the point; `system` is that of the plan.
+    pub(crate) fn start_in(&self, systems: (&SystemPlan, &SystemPlan), start: &StartPlan, k: usize) -> StartPlan {
+        let start = self.start(start, k);
+        let (x, v) = systems.0.state_in(systems.1, (start.x.unwrap_or(0.0), start.v));
+        StartPlan { x: start.x.map(|_| x), v, ..start }
+    }
+}
