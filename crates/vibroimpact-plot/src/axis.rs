@@ -69,10 +69,12 @@ impl FigureAxis {
             Scale::Linear => {
                 let (lo, hi) = (lo.clamp(-1e300, 1e300), hi.clamp(-1e300, 1e300));
                 let size = lo.abs().max(hi.abs());
-                // a range that is one value within rounding has no room for a second tick
-                let pad = if (hi - lo).abs() <= (1e-14 * size).max(1e-300) {
+                // fitted to the marks, a range that is one value within rounding would show rounding as structure; a given
+                // one has no room for a second tick
+                let (relative, zero) = if given.is_none() { (ROUNDING, ROUNDED_ZERO) } else { (1e-14, 1e-300) };
+                let pad = if (hi - lo).abs() <= (relative * size).max(zero) {
                     // a single value is placed in the middle of a range of its own size
-                    if size < 1e-290 { 1.0 } else { size / 2.0 }
+                    if size <= zero { 1.0 } else { size / 2.0 }
                 } else {
                     (hi - lo) * air
                 };
@@ -108,6 +110,10 @@ impl FigureAxis {
     }
 }
 
+/// Values that differ by less than this part of their size are equal to rounding, for an axis that fits its data.
+const ROUNDING: f64 = 1e-12;
+/// Values of at most this size are 0 to rounding, for an axis that fits its data.
+const ROUNDED_ZERO: f64 = 1e-14;
 /// Margin at each end of an axis that fits its data, relative to its length.
 const PADDING: f64 = 0.04;
 
@@ -161,6 +167,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn rounding_is_not_drawn_as_structure() {
+        let fitted = |lo, hi| FigureAxis::new("").resolve(Some((lo, hi)));
+        assert_eq!(fitted(-1e-16, 2e-16), (-1.0 - 1e-16, 1.0 + 2e-16));
+        assert_eq!(fitted(0.8, 0.8 + 1e-14), (0.8 - (0.8 + 1e-14) / 2.0, (0.8 + 1e-14) * 1.5));
+        // a range that was given is one that was meant
+        assert_eq!(FigureAxis::new("").range(0.0, 1e-16).resolve(None), (0.0, 1e-16));
     }
 
     #[test]

@@ -4,8 +4,8 @@
 //! 2008), `https://jfly.uni-koeln.de/color/`.
 //!
 //! Motions of one group have similar colours: `m/1` motions go from light to dark blue as m grows, subharmonic `1/n`
-//! motions from yellow to red-brown, other periodic motions are green, complete chatter is pink. Hues lie on the
-//! blue-yellow axis, which red-green blindness does not affect, and similar colours differ in lightness, so that they
+//! motions from yellow to red-brown, other periodic motions are green, complete chatter is pink, motions without impact
+//! are cream. The motions of a group with several labels have shades of its colour. Hues lie on the blue-yellow axis, which red-green blindness does not affect, and similar colours differ in lightness, so that they
 //! can be distinguished in grey print. Groups that are similar in grey have a hatch. The tests check that trichromats,
 //! protanopes and deuteranopes can distinguish the main groups.
 
@@ -143,12 +143,46 @@ pub const GROUP_RULES: [GroupRule; 12] = [
     GroupRule::new((2, ANY), (2, ANY), "m/n"),
 ];
 
+/// Further colours of the groups that have several labels; the labels of such a group have these and its own colour in
+/// turn. The Python package and the page contain the same table.
+pub const SHADES: [(&str, [Colour; 4]); 5] = [
+    ("m/1", colours([0xbb_acff, 0x73_8dfb, 0x5e_4674, 0x1c_5ac0])),
+    ("1/n", colours([0xbf_5c40, 0xab_544e, 0xb5_531d, 0x65_0b00])),
+    ("k/k", colours([0xbb_ca86, 0x8e_a035, 0xbf_cd55, 0xad_a95c])),
+    ("m/n", colours([0x54_f1d8, 0x78_9c5d, 0x4d_f7b5, 0x59_b281])),
+    ("inf/n", colours([0xde_75d3, 0x9e_668e, 0x62_394d, 0x8a_576b])),
+];
+
+const fn colours([a, b, c, d]: [u32; 4]) -> [Colour; 4] {
+    [Colour::hex(a), Colour::hex(b), Colour::hex(c), Colour::hex(d)]
+}
+
 /// The style of the label of a motion, the same in every figure. The label of a group has the style of the group.
 #[must_use]
 pub fn class_style(label: &str) -> ClassStyle {
+    let group = group_of(label);
+    let style = group_style(group);
+    match shade(label, group) {
+        Some(colour) => ClassStyle { colour, ..style },
+        None => style,
+    }
+}
+
+/// The colour of a label in a group with several labels; none if it is that of the group.
+fn shade(label: &str, group: &str) -> Option<Colour> {
+    let (_, shades) = SHADES.iter().find(|(name, _)| *name == group)?;
+    let (m, n) = label.trim().split_once('/')?;
+    let digits = |text: &str| text.chars().take_while(char::is_ascii_digit).collect::<String>().parse::<u64>();
+    // infinitely many impacts count as none; neither number is one in the label of a group
+    let m = if matches!(m.trim(), "inf" | "∞") { 0 } else { digits(m.trim()).ok()? };
+    let n = digits(n.trim_start()).ok()?;
+    shades.get(usize::try_from((m % 5 + 2 * (n % 5)) % 5).ok()?.checked_sub(1)?).copied()
+}
+
+fn group_style(group: &str) -> ClassStyle {
     let plain = |rgb| ClassStyle::plain(Colour::hex(rgb));
-    match group_of(label) {
-        "0" => plain(0xe9_e9e9),
+    match group {
+        "0" => plain(0xf2_eecb),
         "1/1" => plain(0x9a_d6ee),
         "2/1" => plain(0x3f_a0d0),
         "3/1" => plain(0x1a_6fb0),
@@ -160,11 +194,11 @@ pub fn class_style(label: &str) -> ClassStyle {
         "k/k" => ClassStyle::hatched(0xd3_e27a, Pattern::Horizontal, 0x7b_8a1e),
         "3/2" => ClassStyle::hatched(0x0b_8f62, Pattern::Vertical, 0xb5_ead2),
         "m/n" => ClassStyle::hatched(0x7f_d0a0, Pattern::Dots, 0x14_5c3a),
-        "inf/n" => ClassStyle::hatched(0xf2_9bc1, Pattern::Falling, 0x93_1f5c),
+        "inf/n" => ClassStyle::hatched(0xee_94bb, Pattern::Falling, 0x93_1f5c),
         "chaotic" => plain(0x10_1010),
         "stuck" => ClassStyle::hatched(0x5e_4636, Pattern::Horizontal, 0xd9_c3ae),
-        "undecided" => ClassStyle::hatched(0xff_ffff, Pattern::Cross, 0xd0_2020),
-        _ => ClassStyle::hatched(0x9a_9a9a, Pattern::Dots, 0xff_ffff),
+        "undecided" => ClassStyle::hatched(0xe8_eaee, Pattern::Cross, 0xd0_2020),
+        _ => ClassStyle::hatched(0x8a_8a80, Pattern::Dots, 0xff_ffff),
     }
 }
 
@@ -241,6 +275,39 @@ mod tests {
     }
 
     #[test]
+    fn shades_are_told_apart_by_every_eye() {
+        let shades = SHADES.iter().flat_map(|(_, shades)| shades).copied();
+        let all: Vec<Colour> = GROUPS.iter().map(|group| class_style(group).colour).chain(shades).collect();
+        for eye in EYES {
+            for (k, a) in all.iter().enumerate() {
+                for b in &all[k + 1..] {
+                    let d = eye.see(*a).delta_e(eye.see(*b));
+                    assert!(d >= 7.0, "{eye:?}: {} and {} only {d:.1} apart", a.to_hex(), b.to_hex());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn labels_of_one_group_have_its_shades_in_turn() {
+        let colours = |labels: [&str; 5]| labels.map(|label| class_style(label).colour.to_hex());
+        for labels in [
+            ["5/1", "6/1", "7/1", "8/1", "9/1"],
+            ["1/4", "1/5", "1/6", "1/7", "1/8"],
+            ["2/2", "3/3", "4/4", "5/5", "6/6"],
+            ["inf/1", "inf/2", "inf/3", "inf/4", "inf/5"],
+        ] {
+            let mut found = colours(labels).to_vec();
+            found.sort_unstable();
+            found.dedup();
+            assert_eq!(found.len(), 5, "{labels:?}");
+        }
+        assert_eq!(class_style("8/1"), class_style("m/1"));
+        assert_eq!(class_style("5/1").colour, class_style("10/1").colour);
+        assert_eq!(class_style("2/1'"), class_style("2/1"));
+    }
+
+    #[test]
     fn labels_find_their_group() {
         for (label, group) in [
             ("0", "0"),
@@ -266,7 +333,9 @@ mod tests {
             ("-1/2", "other"),
         ] {
             assert_eq!(legend_group(label), group, "{label:?}");
-            assert_eq!(class_style(label), class_style(group), "{label:?}");
+            let (own, of_group) = (class_style(label), class_style(group));
+            assert_eq!(own.hatch, of_group.hatch, "{label:?}");
+            assert!(SHADES.iter().any(|(name, _)| *name == group) || own == of_group, "{label:?}");
         }
         for group in GROUPS {
             assert!(!legend_text(group).is_empty());

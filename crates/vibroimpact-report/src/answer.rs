@@ -27,7 +27,7 @@ pub struct Answer {
 }
 
 /// Options for the figure and the table of an answer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Shown {
     /// The view of a settled motion, a simulated motion or an attractor.
     pub view: Option<View>,
@@ -39,11 +39,23 @@ pub struct Shown {
     pub inadmissible: bool,
     /// The quantity whose values are the colours of a map or basin.
     pub colour: Option<Coloured>,
+    /// Whether the cells of a map are divided between the motions that coexist.
+    pub stripes: bool,
+    /// Whether lines are drawn between the cells of a map with different motions.
+    pub boundaries: bool,
 }
 
 impl Default for Shown {
     fn default() -> Self {
-        Self { view: None, step: None, diagram: true, inadmissible: false, colour: None }
+        Self {
+            view: None,
+            step: None,
+            diagram: true,
+            inadmissible: false,
+            colour: None,
+            stripes: true,
+            boundaries: false,
+        }
     }
 }
 
@@ -155,10 +167,10 @@ impl Answer {
     pub fn figure(&self, shown: &Shown, control: &Control<'_>) -> Result<Option<Figure>, AnswerError> {
         let Self { asked, osc, plan, .. } = self;
         let default = shown.view.is_none_or(|view| view == View::Waveform);
-        if let Some(colour) = shown.colour {
+        if let Some(colour) = &shown.colour {
             return Ok(Some(match &self.results {
                 Results::Map(found) => coloured::of_map(found, colour, asked)?,
-                Results::Basin(found) => coloured::of_basin(found, colour.quantity, osc, asked)?,
+                Results::Basin(found) => coloured::of_basin(found, colour, osc, asked)?,
                 _ => return Err(ReportError::NoColours.into()),
             }));
         }
@@ -178,7 +190,7 @@ impl Answer {
                 figure::waveform::figure(osc, *start, span, &asked.units, title(asked))
             }
             (_, Results::Basin(found)) => figure::basin::figure(found, asked)?,
-            (_, Results::Map(found)) => figure::map::figure(found, asked)?,
+            (_, Results::Map(found)) => figure::map::figure_with(found, asked, (shown.stripes, shown.boundaries))?,
             (_, Results::Diagram(found)) => figure::diagram::figure(found, asked)?,
             (_, Results::Response(found)) => figure::response::figure(found, asked)?,
             (Task::Branch(task), Results::Branch(found)) => {

@@ -1,7 +1,6 @@
 //! The errors of figures and tables.
 
 use crate::number::short;
-use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::PlotError;
 use vibroimpact_study::PlanError;
 
@@ -33,13 +32,17 @@ pub enum ReportError {
     #[error("there are no labels")]
     NoLabels,
     /// A colour by a quantity that the plan does not ask for.
-    #[error("there are no values of `{}`: the plan asks for {}\nhint: --fields {} computes them",
-        flag(*quantity), listed(there), flag(*quantity))]
+    #[error(
+        "there are no values of `{}`: the plan asks for {}\nhint: --fields {} computes them",
+        flag(field),
+        listed(there),
+        flag(field)
+    )]
     NoField {
-        /// The quantity.
-        quantity: Quantity,
+        /// The name of the quantity.
+        field: String,
         /// The quantities that the plan asks for.
-        there: Vec<Quantity>,
+        there: Vec<String>,
     },
     /// A colour by a quantity in a figure without cells or motions.
     #[error("only maps and basins have colours by a quantity")]
@@ -74,14 +77,18 @@ pub enum ReportError {
 }
 
 /// A quantity as the command writes it.
-fn flag(quantity: Quantity) -> String {
-    quantity.name().replace('_', "-")
+fn flag(field: &str) -> String {
+    // names of stops and coordinates are as they are
+    match field.rsplit_once('.') {
+        Some((part, name)) => format!("{part}.{}", name.replace('_', "-")),
+        None => field.replace('_', "-"),
+    }
 }
 
 /// A list of quantities in a sentence.
-fn listed(quantities: &[Quantity]) -> String {
+fn listed(quantities: &[String]) -> String {
     match quantities {
         [] => "no quantities".to_owned(),
-        list => list.iter().map(|quantity| flag(*quantity)).collect::<Vec<_>>().join(", "),
+        list => list.iter().map(|field| flag(field)).collect::<Vec<_>>().join(", "),
     }
 }

@@ -1,6 +1,7 @@
 //! A plan of a machine, its result, and everything that is reported of it: the JSON object, the table and the figure.
 
 use crate::answer::AnswerError;
+use crate::figure::coloured::{self, Coloured};
 use crate::{ReportError, Table, figure, table};
 use vibroimpact::events::MachineStart;
 use vibroimpact::machine::Machine;
@@ -62,12 +63,20 @@ impl MachineAnswer {
         self.plan.machine.title.clone().unwrap_or_else(|| self.name.clone())
     }
 
-    /// The figure that the command draws with `--plot`; `None` for a task without one.
+    /// The figure that the command draws with `--plot`, that of a map or basin in the colours of a quantity, if one is given;
+    /// `None` for a task without one.
     ///
     /// # Errors
     /// [`AnswerError`] for a result that cannot be drawn.
-    pub fn figure(&self) -> Result<Option<Figure>, AnswerError> {
+    pub fn figure(&self, colour: Option<&Coloured>) -> Result<Option<Figure>, AnswerError> {
         let title = machine_title(&self.plan.machine, &self.name);
+        if let Some(colour) = colour {
+            return Ok(Some(match &self.results {
+                MachineResults::Basin(found) => coloured::of_machine_basin(found, colour, title)?,
+                MachineResults::Map(found) => coloured::of_machine_map(found, colour, title)?,
+                _ => return Err(ReportError::NoColours.into()),
+            }));
+        }
         Ok(Some(match &self.results {
             MachineResults::Simulate(found) => {
                 let title = vibroimpact_plot::plain(&self.title());

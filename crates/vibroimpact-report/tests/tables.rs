@@ -5,7 +5,7 @@
 #![allow(clippy::expect_used)]
 
 use std::path::Path;
-use vibroimpact_plot::{Dash, GROUP_RULES, GROUPS, GroupRule, SERIES, Shape, class_style, legend_text};
+use vibroimpact_plot::{Dash, GROUP_RULES, GROUPS, GroupRule, SERIES, SHADES, Shape, class_style, legend_text};
 use vibroimpact_report::figure::styles::{BOUND_STYLES, BRANCH_MARKS, CURVE_MARKS, EVENT_COLOURS};
 
 const PYTHON: &str = "../vibroimpact-py/python/vibroimpact/_tables.py";
@@ -23,6 +23,17 @@ fn rules([open, close]: [char; 2], [no, yes]: [&str; 2], no_limit: &str) -> Stri
         format!("{open}{}, {}, {equal}, \"{}\"{close},\n", range(rule.m), range(rule.n), rule.group)
     };
     GROUP_RULES.iter().map(rule).collect()
+}
+
+/// The shades of groups, one group for each line.
+fn shades(indent: &str, [open, close]: [char; 2]) -> String {
+    let list = |colours: &[vibroimpact_plot::Colour]| {
+        colours.iter().map(|colour| format!("\"{}\"", colour.to_hex())).collect::<Vec<_>>().join(", ")
+    };
+    let line = |(group, colours): &(&str, [_; 4])| {
+        format!("{indent}\"{group}\": {open}{}{close},\n", list(colours.as_slice()))
+    };
+    SHADES.iter().map(line).collect()
 }
 
 /// Converts markup of plots, such as `*m*` for an italic m, to mathtext of matplotlib.
@@ -93,11 +104,14 @@ fn python() -> String {
         GROUPS.iter().map(|group| format!("    \"{group}\": \"{}\",\n", text(group))).collect::<String>()
     };
     let classes = group(&|group| class_style(group).colour.to_hex());
+    let shades = shades("    ", ['(', ')']);
     let legend = group(&|group| mathtext(legend_text(group)));
     let rules = indented(rules(['(', ')'], ["False", "True"], "math.inf"));
     format!(
         "\"\"\"Colours of series, groups of motions in the order of a legend, and styles of events.\n\n{WRITTEN}\n\"\"\"\n\nimport math\n\n\
          SERIES = (\n{series})\n\nCLASSES = {{\n{classes}}}\n\n\
+         #: Further colours of groups: m/n has number (m + 2n) mod 5, where 0 is the colour of the group and infinitely many impacts count as 0.\n\
+         SHADES = {{\n{shades}}}\n\n\
          #: The words of a legend.\nLEGEND = {{\n{legend}}}\n\n\
          #: The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked.\n\
          GROUP_RULES = (\n{rules})\n{}",
@@ -105,13 +119,16 @@ fn python() -> String {
     )
 }
 
-/// The rules of groups in JavaScript.
+/// The rules of groups and their shades in JavaScript.
 fn page() -> String {
     let rules: String =
         rules(['[', ']'], ["false", "true"], "Infinity").lines().map(|line| format!("  {line}\n")).collect();
     format!(
         "/** The first row that holds for m/n names its group: m from and to, n from and to, whether m = n is asked. {WRITTEN} */\n\
-         export const GROUP_RULES = [\n{rules}];\n"
+         export const GROUP_RULES = [\n{rules}];\n\n\
+         /** Further colours of groups: m/n has number (m + 2n) mod 5, where 0 is the colour of the group and infinitely many impacts count as 0. */\n\
+         export const SHADES = {{\n{}}};\n",
+        shades("  ", ['[', ']'])
     )
 }
 

@@ -3,9 +3,7 @@
 use crate::figure::plane::{Plane, PlaneAxis, Sides};
 use crate::figure::{title, variant};
 use crate::{Asked, ReportError};
-use vibroimpact_plot::{
-    ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Raster, Rect, Rects, class_style, legend_group,
-};
+use vibroimpact_plot::{ClassStyle, Colour, Figure, FigureAxis, Legend, Panel, Raster, Rect, Rects, class_style};
 use vibroimpact_study::{Basin, MachineBasin, counted};
 
 /// Maximum number of motions with an entry of their own in the legend.
@@ -66,9 +64,8 @@ fn colours(motions: &[BasinMotion]) -> (Vec<Colour>, Legend) {
     let mut used: Vec<&str> = Vec::new();
     for (rank, &m) in by_share.iter().enumerate() {
         let label = motions[m].label.as_str();
-        let group = legend_group(label);
-        let twins = used.iter().filter(|other| **other == group).count();
-        used.push(group);
+        let twins = used.iter().filter(|other| **other == label).count();
+        used.push(label);
         if rank >= NAMED {
             continue;
         }

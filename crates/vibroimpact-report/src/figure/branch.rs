@@ -7,7 +7,10 @@ use crate::figure::tracks::{Followed as What, Look, Track, TrackPoint};
 use crate::figure::{along, label, title_without, variant};
 use crate::{Asked, ReportError};
 use std::collections::BTreeMap;
-use vibroimpact_plot::{Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke, plain};
+use vibroimpact_plot::{
+    Colour, Dash, Figure, FigureAxis, Legend, Line, Panel, Points, SERIES, Shape, Stroke, class_style, legend_group,
+    plain,
+};
 use vibroimpact_study::diagram::{Diagram, Show};
 use vibroimpact_study::{Cut, Followed, MachineBranched, Span, counted};
 
@@ -15,6 +18,9 @@ use vibroimpact_study::{Cut, Followed, MachineBranched, Span, counted};
 const GREY: Colour = Colour::hex(0xb0_b0b0);
 /// Width of a curve.
 const WIDTH: f64 = 2.8;
+/// Colour of the rim of a curve, because the colours of some motions are light, and its width on both sides together.
+const RIM: Colour = Colour::hex(0x40_4040);
+const RIM_WIDTH: f64 = 1.6;
 /// Size of the mark of an event, and its size if there are many marks.
 const MARK: f64 = 12.0;
 const SMALL_MARK: f64 = 7.0;
@@ -100,6 +106,15 @@ fn draw(panel: &mut Panel, tracks: &[Track], show_virtual: bool, (unit, size): (
         let ys: Vec<f64> = ys.into_iter().zip(&xs).map(|(y, x)| y * size(*x)).collect();
         let xs: Vec<f64> = xs.into_iter().map(|x| x * unit).collect();
         let (width, dash) = pen(look);
+        let colour = match dash {
+            Dash::Solid if of_motion(&label) => {
+                panel.add(Line::new(xs.clone(), ys.clone(), RIM).width(width + RIM_WIDTH));
+                colour
+            }
+            // dashes have no room for a rim
+            _ if of_motion(&label) => variant(colour, 1),
+            _ => colour,
+        };
         panel.add(Line::new(xs, ys, colour).width(width).dash(dash));
     }
     for (name, colour) in colours.iter().take(NAMED) {
@@ -133,7 +148,13 @@ const fn pen(look: Look) -> (f64, Dash) {
     }
 }
 
-/// A colour for each label, in the order of first appearance on the branches.
+/// Whether a label is that of a motion m/n, which has the same colour in all figures.
+fn of_motion(label: &str) -> bool {
+    legend_group(label) != "other"
+}
+
+/// A colour for each label, in the order of first appearance on the branches: that of the motion on maps, or one of a
+/// series for the labels of machines.
 fn colours(tracks: &[Track]) -> Vec<(String, Colour)> {
     // without black, which is used for marks, and yellow, which is too light for a thin line
     const USABLE: usize = 6;
@@ -143,8 +164,12 @@ fn colours(tracks: &[Track]) -> Vec<(String, Colour)> {
             labels.push(point.label.clone());
         }
     }
-    let colour = |k: usize| if k < NAMED { variant(SERIES[k % USABLE], k / USABLE) } else { OTHERS };
-    labels.into_iter().enumerate().map(|(k, label)| (label, colour(k))).collect()
+    let colour = |k: usize, label: &str| match k {
+        _ if of_motion(label) => class_style(label).colour,
+        k if k < NAMED => variant(SERIES[k % USABLE], k / USABLE),
+        _ => OTHERS,
+    };
+    labels.into_iter().enumerate().map(|(k, label)| (label.clone(), colour(k, &label))).collect()
 }
 
 /// The marks of events, by kind.

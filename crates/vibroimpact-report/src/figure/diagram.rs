@@ -184,7 +184,12 @@ fn spread(values: impl Iterator<Item = f64>) -> (f64, f64) {
     }
     // if all values are equal to rounding, the range is proportional to the value
     let size = low.abs().max(high.abs());
-    let air = if high - low > 1e-9 * size { 0.04 * (high - low) } else { 0.5 * size.max(1e-300) };
+    let air = match size {
+        // zero to rounding
+        _ if size < 1e-14 => 1.0,
+        _ if high - low > 1e-9 * size => 0.04 * (high - low),
+        _ => 0.5 * size,
+    };
     (low - air, high + air)
 }
 

@@ -3,28 +3,139 @@
 use crate::figure::coloured::Value;
 use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
 use crate::figure::point_motion::{PointMotion, group, points};
-use crate::figure::{shares, title_without};
+use crate::figure::{label as legend_label, shares, title_without};
 use crate::{Asked, ReportError};
-use vibroimpact_plot::{ClassStyle, Figure, GROUPS, Legend, Panel, Raster, Rects, class_style, legend_text};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use vibroimpact_plot::{
+    ClassStyle, Colour, Figure, GROUPS, Legend, Line, Panel, Raster, Rects, class_style, legend_group, legend_text,
+};
 use vibroimpact_study::{MachineMap, MachineShare, MapPoint, RegionMap};
 
 /// With more points than this, coexisting motions would be too small to be visible, and only the most frequent one is
 /// drawn.
 const SPLIT: usize = 40_000;
 
+/// Maximum number of labels with an entry of their own in the legend; if there are more, their groups are named.
+const NAMED: usize = 14;
+
+/// The distinct labels at the points of a map, and which of them each point has, the most frequent first.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LabelledCells {
+    labels: Vec<String>,
+    numbers: BTreeMap<String, usize>,
+    cells: Vec<Vec<usize>>,
+}
+
+impl LabelledCells {
+    /// Adds a point with the labels of its motions.
+    pub fn push<'a>(&mut self, labels: impl Iterator<Item = Cow<'a, str>>) {
+        let mut cell = Vec::new();
+        for label in labels {
+            let class = self.numbers.get(&*label).copied().unwrap_or_else(|| {
+                self.numbers.insert(label.clone().into_owned(), self.labels.len());
+                self.labels.push(label.into_owned());
+                self.labels.len() - 1
+            });
+            if !cell.contains(&class) {
+                cell.push(class);
+            }
+        }
+        self.cells.push(cell);
+    }
+
+    /// Keeps only the first motion of each point, and the labels that are left.
+    fn first_only(self) -> Self {
+        let mut firsts = Self::default();
+        for cell in &self.cells {
+            firsts.push(cell.iter().take(1).map(|class| Cow::Borrowed(self.labels[*class].as_str())));
+        }
+        firsts
+    }
+
+    /// Lines between neighbouring cells with different first motions.
+    fn boundaries(&self, plane: &Plane) -> Line {
+        let columns = plane.x.count();
+        let first = |k: usize| self.cells.get(k).and_then(|cell| cell.first());
+        let (mut xs, mut ys) = (Vec::new(), Vec::new());
+        let mut segment = |x: (f64, f64), y: (f64, f64)| {
+            xs.extend([x.0, x.1, f64::NAN]);
+            ys.extend([y.0, y.1, f64::NAN]);
+        };
+        for k in 0..self.cells.len() {
+            let (x, y) = (plane.x.cell(k % columns), plane.y.cell(k / columns));
+            if (k + 1) % columns > 0 && first(k + 1) != first(k) {
+                segment((x.1, x.1), y);
+            }
+            if k + columns < self.cells.len() && first(k + columns) != first(k) {
+                segment(x, (y.1, y.1));
+            }
+        }
+        Line::new(xs, ys, Colour::BLACK).width(1.0)
+    }
+
+    /// The legend: the labels, or their groups if there are many.
+    fn legend(&self, style: impl Fn(&str) -> ClassStyle) -> Legend {
+        let rank = |label: &str| GROUPS.iter().position(|group| *group == legend_group(label)).unwrap_or(GROUPS.len());
+        let mut labels: Vec<&str> = self.labels.iter().map(String::as_str).collect();
+        labels.sort_by_key(|label| (rank(label), numbers(label)));
+        let mut legend = Legend::below();
+        if labels.len() <= NAMED {
+            for label in labels {
+                let group = legend_group(label);
+                let word = if group.contains('/') { legend_label(label) } else { legend_text(group).into() };
+                legend = legend.patch(style(label), word);
+            }
+            return legend;
+        }
+        for group in GROUPS.iter().filter(|group| labels.iter().any(|label| legend_group(label) == **group)) {
+            legend = legend.patch(style(group), legend_text(group));
+        }
+        legend
+    }
+}
+
+/// The numbers of impacts and periods of a label, by which labels of one group are ordered.
+fn numbers(label: &str) -> (u64, u64) {
+    let (m, n) = label.split_once('/').unwrap_or((label, ""));
+    (n.parse().unwrap_or(0), m.parse().unwrap_or(0))
+}
+
 /// The figure of `vibro map`: a plane, or the shares of the motions over one axis.
 ///
 /// # Errors
 /// [`ReportError`] if there are not one or two axes with rising or falling values, or if an axis is too long.
 pub fn figure(found: &RegionMap, asked: &Asked) -> Result<Figure, ReportError> {
+    figure_with(found, asked, (true, false))
+}
+
+/// As [`figure`], and whether cells are divided between motions that coexist, and whether lines are drawn between cells
+/// with different motions.
+///
+/// # Errors
+/// As [`figure`].
+pub fn figure_with(
+    found: &RegionMap,
+    asked: &Asked,
+    (stripes, boundaries): (bool, bool),
+) -> Result<Figure, ReportError> {
     let axes = &found.plan.axes;
     if let [axis] = axes.as_slice() {
         let points = points(found, None, &asked.units);
         return Ok(shares::draw(&PlaneAxis::of(axis, &asked.units)?, &points, title_without(asked, &varied(axes))));
     }
-    let cell = |point: &MapPoint| groups(point.motions.iter().map(|motion| motion.verdict.label()));
-    let cells: Vec<Vec<usize>> = found.points.iter().map(cell).collect();
-    draw(&Plane::of(axes, &asked.units)?, &cells, title_without(asked, &varied(axes)))
+    let mut cells = LabelledCells::default();
+    for MapPoint { motions, .. } in &found.points {
+        cells.push(motions.iter().map(|motion| motion.verdict.label()));
+    }
+    let plane = Plane::of(axes, &asked.units)?;
+    let cells = if stripes { cells } else { cells.first_only() };
+    let lines = boundaries.then(|| cells.boundaries(&plane));
+    let mut figure = draw(&plane, cells, title_without(asked, &varied(axes)))?;
+    if let (Some(lines), Some(panel)) = (lines, figure.panels.first_mut()) {
+        panel.add(lines);
+    }
+    Ok(figure)
 }
 
 /// The figure of `vibro map --machine`, as [`figure`]; the names of the axes are the paths.
@@ -44,58 +155,97 @@ pub fn of_machine(found: &MachineMap, title: String) -> Result<Figure, ReportErr
             Ok(shares::draw(&side, &points, title))
         }
         Sides::Plane(plane) => {
-            let cell = |cell: &Vec<MachineShare>| groups(cell.iter().map(|motion| motion.label().into()));
-            draw(&plane, &found.cells.iter().map(cell).collect::<Vec<_>>(), title)
+            let mut cells = LabelledCells::default();
+            for motions in &found.cells {
+                cells.push(motions.iter().map(|motion| motion.label().into()));
+            }
+            draw(&plane, cells, title)
         }
     }
 }
 
-/// Draws a map. `cells` has the distinct groups of the motions at each point, the most frequent first.
+/// Draws a map.
 ///
 /// # Errors
 /// [`ReportError::Plot`] if the number of cells is not the number of points of the plane.
-pub fn draw(plane: &Plane, cells: &[Vec<usize>], title: String) -> Result<Figure, ReportError> {
-    let mut present = [false; GROUPS.len()];
-    let split = cells.len() <= SPLIT;
-    let shown = |cell: &Vec<usize>| cell.iter().take(if split { usize::MAX } else { 1 }).copied().collect::<Vec<_>>();
-    for class in cells.iter().flat_map(shown) {
-        present[class] = true;
-    }
+pub fn draw(plane: &Plane, cells: LabelledCells, title: String) -> Result<Figure, ReportError> {
+    let split = cells.cells.len() <= SPLIT;
+    let shown = if split { cells } else { cells.first_only() };
     let panel = Panel::new(plane.x.axis(), plane.y.axis());
     let columns = plane.x.count();
     let panel = match (plane.x.even(), plane.y.even()) {
         (Some(x), Some(y)) if !split => {
             let class =
                 |cell: &Vec<usize>| cell.first().and_then(|class| u16::try_from(*class).ok()).unwrap_or(u16::MAX);
-            let palette = GROUPS.map(|group| class_style(group).colour).to_vec();
-            let first: Vec<u16> = cells.iter().map(class).collect();
+            let palette: Vec<Colour> = shown.labels.iter().map(|label| class_style(label).colour).collect();
+            let first: Vec<u16> = shown.cells.iter().map(class).collect();
             panel.with(Raster::centred(x, y, (columns, plane.y.count()), first, palette)?)
         }
         _ => {
-            let mut rects = Rects::new(GROUPS.map(class_style).to_vec());
-            for (k, cell) in cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
-                rects.cell(plane.x.cell(k % columns), plane.y.cell(k / columns), &shown(cell));
+            let styles: Vec<ClassStyle> = shown.labels.iter().map(|label| class_style(label)).collect();
+            let mut rects = Rects::new(styles);
+            for (k, cell) in shown.cells.iter().enumerate().filter(|(_, cell)| !cell.is_empty()) {
+                rects.cell(plane.x.cell(k % columns), plane.y.cell(k / columns), cell);
             }
             panel.with(rects)
         }
     };
-    let mut legend = Legend::below();
-    for (group, _) in GROUPS.iter().zip(present).filter(|(_, present)| *present) {
-        let style = class_style(group);
-        let style = if split { style } else { ClassStyle::plain(style.colour) };
-        legend = legend.patch(style, legend_text(group));
-    }
-    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(legend))
+    // a raster has no room for hatches
+    let style = |label: &str| if split { class_style(label) } else { ClassStyle::plain(class_style(label).colour) };
+    Ok(Figure::new(panel).size(680.0, 620.0).title(title).legend(shown.legend(style)))
 }
 
-/// The distinct groups of some labels, in the order of first appearance.
-fn groups<'a>(labels: impl Iterator<Item = std::borrow::Cow<'a, str>>) -> Vec<usize> {
-    let mut groups: Vec<usize> = Vec::new();
-    for label in labels {
-        let class = group(&label);
-        if !groups.contains(&class) {
-            groups.push(class);
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use vibroimpact_plot::Mark;
+    use vibroimpact_study::{Span, Values};
+
+    fn plane(columns: u32, rows: u32) -> Plane {
+        let side = |name: &str, count: u32| {
+            PlaneAxis::new(name, &Values::Span(format!("0:1:{count}").parse::<Span>().unwrap())).unwrap()
+        };
+        Plane { x: side("inverse_beta", columns), y: side("gap", rows) }
+    }
+
+    fn cells(of: &[&[&str]]) -> LabelledCells {
+        let mut cells = LabelledCells::default();
+        of.iter().for_each(|labels| cells.push(labels.iter().map(|label| Cow::Borrowed(*label))));
+        cells
+    }
+
+    #[test]
+    fn labels_of_one_group_have_colours_and_entries_of_their_own() {
+        let figure = draw(&plane(2, 2), cells(&[&["2/2"], &["3/3", "2/2"], &["0"], &["undecided"]]), String::new());
+        let figure = figure.unwrap();
+        let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("cells") };
+        assert_eq!(rects.rects.iter().map(|rect| rect.class).collect::<Vec<_>>(), [0, 1, 0, 2, 3]);
+        assert_eq!(rects.styles, ["2/2", "3/3", "0", "undecided"].map(class_style));
+        assert_ne!(rects.styles[0].colour, rects.styles[1].colour);
+        let svg = figure.to_svg();
+        for text in [">no impact<", ">2/2<", ">3/3<", ">undecided<"] {
+            assert!(svg.contains(text), "{text}");
         }
     }
-    groups
+
+    #[test]
+    fn boundaries_run_between_cells_with_different_motions() {
+        let plane = plane(2, 2);
+        let lines = cells(&[&["1/1"], &["1/1", "0"], &["1/1"], &["2/1"]]).boundaries(&plane);
+        // the upper right cell differs from its neighbours to the left and below
+        let ends = |k: usize| [(lines.xs[k], lines.ys[k]), (lines.xs[k + 1], lines.ys[k + 1])];
+        assert_eq!(lines.xs.len(), 6);
+        assert_eq!([ends(0), ends(3)], [[(0.5, 0.5), (1.5, 0.5)], [(0.5, 0.5), (0.5, 1.5)]]);
+    }
+
+    #[test]
+    fn groups_are_named_where_there_are_many_labels() {
+        let labels: Vec<String> = (5..25).map(|m| format!("{m}/1")).collect();
+        let mut many = LabelledCells::default();
+        labels.iter().for_each(|label| many.push(core::iter::once(Cow::Borrowed(label.as_str()))));
+        let figure = draw(&plane(10, 2), many, String::new()).unwrap();
+        assert_eq!(figure.legend.as_ref().unwrap().entries.len(), 1);
+        let Mark::Rects(rects) = &figure.panels[0].marks[0] else { panic!("cells") };
+        assert_eq!(rects.styles[1], class_style("6/1"));
+    }
 }

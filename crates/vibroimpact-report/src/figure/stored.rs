@@ -1,18 +1,19 @@
 //! The figure of a store, equal to that of the command for the same question.
 
-use crate::figure::coloured::{self, Coloured, Value, has_field};
+use crate::figure::coloured::{self, Coloured, Value, asked_for, place};
 use crate::figure::plane::{Plane, PlaneAxis, Sides, varied};
 use crate::figure::point_motion::{PointMotion, group};
-use crate::figure::{basin, diagram, map, shares, title_without};
+use crate::figure::{basin, diagram, map, quantity_name, shares, title_without};
 use crate::machine_answer::machine_title;
 use crate::{Asked, ReportError, Units};
 use std::collections::BTreeMap;
-use vibroimpact::quantities::Quantity;
-use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES};
+use vibroimpact_plot::{Colour, Figure, FigureAxis, Line, Panel, SERIES, plain};
 use vibroimpact_study::study::{
     NOT_COMPUTED, REFUSED, StudyArrays, StudyPlan, diagram_of, label_of, machine_diagram_of,
 };
-use vibroimpact_study::{Axis as Along, Column, LyapunovPlan, MachinePlan, MachineTask, Task};
+use vibroimpact_study::{
+    BasinPlan, Column, LyapunovPlan, MachineBasinPlan, MachineMapPlan, MachinePlan, MachineTask, MapPlan, Task,
+};
 
 /// Draws the figure of a study; that of a map or basin in the colours of a quantity, if one is given.
 ///
@@ -20,45 +21,29 @@ use vibroimpact_study::{Axis as Along, Column, LyapunovPlan, MachinePlan, Machin
 /// [`ReportError`] for a study without a figure, and the error of the store if it cannot be read.
 pub fn figure<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
-    colour: Option<Coloured>,
+    colour: Option<&Coloured>,
 ) -> Result<Figure, E> {
     let whole = match store.plan() {
         StudyPlan::Oscillator(plan) => plan.as_ref(),
-        StudyPlan::Machine(_) if colour.is_some() => return Err(ReportError::NoColours.into()),
-        StudyPlan::Machine(plan) => return of_machine(store, plan),
+        StudyPlan::Machine(plan) => return of_machine(store, plan, colour),
     };
     let asked = Asked { system: whole.system, units: Units::of_plan(whole) };
     match (&whole.task, colour) {
-        (Task::Map(plan), None) if plan.axes.len() > 1 => {
-            of_map(store, &Plane::of(&plan.axes, &asked.units)?, title_without(&asked, &varied(&plan.axes)))
-        }
-        (Task::Map(plan), colour) => {
-            let title = title_without(&asked, &varied(&plan.axes));
-            let quantity = colour.map(|colour| (colour.quantity, plan.axes.as_slice(), &asked.units));
-            let points = points::<A, E>(store, quantity)?;
-            Ok(match (plan.axes.as_slice(), colour) {
-                ([axis], None) => shares::draw(&PlaneAxis::of(axis, &asked.units)?, &points, title),
-                ([axis], Some(colour)) => coloured::draw_dots(axis, &points, colour.quantity, &asked.units, title)?,
-                (axes, colour) => {
-                    let plane = Plane::of(axes, &asked.units)?;
-                    let colour = colour.ok_or(ReportError::Axes(axes.len()))?;
-                    coloured::of_points(&plane, &points, colour, (&asked.units, title))?
-                }
-            })
-        }
-        (Task::Basin(plan), Some(colour)) => {
-            let points = points::<A, E>(store, Some((colour.quantity, &plan.axes, &asked.units)))?;
-            let title = title_without(&asked, &varied(&plan.axes));
-            if let [axis] = plan.axes.as_slice() {
-                return Ok(coloured::draw_dots(axis, &points, colour.quantity, &asked.units, title)?);
-            }
-            let plane = Plane::of(&plan.axes, &asked.units)?;
-            let cells = points.iter().map(|motions| colour.of.among(motions.iter().map(|motion| motion.value)));
-            let cells: Vec<Value> = cells.collect();
-            let figure = coloured::draw_plane(&plane, &cells, colour.quantity, &asked.units, None)?;
-            Ok(figure.title(title))
+        (Task::Map(MapPlan { axes, fields, .. }) | Task::Basin(BasinPlan { axes, fields, .. }), Some(colour)) => {
+            let quantity = asked_for(fields, &colour.field)?;
+            let unit = |point: usize| asked.units.at_point(axes, point).of_quantity(quantity);
+            let points = points::<A, E>(store, Some((quantity.name(), &unit)))?;
+            let names = (quantity_name(quantity, &asked.units), title_without(&asked, &varied(axes)));
+            Ok(coloured::of_points(&Sides::of(axes, &asked.units)?, &points, colour, names)?)
         }
         (_, Some(_)) => Err(ReportError::NoColours.into()),
+        (Task::Map(plan), None) => {
+            let title = title_without(&asked, &varied(&plan.axes));
+            match Sides::of(&plan.axes, &asked.units)? {
+                Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
+                Sides::Plane(plane) => of_map(store, &plane, title),
+            }
+        }
         (task, None) => of_task(store, task, &asked),
     }
 }
@@ -88,8 +73,20 @@ fn columns<A: StudyArrays, E: From<A::Error>>(store: &A) -> Result<Vec<Column>, 
 fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     store: &A,
     plan: &MachinePlan,
+    colour: Option<&Coloured>,
 ) -> Result<Figure, E> {
     let title = machine_title(&plan.machine, "machine");
+    if let Some(colour) = colour {
+        let (MachineTask::Map(MachineMapPlan { axes, fields, .. })
+        | MachineTask::Basin(MachineBasinPlan { axes, fields, .. })) = &plan.task
+        else {
+            return Err(ReportError::NoColours.into());
+        };
+        place(fields, &colour.field)?;
+        let points = points::<A, E>(store, Some((&colour.field, &|_| 1.0)))?;
+        let names = (plain(&colour.field), title);
+        return Ok(coloured::of_points(&Sides::of_machine(axes)?, &points, colour, names)?);
+    }
     match &plan.task {
         MachineTask::Map(map) => match Sides::of_machine(&map.axes)? {
             Sides::Line(side) => Ok(shares::draw(&side, &points::<A, E>(store, None)?, title)),
@@ -103,8 +100,8 @@ fn of_machine<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     }
 }
 
-/// A quantity, the axes over which its values are, and the units in which they are drawn.
-type Drawn<'a> = (Quantity, &'a [Along], &'a Units);
+/// The field of a quantity, and the size of its unit at each point.
+type Drawn<'a> = (&'a str, &'a dyn Fn(usize) -> f64);
 
 /// The motions at each point of a map or basin, with the values of a quantity in the units of the plan. Points that a store
 /// has not computed yet, and those that took the label of their neighbours, have no value.
@@ -117,11 +114,7 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
     let column = |name: &str| store.field_number(name).map(|field| store.array(field)).transpose();
     let numbers = match quantity {
         None => None,
-        Some((quantity, axes, units)) => {
-            let asked = fields.iter().filter_map(|field| Quantity::from_name(&field.name)).collect::<Vec<_>>();
-            has_field(&asked, quantity)?;
-            column(quantity.name())?.map(|values| (values, quantity, axes, units))
-        }
+        Some((name, unit)) => column(name)?.map(|values| (values, unit)),
     };
     // starts of one system share the quantities of their cycle, so those that took it from their neighbours have values
     let one_system = store.field_number("cycle").is_some();
@@ -139,9 +132,7 @@ fn points<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
                 let number = group(&label);
                 (label, number)
             });
-            let number = numbers.as_ref().map(|(values, of, axes, units)| {
-                values.real()[point * width + k] * units.at_point(axes, point).of_quantity(*of)
-            });
+            let number = numbers.as_ref().map(|(values, unit)| values.real()[point * width + k] * unit(point));
             let value = match Value::of(label, number) {
                 Value::Undefined if !own => Value::NotComputed,
                 value => value,
@@ -165,21 +156,17 @@ fn of_map<A: StudyArrays, E: From<A::Error> + From<ReportError>>(
 ) -> Result<Figure, E> {
     let Some(label) = store.field_number("label") else { return Err(ReportError::NoLabels.into()) };
     let width = store.study().fields()[label].width();
-    let mut known: BTreeMap<i32, usize> = BTreeMap::new();
-    let mut number = |code: i32| *known.entry(code).or_insert_with(|| group(&label_of(code).unwrap_or_default()));
     let column = store.array(label)?;
-    let cells: Vec<Vec<usize>> = (column.whole().chunks(width))
-        .map(|codes| {
-            let mut groups = Vec::new();
-            for group in codes.iter().filter(|code| label_of(**code).is_some()).map(|code| number(*code)) {
-                if !groups.contains(&group) {
-                    groups.push(group);
-                }
-            }
-            groups
-        })
-        .collect();
-    Ok(map::draw(plane, &cells, title)?)
+    let mut known: BTreeMap<i32, Option<String>> = BTreeMap::new();
+    for code in column.whole() {
+        known.entry(*code).or_insert_with(|| label_of(*code));
+    }
+    let mut cells = map::LabelledCells::default();
+    for codes in column.whole().chunks(width) {
+        let labels = codes.iter().filter_map(|code| known.get(code)?.as_deref());
+        cells.push(labels.map(std::borrow::Cow::Borrowed));
+    }
+    Ok(map::draw(plane, cells, title)?)
 }
 
 #[allow(clippy::cast_precision_loss)] // counts below 2^53

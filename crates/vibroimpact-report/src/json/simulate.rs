@@ -42,8 +42,9 @@ fn each_event<S: Serializer>((events, units): &(&[Event], Units), serializer: S)
     serializer.collect_seq(events.iter().map(|event| EventObject::new(event, units)))
 }
 
-#[derive(Serialize)]
-struct EventObject {
+/// An event of a motion.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EventObject {
     kind: &'static str,
     time: f64,
     phase: f64,
@@ -61,7 +62,15 @@ struct EventObject {
 }
 
 impl EventObject {
-    fn new(event: &Event, units: &Units) -> Self {
+    /// `impact`, `graze`, `stick` or `release`.
+    #[must_use]
+    pub const fn kind(&self) -> &'static str {
+        self.kind
+    }
+
+    /// An event in these units.
+    #[must_use]
+    pub(crate) fn new(event: &Event, units: &Units) -> Self {
         let bare = Self {
             kind: "release",
             time: event.time * units.time(),

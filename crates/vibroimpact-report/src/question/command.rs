@@ -131,6 +131,9 @@ impl Line {
 }
 
 fn basin(system: &SystemPlan, task: &BasinPlan) -> Option<Line> {
+    if task.points.is_some() || task.transient {
+        return None;
+    }
     let [x, v] = task.axes.as_slice() else { return None };
     let plane = x.vary == Coordinate::X && v.vary == Coordinate::V;
     let (Values::Span(x), Values::Span(v)) = (&x.over, &v.over) else { return None };

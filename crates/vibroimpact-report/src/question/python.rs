@@ -8,13 +8,18 @@ use vibroimpact_study::{
     Quantity, StartPlan, Stretch, SystemPlan, Target, Task, Values,
 };
 
-/// A few lines of Python for a plan, in nondimensional units; `None` for an invalid plan.
+/// A few lines of Python for a plan, in nondimensional units; `None` for an invalid plan, and for a study of points.
 ///
 /// Grids are computed in memory, with refinement if the plan has it. The size of tiles is left out, because no result
 /// depends on it. Exponents over axes are a study in the store `lyapunov.zarr`.
 #[must_use]
 pub fn python(plan: &Plan) -> Option<String> {
     let plan = plan.complete().ok()?;
+    if let Task::Basin(task) = &plan.task
+        && (task.points.is_some() || task.transient)
+    {
+        return None;
+    }
     let (name, call) = match &plan.task {
         Task::Simulate { start, impacts, periods } => {
             let call = Call::new("simulate").start(start);

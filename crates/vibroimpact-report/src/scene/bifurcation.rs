@@ -5,6 +5,7 @@ use crate::figure::branch::figure;
 use crate::{AnswerError, Asked};
 use std::collections::BTreeMap;
 use vibroimpact::Label;
+use vibroimpact::continuation::BranchEvent as E;
 use vibroimpact::verdict::{Count, SettleOptions, Verdict, attractors};
 use vibroimpact_plot::Figure;
 use vibroimpact_study::{
@@ -24,6 +25,26 @@ const SEED: u64 = 1;
 /// A value belongs to a branch if it is closer to it than this fraction of the range.
 const NEAR: f64 = 1e-9;
 
+/// An event on an admissible branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BifurcationEvent {
+    /// The label of the cycle at the event.
+    pub label: String,
+    /// The name of the event: fold, flip, grazing and so on.
+    pub kind: &'static str,
+    /// The value of the parameter that varies.
+    pub value: f64,
+}
+
+/// The bifurcation diagram along a line.
+#[derive(Clone, Debug)]
+pub struct BifurcationDiagram {
+    /// Its figure.
+    pub figure: Figure,
+    /// The events on the branches of the figure, in the order of their values.
+    pub events: Vec<BifurcationEvent>,
+}
+
 /// The branches of some labels over the orbit diagram of a plan, which also determines whether impact velocities or
 /// positions at phase 0 are shown. Stable orbits are solid and unstable ones dashed. Each orbit found on a grid of
 /// values is followed in both directions to the ends of the range, through its events. Of the branches that begin at
@@ -38,7 +59,7 @@ pub fn bifurcation(
     plan: &DiagramPlan,
     labels: &[String],
     control: &Control<'_>,
-) -> Result<Figure, AnswerError> {
+) -> Result<BifurcationDiagram, AnswerError> {
     let results = run(&Plan::new(asked.system, Task::Diagram(*plan)), control)?;
     let behind = if let Results::Diagram(behind) = results { Some(behind) } else { None };
     let mut followed = Vec::new();
@@ -47,7 +68,31 @@ pub fn bifurcation(
     }
     let known = |branch: &Followed| branch.points.iter().any(|point| labels.contains(&point.cycle.label.to_string()));
     followed.retain(known);
-    Ok(figure(&followed, &plan.cut(), behind.as_ref(), false, asked)?)
+    let figure = figure(&followed, &plan.cut(), behind.as_ref(), false, asked)?;
+    Ok(BifurcationDiagram { figure, events: events(&followed, plan.over.ends()) })
+}
+
+/// The events on branches, each once.
+fn events(followed: &[Followed], (from, to): (f64, f64)) -> Vec<BifurcationEvent> {
+    let near = NEAR * (to - from).abs();
+    let mut events: Vec<BifurcationEvent> = Vec::new();
+    for point in followed.iter().flat_map(|branch| &branch.points).filter(|point| point.physical) {
+        // where the search for a branch ends nothing happens to the motion
+        let Some(event) = point.event.filter(|event| {
+            !matches!(event, E::Closed | E::EndOfRange | E::StepLimit | E::ImpactLimit | E::NoConvergence)
+        }) else {
+            continue;
+        };
+        let event = BifurcationEvent { label: point.cycle.label.to_string(), kind: event.name(), value: point.value };
+        let same = |other: &BifurcationEvent| {
+            other.kind == event.kind && other.label == event.label && (other.value - event.value).abs() <= near
+        };
+        if !events.iter().any(same) {
+            events.push(event);
+        }
+    }
+    events.sort_by(|a, b| a.value.total_cmp(&b.value));
+    events
 }
 
 /// Adds the branches of a label, unless an existing branch passes through its orbit.
@@ -154,7 +199,14 @@ mod tests {
         assert_eq!(plan.vary, Parameter::Gap);
         let found = labels(&asked, &plan, 8, &control).unwrap();
         assert!(found.iter().any(|label| label == "1/1"), "{found:?}");
-        let svg = bifurcation(&asked, &plan, &["1/1".into(), "2/2".into()], &control).unwrap().to_svg();
+        let diagram = bifurcation(&asked, &plan, &["1/1".into(), "2/2".into()], &control).unwrap();
+        let svg = diagram.figure.to_svg();
+        // the closed form of the flip: docs/orbits.md
+        let flips: Vec<f64> = (diagram.events.iter().filter(|event| event.kind == "flip" && event.label == "1/1"))
+            .map(|event| event.value)
+            .collect();
+        assert!(flips.len() == 1 && (flips[0] - 1.829).abs() < 1e-3, "{flips:?}");
+        assert!(diagram.events.is_sorted_by(|a, b| a.value <= b.value));
         // 1/1 is stable up to its flip at 1.829, where 2/2 begins, which ends as 1/2
         for word in ["1/1", "2/2", "1/2", ">stable<", ">unstable<", ">flip<", ">simulation<"] {
             assert!(svg.contains(word), "{word}");
@@ -164,13 +216,13 @@ mod tests {
         let line = DiagramPlan { also: Some(also), ..plan };
         let found = labels(&asked, &line, 8, &control).unwrap();
         assert!(found.iter().any(|label| label == "1/1"), "{found:?}");
-        let svg = bifurcation(&asked, &line, &found, &control).unwrap().to_svg();
+        let svg = bifurcation(&asked, &line, &found, &control).unwrap().figure.to_svg();
         for word in [">flip<", "with", "1.05 to 1.12"] {
             assert!(svg.contains(word), "{word}");
         }
         // positions once in a period, if requested: 1/1 has one, which lies between the stop and the lowest position
         let strobes = DiagramPlan { show: Show::Strobe, ..plan };
-        let figure = bifurcation(&asked, &strobes, &["1/1".into()], &control).unwrap();
+        let figure = bifurcation(&asked, &strobes, &["1/1".into()], &control).unwrap().figure;
         let svg = figure.to_svg();
         assert!(svg.contains("at phase 0") && !svg.contains("arrival velocity"), "{svg}");
         // the ordinates of the stable part, which simulation finds too

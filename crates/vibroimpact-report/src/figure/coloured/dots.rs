@@ -3,13 +3,9 @@
 use super::Value;
 use crate::figure::plane::PlaneAxis;
 use crate::figure::point_motion::PointMotion;
-use crate::figure::quantity_name;
-use crate::{ReportError, Units};
-use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{
     Colour, Figure, FigureAxis, GROUPS, Legend, Panel, PointStyle, Points, Shape, class_style, legend_text,
 };
-use vibroimpact_study::Axis;
 
 /// Diameter of dots, and of dots over an axis with more values than [`MANY`].
 const LARGE: f64 = 10.0;
@@ -18,19 +14,10 @@ const MANY: usize = 120;
 /// Distance of the marks of missing values from the values, relative to the range of values.
 const AWAY: f64 = 0.08;
 
-/// Draws the values of all motions at each value of an axis. Motions whose value is no finite number have crosses below the
+/// Draws the values of all motions at each value of an axis; `name` is that of the quantity. Motions whose value is no finite number have crosses below the
 /// others, infinite values triangles above them.
-///
-/// # Errors
-/// [`ReportError::Order`], and [`ReportError::Plan`] if a value overflows in these units.
-pub fn draw(
-    axis: &Axis,
-    points: &[Vec<PointMotion>],
-    quantity: Quantity,
-    units: &Units,
-    title: String,
-) -> Result<Figure, ReportError> {
-    let side = PlaneAxis::of(axis, units)?;
+#[must_use]
+pub fn draw(side: &PlaneAxis, points: &[Vec<PointMotion>], name: String, title: String) -> Figure {
     let all = || points.iter().enumerate().flat_map(|(k, motions)| motions.iter().map(move |motion| (k, motion)));
     let numbers = || all().filter_map(|(_, motion)| motion.value.finite());
     let (low, high) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
@@ -46,7 +33,7 @@ pub fn draw(
     };
     let above = if any(&[Value::Infinite]) { 1.6 } else { 0.6 };
     let range = (low - below * away, high + above * away);
-    let ordinate = FigureAxis::new(quantity_name(quantity, units)).range(range.0, range.1);
+    let ordinate = FigureAxis::new(name).range(range.0, range.1);
     let mut panel = Panel::new(side.axis(), ordinate);
     let mut legend = Legend::below();
     for (number, group) in GROUPS.iter().enumerate() {
@@ -77,13 +64,14 @@ pub fn draw(
         legend = legend.points(&marks, value.look().1);
         panel.add(marks);
     }
-    Ok(Figure::new(panel).size(680.0, 520.0).title(title).legend(legend))
+    Figure::new(panel).size(680.0, 520.0).title(title).legend(legend)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use vibroimpact_study::{Parameter, Span};
+    use crate::Units;
+    use vibroimpact_study::{Axis, Parameter, Span};
 
     #[test]
     fn every_motion_has_a_dot_and_every_missing_value_a_mark() {
@@ -94,7 +82,8 @@ mod tests {
             vec![motion(1, Value::Finite(1.5)), motion(15, Value::Undecided)],
             vec![motion(12, Value::Infinite)],
         ];
-        let svg = draw(&axis, &points, Quantity::ImpactSpeedMax, &Units::default(), String::new()).unwrap().to_svg();
+        let side = PlaneAxis::of(&axis, &Units::default()).unwrap();
+        let svg = draw(&side, &points, "largest impact speed".to_owned(), String::new()).to_svg();
         // one path for each kind of mark, and one in the legend; the dots have a rim each
         let dots = |group: &str| svg.matches(&format!("fill=\"{}\"/>", class_style(group).colour.to_hex())).count();
         assert_eq!((dots("1/1"), dots("2/1"), dots("inf/n")), (2, 2, 0), "{svg}");

@@ -8,44 +8,60 @@ pub use dots::draw as draw_dots;
 pub use plane::draw as draw_plane;
 pub use value::{Coloured, Of, Value};
 
-use crate::figure::plane::{Plane, varied};
+use crate::figure::plane::{Sides, varied};
 use crate::figure::point_motion::{PointMotion, group, points};
-use crate::figure::{title, title_without};
-use crate::{Asked, ReportError, Units};
+use crate::figure::{quantity_name, title, title_without};
+use crate::{Asked, ReportError};
 use vibroimpact::Oscillator;
 use vibroimpact::quantities::{Quantity, of_verdict_only};
-use vibroimpact_plot::Figure;
-use vibroimpact_study::{Basin, RegionMap};
+use vibroimpact_plot::{Figure, plain};
+use vibroimpact_study::{Basin, MachineBasin, MachineMap, MachineShare, RegionMap};
 
 /// The figure of `vibro map --colour`: a plane, or dots over one axis.
 ///
 /// # Errors
 /// [`ReportError::NoField`] if the plan does not ask for the quantity, and the errors of [`figure::map`](crate::figure::map).
-pub fn of_map(found: &RegionMap, coloured: Coloured, asked: &Asked) -> Result<Figure, ReportError> {
+pub fn of_map(found: &RegionMap, coloured: &Coloured, asked: &Asked) -> Result<Figure, ReportError> {
     let (axes, units) = (&found.plan.axes, &asked.units);
-    has_field(&found.plan.fields, coloured.quantity)?;
+    let quantity = asked_for(&found.plan.fields, &coloured.field)?;
     let title = title_without(asked, &varied(axes));
-    let points = points(found, Some(coloured.quantity), units);
-    if let [axis] = axes.as_slice() {
-        return dots::draw(axis, &points, coloured.quantity, units, title);
-    }
-    of_points(&Plane::of(axes, units)?, &points, coloured, (units, title))
+    let points = points(found, Some(quantity), units);
+    of_points(&Sides::of(axes, units)?, &points, coloured, (quantity_name(quantity, units), title))
 }
 
-/// Draws the plane of the points of a map.
+/// The figure of `vibro map --machine --colour`.
+///
+/// # Errors
+/// As [`of_map`].
+pub fn of_machine_map(found: &MachineMap, coloured: &Coloured, title: String) -> Result<Figure, ReportError> {
+    let field = place(&found.fields, &coloured.field)?;
+    let motion = |motion: &MachineShare| {
+        let label = motion.label();
+        let number = motion.quantities.get(field).copied();
+        PointMotion { group: group(&label), share: motion.share, value: Value::of(&label, number) }
+    };
+    let points: Vec<Vec<PointMotion>> = found.cells.iter().map(|cell| cell.iter().map(motion).collect()).collect();
+    of_points(&Sides::of_machine(&found.axes)?, &points, coloured, (plain(&coloured.field), title))
+}
+
+/// Draws the points of a map; given are the name of the quantity and the title.
 ///
 /// # Errors
 /// As [`draw_plane`].
 pub fn of_points(
-    plane: &Plane,
+    sides: &Sides,
     points: &[Vec<PointMotion>],
-    coloured: Coloured,
-    (units, title): (&Units, String),
+    coloured: &Coloured,
+    (name, title): (String, String),
 ) -> Result<Figure, ReportError> {
+    let plane = match sides {
+        Sides::Line(side) => return Ok(draw_dots(side, points, name, title)),
+        Sides::Plane(plane) => plane,
+    };
     let several = points.iter().any(|motions| motions.len() > 1);
     let cell = |motions: &Vec<PointMotion>| coloured.of.among(motions.iter().map(|motion| motion.value));
     let cells: Vec<Value> = points.iter().map(cell).collect();
-    let figure = draw_plane(plane, &cells, coloured.quantity, units, several.then(|| coloured.of.sentence()))?;
+    let figure = draw_plane(plane, &cells, name, several.then(|| coloured.of.sentence()))?;
     Ok(figure.title(title))
 }
 
@@ -54,32 +70,61 @@ pub fn of_points(
 ///
 /// # Errors
 /// As [`of_map`].
-pub fn of_basin(found: &Basin, quantity: Quantity, osc: &Oscillator, asked: &Asked) -> Result<Figure, ReportError> {
-    has_field(&found.plan.fields, quantity)?;
-    let value = |motion: &vibroimpact::verdict::CountedMotion| {
+pub fn of_basin(found: &Basin, coloured: &Coloured, osc: &Oscillator, asked: &Asked) -> Result<Figure, ReportError> {
+    let quantity = asked_for(&found.plan.fields, &coloured.field)?;
+    let motion = |motion: &vibroimpact::verdict::CountedMotion| {
         let of = of_verdict_only(osc, &motion.verdict, &[quantity]);
         let number = of.map(|of| asked.units.value_of(&of, quantity));
-        Value::of(&motion.verdict.label(), number)
+        motion_of(&motion.verdict.label(), number)
     };
-    let values: Vec<Value> = found.motions.iter().map(value).collect();
-    if let [axis] = found.plan.axes.as_slice() {
-        let motion = |cell: &u16| {
-            let (verdict, value) = (&found.motions[usize::from(*cell)].verdict, values[usize::from(*cell)]);
-            vec![PointMotion { group: group(&verdict.label()), share: 1.0, value }]
-        };
-        let points: Vec<_> = found.cells.iter().map(motion).collect();
-        return draw_dots(axis, &points, quantity, &asked.units, title(asked));
-    }
-    let plane = Plane::of(&found.plan.axes, &asked.units)?;
-    let cells: Vec<Value> =
-        found.cells.iter().map(|cell| values.get(usize::from(*cell)).copied().unwrap_or(Value::NotComputed)).collect();
-    Ok(draw_plane(&plane, &cells, quantity, &asked.units, None)?.title(title(asked)))
+    let motions: Vec<PointMotion> = found.motions.iter().map(motion).collect();
+    let points = found.cells.iter().map(|cell| motions.get(usize::from(*cell)).copied());
+    let sides = Sides::of(&found.plan.axes, &asked.units)?;
+    of_starts(&sides, points, (quantity_name(quantity, &asked.units), title(asked)))
 }
 
-/// Checks that a plan asks for the quantity.
+/// The figure of `vibro basin --machine --colour`.
+///
+/// # Errors
+/// As [`of_map`].
+pub fn of_machine_basin(found: &MachineBasin, coloured: &Coloured, title: String) -> Result<Figure, ReportError> {
+    let field = place(&found.fields, &coloured.field)?;
+    let values = found.quantities.iter().map(|values| values.get(field).copied());
+    let motions: Vec<PointMotion> =
+        found.motions.iter().zip(values).map(|(verdict, value)| motion_of(&verdict.label(), value)).collect();
+    let points = found.cells.iter().map(|cell| cell.and_then(|cell| motions.get(cell).copied()));
+    of_starts(&Sides::of_machine(&found.axes)?, points, (plain(&coloured.field), title))
+}
+
+/// The one motion to which a start leads.
+fn motion_of(label: &str, number: Option<f64>) -> PointMotion {
+    PointMotion { group: group(label), share: 1.0, value: Value::of(label, number) }
+}
+
+/// Draws the motions to which starts lead.
+fn of_starts(
+    sides: &Sides,
+    motions: impl Iterator<Item = Option<PointMotion>>,
+    names: (String, String),
+) -> Result<Figure, ReportError> {
+    let points: Vec<Vec<PointMotion>> = motions.map(|motion| motion.into_iter().collect()).collect();
+    of_points(sides, &points, &Coloured { field: String::new(), of: Of::Largest }, names)
+}
+
+/// The quantity of an oscillator with this name, if a plan asks for it.
 ///
 /// # Errors
 /// [`ReportError::NoField`] if it does not.
-pub fn has_field(fields: &[Quantity], quantity: Quantity) -> Result<(), ReportError> {
-    if fields.contains(&quantity) { Ok(()) } else { Err(ReportError::NoField { quantity, there: fields.to_vec() }) }
+pub fn asked_for(fields: &[Quantity], name: &str) -> Result<Quantity, ReportError> {
+    let names: Vec<String> = fields.iter().map(|field| field.name().to_owned()).collect();
+    Ok(fields[place(&names, name)?])
+}
+
+/// The place of a field among those of a plan.
+///
+/// # Errors
+/// [`ReportError::NoField`] if it is not there.
+pub fn place(fields: &[String], name: &str) -> Result<usize, ReportError> {
+    let no_field = || ReportError::NoField { field: name.to_owned(), there: fields.to_vec() };
+    fields.iter().position(|field| field == name).ok_or_else(no_field)
 }

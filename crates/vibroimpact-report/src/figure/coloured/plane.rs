@@ -1,27 +1,19 @@
 //! A plane of cells in the colours of a quantity.
 
 use super::Value;
+use crate::ReportError;
 use crate::figure::plane::Plane;
-use crate::figure::quantity_name;
-use crate::{ReportError, Units};
-use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{ClassStyle, ColourBar, Figure, FigureAxis, Legend, Panel, Raster, Rects};
 
-/// Draws cells in the colours of their values, with a colour bar. Values that are no finite number have looks of their own,
+/// Draws cells in the colours of their values, with a colour bar; `name` is that of the quantity. Values that are no finite number have looks of their own,
 /// which the legend explains, below the `sentence`.
 ///
 /// # Errors
 /// [`ReportError::Plot`] if the number of cells is not the number of points of the plane.
-pub fn draw(
-    plane: &Plane,
-    cells: &[Value],
-    quantity: Quantity,
-    units: &Units,
-    sentence: Option<&str>,
-) -> Result<Figure, ReportError> {
+pub fn draw(plane: &Plane, cells: &[Value], name: String, sentence: Option<&str>) -> Result<Figure, ReportError> {
     let numbers = || cells.iter().filter_map(|cell| cell.finite());
     let range = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
-    let bar = ColourBar::new(FigureAxis::new(quantity_name(quantity, units)).range(range.0, range.1));
+    let bar = ColourBar::new(FigureAxis::new(name).range(range.0, range.1));
     let colours = ColourBar::palette();
     let class = |value: &Value| value.finite().map(|number| bar.step(number));
     let panel = Panel::new(plane.x.axis(), plane.y.axis());
@@ -85,8 +77,8 @@ mod tests {
     fn the_ends_of_the_colours_are_the_ends_of_the_values() {
         let cells = [Value::Finite(1.0), Value::Finite(3.0), Value::Undecided, Value::Infinite];
         for (x, raster) in [("1:100:2:log", false), ("1:100:2", true)] {
-            let of = (Quantity::ImpactSpeedMax, Units::default());
-            let svg = draw(&plane(x, "0:1:2"), &cells, of.0, &of.1, Some("a sentence")).unwrap().to_svg();
+            let name = "largest impact speed".to_owned();
+            let svg = draw(&plane(x, "0:1:2"), &cells, name, Some("a sentence")).unwrap().to_svg();
             for text in ["largest impact speed<", "undecided<", "infinite<", "a sentence<", "<linearGradient"] {
                 assert!(svg.contains(text), "{text}: {svg}");
             }
@@ -102,8 +94,7 @@ mod tests {
 
     #[test]
     fn without_any_value_there_is_no_bar() {
-        let of = (Quantity::ImpactsPerPeriod, Units::default());
-        let svg = draw(&plane("1:2:2", "0:1:2"), &[Value::NotComputed; 4], of.0, &of.1, None).unwrap().to_svg();
+        let svg = draw(&plane("1:2:2", "0:1:2"), &[Value::NotComputed; 4], "name".to_owned(), None).unwrap().to_svg();
         assert!(!svg.contains("<linearGradient") && svg.contains("not computed<"));
     }
 

@@ -1,13 +1,12 @@
 //! The value of a quantity at a point of a figure, or the reason why there is none.
 
-use vibroimpact::quantities::Quantity;
 use vibroimpact_plot::{ClassStyle, Colour, Hatch, Pattern, class_style};
 
 /// A quantity in colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coloured {
-    /// The quantity.
-    pub quantity: Quantity,
+    /// The name of the quantity, as in the fields of a plan; of a machine its path.
+    pub field: String,
     /// Which of several motions at a point has the colour.
     pub of: Of,
 }
