@@ -3,34 +3,33 @@
 use crate::complain::complain;
 use crate::failure::Failure;
 use crate::units_typed;
-use std::process::ExitCode;
 
 /// Prints the error, if any, and returns the exit code.
-pub(crate) fn code(end: Result<(), Failure>) -> ExitCode {
+pub(crate) fn code(end: Result<(), Failure>) -> u8 {
     let Err(failure) = end else {
-        return ExitCode::SUCCESS;
+        return 0;
     };
     let code = match failure {
-        Failure::PipeClosed => return ExitCode::SUCCESS,
+        Failure::PipeClosed => return 0,
         Failure::Failed(_) => 1,
         Failure::BadQuestion(_) => 2,
         Failure::Stopped(_) => {
             complain(&format!("stopped: {}", failure.to_string().trim_start_matches("stopped ")));
-            return ExitCode::from(130);
+            return 130;
         }
     };
     complain(&format!("error: {failure}"));
-    ExitCode::from(code)
+    code
 }
 
 /// The exit code when the arguments are not parsed: 0 for help and version, 2 for an invalid command line.
-pub(crate) fn parsed(refusal: &clap::Error) -> ExitCode {
+pub(crate) fn parsed(refusal: &clap::Error) -> u8 {
     match units_typed::refusal(refusal) {
         Some(text) => complain(&text),
         // a failure to print cannot be reported anywhere
         None => drop(refusal.print()),
     }
-    ExitCode::from(if refusal.use_stderr() { 2 } else { 0 })
+    if refusal.use_stderr() { 2 } else { 0 }
 }
 
 /// Makes a panic end with a message that users can report instead of a backtrace.

@@ -13,7 +13,7 @@ pub(crate) struct FieldsArgs {
     /// impulse-per-period, impact-loss-per-period, impact-power, damping-loss-per-period, damping-power, work-per-period,
     /// power, displacement-min, displacement-max, displacement-amplitude, displacement-mean, displacement-rms,
     /// velocity-max, velocity-rms, acceleration-max, sticking-fraction
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = named, help_heading = "Output")]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = FieldName::parse, help_heading = "Output")]
     fields: Vec<FieldName>,
 }
 
@@ -38,21 +38,32 @@ impl FieldsArgs {
 
     /// The paths of quantities of a machine.
     pub(crate) fn paths(&self) -> Vec<String> {
-        let one = |field: &FieldName| match field {
-            FieldName::Quantity(quantity) => quantity.name().to_owned(),
-            // the names of quantities have underscores there, those of stops are as they are
-            FieldName::Path(path) => match path.rsplit_once('.') {
-                Some((part, name)) => format!("{part}.{}", name.replace('-', "_")),
-                None => path.replace('-', "_"),
-            },
-        };
-        self.fields.iter().map(one).collect()
+        self.fields.iter().map(FieldName::path).collect()
+    }
+
+    /// Adds a quantity, if it is not there.
+    pub(super) fn add(&mut self, field: Option<&FieldName>) {
+        self.fields.extend(field.filter(|field| self.fields.iter().all(|own| own.path() != field.path())).cloned());
     }
 }
 
-/// Parses the name of a quantity of an oscillator or machine. What a machine has is known only when it is read.
-fn named(name: &str) -> Result<FieldName, String> {
-    Ok(quantity(name).map_or_else(|_| FieldName::Path(name.trim().to_owned()), FieldName::Quantity))
+impl FieldName {
+    /// Parses the name of a quantity of an oscillator or machine. What a machine has is known only when it is read.
+    pub(super) fn parse(name: &str) -> Result<Self, String> {
+        Ok(quantity(name).map_or_else(|_| Self::Path(name.trim().to_owned()), Self::Quantity))
+    }
+
+    /// Its path in a machine; of an oscillator its name.
+    pub(super) fn path(&self) -> String {
+        match self {
+            Self::Quantity(quantity) => quantity.name().to_owned(),
+            // the names of quantities have underscores there, those of stops are as they are
+            Self::Path(path) => match path.rsplit_once('.') {
+                Some((part, name)) => format!("{part}.{}", name.replace('-', "_")),
+                None => path.replace('-', "_"),
+            },
+        }
+    }
 }
 
 /// Parses the name of a quantity.

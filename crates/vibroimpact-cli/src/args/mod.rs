@@ -22,7 +22,7 @@ mod vary;
 pub(crate) use axes::AxesArgs;
 pub(crate) use changed::SetArgs;
 pub(crate) use colour::ColourArgs;
-pub(crate) use fields::{FieldsArgs, quantity};
+pub(crate) use fields::{FieldName, FieldsArgs, quantity};
 pub(crate) use figure::FigureArgs;
 pub(crate) use numbers::{number, whole, within};
 pub(crate) use of_machine::{MachineArgs, MachineAxesArgs, StartOfMachineArgs};

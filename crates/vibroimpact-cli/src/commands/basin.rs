@@ -97,10 +97,12 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let start = Some((&args.of_machine, args.phase));
     let task = || {
         let (axes, refine, impacts) = (args.axes.axes(), args.refine, args.impacts);
-        let fields = args.colour.of_machine(&args.fields)?;
+        let fields = args.colour.with(&args.fields).paths();
         Ok(MachineTask::Basin(MachineBasinPlan { axes, refine, impacts, fields }))
     };
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, Some(&args.store), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, start, task, files, (Some(&args.store), Some(&args.colour)), session)
+    {
         return answer;
     }
     let (Some(x), Some(v)) = (&args.x, &args.v) else {
@@ -112,7 +114,7 @@ pub(super) fn run(args: &Basin, session: &Session) -> Result<(), Failure> {
     let task = BasinPlan {
         refine: args.refine,
         impacts: args.impacts,
-        fields: args.colour.fields(&args.fields.quantities()?),
+        fields: args.colour.with(&args.fields).quantities()?,
         ..plane
     };
     let axes = task.axes.clone();

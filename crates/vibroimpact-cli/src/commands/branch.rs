@@ -113,7 +113,9 @@ pub(super) fn run(args: &Branch, session: &Session) -> Result<(), Failure> {
         let (points, follow) = (args.points, args.follow);
         Ok(MachineTask::Branch { label: args.label.clone(), vary: args.vary.path(), to: args.to, points, follow })
     };
-    if let Some(answer) = of_machine::asked(&args.machine, Some((&args.of_machine, None)), task, files, None, session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, Some((&args.of_machine, None)), task, files, (None, None), session)
+    {
         return answer;
     }
     let named = args.vary.parameter()?;

@@ -157,7 +157,7 @@ impl Curve {
 pub(super) fn run(args: &Curve, session: &Session) -> Result<(), Failure> {
     let files = (args.csv.as_deref(), (args.plot.as_deref(), &args.figure), args.json);
     let start = Some((&args.of_machine, None));
-    if let Some(answer) = of_machine::asked(&args.machine, start, || args.of_machine(), files, None, session) {
+    if let Some(answer) = of_machine::asked(&args.machine, start, || args.of_machine(), files, (None, None), session) {
         return answer;
     }
     let over = (args.vary.over()?, args.and.over()?);

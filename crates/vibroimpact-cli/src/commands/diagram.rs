@@ -168,7 +168,7 @@ pub(super) fn run(args: &Diagram, session: &Session) -> Result<(), Failure> {
         }))
     };
     let start = Some((&args.of_machine, args.phase));
-    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, Some(&args.store), session) {
+    if let Some(answer) = of_machine::asked(&args.machine, start, task, files, (Some(&args.store), None), session) {
         return answer;
     }
     let (named, show) = (args.vary.parameter()?, what(args.show.as_deref())?);

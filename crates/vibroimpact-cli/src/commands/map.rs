@@ -91,10 +91,12 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
             seed: args.seed,
             refine: args.refine,
             impacts: args.impacts,
-            fields: args.colour.of_machine(&args.fields)?,
+            fields: args.colour.with(&args.fields).paths(),
         }))
     };
-    if let Some(answer) = of_machine::asked(&args.machine, None, task, files, Some(&args.store), session) {
+    if let Some(answer) =
+        of_machine::asked(&args.machine, None, task, files, (Some(&args.store), Some(&args.colour)), session)
+    {
         return answer;
     }
     let Asked { system, units } = args.plane.asked()?;
@@ -110,7 +112,7 @@ pub(super) fn run(args: &Map, session: &Session) -> Result<(), Failure> {
         seed: args.seed,
         refine: args.refine,
         impacts: args.impacts,
-        fields: args.colour.fields(&args.fields.quantities()?),
+        fields: args.colour.with(&args.fields).quantities()?,
     };
     let axes = task.axes.clone();
     let plan = args.store.tiled(Plan::new(system, Task::Map(task)))?;

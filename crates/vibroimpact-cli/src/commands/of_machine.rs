@@ -1,12 +1,13 @@
 //! Commands with `--machine`, and `vibro run` with a plan of a machine: the result of the plan.
 
-use crate::args::{FigureArgs, MachineArgs, StartOfMachineArgs, StoreArgs};
+use crate::args::{ColourArgs, FigureArgs, MachineArgs, StartOfMachineArgs, StoreArgs};
 use crate::commands::outputs::Outputs;
 use crate::commands::{respond, stored};
 use crate::failure::Failure;
 use crate::report::{machine_answers, machine_events};
 use crate::session::Session;
 use std::path::Path;
+use vibroimpact_report::figure::coloured::Coloured;
 use vibroimpact_report::figure::plane::Sides;
 use vibroimpact_report::machine_answer;
 use vibroimpact_store::Part;
@@ -15,13 +16,14 @@ use vibroimpact_study::{MachineBasinPlan, MachineMapPlan, MachinePlan, MachineRe
 /// The files of a command: its table, its figure, and whether it prints JSON.
 pub(super) type Files<'a> = (Option<&'a Path>, (Option<&'a Path>, &'a FigureArgs), bool);
 
-/// The machine of a command computes this task from this start; `None` if no machine is named.
+/// The machine of a command computes this task from this start; `None` if no machine is named. Grids may have a store and
+/// colours.
 pub(super) fn asked(
     machine: &MachineArgs,
     start: Option<(&StartOfMachineArgs, Option<f64>)>,
     task: impl FnOnce() -> Result<MachineTask, Failure>,
     (csv, plot, json): Files<'_>,
-    store: Option<&StoreArgs>,
+    (store, colour): (Option<&StoreArgs>, Option<&ColourArgs>),
     session: &Session,
 ) -> Option<Result<(), Failure>> {
     let name = machine.machine.as_deref()?;
@@ -30,11 +32,12 @@ pub(super) fn asked(
         let plan = MachinePlan { tile, ..MachinePlan::new(machine.source(start)?, task()?) };
         plan.check()?;
         let outputs = Outputs::reserve(csv, plot, json, session)?;
+        let colour = colour.map(|colour| colour.coloured(outputs.drawn())).transpose()?.flatten();
         let Some(place) = store.and_then(|store| store.store.as_ref()) else {
-            return run(name, &plan, (outputs, None), session);
+            return run(name, &plan, (outputs, None, colour), session);
         };
         drawable(&plan, &outputs)?;
-        stored::run(&StudyPlan::from(&plan), place, Part::ALL, (outputs, None), session)
+        stored::run(&StudyPlan::from(&plan), place, Part::ALL, (outputs, colour), session)
     };
     Some(answer())
 }
@@ -56,7 +59,7 @@ fn drawable(plan: &MachinePlan, outputs: &Outputs) -> Result<(), Failure> {
 pub(super) fn run(
     name: &str,
     plan: &MachinePlan,
-    (outputs, step): (Outputs, Option<f64>),
+    (outputs, step, colour): (Outputs, Option<f64>, Option<Coloured>),
     session: &Session,
 ) -> Result<(), Failure> {
     let none = |what: &str| Failure::bad(format!("of a machine this command has no {what} yet"));
@@ -80,7 +83,7 @@ pub(super) fn run(
     outputs.write(
         session,
         || answer.table(step)?.ok_or_else(|| none("table")),
-        || answer.figure()?.ok_or_else(|| none("figure")),
+        || answer.figure(colour.as_ref())?.ok_or_else(|| none("figure")),
     )?;
     if json {
         return session.print_json(&answer);

@@ -43,7 +43,8 @@ pub(crate) struct Orbit {
 pub(super) fn run(args: &Orbit, session: &Session) -> Result<(), Failure> {
     let look = FigureArgs::default();
     let task = || Ok(MachineTask::Orbit { label: args.label.clone() });
-    if let Some(answer) = of_machine::asked(&args.machine, None, task, (None, (None, &look), args.json), None, session)
+    if let Some(answer) =
+        of_machine::asked(&args.machine, None, task, (None, (None, &look), args.json), (None, None), session)
     {
         return answer;
     }

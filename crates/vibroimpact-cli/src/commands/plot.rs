@@ -30,7 +30,7 @@ pub(super) fn run(args: &Plot, session: &Session) -> Result<(), Failure> {
     let store = stored::open(&args.store)?;
     let colour = args.colour.coloured(true)?;
     let picture = Picture::reserve(&args.file, &args.look, session.force)?;
-    picture.write(figure::<_, Failure>(&store, colour)?)?;
+    picture.write(figure::<_, Failure>(&store, colour.as_ref())?)?;
     session.note(&format!("wrote {}", args.file.display()));
     Ok(())
 }

@@ -56,8 +56,7 @@ pub(super) fn run(args: &Slurm, session: &Session) -> Result<(), Failure> {
     if jobs < args.jobs {
         session.note(&format!("the study has {}, so the array has {}", counted(tiles, "tile"), counted(jobs, "job")));
     }
-    let program =
-        std::env::current_exe().map_err(|error| Failure::Failed(format!("where this program is: {error}")))?;
+    let program = crate::program::path()?;
     let place = args.store.clone().unwrap_or_else(|| default_store(&args.plan));
     // a bucket needs no path; a folder is given by its absolute path
     let place = if place.contains("://") { place } else { whole(Path::new(&place))? };

@@ -78,7 +78,7 @@ pub(super) fn run(
         return Ok(());
     }
     let (json, silent) = (outputs.json(), outputs.any());
-    outputs.stream(session, |out| report::table(&store, false, out), || figure(&store, colour))?;
+    outputs.stream(session, |out| report::table(&store, false, out), || figure(&store, colour.as_ref()))?;
     if json {
         return session.print_json(&report::StoredFields::new(&store, Some(filled))?);
     }

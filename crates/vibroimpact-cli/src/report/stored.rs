@@ -15,9 +15,11 @@ use vibroimpact_report::table::diagram;
 use vibroimpact_report::{PROGRAM, Units};
 use vibroimpact_store::{Store, StoreError};
 use vibroimpact_study::study::{
-    NO_MOTION, NOT_COMPUTED, REFUSED, StudyPlan, UNDECIDED, diagram_of, label_of, machine_diagram_of,
+    Along, NO_MOTION, NOT_COMPUTED, REFUSED, StudyPlan, UNDECIDED, diagram_of, label_of, machine_diagram_of,
 };
-use vibroimpact_study::{Axis, Block, Column, Dimension, Field, MachineTask, PlanError, Quantity, Task};
+use vibroimpact_study::{
+    Axis, Block, Column, Dimension, Field, MachineTask, PlanError, PointsPlan, Quantity, Task, Values,
+};
 
 /// A JSON object about a store.
 #[derive(Serialize)]
@@ -176,7 +178,20 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
     let kinds: Vec<QuantityKind> = all.iter().map(|field| field.unit.kind()).collect();
     let extra = all.iter().find_map(|field| field.extra.first());
     let name = |d: &Dimension| column_of(d, store.plan());
+    // points have several coordinates along one dimension
+    let further: Vec<Along> = study.coordinates().into_iter().filter(|of| of.name != of.dimension).collect();
     let mut head: Vec<String> = study.grid().dimensions.iter().rev().map(name).collect();
+    head.extend(further.iter().map(|of| units.column(&of.name, of.unit.kind())));
+    let points = plan_points(store.plan());
+    let columns =
+        points.into_iter().flat_map(|points| points.varied().map(|vary| Axis::new(vary, Values::Listed(Vec::new()))));
+    let varied: Vec<Axis> = axes.iter().cloned().chain(columns).collect();
+    let of_points = |index: &[usize]| {
+        let dimensions = &study.grid().dimensions;
+        let place = |of: &Along| dimensions.iter().position(|d| d.name == of.dimension).map_or(0, |k| index[k]);
+        let value = |of: &Along| Number(of.values[place(of)] * units.of_kind(of.unit.kind())).to_string();
+        further.iter().map(value).collect::<Vec<_>>()
+    };
     let numbered = extra.filter(|extra| extra.name == "direction");
     head.extend(numbered.map(|extra| extra.name.to_owned()));
     head.extend(shown.iter().map(|k| units.column(&all[*k].name, kinds[*k])));
@@ -186,12 +201,15 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
         for p in 0..block.points() {
             let index = block.index(p);
             // axis k is dimension number k from the last
-            let units = units.over(axes, |k| axes[k].over.at(index[index.len() - 1 - k]));
+            let units = units.over(&varied, |k| match axes.get(k) {
+                Some(axis) => axis.over.at(index[index.len() - 1 - k]),
+                None => points.map_or(0.0, |points| points.at(k - axes.len(), index[0])),
+            });
             let place = index.iter().zip(&along).rev().map(|(i, values)| match values {
                 Some(values) => Number(values[*i]).to_string(),
                 None => (i + 1).to_string(),
             });
-            let place = place.collect::<Vec<_>>().join(",");
+            let place = place.chain(of_points(&index)).collect::<Vec<_>>().join(",");
             for i in 0..width {
                 let cell = |k: &usize| {
                     let at = p * all[*k].width() + if all[*k].width() > 1 { i } else { 0 };
@@ -210,6 +228,14 @@ pub(crate) fn table(store: &Store, long: bool, out: &mut dyn Write) -> io::Resul
         }
         Ok(())
     })
+}
+
+/// The points of a plan, if it has any.
+fn plan_points(plan: &StudyPlan) -> Option<&PointsPlan> {
+    match plan.oscillator().map(|plan| &plan.task) {
+        Some(Task::Basin(basin)) => basin.points.as_ref(),
+        _ => None,
+    }
 }
 
 /// The axes of a plan of the oscillator.

@@ -31,6 +31,8 @@ fn a_store_has_the_same_figure() {
         format!("{BASIN} --colour impact-speed-max"),
         format!("map {MACHINE} --frequency-hz 2.5:3:3 --starts 4 --color impulse-max --of worst"),
         format!("map {MACHINE} --frequency-hz 2.7 --starts 4 --colour impact-loss-per-period"),
+        "map --machine two-mass-hammer --axis frequency=0.9:1.3:4 --axis stop.anvil.gap=0.5:1:3 --starts 2 --colour stop.anvil.impact-speed-max".to_owned(),
+        "map --machine two-mass-hammer --axis frequency=0.9:1.3:4 --starts 2 --fields power --colour power".to_owned(),
     ]
     .iter()
     .enumerate()

@@ -76,6 +76,17 @@ fn stores_have_the_results_of_commands() {
     }
 }
 
+/// The hint of a refusal names the tasks of machines that a store takes.
+#[test]
+fn attractors_of_machines_have_no_store() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = json("attractors --machine two-mass-hammer --starts 2")["plan"].clone();
+    fs::write(folder.path().join("a.json"), plan.to_string()).unwrap();
+    let said = vibro("run a.json --store a.zarr").current_dir(folder.path()).output().unwrap();
+    let complaint = String::from_utf8(said.stderr).unwrap();
+    assert!(said.status.code() == Some(2) && complaint.contains("map, basin and diagram"), "{complaint}");
+}
+
 /// Two jobs with a part each fill the same store as one, byte by byte; a tile that is damaged is computed again.
 #[test]
 fn parts_and_damage() {

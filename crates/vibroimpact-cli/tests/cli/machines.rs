@@ -218,7 +218,7 @@ fn the_command_answers_as_the_library_does() {
     let folder = tempfile::tempdir().unwrap();
     let svg = folder.path().join("a.svg");
     printed(&format!("{line} --plot {}", svg.display()));
-    assert_eq!(fs::read_to_string(svg).unwrap(), answer.figure().unwrap().unwrap().to_svg());
+    assert_eq!(fs::read_to_string(svg).unwrap(), answer.figure(None).unwrap().unwrap().to_svg());
 }
 
 fn close(value: &serde_json::Value, expected: f64) -> bool {

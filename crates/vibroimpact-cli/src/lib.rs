@@ -1,0 +1,47 @@
+//! `vibro`: vibro-impact dynamics on the command line. The program and the Python package both call [`run`].
+//!
+//! Every command has the same steps: parse (text to arguments), plan (arguments to a checked plan), run (plan to
+//! results), report (results to stdout and files). Data go to stdout, everything else to stderr.
+
+mod args;
+mod command_line;
+mod commands;
+mod complain;
+mod exit;
+mod failure;
+mod files;
+mod hints;
+mod machine_file;
+mod measure;
+mod picture;
+mod program;
+mod progress;
+mod report;
+mod session;
+mod signal;
+mod unit_table;
+mod units_typed;
+
+use clap::Parser;
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// Runs a command line, whose first word is the name of the program, and returns the exit code. `program` is the file to
+/// name in scripts that run the command again; that of this process when absent.
+///
+/// It installs handlers for Ctrl-C and for defects of the program, so it is called once in a process.
+#[must_use]
+pub fn run(words: &[OsString], program: Option<PathBuf>) -> u8 {
+    exit::no_backtraces();
+    program::remember(program);
+    let line = match commands::CommandLine::try_parse_from(words) {
+        Ok(line) => line,
+        Err(refusal) => {
+            let words: Vec<String> = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+            return exit::parsed(&command_line::explained(refusal, &words));
+        }
+    };
+    signal::listen();
+    let session = session::Session::new(line.globals);
+    exit::code(commands::run(&line, &session))
+}
