@@ -1,8 +1,11 @@
-/** Tests of the export: every format of every view. */
+/** Tests of the export: every format of every view, and commands that give the same tables. */
 
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
-import { drawn, until, verdict } from "./page.mjs";
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, readlink, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { promisify } from "node:util";
+import { drawn, pictures, until, verdict } from "./page.mjs";
 
 async function saved(page, format) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`#export [data-format=${format}]`).click()]);
@@ -11,7 +14,7 @@ async function saved(page, format) {
 }
 
 export async function exports_each_format({ open }) {
-  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2", { acceptDownloads: true });
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&line=1.3,1,1.2,2&impacts=200", { acceptDownloads: true });
   await drawn(page);
   await until("a verdict", async () => (await page.locator(".verdict .label").count()) === 1 && (await verdict(page)) === "2/1");
   await page.locator("#export-button").click();
@@ -39,7 +42,7 @@ export async function the_command_line_is_that_of_the_view({ open }) {
   await page.keyboard.press("e");
   await until("the command is there", async () => (await page.locator("#export pre").first().textContent()).length > 10);
   const command = await page.locator("#export pre").first().textContent();
-  for (const part of ["vibro map", "--inverse-beta", "1:1.5:200", "--gap", "1:2:200", "--starts", "3", "--restitution", "0.6", "--impacts", "200"]) {
+  for (const part of ["vibro map", "--inverse-beta", "1:1.5:200", "--gap", "1:2:200", "--starts", "3", "--restitution", "0.6", "--impacts", "20000"]) {
     assert.ok(command.includes(part), `${part} in: ${command}`);
   }
 }
@@ -47,10 +50,9 @@ export async function the_command_line_is_that_of_the_view({ open }) {
 /** The command and the table of each panel belong to that panel. */
 export async function f10_panels_export_what_they_show({ open }) {
   const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75", { acceptDownloads: true });
-  await until("the panels are drawn", async () =>
-    (await page.$$eval("#point .sheet img", (images) => images.filter((image) => !image.hidden && image.naturalWidth > 0).length)) >= 4);
+  await until("the panels are drawn", async () => (await pictures(page)) >= 4);
   for (const [panel, view, python, head] of [
-    ["phase portrait of the steady motion", "phase", "motion.waveform()", "t,x,v"],
+    ["phase portrait", "phase", "motion.waveform()", "t,x,v"],
     ["multipliers", "multipliers", "motion.multipliers", "re,im"],
     ["impact map and stroboscopic section", "sections", "vi.lyapunov(osc, x=0, points=2000).plot()", "section,side,phase,x,v"],
   ]) {
@@ -61,4 +63,54 @@ export async function f10_panels_export_what_they_show({ open }) {
     assert.equal((await saved(page, "csv")).toString().split("\n")[0], head);
     await page.locator("#export [data-close]").click();
   }
+}
+
+/** Runs an exported command of the shell with this table as its output, and returns the table. */
+async function tableOf(command, folder) {
+  const program = await readlink(`/proc/${process.env.VIBRO_PID}/exe`);
+  const file = `${folder}/table.csv`;
+  assert.match(command, /^vibro /);
+  // pictures that the command writes go to the folder too
+  const line = `${command.replace(/^vibro/, `'${program}'`).replace(/--(csv|plot) \S+/g, "")} --csv '${file}' --force`;
+  await promisify(execFile)("sh", ["-c", line], { cwd: folder });
+  return readFile(file, "utf8");
+}
+
+export async function the_exported_command_writes_the_exported_table({ open }) {
+  if (!process.env.VIBRO_PID) {
+    console.log("        skipped: VIBRO_PID does not say which program the server is");
+    return;
+  }
+  const folder = await mkdtemp(`${tmpdir()}/vibro-e2e-`);
+  try {
+    const { page } = await open("#point=1&inverse_beta=1.3&gap=0.75&view=1,1.4,0.4,2.2&line=1.3,1,1.2,2&starts=2&layers=paper&impacts=1000", { acceptDownloads: true });
+    await drawn(page);
+    await page.locator("#export-button").click();
+    await page.locator("#export-points").selectOption("100");
+    for (const view of ["plane", "basin", "waveform", "line", "phase", "sections"]) {
+      await page.locator("#export-view").selectOption(view);
+      const command = page.locator("#export pre").first();
+      await until(`the command of ${view}`, async () => (await command.textContent()).startsWith("vibro "));
+      const saidByPage = (await saved(page, "csv")).toString();
+      assert.ok(saidByPage.split("\n").length > 5, view);
+      assert.equal(await tableOf(await command.textContent(), folder), saidByPage, view);
+    }
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+}
+
+export async function the_figure_of_the_map_has_what_lies_over_it({ open }) {
+  const { page } = await open("#point=1&inverse_beta=1.3&gap=1&line=1.1,1.5,1.1,2.5&panel=line&layers=paper,amplitude,boundaries&view=0.9,1.5,0.5,3&impacts=200", { acceptDownloads: true });
+  await drawn(page);
+  await page.locator("#export-button").click();
+  await page.locator("#export-points").selectOption("100");
+  const svg = (await saved(page, "svg")).toString();
+  // the line, the curve of the amplitude, and the names of points of the paper
+  for (const part of ["#b5221b", "#8c1d18", ">S<", ">T<"]) assert.ok(svg.includes(part), part);
+  await page.locator("#export [data-close]").click();
+  for (const layer of ["points of the 1971 paper", "free amplitude"]) await page.locator("#layers label", { hasText: layer }).click();
+  await page.locator("#export-button").click();
+  const bare = (await saved(page, "svg")).toString();
+  assert.ok(!bare.includes("#8c1d18") && !bare.includes(">S<") && bare.includes("#b5221b"));
 }

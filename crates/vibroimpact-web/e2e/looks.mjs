@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
 import { readFile } from "node:fs/promises";
-import { drawn, sharp, until } from "./page.mjs";
+import { drawn, pictures, sharp, until } from "./page.mjs";
 
 const S = "#point=1&inverse_beta=1.3&gap=0.75";
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
@@ -14,8 +14,7 @@ async function fits(page, width) {
 }
 
 /** Waits for the figures of the point. */
-const figures = (page) => until("the figures are there", async () =>
-  (await page.$$eval("#point .sheet img", (images) => images.filter((image) => !image.hidden).length)) >= 4);
+const figures = (page) => until("the figures are there", async () => (await pictures(page)) >= 4);
 
 async function shown({ open, folder }, name, viewport, options = {}, hash = S) {
   const { page } = await open(hash, { viewport, ...options });
@@ -63,9 +62,9 @@ export async function touch_pans_pinches_and_taps({ open }) {
     const view = new URLSearchParams((await page.evaluate(() => location.hash)).slice(1)).get("view")?.split(",").map(Number);
     return view ? view[1] - view[0] : 1.65;
   };
-  await until("a pinch zooms", async () => Math.abs((await width()) - 1.65 / 3) < 0.08, 5);
+  await until("a pinch zooms", async () => Math.abs((await width()) - 1.65 / 3) < 0.08);
   await page.touchscreen.tap(x, y);
-  await until("a tap chooses", async () => (await page.evaluate(() => location.hash)).includes("point=1"), 5);
+  await until("a tap chooses", async () => (await page.evaluate(() => location.hash)).includes("point=1"));
 }
 
 export async function the_theme_is_chosen_and_kept({ open }) {
@@ -74,7 +73,7 @@ export async function the_theme_is_chosen_and_kept({ open }) {
   const ground = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   const light = await ground();
   await page.keyboard.press("d");
-  await until("dark", async () => (await ground()) !== light, 5);
+  await until("dark", async () => (await ground()) !== light);
   assert.match(await page.evaluate(() => location.hash), /theme=dark/);
   await page.reload();
   assert.notEqual(await ground(), light);
@@ -93,12 +92,21 @@ export async function axe_finds_no_serious_fault({ open }) {
     await drawn(page);
     await figures(page);
     await faults(page, colorScheme);
-    for (const [key, dialog] of [["?", "#keys"], ["e", "#export"]]) {
+    for (const [key, dialog] of [["?", "#keys"], ["e", "#export"], ["s", "#symbols"]]) {
       await page.keyboard.press(key);
       await page.locator(dialog).waitFor();
       await faults(page, `${colorScheme} ${dialog}`);
       await page.keyboard.press("Escape");
     }
+  }
+  const pinned = `${S}&pin=1,1.5,0.5,0,2,0.5,0,0,0,0,0`;
+  for (const [where, options] of [["presentation", { colorScheme: "dark" }], ["forced colours", { forcedColors: "active" }]]) {
+    const { page } = await open(`${pinned}&present=1&subject=compare`, options);
+    await until("both points are drawn", async () => (await page.locator(".side .motion").count()) === 4);
+    await faults(page, where);
+    await page.keyboard.press("Escape");
+    await page.locator("[data-name=motion] .enlarge").click();
+    await faults(page, `${where}, enlarged`);
   }
   const { page } = await open("#panel=line&line=1.11,1.5,1.11,2", { viewport: { width: 360, height: 740 } });
   await drawn(page);

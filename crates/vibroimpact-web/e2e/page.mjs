@@ -2,8 +2,12 @@
 
 import assert from "node:assert/strict";
 
-/** Waits until a condition holds. After `seconds` it fails with the last value of the condition. */
-export async function until(what, condition, seconds = 40) {
+/**
+ * Waits until a condition holds. After `seconds` it fails with the last value of the condition.
+ *
+ * The time only ends a test that would wait for ever. It is long, because other work may run on the machine.
+ */
+export async function until(what, condition, seconds = 90) {
   const end = Date.now() + 1000 * seconds;
   for (;;) {
     if (await condition()) return;
@@ -16,15 +20,28 @@ export async function until(what, condition, seconds = 40) {
 export const hash = async (page) => new URLSearchParams((await page.evaluate(() => location.hash)).slice(1));
 
 /** The rows of the legend as a map from name to per cent. */
-export const legend = async (page) => new Map(await page.$$eval("#legend .legend-item", (items) => items.map((item) => [
+export const legend = async (page) => new Map(await page.$$eval("#legend button.legend-item", (items) => items.map((item) => [
   item.querySelector(".legend-name").textContent, parseFloat(item.querySelector(".legend-share").textContent.replace("<", "")),
 ])));
 
 /** Waits for the first picture of the plane. */
 export const drawn = (page) => until("the legend names motions", async () => (await legend(page)).size > 0);
 
-/** Waits until every tile in view is drawn. */
-export const sharp = (page) => page.waitForSelector("#plane[data-complete]", { timeout: 120000 });
+/** Waits until every tile in view is drawn with the first budget. */
+export const sharp = (page) => page.waitForSelector("#plane[data-sharp]", { timeout: 120000 });
+
+/** Waits until every tile in view has its largest budget. */
+export const complete = (page) => page.waitForSelector("#plane[data-complete]", { timeout: 240000 });
+
+/** The pixel of the map at a position on the screen. */
+export const pixel = (page, at) => page.evaluate(([x, y]) => {
+  const canvas = document.querySelector("#plane canvas");
+  const box = canvas.getBoundingClientRect();
+  const scale = canvas.width / box.width;
+  const one = new OffscreenCanvas(1, 1).getContext("2d");
+  one.drawImage(canvas, -Math.round((x - box.x) * scale), -Math.round((y - box.y) * scale));
+  return [...one.getImageData(0, 0, 1, 1).data].slice(0, 3);
+}, at);
 
 /** The position on the screen of a point of the first view, computed from the frame of the plane on the page. */
 export async function place(page, x, y, [left, right, bottom, top] = [0.375, 2.025, 0, 5]) {
@@ -50,3 +67,14 @@ export async function answer(address, task, system) {
   assert.ok(response.ok, told.error);
   return told;
 }
+
+/** The number of panels of the point with a picture: from the server, or drawn by the page. */
+export const pictures = (page) => page.evaluate(() =>
+  [...document.querySelectorAll("#point .sheet img")].filter((image) => !image.hidden && image.naturalWidth > 0).length
+  + document.querySelectorAll("#point > .panel:not([data-name=compare]) .graph .motion").length);
+
+/** Whether the whole of an element is on the screen. */
+export const onScreen = (page, selector) => page.locator(selector).first().evaluate((element) => {
+  const { left, right, top, bottom } = element.getBoundingClientRect();
+  return right > left && bottom > top && left >= -1 && top >= -1 && right <= innerWidth + 1 && bottom <= innerHeight + 1;
+});

@@ -1,7 +1,7 @@
 /** Tests of the chosen point, its starts, and the line. */
 
 import assert from "node:assert/strict";
-import { drawn, hash, place, until, verdict } from "./page.mjs";
+import { drawn, hash, pictures, place, until, verdict } from "./page.mjs";
 
 const S = "#point=1&inverse_beta=1.3&gap=0.75";
 
@@ -16,8 +16,7 @@ export async function click_shows_the_verdict({ open }) {
   await until("two motions coexist", async () => (await page.locator(".bars li").count()) === 2);
   const shares = await page.locator(".bars .share").allTextContents();
   assert.ok(Math.abs(parseFloat(shares[0]) + parseFloat(shares[1]) - 100) < 0.2, shares.join());
-  await until("the waveform, the portrait and the multipliers are there", async () =>
-    (await page.$$eval("#point .sheet img", (images) => images.filter((image) => !image.hidden && image.naturalWidth > 0).length)) >= 4);
+  await until("the waveform, the portrait, the multipliers and the section are there", async () => (await pictures(page)) >= 4);
   assert.match(await page.locator("#live").textContent(), /2\/1|impacts/);
 }
 
@@ -95,7 +94,7 @@ export async function a_line_gives_a_bifurcation_diagram({ open, folder }) {
     /δ from 1.* 1\/β from (0\.9|1)/.test(await image.getAttribute("alt")), 120);
   await page.screenshot({ path: `${folder}/oblique.png` });
   await page.goBack();
-  await until("the first line again", async () => (await hash(page)).get("line") === upright.join(), 10);
+  await until("the first line again", async () => (await hash(page)).get("line") === upright.join());
 }
 
 export async function with_the_keyboard_alone({ open }) {
@@ -121,7 +120,7 @@ export async function with_the_keyboard_alone({ open }) {
   // every control can be reached with Tab and shows its focus
   const reached = new Set();
   await page.evaluate(() => document.body.focus());
-  for (let k = 0; k < 90; k++) {
+  for (let k = 0; k < 130; k++) {
     await page.keyboard.press("Tab");
     reached.add(await page.evaluate(() => document.activeElement.id));
   }

@@ -7,10 +7,15 @@
 import { chromium } from "playwright-core";
 import { mkdir } from "node:fs/promises";
 import * as exporting from "./export.mjs";
+import * as line from "./line.mjs";
 import * as looks from "./looks.mjs";
+import * as map from "./map.mjs";
+import * as motion from "./motion.mjs";
+import * as panels from "./panels.mjs";
 import * as plane from "./plane.mjs";
 import * as point from "./point.mjs";
 import * as quiet from "./quiet.mjs";
+import * as settings from "./settings.mjs";
 import * as tour from "./tour.mjs";
 import * as wrong from "./wrong.mjs";
 
@@ -40,13 +45,15 @@ async function open(hash = "", options = {}) {
     if (["error", "warning"].includes(message.type())) complaints.push(`${message.type()}: ${message.text()}`);
   });
   page.on("pageerror", (error) => complaints.push(String(error.stack)));
-  await page.goto(address + hash);
+  page.address = address;
+  await page.goto(hash === "about:blank" ? hash : address + hash);
   return { page, context, complaints };
 }
 
-for (const module of [plane, point, exporting, tour, wrong, looks, quiet]) {
+const chosen = part.split(",");
+for (const module of [plane, map, settings, line, point, motion, panels, exporting, tour, wrong, looks, quiet]) {
   for (const [name, test] of Object.entries(module)) {
-    if (!name.includes(part)) continue;
+    if (!chosen.some((one) => name.includes(one))) continue;
     const opened = [];
     const begin = Date.now();
     try {

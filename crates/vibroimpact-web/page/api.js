@@ -6,7 +6,34 @@ export class ServerError extends Error {}
 /** The server does not answer. */
 export class ServerGone extends Error {
   constructor() {
-    super("The server has stopped; start `vibro explore` again.");
+    super("The server has stopped; start `vibro explore` again.\nThe page continues as soon as it answers.");
+  }
+}
+
+/** The number of requests for answers, figures and layers that are under way. */
+export const pending = {
+  count: 0,
+  heard: [],
+  listen(heard) {
+    this.heard.push(heard);
+  },
+  add(n) {
+    this.count += n;
+    for (const heard of this.heard) heard();
+  },
+};
+
+/** Requests that someone waits for; tiles and the first request of the page are none. */
+const waitedFor = (path) => !path.startsWith("/api/tile") && path !== "/api/about";
+
+/** Counts work as pending. */
+async function counted(path, work) {
+  if (!waitedFor(path)) return work();
+  pending.add(1);
+  try {
+    return await work();
+  } finally {
+    pending.add(-1);
   }
 }
 
@@ -40,6 +67,9 @@ const withQuery = (path, query) => {
   const given = Object.entries(query).filter(([, value]) => value !== undefined && value !== null);
   return given.length ? `${path}?${new URLSearchParams(given)}` : path;
 };
+
+/** The units of a machine. @returns {Promise<{units: object, velocity_m_per_s: number, natural_hz: number}>} */
+export const units = async (machine, signal) => whole((await ask(withQuery("/api/units", machine), { signal })).json());
 
 export const about = async () => (await ask("/api/about")).json();
 
@@ -79,7 +109,9 @@ async function* events(response) {
   }
 }
 
-async function told(path, plan, signal, onProgress) {
+const told = (path, ...given) => counted(path, () => listened(path, ...given));
+
+async function listened(path, plan, signal, onProgress) {
   const response = await ask(path, { body: plan, signal, accept: "text/event-stream" });
   if (!response.headers.get("content-type")?.startsWith("text/event-stream")) return whole(response.json());
   for await (const { event, data } of events(response)) {
@@ -92,6 +124,13 @@ async function told(path, plan, signal, onProgress) {
 
 /** @returns {Promise<object>} the object that `vibro TASK --json` prints */
 export const answer = (plan, signal, onProgress) => told("/api/answer", plan, signal, onProgress);
+
+/**
+ * The motion of a `simulate` plan from its start, or that of a `settle` plan after its transient, as points and events.
+ * @returns {Promise<object>}
+ */
+export const motion = (plan, periods, signal) => counted("/api/motion", async () =>
+  whole((await ask(withQuery("/api/motion", { periods }), { body: plan, signal })).json()));
 
 /** @returns {Promise<{svg: string}>} the orbit diagram with its branches */
 export const bifurcation = (plan, query, signal, onProgress) =>
@@ -112,11 +151,12 @@ export const figure = (plan, query, signal) => drawn("/api/figure", plan, query,
 /** The figure of the orbit diagram with its branches; parameters as for `figure`. */
 export const bifurcationFigure = (plan, query, signal) => drawn("/api/bifurcation", plan, query, signal);
 
-const drawn = async (path, plan, query, signal) =>
-  whole((await ask(withQuery(path, query), { body: plan, signal })).blob());
+const drawn = (path, plan, query, signal) =>
+  counted(path, async () => whole((await ask(withQuery(path, query), { body: plan, signal })).blob()));
 
 /** @param {string} [kind] the view of a settled motion whose table is requested */
-export const table = async (plan, kind, signal) => whole((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob());
+export const table = (plan, kind, signal) =>
+  counted("/api/table", async () => whole((await ask(withQuery("/api/table", { kind }), { body: plan, signal })).blob()));
 
 /**
  * @param {string} [kind] the view of a settled motion that the command draws

@@ -1,22 +1,34 @@
 /** Creates the parts of the page and connects them. */
 
 import { about } from "./api.js";
+import { BoxZoom } from "./box.js";
 import { learn } from "./colours.js";
 import { controls } from "./controls.js";
-import { byId, debounced, swatch } from "./dom.js";
+import { byId } from "./dom.js";
 import { Export } from "./export.js";
 import { glide } from "./gestures.js";
 import { keys } from "./keys.js";
 import { Layers } from "./layers.js";
 import { Legend } from "./legend.js";
 import { LineTool } from "./line.js";
+import { links } from "./links.js";
+import { mapStarts } from "./mapstarts.js";
 import { Messages } from "./messages.js";
+import { panels as enlarging } from "./panel.js";
 import { Plane } from "./plane.js";
 import { Point } from "./point.js";
+import { preview } from "./preview.js";
+import { Queue } from "./queue.js";
+import { ranges } from "./ranges.js";
+import { Readout } from "./readout.js";
+import { sharpening } from "./sharpening.js";
+import { sketches } from "./sketch.js";
 import { Store } from "./state.js";
+import { subject } from "./subject.js";
 import { theme } from "./theme.js";
-import { Cache, Queue } from "./tiles.js";
+import { Cache } from "./tiles.js";
 import { tour } from "./tour.js";
+import { units } from "./units.js";
 
 const store = new Store(location, history);
 const queue = new Queue(3);
@@ -24,8 +36,7 @@ const messages = new Messages(() => {
   queue.pause(false);
   plane.view.retry();
   point.basin.view.retry();
-  point.shown = null;
-  point.refresh(null);
+  point.retry();
   line.refresh();
   layers.refresh();
   greet();
@@ -40,13 +51,25 @@ const parts = { cache: new Cache(400), queue, failed };
 const plane = new Plane(byId("plane"), store, parts);
 controls(store);
 plane.start();
-const legend = new Legend(byId("legend"), plane.view, store);
+const legend = new Legend(byId("legend"), plane.view);
 const exporting = new Export(store, { plane, basin: () => point.basin });
 const exported = (view) => exporting.open(view);
 const point = new Point(store, plane, parts, say, exported);
 const line = new LineTool(store, plane, { failed, say, exported });
 const layers = new Layers(plane, store, failed);
-keys({ line, plane });
+const box = new BoxZoom(store, plane, say);
+const readout = new Readout(store, plane, say);
+keys({ line, box, plane, readout });
+mapStarts(store);
+ranges(store, plane);
+links(store, plane, (text) => messages.put(text));
+store.complain = (refused) => messages.put(refused.join("\n"));
+if (store.refused.length) store.complain(store.refused);
+sharpening(queue, () => [plane.view, point.basin.view], () => messages.gone);
+sketches(store);
+preview(plane, store);
+enlarging();
+units(store, failed, () => point.retry());
 theme(byId("theme-button"), store, () => {
   for (const view of [plane.view, point.basin.view]) {
     view.frame.measure();
@@ -55,8 +78,9 @@ theme(byId("theme-button"), store, () => {
 });
 panels();
 tour(store, say);
+// with larger type the frames of the views have other margins
+subject(store, () => dispatchEvent(new Event("resize")));
 toolbar();
-readout();
 line.refresh();
 greet().finally(() => point.refresh(null));
 
@@ -97,42 +121,7 @@ function toolbar() {
   byId("zoom-in").addEventListener("click", () => glide(plane.view, 1));
   byId("zoom-out").addEventListener("click", () => glide(plane.view, -1));
   byId("whole").addEventListener("click", () => store.set({ view: null }));
-}
-
-/** The line below the plane: the motion at the pointer, the progress of the tiles, the numeric limit of the zoom. */
-function readout() {
-  const said = byId("readout");
-  const spoken = debounced((text) => say(text), 400);
-  const { view } = plane;
-  let last = null;
-  const tell = () => {
-    if (!last) {
-      said.replaceChildren("Point at the plane.");
-      return;
-    }
-    const { place, motions, colour } = plane.tell(last);
-    const placed = document.createElement("span");
-    placed.className = "place";
-    placed.textContent = place;
-    said.replaceChildren(placed, colour ? swatch(colour) : "", motions);
-  };
-  view.addEventListener("hover", ({ detail: px }) => {
-    const { width, height } = view.viewport;
-    last = px && px[0] >= 0 && px[1] >= 0 && px[0] <= width && px[1] <= height ? px : null;
-    tell();
-  });
-  view.addEventListener("crosshair", ({ detail: px }) => {
-    const { place, motions } = plane.tell(px);
-    spoken(`${place}: ${motions}`);
-  });
-  view.addEventListener("tiles", () => {
-    const [known, all] = view.progress ?? [0, 0];
-    byId("progress").textContent = known < all ? `${known} of ${all} tiles` : "";
-    byId("plane").toggleAttribute("data-complete", known >= all);
-    if (last) tell();
-  });
-  view.addEventListener("limit", ({ detail: met }) => {
+  plane.view.addEventListener("limit", ({ detail: met }) => {
     byId("limit").hidden = !met;
   });
-  legend.soon();
 }

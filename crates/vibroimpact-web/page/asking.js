@@ -2,11 +2,13 @@
 
 import { tile as ask } from "./api.js";
 import { over } from "./plans.js";
-import { SIDE, STRIPE, Tile } from "./tiles.js";
+import { SIDE, Tile, wrapped } from "./tiles.js";
 
-/** Approximate number of points of the coarse picture, and minimum distance between them in pixels. */
-const COARSE_POINTS = 9000;
+/** Largest and smallest number of points of the coarse picture, and minimum distance between them in pixels. */
+const COARSE_POINTS = [800, 9000];
 const COARSE_PIXELS = 8;
+/** Time in which a coarse picture should be there, in milliseconds, so that it follows a slider. */
+const COARSE_TIME = 100;
 
 /** Step of the refinement of a tile: every point with this distance is computed first. */
 const REFINE = 8;
@@ -20,42 +22,57 @@ function cut(first, h, count, [least, most], open) {
   return { first: first + begin, count: end - begin, values: over(centre(begin), centre(end - 1), end - begin) };
 }
 
+/** A budget of impacts and the key of the tiles that are computed with it. @typedef {{key: string, impacts: number}} Stage */
+
 /**
  * Requests the tile of a level with the given column and row.
  * @param {import("./tileview.js").TileView} view
  * @param {string} key
+ * @param {Stage} stage
  * @param {number} level
  * @param {[number, number]} at
  * @param {AbortSignal} signal
  */
-export function askTile(view, key, level, [column, row], signal) {
+export function askTile(view, key, stage, level, [column, row], signal) {
   const { source, viewport: v } = view;
   const shape = v.shapeOf(level);
   const [hx, hy] = [v.stepX * 2 ** -level, v.stepY * 2 ** -(level + shape)];
   const across = cut(column * SIDE, hx, SIDE, source.legal.x, source.x.open);
   const up = cut(row * SIDE, hy, SIDE, source.legal.y, source.y.open);
-  return { key, source, tile: filled({ source, key, level, shape, hx, hy, across, up }, REFINE, signal) };
+  return { key, stage, tile: filled({ source, stage, key, level, shape, hx, hy, across, up }, source.refine?.(stage.impacts) ?? REFINE, signal) };
 }
 
-/** Requests the coarse picture: a few points over the whole view. */
-export function askCoarse(view, key, signal) {
+/** Number of points of the next coarse picture: fewer if the last one took long. */
+let coarsePoints = COARSE_POINTS[1];
+
+/** Requests the coarse picture: a few points over the whole view. Parameters as for `askTile`. */
+export function askCoarse(view, key, stage, signal) {
   const { source, viewport: v } = view;
-  const pixels = Math.max(COARSE_PIXELS, Math.sqrt((v.width * v.height) / COARSE_POINTS));
+  const pixels = Math.max(COARSE_PIXELS, Math.sqrt((v.width * v.height) / coarsePoints));
   const [hx, hy] = [v.hx * pixels, v.hy * pixels];
   const [left, bottom] = v.toPlane(0, v.height);
   const across = cut(Math.floor(left / hx), hx, Math.ceil(v.width / pixels) + 1, source.legal.x, source.x.open);
   const up = cut(Math.floor(bottom / hy), hy, Math.ceil(v.height / pixels) + 1, source.legal.y, source.y.open);
-  return { key, source, tile: filled({ source, key, level: -Infinity, hx, hy, across, up }, undefined, signal) };
+  const begin = performance.now();
+  const tile = filled({ source, stage, key, level: -Infinity, hx, hy, across, up }, undefined, signal);
+  tile.then(({ columns, rows }) => {
+    const [least, most] = COARSE_POINTS;
+    const fitting = (columns * rows * COARSE_TIME) / Math.max(1, performance.now() - begin);
+    // half of the way, because a busy machine is slow for a moment
+    coarsePoints = Math.min(most, Math.max(least, (coarsePoints + fitting) / 2));
+  }, () => {});
+  return { key, stage, tile };
 }
 
-async function filled({ source, key, level, shape, hx, hy, across, up }, refine, signal) {
-  const place = across.first + up.first;
+async function filled({ source, stage, key, level, shape, hx, hy, across, up }, refine, signal) {
   const tile = new Tile({
-    source: source.key, look: source.look, impacts: source.impacts, key, level, shape, hx, hy, x0: across.first * hx, y0: up.first * hy,
-    columns: across.count, rows: up.count, phase: ((place % STRIPE) + STRIPE) % STRIPE,
+    source: stage.key, look: source.look, impacts: stage.impacts, key, level, shape, hx, hy, x0: across.first * hx, y0: up.first * hy,
+    columns: across.count, rows: up.count, phase: wrapped(across.first + up.first), slant: wrapped(across.first - up.first),
   });
   if (tile.columns > 0 && tile.rows > 0) {
-    tile.fill(source.read(await ask(source.plan(across.values, up.values, refine), signal)));
+    const plan = source.plan(across.values, up.values, refine);
+    for (const task of Object.values(plan.task)) task.impacts = stage.impacts;
+    tile.fill(source.read(await ask(plan, signal)));
   }
   return tile;
 }

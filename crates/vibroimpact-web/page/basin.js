@@ -8,16 +8,20 @@ import { TileView } from "./tileview.js";
 import { Viewport } from "./viewport.js";
 import { legendText } from "./words.js";
 
+/**
+ * Step of the points that are computed first: for small budgets, and for larger ones, which take longer. Basins have thin
+ * arms. With the step of the map, an arm is found in one tile and missed in the next one, and ends at the edge of the tile.
+ */
+const refine = (impacts) => (impacts <= 1000 ? 2 : 4);
+
 /** Numbers of cycles begin here, above all codes of labels. */
 const CYCLES = 2_000_000_000;
 
-/** The colour of the k-th cycle of a label: alternately darker and lighter. */
+/** The colour of the k-th cycle of a label, as in figures: alternately darker and lighter. */
 function shade(colour, k) {
-  if (k === 0) return colour;
+  const towards = k % 2 ? 0 : 255;
+  const part = 1 - 0.6 ** Math.ceil(k / 2);
   const rgb = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
-  const light = rgb[0] * 0.3 + rgb[1] * 0.6 + rgb[2] * 0.1 > 110;
-  const towards = light === (k % 2 === 1) ? 0 : 255;
-  const part = Math.min(0.75, 0.32 * Math.ceil(k / 2));
   return `#${rgb.map((v) => Math.round(v + part * (towards - v)).toString(16).padStart(2, "0")).join("")}`;
 }
 
@@ -97,10 +101,11 @@ export class Basin {
       key: key(state.impacts),
       shallower: shorter(state.impacts).map(key),
       impacts: state.impacts,
+      refine,
       x: START.x,
       y: START.v,
       legal: { x: room(state), y: [-Infinity, Infinity] },
-      plan: (overX, overY, refine) => basinPlan(state, overX, overY, refine),
+      plan: (overX, overY, step) => basinPlan(state, overX, overY, step),
       look: (id) => (id >= CYCLES ? cycles.look(id) : this.labels.get(id)) ?? { name: "undecided", colour: "#ffffff" },
       read: ({ header, fields }) => {
         for (const [code, look] of Object.entries(header.labels)) this.labels.set(Number(code), look);

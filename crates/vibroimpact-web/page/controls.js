@@ -1,7 +1,8 @@
 /** Sliders and fields for parameters on no axis, and controls for axes, starts and budget. */
 
-import { byId, debounced, element } from "./dom.js";
-import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
+import { byId, element, throttled } from "./dom.js";
+import { numberField } from "./field.js";
+import { PARAMETERS, isFrequency, ofSecondStop, patchOf, reasonAgainst, valueOf } from "./parameters.js";
 import { BUDGETS, MOST_STARTS } from "./state.js";
 import { grouped } from "./ticks.js";
 
@@ -22,7 +23,7 @@ export function controls(store) {
   const impacts = choice(store, "impacts", BUDGETS.map((n) => [n, `${grouped(n)} impacts`]));
   byId("budget").append(
     starts.box,
-    element("label", { class: "row" }, element("span", { text: "for" }), impacts),
+    element("label", { class: "row" }, element("span", { text: "at most" }), impacts),
   );
   const show = () => {
     const { state } = store;
@@ -67,34 +68,27 @@ function startsPerPoint(store) {
 
 /** The slider and field of a parameter; shown only if it is on no axis. */
 function parameter(store, name) {
-  const { symbol, words, slider: [from, to, step], least, most } = PARAMETERS[name];
-  const live = debounced((value) => store.set(patchOf(name, value), "quiet"), 60);
+  const { symbol, words, slider: [from, to, step] } = PARAMETERS[name];
+  const live = throttled((value) => store.set(patchOf(name, value), "quiet"), 40);
   const commit = (value) => store.set(patchOf(name, value));
   const range = element("input", {
     type: "range", min: from, max: to, step, "aria-label": `${words} ${symbol}`,
     oninput: (event) => {
-      field.value = event.target.value;
+      field.input.value = event.target.value;
       live(Number(event.target.value));
     },
     onchange: (event) => {
       const value = Number(event.target.value);
       // after the last events of the slider
-      setTimeout(() => commit(value), 70);
+      setTimeout(() => commit(value), 60);
     },
   });
-  const field = element("input", {
-    type: "number", id: `field-${name}`, step: "any", min: Number.isFinite(least) ? least : null,
-    max: Number.isFinite(most) ? most : null,
-    onchange: (event) => {
-      const value = Number(event.target.value);
-      const right = event.target.value !== "" && legal(PARAMETERS[name], value);
-      event.target.setAttribute("aria-invalid", String(!right));
-      if (right) commit(value);
-    },
+  const field = numberField({
+    id: `field-${name}`, label: `${words} ${symbol}`, check: (value) => reasonAgainst(PARAMETERS[name], value), set: commit,
   });
   const box = element("div", { class: "parameter" },
     element("label", { for: `field-${name}`, title: words }, element("i", { class: "math", text: symbol }), ` ${words}`),
-    range, field);
+    range, field.input, field.said);
   return { box, show: () => showParameter(store.state, name, { box, range, field }) };
 }
 
@@ -103,8 +97,7 @@ function showParameter(state, name, { box, range, field }) {
   box.hidden = onAxis || name === "beta" || (ofSecondStop(name) && !state.second);
   const value = valueOf(state, name);
   if (document.activeElement !== range) range.value = String(value);
-  if (Number(field.value) !== value || field.value === "") field.value = String(value);
-  field.setAttribute("aria-invalid", "false");
+  field.show(value);
 }
 
 /** The controls that choose the parameter of each axis. */

@@ -17,14 +17,47 @@ export function element(name, attributes = {}, ...children) {
   return made;
 }
 
+/**
+ * An SVG element with attributes and children; `text` sets the text.
+ * @param {string} name
+ * @param {Record<string, any>} [attributes]
+ * @param {...(Node | null)} children
+ * @returns {SVGElement}
+ */
+export function drawn(name, attributes = {}, ...children) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key === "text") made.textContent = value;
+    else if (value !== null && value !== undefined) made.setAttribute(key, value);
+  }
+  made.append(...children.filter((child) => child));
+  return made;
+}
+
 /** @param {string} id @returns {HTMLElement} */
 export const byId = (id) => document.getElementById(id);
 
-/** @param {string} colour @returns {HTMLElement} a small area of this colour */
-export function swatch(colour) {
+/**
+ * A small area in the colours of a motion, or of the motions of a group.
+ * @param {string | string[]} colour
+ * @param {string} [pattern] `undecided`, `impossible` or `blank`
+ * @returns {HTMLElement}
+ */
+export function swatch(colour, pattern = "") {
   const patch = element("span", { class: "swatch", "aria-hidden": "true" });
-  patch.style.backgroundColor = colour;
+  paint(patch, colour, pattern);
   return patch;
+}
+
+/** Paints a swatch again. Parameters as for `swatch`. */
+export function paint(patch, colour, pattern = "") {
+  patch.className = `swatch ${pattern}`.trim();
+  const colours = [colour].flat().slice(0, 4);
+  patch.style.backgroundColor = colours[0] ?? "";
+  if (!pattern) {
+    const stops = colours.map((one, k) => `${one} ${(100 * k) / colours.length}% ${(100 * (k + 1)) / colours.length}%`);
+    patch.style.backgroundImage = colours.length > 1 ? `linear-gradient(90deg, ${stops.join(", ")})` : "";
+  }
 }
 
 /** Calls `work` when there was no call for `delay` milliseconds. */
@@ -33,5 +66,22 @@ export function debounced(work, delay) {
   return (...given) => {
     clearTimeout(timer);
     timer = setTimeout(() => work(...given), delay);
+  };
+}
+
+/** Calls `work` at once, and then at most every `delay` milliseconds with the newest arguments. */
+export function throttled(work, delay) {
+  let waiting = null;
+  let timer = 0;
+  const next = () => {
+    timer = 0;
+    if (!waiting) return;
+    work(...waiting);
+    waiting = null;
+    timer = setTimeout(next, delay);
+  };
+  return (...given) => {
+    waiting = given;
+    if (!timer) next();
   };
 }

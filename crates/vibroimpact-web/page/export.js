@@ -3,6 +3,7 @@
 import * as api from "./api.js";
 import { byId, element } from "./dom.js";
 import { Latest } from "./latest.js";
+import { valueOf } from "./parameters.js";
 import {
   attractorsPlan, basinPlan, diagramPlan, lyapunovPlan, mapPlan, over, settlePlan, simulatePlan, within,
 } from "./plans.js";
@@ -63,7 +64,7 @@ export class Export {
       const cut = (range, coordinate, low, high) => over(...within(range, coordinate, low, high), n);
       return make(state, cut(legal.x, x, l, r), cut(legal.y, y, b, t));
     };
-    const views = { plane: { name: "plane of parameters", plan: () => span(this.views.plane.view, mapPlan), points: true } };
+    const views = { plane: { name: "map", plan: () => span(this.views.plane.view, mapPlan), points: true, over: () => this.over() } };
     if (state.point) {
       const settle = () => settlePlan(state);
       Object.assign(views, {
@@ -77,8 +78,23 @@ export class Export {
         lyapunov: { name: "Lyapunov exponents and attractor", plan: () => lyapunovPlan(state), kind: "sections" },
       });
     }
-    if (state.line) views.line = { name: "bifurcation diagram", plan: () => diagramPlan(state, 2 * n), points: true };
+    if (state.line) {
+      views.line = {
+        name: "bifurcation diagram", plan: () => diagramPlan(state, 2 * n), points: true,
+        note: "SVG and PNG have the branches too; CSV and the commands have the points from simulation.",
+      };
+    }
     return Object.fromEntries(Object.entries(views).filter(([, view]) => !view.needs || view.needs()));
+  }
+
+  /** What lies over the map: layers, the chosen point, the line. */
+  over() {
+    const { state } = this.store;
+    return {
+      layers: state.layers.join(),
+      chosen: state.point ? [valueOf(state, state.x), valueOf(state, state.y)].join() : null,
+      line: state.line && state.panel === "line" ? state.line.join() : null,
+    };
   }
 
   /** @param {string} view the view selected initially */
@@ -94,10 +110,13 @@ export class Export {
     this.view = this.list()[this.choice.value];
     this.plan = this.view.plan();
     this.pointsRow.hidden = !this.view.points;
+    // a diagram has twice as many values along its line
+    const along = this.choice.value === "line";
+    for (const option of this.points.options) option.text = along ? `${2 * option.value} values` : `${option.value} × ${option.value}`;
     for (const button of this.files.children) {
       button.hidden = Boolean(this.view.tableOnly) && button.dataset.format !== "csv";
     }
-    this.said.textContent = "";
+    this.said.textContent = this.view.note ?? "";
     this.asked.ask({ plan: this.plan, kind: this.view.kind }, true);
   }
 
@@ -123,7 +142,7 @@ export class Export {
   async blob(format, plan) {
     if (format === "csv") return api.table(plan, this.view.kind);
     if (this.choice.value === "line") return api.bifurcationFigure(plan, { format, width: WIDTH, height: 0.7 * WIDTH });
-    return api.figure(plan, { format, width: WIDTH, kind: this.view.kind });
+    return api.figure(plan, { format, width: WIDTH, kind: this.view.kind, ...this.view.over?.() });
   }
 
   download(blob, name) {

@@ -1,12 +1,16 @@
 /** A figure drawn by the server in the size of its place. Of several requests in quick succession, the newest is shown. */
 
 import { ServerError, figure as askFigure } from "./api.js";
-import { element } from "./dom.js";
+import { debounced, element } from "./dom.js";
 import { Latest } from "./latest.js";
+import { panel } from "./panel.js";
 
 /** Height of text in the units of a figure, and on the page relative to the text of the page. */
 const TEXT = 20;
 const SMALLER = 0.77;
+
+/** Largest zoom of an enlarged figure. */
+const MOST = 16;
 
 export class Figure {
   /**
@@ -14,20 +18,28 @@ export class Figure {
    * @param {number} ratio height over width
    * @param {(error: Error) => void} failed
    * @param {(() => void) | null} [exported] opens the export of this figure
+   * @param {string} [name] of its panel
    */
-  constructor(title, ratio, failed, exported = null) {
+  constructor(title, ratio, failed, exported = null, name = "figure") {
     this.ratio = ratio;
+    this.scale = 1;
     this.image = element("img", { alt: "", hidden: true });
     this.sheet = element("div", { class: "sheet" }, this.image);
     this.sheet.style.setProperty("--shape", String(1 / ratio));
     this.said = element("p", { class: "note" });
     this.title = title;
-    const button = exported && element("button", {
-      type: "button", class: "quiet", text: "Export", "aria-label": `Export ${title.toLowerCase()}`, onclick: exported,
-    });
-    this.box = element("figure", { class: "figure" },
-      element("figcaption", {}, element("h3", { text: title }), button), this.sheet, this.said);
+    this.box = panel(name, title, { exported, zoom: (factor) => this.zoom(factor) }, this.sheet, this.said);
+    this.box.classList.add("figure");
+    /** @type {(() => void) | null} called when an SVG that was put here no longer has the size of its place */
+    this.resized = null;
     this.asked = new Latest((question, signal) => this.fetch(question, signal), (error) => this.refused(error, failed));
+    // another size of its place, such as enlarged, needs another picture
+    this.again = debounced(() => {
+      if (this.image.hidden || this.fits()) return;
+      if (this.question) this.asked.ask(this.question);
+      else this.resized?.();
+    }, 200);
+    new ResizeObserver(() => this.again()).observe(this.sheet);
   }
 
   /**
@@ -37,24 +49,46 @@ export class Figure {
    */
   show(plan, about, instead = false) {
     this.box.hidden = false;
-    this.asked.ask({ plan, about }, instead);
+    this.sheet.hidden = false;
+    this.question = { plan, about };
+    this.asked.ask(this.question, instead);
   }
 
-  /** Shows an SVG that is already available. */
-  async put(svg, alt) {
+  /** Shows an SVG that was requested in a `size`. */
+  async put(svg, alt, size) {
+    this.drawn = size;
     await this.place(new Blob([svg], { type: "image/svg+xml" }), alt);
   }
 
   /** Width and height to request, in the units of the figure. */
   get size() {
-    const css = this.box.getBoundingClientRect().width || 400;
+    const { width: css, height } = this.sheet.getBoundingClientRect();
     const text = parseFloat(getComputedStyle(this.box).fontSize) * SMALLER;
-    const width = Math.round((css * TEXT) / text);
-    return { width, height: Math.round(width * this.ratio) };
+    const units = (pixels) => Math.min(4000, Math.max(200, Math.round((pixels * TEXT) / text)));
+    const width = units(css || 400);
+    return { width, height: this.free && height ? units(height) : Math.round(width * this.ratio) };
+  }
+
+  /** Whether the place has a height of its own: enlarged, in the tour, in a presentation. */
+  get free() {
+    return getComputedStyle(this.sheet).aspectRatio === "auto";
+  }
+
+  /** Whether the picture has the size of its place. */
+  fits() {
+    const { width, height } = this.size;
+    return !this.sheet.getBoundingClientRect().width || (this.drawn?.width === width && this.drawn?.height === height);
+  }
+
+  zoom(factor) {
+    this.scale = Math.min(MOST, Math.max(1, this.scale * factor));
+    this.image.style.width = this.image.style.height = this.scale === 1 ? "" : `${100 * this.scale}%`;
   }
 
   async fetch({ plan, about }, signal) {
-    const blob = await askFigure(plan, { format: "svg", ...this.size, kind: about.kind }, signal);
+    const { size } = this;
+    const blob = await askFigure(plan, { format: "svg", ...size, kind: about.kind }, signal);
+    this.drawn = size;
     await this.place(blob, about.alt);
   }
 
@@ -70,6 +104,8 @@ export class Figure {
     this.sheet.hidden = false;
     this.said.textContent = "";
     if (last) URL.revokeObjectURL(last);
+    // its place may have another size by now
+    this.again();
   }
 
   refused(error, failed) {
@@ -86,6 +122,7 @@ export class Figure {
 
   hide() {
     this.asked.stop();
+    this.question = null;
     this.box.hidden = true;
     this.clear();
   }

@@ -5,6 +5,10 @@ import { ticks } from "./ticks.js";
 const SERIF = '"STIX Two Text", "Cambria", "Georgia", "DejaVu Serif", serif';
 const SANS = 'system-ui, -apple-system, "Segoe UI", "Helvetica Neue", "Noto Sans", sans-serif';
 
+/** Colours of what is no motion: not computed, and impossible. The style sheet adapts the picture to a dark page. */
+const BLANK = { ground: "#ffffff", ink: "#b4b6b0" };
+const IMPOSSIBLE = { ground: "#d2d3cd", ink: "#83857f" };
+
 export class Frame {
   /** @param {import("./tileview.js").TileView} view */
   constructor(view) {
@@ -25,9 +29,10 @@ export class Frame {
     view.viewport.height = view.size[1] - this.top - this.bottom;
     const style = getComputedStyle(view.host);
     const colour = (name) => style.getPropertyValue(name).trim();
-    this.colours = Object.fromEntries(["ink", "soft", "line", "outside", "blank"].map((name) => [name, colour(`--${name}`)]));
+    this.colours = Object.fromEntries(["ink", "soft"].map((name) => [name, colour(`--${name}`)]));
   }
 
+  /** @returns {string} the key of the source of the uppermost tile */
   draw() {
     const { view } = this;
     const context = view.picture.getContext("2d");
@@ -38,17 +43,17 @@ export class Frame {
     context.beginPath();
     context.rect(...[this.left, this.top, view.viewport.width, view.viewport.height].map((v) => Math.round(v * density)));
     context.clip();
-    context.fillStyle = this.colours.blank;
+    context.fillStyle = this.pattern(context, BLANK, (pen, side) => {
+      pen.fillStyle = BLANK.ink;
+      pen.fillRect(side / 2, side / 2, Math.max(1, side / 7), Math.max(1, side / 7));
+    });
     context.fillRect(0, 0, view.picture.width, view.picture.height);
-    if (view.ghost) {
-      context.globalAlpha = 0.35;
-      for (const tile of view.knownOf(view.ghost)) this.tile(context, tile);
-      context.globalAlpha = 1;
-    }
-    for (const tile of view.known()) this.tile(context, tile);
+    const tiles = view.supply.drawn();
+    for (const [tile, open] of tiles) this.tile(context, tile, open);
     this.outside(context);
     context.restore();
     this.over();
+    return tiles.at(-1)?.[0].source ?? "";
   }
 
   /** A position on the canvas, rounded to pixels so that tiles join without a seam. */
@@ -57,16 +62,18 @@ export class Frame {
     return [Math.round((px + this.left) * this.view.density), Math.round((py + this.top) * this.view.density)];
   }
 
-  tile(context, tile) {
+  tile(context, tile, open) {
     const { view } = this;
     const [x0, y1] = this.place(tile.x0, tile.y0);
     const [x1, y0] = this.place(tile.x0 + tile.columns * tile.hx, tile.y0 + tile.rows * tile.hy);
     if (x1 <= 0 || y1 <= 0 || x0 >= view.picture.width || y0 >= view.picture.height) return;
-    // no stripes in coarse cells, because they would look like regions of motions
-    tile.paint(view.highlight, view.stripes && tile.level !== -Infinity);
+    // no stripes and lines in coarse cells, because they would look like regions of motions
+    const coarse = tile.level === -Infinity;
+    const { only, density } = view;
+    const look = { only, density, stripes: view.stripes && !coarse, boundaries: view.boundaries && !coarse };
     context.imageSmoothingEnabled = x1 - x0 < tile.columns;
     context.imageSmoothingQuality = "high";
-    context.drawImage(tile.canvas, x0, y0, x1 - x0, y1 - y0);
+    context.drawImage(tile.picture(look, open), x0, y0, x1 - x0, y1 - y0);
   }
 
   /** Shades the area with values that are not legal for an oscillator or a start. */
@@ -76,27 +83,30 @@ export class Frame {
     const [w, h] = [view.picture.width, view.picture.height];
     const [left, top] = this.place(Number.isFinite(x0) ? x0 : -1e300, Number.isFinite(y1) ? y1 : 1e300);
     const [right, bottom] = this.place(Number.isFinite(x1) ? x1 : 1e300, Number.isFinite(y0) ? y0 : -1e300);
-    context.fillStyle = this.hatch(context);
+    context.fillStyle = this.pattern(context, IMPOSSIBLE, (pen, side) => {
+      pen.strokeStyle = IMPOSSIBLE.ink;
+      pen.lineWidth = view.density;
+      pen.beginPath();
+      for (const shift of [-side, 0, side]) {
+        pen.moveTo(shift - 1, side + 1);
+        pen.lineTo(shift + side + 1, -1);
+      }
+      pen.stroke();
+    });
     if (left > 0) context.fillRect(0, 0, left, h);
     if (right < w) context.fillRect(right, 0, w - right, h);
     if (top > 0) context.fillRect(0, 0, w, top);
     if (bottom < h) context.fillRect(0, bottom, w, h - bottom);
   }
 
-  hatch(context) {
+  /** A repeated patch of a colour with marks. */
+  pattern(context, { ground }, mark) {
     const side = Math.round(8 * this.view.density);
     const patch = Object.assign(document.createElement("canvas"), { width: side, height: side });
     const pen = patch.getContext("2d");
-    pen.fillStyle = this.colours.outside;
+    pen.fillStyle = ground;
     pen.fillRect(0, 0, side, side);
-    pen.strokeStyle = this.colours.line;
-    pen.lineWidth = this.view.density;
-    pen.beginPath();
-    for (const shift of [-side, 0, side]) {
-      pen.moveTo(shift - 1, side + 1);
-      pen.lineTo(shift + side + 1, -1);
-    }
-    pen.stroke();
+    mark(pen, side);
     return context.createPattern(patch, "repeat");
   }
 

@@ -40,7 +40,7 @@ export function gestures(view) {
       return;
     }
     press = { px, last: px, moved: false };
-    held = view.grab?.(px, view.viewport.toPlane(...px), event.pointerType === "touch") ?? null;
+    held = view.grab?.(px, view.viewport.toPlane(...px), event.pointerType === "touch", event.shiftKey) ?? null;
   });
 
   surface.addEventListener("pointermove", (event) => {
@@ -97,7 +97,8 @@ export function gestures(view) {
     const lines = event.deltaMode === 1 ? 33 : event.deltaMode === 2 ? 400 : 1;
     const levels = -(event.deltaY * lines) / (event.ctrlKey ? 60 : 250);
     const px = inside(event);
-    zoom(view, Math.max(-2, Math.min(2, levels)), px, axisAt(view, px));
+    // not limited: a busy browser joins several turns of the wheel in one event
+    zoom(view, levels, px, axisAt(view, px));
     clearTimeout(view.wheeled);
     view.wheeled = setTimeout(() => view.settled(), 250);
   }, { passive: false });

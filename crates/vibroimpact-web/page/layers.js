@@ -11,6 +11,7 @@ const NAMES = {
   amplitude: "free amplitude |f|",
   paper: "points of the 1971 paper",
   stripes: "stripes for coexistence",
+  boundaries: "lines between motions",
 };
 
 /** A layer is requested again if the view is smaller than its window by this factor. */
@@ -59,6 +60,7 @@ export class Layers {
   refresh() {
     const { state } = this.store;
     this.plane.view.stripes = state.layers.includes("stripes");
+    this.plane.view.boundaries = state.layers.includes("boundaries");
     for (const [name, { input, progress }] of Object.entries(this.boxes)) {
       const why = this.hindered(name);
       input.checked = state.layers.includes(name);

@@ -1,31 +1,43 @@
-/** The legend: the motions in view with their shares. While one is pointed at, the others are grey. */
+/** The legend: what each colour and pattern in view means, with shares. Pointing at a row or clicking it isolates its motions. */
 
-import { element, swatch } from "./dom.js";
+import { groupOf, groupText } from "./colours.js";
+import { element, paint, swatch } from "./dom.js";
 import { shares } from "./shares.js";
-import { longer } from "./state.js";
-import { grouped, percent } from "./ticks.js";
-import { legendText } from "./words.js";
+import { percent } from "./ticks.js";
+import { labelText, legendText } from "./words.js";
 
-/** Maximum number of motions listed separately; the others are summed. */
+/** Maximum number of motions listed separately; if there are more, those of groups with several labels are listed together. */
 const SHOWN = 14;
+/** Number of motions of a group that are named in its row. */
+const NAMED = 3;
+
+/**
+ * A row of the legend.
+ * @typedef {object} Row
+ * @property {string} key
+ * @property {Set<number>} ids the motions
+ * @property {string} name
+ * @property {string} title
+ * @property {number} share
+ * @property {string[]} colours
+ * @property {string} pattern
+ */
 
 export class Legend {
   /**
    * @param {HTMLElement} host
    * @param {import("./tileview.js").TileView} view
-   * @param {import("./state.js").Store} store
    */
-  constructor(host, view, store) {
-    Object.assign(this, { host, view, store, pinned: null, all: false, ids: "" });
+  constructor(host, view) {
+    Object.assign(this, { host, view, pinned: null, all: false });
     this.list = element("ul", { class: "legend-list" });
+    this.others = element("ul", { class: "legend-list legend-other" });
     this.more = element("button", { type: "button", class: "quiet", hidden: true, onclick: () => this.toggleAll() });
     this.note = element("p", { class: "note" });
-    this.longer = element("button", { type: "button", class: "quiet longer", text: "look longer", onclick: () => this.lookLonger() });
-    host.append(this.list, this.more, this.note);
+    host.append(this.list, this.others, this.more, this.note);
     this.items = new Map();
     view.addEventListener("tiles", () => this.soon());
     view.addEventListener("view", () => this.soon());
-    store.on(["impacts"], () => this.refresh());
   }
 
   soon() {
@@ -41,89 +53,122 @@ export class Legend {
     this.refresh();
   }
 
-  /** Follows motions that have not settled for more impacts. */
-  lookLonger() {
-    this.store.set({ impacts: longer(this.store.state.impacts) });
-  }
-
   refresh() {
-    if (!this.view.source || !this.view.sized) return;
-    const { counts, coarse } = shares(this.view);
+    const { view } = this;
+    if (!view.source || !view.sized || !view.progress) return;
+    const { counts, coarse } = shares(view);
     const total = [...counts.values()].reduce((sum, n) => sum + n, 0);
+    this.fillOthers();
     if (!total) {
-      const nothing = this.view.progress?.[1] === 0;
-      this.note.textContent = nothing ? "No legal values in view." : "Computing.";
-      if (nothing) {
-        this.fill([]);
-        this.more.hidden = true;
-      }
+      const nothing = view.progress.all === 0;
+      // an earlier picture is still shown
+      if (!nothing) return;
+      this.note.textContent = "No legal values in view.";
+      this.fill([]);
+      this.more.hidden = true;
       return;
     }
-    const sorted = [...counts].map(([id, n]) => ({ id, share: n / total, ...this.view.source.look(id) }))
+    const motions = [...counts].map(([id, n]) => ({ id, share: n / total, ...view.source.look(id) }))
       .sort((a, b) => b.share - a.share);
-    const shown = this.all || sorted.length <= SHOWN + 1 ? sorted : sorted.slice(0, SHOWN);
-    const rest = sorted.slice(shown.length);
-    this.fill(shown);
-    this.more.hidden = !rest.length && !(this.all && sorted.length > SHOWN + 1);
-    const sum = rest.reduce((part, { share }) => part + share, 0);
-    this.more.textContent = rest.length ? `${rest.length} others, ${percent(sum)}` : "fewer";
+    const many = motions.length > SHOWN;
+    this.fill(many && !this.all ? this.grouped(motions) : motions.map((motion) => this.single(motion)));
+    this.more.hidden = !many;
+    this.more.textContent = this.all ? "fewer rows" : `all ${motions.length} motions`;
     this.note.textContent = coarse ? "Shares so far; not all of it is computed." : "";
   }
 
-  /** Updates the items. Items that remain are reused, so that the focus is not lost. */
-  fill(shown) {
+  /** @returns {Row} */
+  single({ id, name, variant, share, colour }) {
+    const open = this.view.progress.done < this.view.progress.all;
+    const number = variant ? ` (${variant + 1}${["st", "nd", "rd"][variant] ?? "th"})` : "";
+    const text = legendText(name, open ? null : this.view.source.impacts) + number;
+    const pattern = name === "undecided" ? "undecided" : "";
+    return { key: String(id), ids: new Set([id]), name: text, title: "", share, colours: [colour], pattern };
+  }
+
+  /** Rows in which the motions of each group with several labels are together. @returns {Row[]} */
+  grouped(motions) {
+    const rows = new Map();
+    for (const motion of motions) {
+      const group = groupOf(motion.name);
+      rows.set(group, [...(rows.get(group) ?? []), motion]);
+    }
+    return [...rows].map(([group, of]) => (of.length > 1 ? this.together(group, of) : this.single(of[0])))
+      .sort((a, b) => b.share - a.share);
+  }
+
+  together(group, motions) {
+    const names = [...new Set(motions.map(({ name }) => labelText(name)))];
+    const left = names.length - NAMED;
+    const share = motions.reduce((sum, motion) => sum + motion.share, 0);
+    const list = names.slice(0, NAMED).join(", ") + (left > 0 ? ` and ${left} more` : "");
+    const name = names.length > 1 ? `${groupText(group)}: ${list}` : `${legendText(motions[0].name, null)}, ${motions.length} cycles`;
+    return {
+      key: group, ids: new Set(motions.map(({ id }) => id)), name, title: names.join(", "), share,
+      colours: motions.map(({ colour }) => colour), pattern: "",
+    };
+  }
+
+  /** Updates the rows. Those that remain are reused, so that the focus is not lost. @param {Row[]} rows */
+  fill(rows) {
     const left = new Map(this.items);
     this.items.clear();
-    shown.forEach((motion, place) => {
-      const item = left.get(motion.id) ?? this.item(motion);
-      left.delete(motion.id);
-      this.items.set(motion.id, item);
-      item.name.textContent = this.nameOf(motion);
-      item.share.textContent = percent(motion.share);
-      item.patch.style.backgroundColor = motion.colour;
+    rows.forEach((row, place) => {
+      const item = left.get(row.key) ?? this.item(row);
+      left.delete(row.key);
+      this.items.set(row.key, item);
+      item.ids = row.ids;
+      item.name.textContent = row.name;
+      item.share.textContent = percent(row.share);
+      item.button.title = row.title ? `${row.title}: show only these in colour` : "Show only this motion in colour";
+      paint(item.patch, row.colours, row.pattern);
       if (this.list.children[place] !== item.row) this.list.insertBefore(item.row, this.list.children[place] ?? null);
     });
-    for (const { row } of left.values()) row.remove();
-    this.offer(shown.find(({ name }) => name === "undecided"));
-  }
-
-  /** The button that increases the budget, next to the item of motions that have not settled. */
-  offer(open) {
-    const next = longer(this.store.state.impacts);
-    if (!next || !open) {
-      this.longer.remove();
-      return;
+    for (const [key, { row }] of left) {
+      row.remove();
+      if (key === this.pinned) this.pin(key);
     }
-    this.longer.title = `Follow what is not settled for ${grouped(next)} impacts`;
-    const { row } = this.items.get(open.id);
-    if (this.longer.parentElement !== row) row.append(this.longer);
   }
 
-  nameOf({ name, variant }) {
-    return legendText(name, this.store.state.impacts) + (variant ? ` (${variant + 1}${["st", "nd", "rd"][variant] ?? "th"})` : "");
+  /** What is no motion: places that are not computed, and values without an oscillator or a start. */
+  fillOthers() {
+    const { view } = this;
+    const [[left, top], [right, bottom]] = [view.viewport.toPlane(0, 0), view.viewport.toPlane(view.viewport.width, view.viewport.height)];
+    const { x, y } = view.source.legal;
+    const beyond = left < x[0] || right > x[1] || bottom < y[0] || top > y[1];
+    const rows = [];
+    if (view.progress.seen < view.progress.all && view.supply.blank()) rows.push(["blank", "not computed yet"]);
+    if (beyond) rows.push(["impossible", view.source.beyond ?? "impossible values"]);
+    const key = rows.join();
+    if (key === this.shownOthers) return;
+    this.shownOthers = key;
+    this.others.replaceChildren(...rows.map(([pattern, name]) =>
+      element("li", { class: "legend-item" }, swatch([], pattern), element("span", { class: "legend-name", text: name }))));
   }
 
-  item({ id, colour }) {
-    const patch = swatch(colour);
+  item({ key, colours, pattern }) {
+    const patch = swatch(colours, pattern);
     const name = element("span", { class: "legend-name" });
     const share = element("span", { class: "legend-share" });
+    const show = () => this.point(item.ids);
+    const back = () => this.point(this.items.get(this.pinned)?.ids ?? null);
     const button = element("button", {
-      type: "button", class: "legend-item", "aria-pressed": "false", title: "Show only this motion in its colour",
-      onmouseenter: () => this.point(id), onmouseleave: () => this.point(this.pinned),
-      onfocus: () => this.point(id), onblur: () => this.point(this.pinned),
-      onclick: () => this.pin(id),
+      type: "button", class: "legend-item", "aria-pressed": "false",
+      onmouseenter: show, onmouseleave: back, onfocus: show, onblur: back, onclick: () => this.pin(key),
     }, patch, name, share);
-    return { row: element("li", {}, button), patch, name, share, button };
+    const item = { row: element("li", {}, button), patch, name, share, button, ids: new Set() };
+    return item;
   }
 
-  pin(id) {
-    this.pinned = this.pinned === id ? null : id;
+  pin(key) {
+    this.pinned = this.pinned === key ? null : key;
     for (const [of, { button }] of this.items) button.setAttribute("aria-pressed", String(of === this.pinned));
-    this.point(this.pinned);
+    this.point(this.items.get(this.pinned)?.ids ?? null);
   }
 
-  point(id) {
-    this.view.highlight = id;
+  /** @param {Set<number> | null} ids the motions that keep their colours */
+  point(ids) {
+    this.view.only = ids;
     this.view.draw();
   }
 }

@@ -2,12 +2,15 @@
 
 import { bifurcation } from "./api.js";
 import { byId, element } from "./dom.js";
+import { numberField } from "./field.js";
 import { Figure } from "./figure.js";
 import { Latest } from "./latest.js";
-import { PARAMETERS } from "./parameters.js";
+import { LinkedDiagram } from "./linked.js";
+import { PARAMETERS, reasonAgainst, valueOf } from "./parameters.js";
 import { alongLine, diagramPlan } from "./plans.js";
 import { digits } from "./ticks.js";
 import { Viewport } from "./viewport.js";
+import { labelText } from "./words.js";
 
 /** A line shorter than this number of pixels is ignored. */
 const SHORTEST = 12;
@@ -25,18 +28,73 @@ export class LineTool {
     this.button = byId("line-tool");
     this.button.addEventListener("click", () => this.use(!this.active));
     this.figure = new Figure("Bifurcation diagram", 0.8, failed, () => exported("line"));
+    this.figure.resized = () => {
+      this.key = null;
+      this.refresh();
+    };
     this.told = element("p", { class: "place" });
     this.progress = element("progress", { max: "1", value: "0", hidden: true, "aria-label": "Bifurcation diagram" });
     this.show = element("select", { id: "show", onchange: (event) => store.set({ show: event.target.value }) },
       element("option", { value: "velocity", text: "speed of impacts" }),
       element("option", { value: "strobe", text: "position once a period" }));
-    byId("line").append(this.told, element("label", { class: "row" }, element("span", { text: "shown" }), this.show),
-      this.progress, this.figure.box,
+    this.linked = new LinkedDiagram(this.figure, store, plane);
+    this.ends = this.endFields();
+    this.events = element("section", { class: "events", "aria-label": "Events on the branches", hidden: true });
+    byId("line").append(this.told, this.beginnings(), this.ends.box, element("label", { class: "row" }, element("span", { text: "shown" }), this.show),
+      this.progress, this.figure.box, this.events,
       element("p", { class: "note", text: "Points: what simulation finds, swept up and down. Lines: branches of orbits, stable solid, unstable dashed." }));
     this.asked = new Latest((state, signal) => this.fetch(state, signal), (error) => this.refused(error, failed));
     plane.view.grab = (px, xy) => (this.active ? this.hold(px, xy) : null);
     plane.view.painters.push((context, viewport) => this.paint(context, viewport));
     store.on(["line", "show", "panel", "x", "y", ...Object.keys(PARAMETERS), "second"], () => this.refresh());
+  }
+
+  /** Buttons for a line through the chosen point, or through the centre of the map, along either axis. */
+  beginnings() {
+    this.through = ["y", "x"].map((axis) => element("button", { type: "button", "data-through": axis, onclick: () => this.lay(axis) }));
+    return element("div", { class: "buttons" }, ...this.through);
+  }
+
+  /** Puts the line through the chosen point, or the centre of the map, from edge to edge. */
+  lay(axis) {
+    const { state } = this.store;
+    const { viewport: v } = this.plane.view;
+    const [left, right, bottom, top] = v.window();
+    const [x, y] = state.point ? [valueOf(state, state.x), valueOf(state, state.y)] : [Viewport.rounded(v.cx, v.hx), Viewport.rounded(v.cy, v.hy)];
+    const line = this.snapped(...(axis === "y" ? [[x, bottom], [x, top]] : [[left, y], [right, y]]));
+    // through the point itself, and not through the pixel that it is in
+    const exactly = axis === "y" ? { 0: x, 2: x } : { 1: y, 3: y };
+    this.store.set({ line: Object.assign(line, exactly), panel: "line" });
+  }
+
+  /** Lists the events on the branches, in the order of their values; a click chooses the place. */
+  list(events) {
+    const [{ parameter, from, to }] = alongLine(this.store.state);
+    const { symbol } = PARAMETERS[parameter];
+    const pixel = Math.abs(to - from) / 1e5;
+    this.events.hidden = !events.length;
+    this.events.replaceChildren(element("h3", { text: "Events on the branches" }), element("ul", {}, ...events.map(({ label, kind, value }) =>
+      element("li", {}, element("button", {
+        type: "button", class: "quiet", title: `Choose this place. ${symbol} = ${value}`, onclick: () => this.linked.choose((value - from) / (to - from)),
+        text: `${labelText(label)}: ${kind} at ${symbol} = ${digits(value, pixel)}`,
+      })))));
+  }
+
+  /** Fields for the coordinates of both ends. */
+  endFields() {
+    const { store } = this;
+    const names = ["beginning, to the right", "beginning, upwards", "end, to the right", "end, upwards"];
+    const fields = names.map((name, k) => numberField({
+      label: `line: ${name}`,
+      check: (value) => reasonAgainst(PARAMETERS[k % 2 ? store.state.y : store.state.x], value),
+      set: (value) => {
+        const line = [...store.state.line];
+        line[k] = value;
+        if (line[0] !== line[2] || line[1] !== line[3]) store.set({ line });
+      },
+    }));
+    const row = (word, k) => element("div", { class: "fields" }, element("span", { class: "soft", text: word }), fields[k].input, fields[k + 1].input);
+    return { fields, box: element("div", { class: "line-ends" }, row("from", 0), row("to", 2), ...fields.map(({ said }) => said)) };
   }
 
   use(active) {
@@ -46,7 +104,7 @@ export class LineTool {
     this.plane.view.surface.classList.toggle("draws", active);
     this.plane.view.entered = active ? (px) => this.entered(px) : null;
     this.plane.view.draw();
-    if (active) this.say("Line: drag along the plane in any direction, or press Enter at the cross for one end and again for the other.");
+    if (active) this.say("Line: drag along the map in any direction, or press Enter at the cross for one end and again for the other.");
   }
 
   hold(px, xy) {
@@ -103,10 +161,19 @@ export class LineTool {
     const { state } = this.store;
     this.plane.view.draw();
     this.show.value = state.show;
+    this.ends.box.hidden = !state.line;
+    for (const button of this.through) {
+      const { symbol } = PARAMETERS[state[button.dataset.through]];
+      button.textContent = `Along ${symbol} through ${state.point ? "the chosen point" : "the middle"}`;
+    }
+    state.line?.forEach((value, k) => this.ends.fields[k].show(value));
     if (state.panel !== "line" || !state.line) {
       this.asked.stop();
-      this.told.textContent = "Choose the tool Line above the plane, then drag along the plane, in any direction.";
-      if (!state.line) this.figure.hide();
+      this.told.textContent = "Press Line above the map, then drag along the map, in any direction. Or begin with one of these lines:";
+      if (!state.line) {
+        this.figure.hide();
+        this.events.hidden = true;
+      }
       this.key = null;
       return;
     }
@@ -127,10 +194,13 @@ export class LineTool {
     this.progress.removeAttribute("value");
     this.figure.box.hidden = false;
     try {
-      const { svg } = await bifurcation(plan, this.figure.size, signal, (part) => {
+      const { size } = this.figure;
+      const { svg, events } = await bifurcation(plan, size, signal, (part) => {
         this.progress.value = part;
       });
-      await this.figure.put(svg, `Bifurcation diagram: ${this.told.textContent}`);
+      this.linked.drawn(svg);
+      this.list(events ?? []);
+      await this.figure.put(svg, `Bifurcation diagram: ${this.told.textContent}`, size);
       this.say("Bifurcation diagram drawn.");
     } finally {
       this.progress.hidden = true;

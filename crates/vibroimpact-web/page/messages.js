@@ -3,6 +3,9 @@
 import { about, ServerGone } from "./api.js";
 import { byId, element } from "./dom.js";
 
+/** Time between attempts to reach a server that is gone, in milliseconds. */
+const AGAIN = 1500;
+
 export class Messages {
   /** @param {() => void} again called when the server answers again, or the user wants to retry */
   constructor(again) {
@@ -18,12 +21,18 @@ export class Messages {
     const gone = error instanceof ServerGone;
     if (this.gone && !gone) return;
     this.gone = gone;
-    const [first, ...rest] = error.message.split("\n");
+    if (gone) this.reconnect();
+    this.put(error.message, element("button", { type: "button", text: "Retry", onclick: () => this.retry() }));
+  }
+
+  /** Shows a sentence and its hints. */
+  put(message, ...buttons) {
+    const [first, ...rest] = message.split("\n");
     const text = element("p", {}, element("span", { text: first }));
     for (const line of rest) text.append(element("span", { class: "hint", text: line }));
     this.strip.replaceChildren(
       text,
-      element("button", { type: "button", text: "Retry", onclick: () => this.retry() }),
+      ...buttons,
       element("button", { type: "button", class: "quiet", text: "Close", onclick: () => this.clear() }),
     );
     this.strip.hidden = false;
@@ -38,6 +47,16 @@ export class Messages {
     }
     this.clear();
     this.again();
+  }
+
+  /** Looks for the server until it answers again. */
+  reconnect() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(async () => {
+      if (!this.gone) return;
+      if (document.hidden) this.reconnect();
+      else await this.retry();
+    }, AGAIN);
   }
 
   clear() {

@@ -65,6 +65,14 @@ export function legal(coordinate, value) {
     && (coordinate.open ? value > coordinate.least : value >= coordinate.least);
 }
 
+/** @returns {string} the reason why a coordinate cannot have a value; empty if it can */
+export function reasonAgainst(coordinate, value) {
+  if (legal(coordinate, value)) return "";
+  const { symbol, least, most, open } = coordinate;
+  const range = `${Number.isFinite(least) ? `${least} ${open ? "<" : "≤"} ` : ""}${symbol}${Number.isFinite(most) ? ` ≤ ${most}` : ""}`;
+  return `${symbol} = ${value} is not possible: ${range}.`;
+}
+
 /** @param {object} state @param {string} name @returns {number} the value of a parameter at the chosen point */
 export const valueOf = (state, name) => (name === "beta" ? state.beta ?? 1 / state.inverse_beta : state[name]);
 

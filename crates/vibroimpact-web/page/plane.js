@@ -1,6 +1,5 @@
 /** The plane of two parameters: its source of tiles, the point under the pointer, the chosen point. */
 
-import { learn } from "./colours.js";
 import { PARAMETERS, isFrequency, legal, ofSecondStop, patchOf, valueOf } from "./parameters.js";
 import { legalRange, mapPlan, room, systemOf } from "./plans.js";
 import { shorter } from "./state.js";
@@ -11,6 +10,9 @@ import { motionsText } from "./words.js";
 
 /** Parts of the state on which the tiles depend. */
 const DEPENDS = ["x", "y", ...Object.keys(PARAMETERS), "second", "starts", "impacts"];
+
+/** Gestures with less than this number of milliseconds between them are one step of undo. */
+const TOGETHER = 1500;
 
 /** Maximum distance, in pixels, of a click that selects a point of the paper. */
 const NEAR = 9;
@@ -31,13 +33,13 @@ export class Plane {
     this.store = store;
     this.view = new TileView(host, {
       ...parts,
-      label: "Plane of parameters. Arrow keys move, plus and minus zoom, x and y zoom along one axis, Enter chooses the point at the cross.",
+      label: "Map of motions. Arrow keys move, plus and minus zoom, x and y zoom along one axis, Enter chooses the point at the cross.",
     });
     this.looks = new Map();
     this.points = [];
     this.view.painters.push((context, viewport, frame) => this.paintChosen(context, viewport, frame));
     this.view.addEventListener("pick", ({ detail }) => this.pick(detail));
-    this.view.addEventListener("view", () => store.set({ view: this.view.viewport.window() }, "replace"));
+    this.view.addEventListener("view", () => this.looked());
     this.view.addEventListener("home", () => store.set({ view: null }));
     store.on(DEPENDS, (_, changed) => this.refresh(changed));
     store.on(["view"], () => this.moved());
@@ -80,17 +82,25 @@ export class Plane {
       key: key(state.impacts),
       shallower: shorter(state.impacts).map(key),
       impacts: state.impacts,
+      beyond: "no such oscillator",
       x: PARAMETERS[state.x],
       y: PARAMETERS[state.y],
       legal: { x: legalRange(state, state.x), y: legalRange(state, state.y) },
       plan: (overX, overY, refine) => mapPlan(state, overX, overY, refine),
-      look: (id) => this.looks.get(id) ?? { name: "undecided", colour: "#ffffff" },
+      look: (id) => this.looks.get(id) ?? { name: "undecided", colour: "#e8eaee" },
       read: ({ header, fields }) => {
         for (const [code, look] of Object.entries(header.labels)) this.looks.set(Number(code), look);
-        learn(Object.values(header.labels));
         return { classes: fields.label.values, shares: fields.share.values, per: fields.label.per };
       },
     };
+  }
+
+  /** Puts the window into the address. Gestures in quick succession are undone together. */
+  looked() {
+    const now = performance.now();
+    const follows = this.store.depth === this.lookedAt?.depth && now - this.lookedAt.time < TOGETHER;
+    this.store.set({ view: this.view.viewport.window() }, follows ? "replace" : "push");
+    this.lookedAt = { depth: this.store.depth, time: now };
   }
 
   pick(px) {
@@ -151,7 +161,7 @@ export class Plane {
 
   /**
    * The motions at a pixel, for the line below the plane.
-   * @returns {{place: string, motions: string, colour: string | null}}
+   * @returns {{place: string, motions: string, colours: string[], pattern: string}}
    */
   tell(px) {
     const { source, viewport: v } = this.view;
@@ -159,7 +169,8 @@ export class Plane {
     const place = `${source.x.symbol} ${digits(x, v.hx)}   ${source.y.symbol} ${digits(y, v.hy)}`;
     const { state } = this.store;
     const outside = !legal(PARAMETERS[state.x], x) || !legal(PARAMETERS[state.y], y);
-    const motions = found.length ? motionsText(found) : outside ? "no such oscillator" : "not computed yet";
-    return { place, motions, colour: found[0]?.colour ?? null };
+    const motions = found.length ? motionsText(found, source.impacts) : outside ? source.beyond : "not computed yet";
+    const pattern = found[0]?.name === "undecided" ? "undecided" : found.length ? "" : outside ? "impossible" : "blank";
+    return { place, motions, colours: found.map(({ colour }) => colour), pattern };
   }
 }

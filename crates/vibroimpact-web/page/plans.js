@@ -64,7 +64,7 @@ export const room = (state) => [state.second ? -state.second_gap : -Infinity, st
 
 export const settlePlan = (state) => plan(systemOf(state), { settle: { start: startOf(state) } });
 
-export const simulatePlan = (state, periods = 20) =>
+export const simulatePlan = (state, periods = state.periods) =>
   plan(systemOf(state), { simulate: { start: startOf(state), impacts: null, periods } });
 
 export const attractorsPlan = (state) => plan(systemOf(state), { attractors: { starts: 200, seed: 1 } });

@@ -1,18 +1,26 @@
-/** The chosen point: its verdict, waveform, starts, coexisting motions, orbit and stability. */
+/** The chosen point: its verdict, and the panels with its motion, starts, coexisting motions, orbit and stability. */
 
 import { answer } from "./api.js";
-import { Basin } from "./basin.js";
 import { colourOf } from "./colours.js";
-import { byId, debounced, element, swatch } from "./dom.js";
+import { Comparison } from "./compare.js";
+import { byId, element } from "./dom.js";
+import { numberField } from "./field.js";
 import { Figure } from "./figure.js";
 import { Latest } from "./latest.js";
-import { Legend } from "./legend.js";
-import { PARAMETERS, legal, patchOf, valueOf } from "./parameters.js";
-import { attractorsPlan, lyapunovPlan, settlePlan, simulatePlan, startOf, systemOf } from "./plans.js";
+import { MotionPanel } from "./motion.js";
+import { panel } from "./panel.js";
+import { PARAMETERS, patchOf, reasonAgainst, valueOf } from "./parameters.js";
+import { attractorsPlan, lyapunovPlan, settlePlan, startOf, systemOf } from "./plans.js";
+import { PortraitPanel } from "./portrait.js";
+import { Quantities } from "./quantities.js";
+import { Starts } from "./starts.js";
 import { percent, short } from "./ticks.js";
+import { inUnits, machineText } from "./units.js";
+import { verdict } from "./verdict.js";
 import { labelText, meaning, stability } from "./words.js";
 
 const SYSTEM = [...Object.keys(PARAMETERS), "second"];
+const SHOWN = ["wave", "portrait", "periods", "pin"];
 
 export class Point {
   /**
@@ -24,71 +32,36 @@ export class Point {
    */
   constructor(store, plane, parts, say, exported) {
     Object.assign(this, { store, plane, say });
-    const figure = (title, ratio, view) => new Figure(title, ratio, parts.failed, () => exported(view));
-    this.wave = figure("Waveform", 0.58, "waveform");
-    this.phase = figure("Phase portrait of the steady motion", 0.85, "phase");
-    this.circle = figure("Multipliers", 1.02, "multipliers");
-    this.sections = figure("Impact map and stroboscopic section", 1.05, "sections");
-    this.exponents = figure("Attractor and Lyapunov exponents", 1.05, "lyapunov");
+    const { failed } = parts;
+    const figure = (name, title, ratio) => new Figure(title, ratio, failed, () => exported(name), name);
+    this.motion = new MotionPanel(store, failed, () => exported("waveform"));
+    this.portrait = new PortraitPanel(store, failed, () => exported("phase"));
+    this.motion.player.addEventListener("time", () => this.portrait.move(this.motion.wave.track, this.motion.player.time));
+    this.starts = new Starts(store, parts, { say, exported: () => exported("basin"), startAt: (at, dragging) => this.startAt(at, dragging) });
+    this.circle = figure("multipliers", "Multipliers", 1.02);
+    this.sections = figure("sections", "Impact map and stroboscopic section", 1.05);
+    this.exponents = figure("lyapunov", "Attractor and Lyapunov exponents", 1.05);
     this.exponentsText = element("p", { class: "note" });
     this.exponents.box.append(this.exponentsText);
+    this.quantities = new Quantities(() => exported("attractors"));
+    this.inMachine = element("p", { class: "note" });
+    this.comparison = new Comparison(store, plane, failed);
     this.verdict = element("div", { class: "verdict" });
     this.coexisting = element("div", { class: "coexisting" });
-    this.build(exported);
-    this.basin = new Basin(this.basinHost, store, parts, {
-      dragged: (at) => this.startAt(at, true), dropped: (at) => this.startAt(at, false),
-    });
-    this.legend = new Legend(this.basinLegend, this.basin.view, store);
-    this.basin.view.addEventListener("hover", ({ detail }) => this.hoverBasin(detail));
-    const spoken = debounced((px) => {
-      const { place, motions } = this.basin.tell(px);
-      say(`${place}: ${motions}`);
-    }, 400);
-    this.basin.view.addEventListener("crosshair", ({ detail }) => spoken(detail));
-    this.settled = new Latest((state, signal) => this.settle(state, signal), parts.failed);
-    this.heavy = new Latest((state, signal) => this.weigh(state, signal), parts.failed);
-    store.on(["point", "panel", "start", "impacts", "basin", ...SYSTEM], (_, changed) => this.refresh(changed));
-  }
-
-  build(exported) {
-    this.fields = { plane: element("div", { class: "fields" }), start: element("div", { class: "fields" }) };
-    this.basinHost = element("div", { class: "view basin", id: "basin" });
-    this.basinLegend = element("div", { class: "legend across" });
-    this.basinSaid = element("p", { class: "readout", text: "Drag the dot: the start." });
-    const exportOf = (view, what) => element("button", {
-      type: "button", class: "quiet", text: "Export", "aria-label": `Export ${what}`, onclick: () => exported(view),
-    });
+    this.fields = element("div", { class: "fields" });
     byId("point").append(
-      this.fields.plane,
-      this.verdict,
-      this.wave.box,
-      element("section", { class: "starts", "aria-labelledby": "starts-title" },
-        element("header", { class: "head" }, element("h3", { id: "starts-title", text: "Which start leads where" }), exportOf("basin", "the basin")),
-        this.basinHost, this.basinSaid, this.basinLegend, this.fields.start),
-      element("section", { "aria-labelledby": "coexisting-title" },
-        element("header", { class: "head" }, element("h3", { id: "coexisting-title", text: "Motions that coexist" }), exportOf("attractors", "the motions that coexist")),
-        this.coexisting),
-      this.phase.box, this.circle.box, this.sections.box, this.exponents.box,
+      element("div", { class: "head" }, this.fields, this.comparison.pin), this.inMachine, this.verdict, this.comparison.box, this.motion.box,
+      this.starts.box,
+      panel("attractors", "Motions that coexist", { exported: () => exported("attractors") }, this.coexisting),
+      this.portrait.box, this.quantities.box, this.circle.box, this.sections.box, this.exponents.box,
     );
-    this.startFields();
+    this.settled = new Latest((state, signal) => this.settle(state, signal), failed);
+    this.heavy = new Latest((state, signal) => this.weigh(state, signal), failed);
+    store.on(["point", "panel", "start", "impacts", "basin", ...SYSTEM, ...SHOWN], (_, changed) => this.refresh(changed));
   }
 
-  /** Fields for the start: position, velocity, phase. */
-  startFields() {
-    this.startInputs = [["ξ₀", "initial position"], ["u₀", "initial velocity"], ["φ", "phase of the force"]].map(([symbol, words], k) => {
-      const input = element("input", {
-        type: "number", step: "any", "aria-label": words,
-        onchange: (event) => {
-          const { x, v, phase } = startOf(this.store.state);
-          const next = [x, v, phase];
-          next[k] = Number(event.target.value);
-          if (event.target.value !== "" && Number.isFinite(next[k])) this.store.set({ start: next });
-        },
-      });
-      this.fields.start.append(element("label", {}, element("i", { class: "math", text: symbol }), input));
-      return input;
-    });
-    this.fields.start.append(element("button", { type: "button", class: "quiet", text: "at rest", onclick: () => this.store.set({ start: null }) }));
+  get basin() {
+    return this.starts.basin;
   }
 
   /** Fields for the values of both axes. */
@@ -98,47 +71,51 @@ export class Point {
     if (this.fieldsFor !== key) {
       this.fieldsFor = key;
       this.planeInputs = [state.x, state.y].map((name) => {
-        const input = element("input", {
-          type: "number", step: "any", "aria-label": PARAMETERS[name].words,
-          onchange: (event) => {
-            const value = Number(event.target.value);
-            if (event.target.value === "" || !legal(PARAMETERS[name], value)) return;
-            this.plane.choose(patchOf(name, value));
-          },
+        const field = numberField({
+          label: PARAMETERS[name].words, check: (value) => reasonAgainst(PARAMETERS[name], value),
+          set: (value) => this.plane.choose(patchOf(name, value)),
         });
-        return { name, input };
+        return { name, field };
       });
-      this.fields.plane.replaceChildren(...this.planeInputs.map(({ name, input }) =>
-        element("label", {}, element("i", { class: "math", text: PARAMETERS[name].symbol }), input)));
+      this.fields.replaceChildren(...this.planeInputs.map(({ name, field }) =>
+        element("label", {}, element("i", { class: "math", text: PARAMETERS[name].symbol }), field.input)),
+      ...this.planeInputs.map(({ field }) => field.said));
     }
-    for (const { name, input } of this.planeInputs) {
-      input.value = String(valueOf(state, name));
-    }
+    for (const { name, field } of this.planeInputs) field.show(valueOf(state, name));
   }
 
   /** @param {Set<string> | null} changed null for everything */
   refresh(changed) {
     const { state } = this.store;
     if (!state.point || state.panel !== "point") {
-      this.settled.stop();
-      this.heavy.stop();
+      for (const part of [this.settled, this.heavy, this.motion, this.portrait]) part.stop();
       return;
     }
     this.planeFields();
-    const { x, v, phase } = startOf(state);
-    [x, v, phase].forEach((value, k) => {
-      this.startInputs[k].value = String(value);
-    });
+    this.starts.refresh();
+    this.inMachine.textContent = machineText(state);
     const of = JSON.stringify([systemOf(state), startOf(state)]);
+    const drawing = JSON.stringify([of, state.wave, state.portrait, state.periods]);
+    if (drawing !== this.drawing) {
+      this.drawing = drawing;
+      this.motion.show(state);
+      this.portrait.show(state);
+    }
     if (of !== this.shown) {
       this.shown = of;
       this.settled.ask(structuredClone(state));
-      this.wave.show(simulatePlan(state), { alt: "Waveform from the chosen start, with the stop and the impacts" });
       this.heavy.ask(structuredClone(state), true);
     }
+    this.comparison.refresh();
     // the panel may have been hidden before, and have no size yet
     requestAnimationFrame(() => this.basin.refresh());
     if (changed?.has("start")) this.basin.view.draw();
+  }
+
+  /** Requests everything again, after the server was gone. */
+  retry() {
+    [this.shown, this.drawing] = [null, null];
+    this.refresh(null);
   }
 
   startAt([x, v], dragging) {
@@ -148,10 +125,11 @@ export class Point {
       return;
     }
     const state = { ...structuredClone(this.store.state), start };
-    this.startInputs[0].value = String(x);
-    this.startInputs[1].value = String(v);
+    this.starts.dragged(start);
     this.settled.ask(state);
-    this.wave.show(simulatePlan(state), { alt: "Waveform from the start that is dragged" });
+    this.motion.show(state);
+    // the drawing of the state is another one
+    this.drawing = null;
   }
 
   async settle(state, signal) {
@@ -159,11 +137,7 @@ export class Point {
       this.verdict.replaceChildren(element("p", { class: "soft", text: "No verdict." }));
       throw error;
     });
-    const colour = colourOf(motion.label);
-    this.verdict.replaceChildren(
-      element("p", { class: "label" }, colour ? swatch(colour) : null, motion.kind === "no_impact" ? "0" : labelText(motion.label)),
-      element("div", {}, element("p", { text: meaning(motion) }), element("p", { class: "soft", text: stability(motion) })),
-    );
+    this.verdict.replaceChildren(...verdict(motion));
     this.say(`${motion.label}: ${meaning(motion)} ${stability(motion)}`);
   }
 
@@ -171,13 +145,13 @@ export class Point {
   async weigh(state, signal) {
     const told = await answer(attractorsPlan(state), signal);
     this.tellCoexisting(told);
-    const { motion } = await answer(settlePlan(state), signal);
-    const plan = settlePlan(state);
+    const plan = inUnits(settlePlan(state), state);
+    const settled = await answer(plan, signal);
+    const { motion } = settled;
+    await this.quantities.show(settled);
     const chaotic = motion.kind === "chaotic";
-    const orbit = motion.kind === "periodic" || motion.kind === "no_impact" || chaotic;
     const show = (figure, wanted, kind, alt) => (wanted ? figure.show(plan, { kind, alt }, true) : figure.hide());
     const name = labelText(motion.label);
-    show(this.phase, orbit, "phase", `Phase portrait of the motion ${name}`);
     show(this.circle, motion.multipliers?.length, "multipliers", `Multipliers of the motion ${name} and the unit circle`);
     show(this.sections, motion.kind === "periodic", "sections", `Impacts and stroboscopic points of the motion ${name}`);
     if (!chaotic) this.exponents.hide();
@@ -185,13 +159,13 @@ export class Point {
   }
 
   async tellExponents(state, signal) {
-    const plan = lyapunovPlan(state);
+    const plan = inUnits(lyapunovPlan(state), state);
     this.exponents.show(plan, { kind: "sections", alt: "Impact map and stroboscopic section of the attractor" }, true);
     this.exponentsText.textContent = "measuring the exponents";
     const found = await answer(plan, signal);
     const told = (m) => `${short(m.value)} ± ${short(m.error)}`;
     const dimension = found.dimension?.flow;
-    this.exponentsText.textContent = `Lyapunov exponents per unit of time ${found.exponents.map(told).join(" and ")}`
+    this.exponentsText.textContent = `Lyapunov exponents per ${found.units === "si" ? "second" : "unit of time"} ${found.exponents.map(told).join(" and ")}`
       + (dimension ? `; dimension of the attractor ${told(dimension)}.` : ".");
   }
 
@@ -210,16 +184,5 @@ export class Point {
       element("ul", { class: "bars" }, ...rows),
       element("p", { class: "note", text: `Of ${starts} scattered starts.` }),
     );
-  }
-
-  hoverBasin(px) {
-    const { viewport: v } = this.basin.view;
-    const inside = px && px[0] >= 0 && px[1] >= 0 && px[0] <= v.width && px[1] <= v.height;
-    if (!inside || !this.basin.view.source) {
-      this.basinSaid.textContent = "Drag the dot: the start.";
-      return;
-    }
-    const { place, motions, colour } = this.basin.tell(px);
-    this.basinSaid.replaceChildren(element("span", { class: "place", text: place }), colour ? swatch(colour) : "", motions);
   }
 }

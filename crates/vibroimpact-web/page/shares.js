@@ -11,7 +11,7 @@ const UP = 90;
 export function shares(view) {
   const level = view.level();
   const counts = new Map();
-  if (!view.covered(level)) {
+  if (!view.supply.covered(level)) {
     sample(view, counts);
     return { counts, coarse: true };
   }
@@ -19,9 +19,9 @@ export function shares(view) {
   const cut = (low, high, begin, h, count) => [
     Math.max(0, Math.round((low - begin) / h)), Math.min(count, Math.round((high - begin) / h)),
   ];
-  const shape = view.viewport.shapeOf(level);
-  const sharp = view.knownOf(view.source.key).filter((tile) => tile.level === level && tile.shape === shape);
-  for (const tile of sharp) {
+  for (const [a, b] of view.places(level)) {
+    const { tile } = view.supply.best(level, a, b);
+    if (!tile.classes) continue;
     tile.count(counts, cut(left, right, tile.x0, tile.hx, tile.columns), cut(bottom, top, tile.y0, tile.hy, tile.rows));
   }
   return { counts, coarse: false };
@@ -41,7 +41,7 @@ function sample(view, counts) {
   const cut = (low, begin, end, h, count) => [
     Math.max(0, Math.ceil((begin - low) / h - 0.5)), Math.min(count, Math.ceil((end - low) / h - 0.5)),
   ];
-  for (const tile of view.known().reverse()) {
+  for (const tile of view.supply.known().reverse()) {
     const [c0, c1] = cut(left, tile.x0, tile.x0 + tile.columns * tile.hx, wide, ACROSS);
     const [r0, r1] = cut(bottom, tile.y0, tile.y0 + tile.rows * tile.hy, high, UP);
     for (let row = r0; row < r1; row++) {

@@ -14,7 +14,7 @@
  * @property {number} second_gap
  * @property {number} second_restitution
  * @property {number} starts per point
- * @property {number} impacts budget for each start
+ * @property {number} impacts largest budget for each start, at which the picture is complete
  * @property {boolean} point whether a point is chosen
  * @property {number[] | null} start position, velocity, phase; null for rest
  * @property {number[] | null} basin window of the basin
@@ -22,11 +22,18 @@
  * @property {string} panel `point`, `line` or `none`
  * @property {number[] | null} line x and y of its beginning, x and y of its end
  * @property {string} show of the line: `velocity` or `strobe`
+ * @property {"start" | "settled"} wave part of the motion in the waveform: from the start, or after the transient
+ * @property {"start" | "settled"} portrait part of the motion in the phase portrait
+ * @property {number} periods of the force shown in both
+ * @property {number[] | null} pin a second point, for comparison: its numbers as in `compare.js`
+ * @property {number[] | null} machine mass in kg, stiffness in N/m and force in N, for results in SI units
+ * @property {boolean} present whether the page is in presentation mode
+ * @property {string} subject name of the panel that the tour and the presentation show
  * @property {number} tour step, 0 for none
  * @property {string | null} theme `light` or `dark` if chosen
  */
 
-import { PARAMETERS, isFrequency, legal, ofSecondStop } from "./parameters.js";
+import { PARAMETERS, isFrequency, legal, ofSecondStop, reasonAgainst } from "./parameters.js";
 
 /** Maximum number of starts per point. */
 export const MOST_STARTS = 16;
@@ -34,21 +41,19 @@ export const MOST_STARTS = 16;
 /** Budgets of impacts for each start; the last one is the full budget of a verdict. */
 export const BUDGETS = [200, 1000, 20000];
 
-/** @returns {number | undefined} the next larger budget */
-export const longer = (impacts) => BUDGETS.find((more) => more > impacts);
-
 /** @returns {number[]} the smaller budgets */
 export const shorter = (impacts) => BUDGETS.filter((less) => less < impacts);
 
-export const LAYERS = ["regions", "amplitude", "paper", "stripes"];
+export const LAYERS = ["regions", "amplitude", "paper", "stripes", "boundaries"];
 
 /** @type {State} */
 export const DEFAULTS = {
   x: "inverse_beta", y: "gap", view: null,
   inverse_beta: 1.3, beta: null, gap: 0.75, restitution: 0.5, damping: 0,
   second: false, second_gap: 2, second_restitution: 0.5,
-  starts: 1, impacts: 200, point: false, start: null, basin: null,
-  layers: ["paper", "stripes"], panel: "point", line: null, show: "velocity", tour: 0, theme: null,
+  starts: 1, impacts: 20000, point: false, start: null, basin: null,
+  layers: ["paper", "stripes"], panel: "point", line: null, show: "velocity",
+  wave: "start", portrait: "settled", periods: 10, pin: null, machine: null, present: false, subject: "motion", tour: 0, theme: null,
 };
 
 const numbers = (text, count) => {
@@ -84,17 +89,39 @@ const READ = {
   panel: oneOf("point", "line", "none"),
   line: (text) => segment(numbers(text, 4)),
   show: oneOf("velocity", "strobe"),
-  tour: count(0, 20),
+  wave: oneOf("start", "settled"),
+  portrait: oneOf("start", "settled"),
+  periods: count(1, 1000),
+  pin: (text) => numbers(text, 11),
+  machine: (text) => numbers(text, 3)?.every((value) => value > 0) ? numbers(text, 3) : undefined,
+  present: flag,
+  subject: (text) => (/^[a-z]+$/.test(text) ? text : undefined),
+  tour: count(0, 40),
   theme: oneOf("light", "dark"),
 };
 
-/** @param {string} hash of an address @returns {State} its state, with defaults for missing parts */
-export function read(hash) {
+/** The sentence about a part of an address that is not possible. */
+function refusal(name, text) {
+  const parameter = PARAMETERS[name];
+  const value = Number(text);
+  const why = parameter && text !== "" && Number.isFinite(value) ? reasonAgainst(parameter, value) : "";
+  if (why) return why;
+  return name in READ ? `${name} = ${text} has no meaning.` : `There is no ${name}.`;
+}
+
+/**
+ * @param {string} hash of an address
+ * @param {string[]} [refused] receives a sentence for each part that is not possible
+ * @returns {State} its state, with defaults for missing parts and those that are not possible
+ */
+export function read(hash, refused = []) {
   const state = structuredClone(DEFAULTS);
   for (const [name, text] of new URLSearchParams(hash.replace(/^#/, ""))) {
     const value = READ[name]?.(text);
-    if (value !== undefined) state[name] = value;
+    if (value !== undefined && value !== null) state[name] = value;
+    else refused.push(refusal(name, text));
   }
+  if (refused.length) refused.unshift("The link has parts that are not possible. Their usual values are shown instead.");
   if (state.beta !== null) state.inverse_beta = 1 / state.beta;
   if (state.x === state.y || (isFrequency(state.x) && isFrequency(state.y))) {
     Object.assign(state, { x: DEFAULTS.x, y: DEFAULTS.y, view: null });
@@ -122,9 +149,23 @@ export class Store {
     this.location = location;
     this.history = history;
     this.listeners = [];
+    /** Sentences about parts of the link that are not possible. @type {string[]} */
+    this.refused = [];
     /** @type {State} */
-    this.state = read(location.hash);
-    addEventListener("popstate", () => this.replaceBy(read(location.hash)));
+    this.state = read(location.hash, this.refused);
+    /** Number of steps that can be undone, and the number after all that can be redone. */
+    this.depth = history.state?.depth ?? 0;
+    this.deepest = this.depth;
+    this.moved = () => {};
+    this.complain = () => {};
+    addEventListener("popstate", ({ state }) => {
+      this.depth = state?.depth ?? 0;
+      this.deepest = Math.max(this.deepest, this.depth);
+      const refused = [];
+      this.replaceBy(read(location.hash, refused));
+      this.moved();
+      if (refused.length) this.complain(refused);
+    });
   }
 
   /** @param {string[]} names @param {(state: State, changed: Set<string>) => void} listener called when one of them changes */
@@ -149,8 +190,14 @@ export class Store {
     const hash = write(this.state);
     if (hash === this.location.hash) return;
     const address = this.location.pathname + this.location.search + hash;
-    if (how === "push") this.history.pushState(null, "", address);
-    else this.history.replaceState(null, "", address);
+    if (how === "push") {
+      this.depth++;
+      this.deepest = this.depth;
+    }
+    const step = { depth: this.depth };
+    if (how === "push") this.history.pushState(step, "", address);
+    else this.history.replaceState(step, "", address);
+    this.moved();
   }
 
   replaceBy(state) {

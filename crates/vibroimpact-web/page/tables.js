@@ -13,3 +13,12 @@ export const GROUP_RULES = [
   [[3, 3], [2, 2], false, "3/2"],
   [[2, Infinity], [2, Infinity], false, "m/n"],
 ];
+
+/** Further colours of groups: m/n has number (m + 2n) mod 5, where 0 is the colour of the group and infinitely many impacts count as 0. */
+export const SHADES = {
+  "m/1": ["#bbacff", "#738dfb", "#5e4674", "#1c5ac0"],
+  "1/n": ["#bf5c40", "#ab544e", "#b5531d", "#650b00"],
+  "k/k": ["#bbca86", "#8ea035", "#bfcd55", "#ada95c"],
+  "m/n": ["#54f1d8", "#789c5d", "#4df7b5", "#59b281"],
+  "inf/n": ["#de75d3", "#9e668e", "#62394d", "#8a576b"],
+};

@@ -1,4 +1,4 @@
-/** Tiles of a plane, the cache of tiles, and the queue of requests. */
+/** Tiles of a plane, and the cache of tiles. */
 
 /** Points of a tile along each axis. */
 export const SIDE = 128;
@@ -6,33 +6,69 @@ export const SIDE = 128;
 /** Period of the stripes of coexisting motions, in pixels. */
 export const STRIPE = 12;
 
+/** The remainder of a position, so that patterns continue from tile to tile: a multiple of the periods of all patterns. */
+const WRAP = 84;
+
+/** @param {number} place a column or row @returns {number} where it is in the patterns */
+export const wrapped = (place) => ((place % WRAP) + WRAP) % WRAP;
+
+/** Distance of the lines that hatch undecided points, in pixels, and their colour. */
+const HATCH = 7;
+const HATCH_LINE = "#d02020";
+/** Pixels of a point of the coarse picture along each axis, about as many as on the screen. */
+const COARSE_FOLD = 8;
+
 /** @param {string} hex `#rrggbb` @returns {number} the value of a canvas pixel */
 const pixelOf = (hex) => {
   const rgb = parseInt(hex.slice(1), 16);
   return (0xff000000 | ((rgb & 0xff) << 16) | (rgb & 0xff00) | (rgb >> 16)) >>> 0;
 };
 
-/** The colour of a motion while another one is pointed at: three quarters of the way to grey. */
+/** A colour on the way to grey, for motions other than those that are isolated. */
 const faded = (pixel) => {
-  const mix = (shift) => ((((pixel >>> shift) & 0xff) + 3 * 0xc4) >> 2) << shift;
+  const mix = (shift) => ((((pixel >>> shift) & 0xff) + 5 * 0xd8) / 6) << shift;
   return (0xff000000 | mix(0) | mix(8) | mix(16)) >>> 0;
 };
+
+/** The colour of a boundary over a motion: dark, or light over a dark colour. */
+const edged = (pixel) => {
+  const at = (shift) => (pixel >>> shift) & 0xff;
+  const towards = 0.3 * at(0) + 0.6 * at(8) + 0.1 * at(16) > 90 ? 0 : 255;
+  const mix = (shift) => Math.round(0.3 * at(shift) + 0.7 * towards) << shift;
+  return (0xff000000 | mix(0) | mix(8) | mix(16)) >>> 0;
+};
+
+/**
+ * How tiles are painted.
+ * @typedef {object} Look
+ * @property {Set<number> | null} only the motions that keep their colours; null for all
+ * @property {boolean} stripes whether coexisting motions are drawn as stripes
+ * @property {boolean} boundaries whether boundaries between motions are drawn
+ * @property {number} density device pixels a pixel
+ */
 
 /**
  * Points on a grid with their motions.
  *
  * `x0`, `y0` are the lower left corner of the first cell, `hx`, `hy` the size of a cell. `classes` has `per` numbers of
  * motions for each point (-1 for none), in rows from the bottom; `shares` has as many shares, or is null. `look` returns
- * the name and colour of a motion; `impacts` is the budget of the computation.
+ * the name and colour of a motion; `impacts` is the budget of the computation. `phase` and `slant` are the place of the
+ * first cell in patterns along both diagonals.
  */
 export class Tile {
-  constructor({ source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase }) {
-    Object.assign(this, { source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase });
-    Object.assign(this, { classes: null, shares: null, per: 1, canvas: null, painted: "" });
+  constructor({ source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase, slant }) {
+    Object.assign(this, { source, look, impacts, key, level, shape, x0, y0, hx, hy, columns, rows, phase, slant });
+    Object.assign(this, { classes: null, shares: null, per: 1, pictures: new Map(), undecided: new Set() });
   }
 
   fill({ classes, shares, per }) {
     Object.assign(this, { classes, shares, per });
+    for (const id of new Set(classes)) if (id !== -1 && this.look(id).name === "undecided") this.undecided.add(id);
+  }
+
+  /** Whether a larger budget would change nothing: every motion is decided. */
+  get decided() {
+    return this.undecided.size === 0;
   }
 
   contains(x, y) {
@@ -64,35 +100,69 @@ export class Tile {
   }
 
   /**
-   * Paints the tile, unless it is already painted in this way.
-   * @param {number | null} highlight the only motion that keeps its colour; null for all
-   * @param {boolean} stripes whether coexisting motions are drawn as stripes
+   * The tile as a picture. It is painted only when the look has changed.
+   * @param {Look} look
+   * @param {boolean} [open] whether undecided points are transparent, so that what is below is seen
+   * @returns {HTMLCanvasElement}
    */
-  paint(highlight, stripes) {
-    const how = `${highlight}|${stripes}`;
-    if (this.painted === how) return;
-    this.painted = how;
-    this.canvas ??= Object.assign(document.createElement("canvas"), { width: this.columns, height: this.rows });
-    const context = this.canvas.getContext("2d");
-    const image = context.createImageData(this.columns, this.rows);
+  picture(look, open = false) {
+    const how = [look.only ? [...look.only].join() : "", look.stripes, look.boundaries, look.density].join("|");
+    let picture = this.pictures.get(open);
+    if (picture?.how !== how) {
+      const { columns, rows, fold } = this;
+      const canvas = picture?.canvas ?? Object.assign(document.createElement("canvas"), { width: fold * columns, height: fold * rows });
+      picture = { how, canvas };
+      this.pictures.set(open, picture);
+      this.paint(canvas.getContext("2d"), look, open);
+    }
+    return picture.canvas;
+  }
+
+  /** Pixels of the picture for each point along each axis: the hatch needs several in the coarse picture. */
+  get fold() {
+    return this.level === -Infinity ? COARSE_FOLD : 1;
+  }
+
+  paint(context, { only, stripes, boundaries, density }, open) {
+    const { fold } = this;
+    const wide = fold * this.columns;
+    const high = fold * this.rows;
+    const image = context.createImageData(wide, high);
     const pixels = new Uint32Array(image.data.buffer);
     const palette = new Map();
     const paintOf = (id) => {
       if (!palette.has(id)) {
         const pixel = pixelOf(this.look(id).colour);
-        palette.set(id, highlight === null || id === highlight ? pixel : faded(pixel));
+        palette.set(id, only === null || only.has(id) ? pixel : faded(pixel));
       }
       return palette.get(id);
     };
-    for (let row = 0; row < this.rows; row++) {
-      const line = (this.rows - 1 - row) * this.columns;
-      for (let column = 0; column < this.columns; column++) {
+    const thick = density > 1.4 && fold === 1 ? 2 : 1;
+    const [lines, period] = [pixelOf(HATCH_LINE), HATCH * thick];
+    const hatched = (column, row) =>
+      (column + row + this.phase) % period < thick || (column - row + this.slant + period * high) % period < thick;
+    for (let y = 0; y < high; y++) {
+      const [row, line] = [Math.floor(y / fold), (high - 1 - y) * wide];
+      for (let x = 0; x < wide; x++) {
+        const column = Math.floor(x / fold);
         const at = (row * this.columns + column) * this.per;
-        const shown = stripes && this.per > 1 ? this.striped(at, column + row) : at;
-        pixels[line + column] = this.classes[shown] === -1 ? 0 : paintOf(this.classes[shown]);
+        const id = this.classes[stripes && this.per > 1 ? this.striped(at, column + row) : at];
+        if (id === -1) continue;
+        const undecided = this.undecided.has(id);
+        let pixel = paintOf(id);
+        if (undecided && open) pixel = 0;
+        else if (undecided && (only === null || only.has(id)) && hatched(x, y)) pixel = lines;
+        if (boundaries && this.borders(at, column, row)) pixel = edged(paintOf(id));
+        pixels[line + x] = pixel;
       }
     }
     context.putImageData(image, 0, 0);
+  }
+
+  /** Whether the neighbour to the right or above has another motion. */
+  borders(at, column, row) {
+    const { classes, columns, rows, per } = this;
+    return (column + 1 < columns && classes[at + per] !== classes[at]) || (row + 1 < rows && classes[at + columns * per] !== classes[at]);
   }
 
   /** The motion of a point that is drawn at a position in the stripes, according to the shares. */
@@ -128,6 +198,10 @@ export class Cache {
     return this.tiles.has(key);
   }
 
+  delete(key) {
+    this.tiles.delete(key);
+  }
+
   set(key, tile) {
     this.tiles.set(key, tile);
     for (const oldest of this.tiles.keys()) {
@@ -136,54 +210,8 @@ export class Cache {
     }
   }
 
-  /** @returns {Tile[]} the tiles of a source */
-  of(source) {
-    return [...this.tiles.values()].filter((tile) => tile.source === source);
-  }
-}
-
-/**
- * A queue of requests in the order of their rank, with a few running at a time. Each owner repeatedly declares the
- * requests it needs; requests that it no longer needs are cancelled.
- */
-export class Queue {
-  constructor(most = 3) {
-    this.most = most;
-    this.waiting = new Map();
-    this.running = new Map();
-    this.paused = false;
-  }
-
-  /**
-   * @param {object} owner
-   * @param {{key: string, rank: number, run: (signal: AbortSignal) => Promise<void>}[]} jobs all requests that it needs
-   */
-  want(owner, jobs) {
-    const keys = new Set(jobs.map((job) => job.key));
-    for (const [key, { owner: of, control }] of this.running) {
-      if (of === owner && !keys.has(key)) control.abort();
-    }
-    this.waiting.set(owner, jobs.filter((job) => !this.running.has(job.key)));
-    this.pump();
-  }
-
-  pause(paused) {
-    this.paused = paused;
-    this.pump();
-  }
-
-  pump() {
-    while (!this.paused && this.running.size < this.most) {
-      const all = [...this.waiting.entries()].flatMap(([owner, jobs]) => jobs.map((job) => ({ owner, job })));
-      if (!all.length) return;
-      const { owner, job } = all.reduce((best, other) => (other.job.rank < best.job.rank ? other : best));
-      this.waiting.set(owner, this.waiting.get(owner).filter((other) => other !== job));
-      const control = new AbortController();
-      this.running.set(job.key, { owner, control });
-      job.run(control.signal).finally(() => {
-        this.running.delete(job.key);
-        this.pump();
-      });
-    }
+  /** @returns {Iterable<Tile>} all tiles */
+  all() {
+    return this.tiles.values();
   }
 }

@@ -16,11 +16,11 @@ export const labelText = (label) => label.replace(/^inf\//, "∞/");
 /**
  * A label in a legend.
  * @param {string} label
- * @param {number} impacts budget
+ * @param {number | null} impacts the budget with which it was computed; null if a larger one follows
  */
 export function legendText(label, impacts) {
   if (label === "0") return "no impact";
-  if (label === "undecided") return `not settled in ${grouped(impacts)} impacts`;
+  if (label === "undecided") return impacts === null ? "undecided so far" : `undecided in ${grouped(impacts)} impacts`;
   if (label.startsWith("inf/")) return `${labelText(label)} chatter`;
   return label;
 }
@@ -68,9 +68,16 @@ export function stability(motion) {
   return `${word}; multipliers ${told}.`;
 }
 
-/** The motions of a point as text, the most frequent first. */
-export function motionsText(found) {
-  const name = (motion) => legendText(motion.name, motion.impacts);
+/**
+ * The motions of a point as text, the most frequent first.
+ * @param {{name: string, share: number, impacts: number}[]} found
+ * @param {number} most the largest budget: a point that is undecided with a smaller one is computed again
+ */
+export function motionsText(found, most) {
+  const name = ({ name: label, impacts }) => {
+    const text = legendText(label, impacts);
+    return label === "undecided" && impacts < most ? `${text} so far` : text;
+  };
   if (found.length === 1) return name(found[0]);
   return found.map((motion) => `${name(motion)} ${percent(motion.share)}`).join(", ");
 }

@@ -158,3 +158,62 @@ async fn f10_a_view_has_its_own_table_and_command() {
     assert!(status == 200 && svg.contains("at phase 0") && !svg.contains("arrival velocity"), "{status}");
     assert!(svg.contains(">stable<"));
 }
+
+/// A motion for the page: from the start, and after its transient, in the requested number of periods.
+#[tokio::test]
+async fn a_motion_as_points_and_events() {
+    for (task, begin) in [(SIMULATE, false), (SETTLE, true)] {
+        let (status, kind, body) = ask("/api/motion?periods=3", task).await;
+        assert_eq!((status.as_u16(), kind.as_str()), (200, "application/json"));
+        let track: Value = serde_json::from_slice(&body).unwrap();
+        let (time, period) = (track["time"].as_array().unwrap(), track["period"].as_f64().unwrap());
+        assert_eq!(time.last().unwrap().as_f64().unwrap(), 3.0 * period);
+        assert_eq!(track["begin"].as_f64().unwrap() > 0.0, begin);
+        let highest = track["position"].as_array().unwrap().iter().filter_map(Value::as_f64).fold(f64::MIN, f64::max);
+        assert!((highest - 0.75).abs() < 1e-14 && track["stops"] == serde_json::json!([0.75]));
+        assert!(track["events"].as_array().unwrap().iter().any(|event| event["kind"] == "impact"));
+    }
+    for (path, task) in [("/api/motion?periods=0", SETTLE), ("/api/motion?periods=1e9", SETTLE), ("/api/motion", BASIN)]
+    {
+        assert_eq!(ask(path, task).await.0, 400, "{path}");
+    }
+}
+
+async fn get(path: &str) -> (StatusCode, Value) {
+    let request = Request::get(path).header(header::HOST, format!("127.0.0.1:{PORT}")).body(Body::empty());
+    let response = app(Explorer::new(PORT, 0)).oneshot(request.unwrap()).await.unwrap();
+    let status = response.status();
+    (status, serde_json::from_slice(&to_bytes(response.into_body(), usize::MAX).await.unwrap()).unwrap())
+}
+
+/// The units of the machine of docs/machines-in-si.md. With them in the plan, a motion is in metres and seconds.
+#[tokio::test]
+async fn a_machine_has_units() {
+    let (status, told) = get("/api/units?mass_kg=0.8&stiffness_n_per_m=12000&force_n=30").await;
+    assert_eq!(status, 200);
+    assert_eq!(told["units"]["length_m"], 0.0025);
+    let hertz = told["natural_hz"].as_f64().unwrap();
+    assert!((hertz - (12000.0_f64 / 0.8).sqrt() / core::f64::consts::TAU).abs() < 1e-12, "{hertz}");
+    let plain: Value = serde_json::from_slice(&ask("/api/motion?periods=3", SIMULATE).await.2).unwrap();
+    let task = format!(r#"{SIMULATE}}},"units":{}"#, told["units"]);
+    let task = task.strip_suffix('}').unwrap().to_owned();
+    let (status, _, body) = ask("/api/motion?periods=3", &task).await;
+    assert_eq!(status, 200, "{}", String::from_utf8_lossy(&body));
+    let track: Value = serde_json::from_slice(&body).unwrap();
+    assert_eq!((&track["units"], &plain["units"]), (&"si".into(), &"nondimensional".into()));
+    for (part, unit) in [
+        ("position", &told["units"]["length_m"]),
+        ("velocity", &told["velocity_m_per_s"]),
+        ("time", &told["units"]["time_s"]),
+    ] {
+        for k in [7, 100, 300] {
+            let (si, plain) = (track[part][k].as_f64().unwrap(), plain[part][k].as_f64().unwrap());
+            assert!((si - plain * unit.as_f64().unwrap()).abs() < 1e-15 + 1e-12 * si.abs(), "{part} {k}");
+        }
+    }
+    let (status, told) = get("/api/units?mass_kg=0&stiffness_n_per_m=12000&force_n=30").await;
+    assert!(status == 400 && told["error"].as_str().unwrap().contains("mass m = 0"), "{told}");
+    let (_, about) = get("/api/about").await;
+    let power = about["quantities"].as_array().unwrap().iter().find(|one| one["name"] == "impact_power").unwrap();
+    assert_eq!(power["unit"], "W");
+}

@@ -5,6 +5,7 @@ use crate::packed::Named;
 use crate::workshop::processors;
 use axum::Json;
 use serde::Serialize;
+use vibroimpact::quantities::Quantity;
 use vibroimpact::scenario::{PAPER, Scenario};
 use vibroimpact_plot::GROUPS;
 
@@ -17,6 +18,15 @@ pub(super) struct About {
     points: Vec<Point>,
     /// Every group of labels in the order of a legend.
     groups: Vec<Named>,
+    /// Every quantity of a motion, with its SI unit.
+    quantities: Vec<QuantityName>,
+}
+
+#[derive(Serialize)]
+struct QuantityName {
+    name: &'static str,
+    description: &'static str,
+    unit: &'static str,
 }
 
 #[derive(Serialize)]
@@ -43,11 +53,17 @@ pub(super) async fn about() -> Json<About> {
         restitution: s.oscillator().restitution(),
         motions: s.motions,
     };
+    let quantity = |quantity: Quantity| QuantityName {
+        name: quantity.name(),
+        description: quantity.description(),
+        unit: quantity.kind().unit(),
+    };
     Json(About {
         version: env!("CARGO_PKG_VERSION"),
         threads: processors(),
         limits: Limits { points: MOST_POINTS, starts: MOST_STARTS, impacts: MOST_IMPACTS },
         points: PAPER.iter().map(point).collect(),
         groups: GROUPS.into_iter().map(Named::new).collect(),
+        quantities: Quantity::ALL.into_iter().map(quantity).collect(),
     })
 }

@@ -1,6 +1,7 @@
 //! The output of the command for a plan (JSON, table and figure), and the command line itself.
 
-use super::asked::{PlanRequest, Query, bytes, wants_events};
+use super::asked::{PlanRequest, Query, bytes, listed, wants_events};
+use super::overlay::Overlay;
 use crate::Explorer;
 use crate::events::{Done, stream};
 use crate::refusal::Refusal;
@@ -81,6 +82,12 @@ pub(super) struct Wanted {
     height: Option<f64>,
     /// The view of a settled motion; by default that of `--plot`.
     kind: Option<View>,
+    /// The layers over a map, separated by commas.
+    layers: Option<String>,
+    /// The chosen point of a map: its abscissa and ordinate, separated by a comma.
+    chosen: Option<String>,
+    /// A line in a map: the coordinates of its ends, separated by commas.
+    line: Option<String>,
 }
 
 #[derive(Clone, Copy, Default, Deserialize, PartialEq, Eq)]
@@ -98,7 +105,19 @@ const SHARPNESS: f64 = 2.0;
 
 impl Wanted {
     fn shown(&self) -> Shown {
-        Shown { view: self.kind, ..Shown::default() }
+        // a figure without a list of layers is that of the command
+        let Some(layers) = &self.layers else { return Shown { view: self.kind, ..Shown::default() } };
+        let has = |name: &str| listed(layers).iter().any(|layer| layer == name);
+        Shown { view: self.kind, stripes: has("stripes"), boundaries: has("boundaries"), ..Shown::default() }
+    }
+
+    fn overlay(&self) -> Result<Overlay, Refusal> {
+        let layers = self.layers.as_deref().map(listed).unwrap_or_default();
+        Ok(Overlay {
+            layers,
+            chosen: numbers("chosen", self.chosen.as_deref())?,
+            line: numbers("line", self.line.as_deref())?,
+        })
     }
 
     pub(super) fn check(&self) -> Result<(), Refusal> {
@@ -126,7 +145,16 @@ impl Wanted {
     }
 }
 
-/// The figure that `--plot` draws, or another view.
+/// A number of a query is this many numbers, separated by commas.
+fn numbers<const N: usize>(name: &str, text: Option<&str>) -> Result<Option<[f64; N]>, Refusal> {
+    let Some(text) = text else { return Ok(None) };
+    let numbers: Vec<f64> =
+        text.split(',').filter_map(|number| number.trim().parse().ok()).filter(|n: &f64| n.is_finite()).collect();
+    let found = <[f64; N]>::try_from(numbers);
+    found.map(Some).map_err(|_| Refusal::bad(format!("{name} = {text} is not {N} numbers separated by commas")))
+}
+
+/// The figure that `--plot` draws, or another view; that of a map with what lies over it on the page.
 pub(super) async fn figure(
     State(explorer): State<Explorer>,
     Query(wanted): Query<Wanted>,
@@ -136,7 +164,8 @@ pub(super) async fn figure(
     let plan = asked.plan;
     let work = move |control: &Control<'_>| {
         let answer = ask(&plan, Units::default(), control)?;
-        let figure = answer.figure(&wanted.shown(), control)?.ok_or_else(|| nothing("figure"))?;
+        let mut figure = answer.figure(&wanted.shown(), control)?.ok_or_else(|| nothing("figure"))?;
+        wanted.overlay()?.add(&mut figure, &plan, control)?;
         wanted.draw(figure)
     };
     let (kind, body) = explorer.workshop.run(Bench::Answers, 0, |_| {}, work).await?;

@@ -13,7 +13,7 @@ use core::sync::atomic::Ordering;
 use serde::Deserialize;
 use serde_json::json;
 use vibroimpact_report::Units;
-use vibroimpact_report::scene::{bifurcation, labels};
+use vibroimpact_report::scene::{BifurcationDiagram, BifurcationEvent, bifurcation, labels};
 use vibroimpact_study::Task;
 
 /// Number of values along the line at which motions are searched.
@@ -52,17 +52,21 @@ pub(super) async fn diagram(
                     Some(list) => listed(&list),
                     None => labels(&asked, &diagram, LOOKS, control)?.into_iter().take(MOST_LABELS).collect(),
                 };
-                wanted.draw(bifurcation(&asked, &diagram, &named, control)?)
+                let BifurcationDiagram { figure, events } = bifurcation(&asked, &diagram, &named, control)?;
+                Ok((wanted.draw(figure)?, events))
             })
             .await
     };
     if wants_events(&headers) {
         let value = async {
-            let (_, body) = work.await?;
-            Ok(json!({ "svg": String::from_utf8_lossy(&body) }))
+            let ((_, body), events) = work.await?;
+            let event =
+                |event: BifurcationEvent| json!({ "label": event.label, "kind": event.kind, "value": event.value });
+            let events: Vec<_> = events.into_iter().map(event).collect();
+            Ok(json!({ "svg": String::from_utf8_lossy(&body), "events": events }))
         };
         return Ok(stream(points, done, value));
     }
-    let (kind, body) = work.await?;
+    let ((kind, body), _) = work.await?;
     Ok(bytes(kind, body))
 }

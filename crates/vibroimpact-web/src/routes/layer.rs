@@ -42,18 +42,21 @@ pub(super) struct Wanted {
 struct Edge {
     #[serde(flatten)]
     motion: Named,
-    rings: Vec<Vec<(f64, f64)>>,
+    rings: Rings,
 }
 
+/// The outlines of a region.
+pub(super) type Rings = Vec<Vec<(f64, f64)>>;
+
 /// The two axes of a map.
-struct Plane {
+pub(super) struct Plane {
     system: SystemPlan,
     across: Stretch,
     up: Stretch,
 }
 
 impl Plane {
-    fn new(system: SystemPlan, map: &MapPlan) -> Result<Self, Refusal> {
+    pub(super) fn new(system: SystemPlan, map: &MapPlan) -> Result<Self, Refusal> {
         let stretch = |axis: &Axis| match (axis.vary, axis.over.extent()) {
             (Coordinate::Parameter(parameter), (from, to)) => Some(Stretch { parameter, from, to }),
             _ => None,
@@ -95,20 +98,29 @@ pub(super) async fn layer(
     Ok(Json(work.await?).into_response())
 }
 
-/// The polygons in which each motion is stable.
-fn edges(plane: &Plane, labels: &[String], control: &Control<'_>) -> Result<Value, Refusal> {
+/// The label and the outlines of each region of stability of some motions.
+fn outlines(plane: &Plane, labels: &[String], control: &Control<'_>) -> Result<Vec<(String, Rings)>, Refusal> {
     let found = stability_regions(&plane.system, labels, (&plane.across, &plane.up), GRID, control)?;
     let ring = |polygon: &Polygon| polygon.vertices.iter().map(|vertex| vertex.values).collect();
-    let edge = |(label, region): (&String, Region)| Edge {
-        motion: Named::new(label),
-        rings: region.polygons.iter().map(ring).collect(),
-    };
-    let edges = labels.iter().zip(found).map(edge).filter(|edge| !edge.rings.is_empty());
-    Ok(json!({ "regions": edges.collect::<Vec<_>>() }))
+    let rings = |region: Region| region.polygons.iter().map(ring).collect::<Vec<_>>();
+    let named = labels.iter().cloned().zip(found.into_iter().map(rings));
+    Ok(named.filter(|(_, rings)| !rings.is_empty()).collect())
+}
+
+/// The outlines of the regions that the page draws by default.
+pub(super) fn regions(plane: &Plane, control: &Control<'_>) -> Result<Vec<(String, Rings)>, Refusal> {
+    outlines(plane, &LABELS.map(str::to_owned), control)
+}
+
+/// The polygons in which each motion is stable.
+fn edges(plane: &Plane, labels: &[String], control: &Control<'_>) -> Result<Value, Refusal> {
+    let edge = |(label, rings): (String, Rings)| Edge { motion: Named::new(&label), rings };
+    let edges: Vec<Edge> = outlines(plane, labels, control)?.into_iter().map(edge).collect();
+    Ok(json!({ "regions": edges }))
 }
 
 /// The lines where the gap equals the amplitude of the motion without impacts, in a plane with a gap axis.
-fn amplitude(plane: &Plane) -> Vec<Vec<(f64, f64)>> {
+pub(super) fn amplitude(plane: &Plane) -> Vec<Vec<(f64, f64)>> {
     let (gap, other, upwards) = match (plane.across.parameter, plane.up.parameter) {
         (_, Parameter::Gap) => (&plane.up, &plane.across, true),
         (Parameter::Gap, _) => (&plane.across, &plane.up, false),

@@ -5,8 +5,11 @@ mod answer;
 mod asked;
 mod bifurcation;
 mod layer;
+mod motion;
+mod overlay;
 mod page;
 mod tile;
+mod units;
 
 use crate::Explorer;
 use crate::refusal::Refusal;
@@ -20,8 +23,10 @@ pub(crate) fn all() -> Router<Explorer> {
         .route("/", get(page::index))
         .route("/assets/{*path}", get(page::asset))
         .route("/api/about", get(about::about))
+        .route("/api/units", get(units::units))
         .route("/api/tile", post(tile::tile))
         .route("/api/answer", post(answer::answer))
+        .route("/api/motion", post(motion::motion))
         .route("/api/table", post(answer::table))
         .route("/api/command", post(answer::command))
         .route("/api/figure", post(answer::figure))

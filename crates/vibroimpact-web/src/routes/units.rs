@@ -1,0 +1,48 @@
+//! The physical units of a machine: the units of a plan, and factors for parameters, by the conversion of the core.
+
+use super::asked::Query;
+use crate::refusal::Refusal;
+use axum::Json;
+use serde::{Deserialize, Serialize};
+use vibroimpact::{Damping, Frequency, PhysicalOscillator};
+use vibroimpact_study::{UnitsPlan, natural_hertz};
+
+/// The numbers that fix the units.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MachineNumbers {
+    mass_kg: f64,
+    stiffness_n_per_m: f64,
+    force_n: f64,
+}
+
+#[derive(Serialize)]
+pub(super) struct MachineUnits {
+    /// The units as a part of a plan: results of a plan with them are in SI units.
+    units: UnitsPlan,
+    /// One unit of velocity in m/s.
+    velocity_m_per_s: f64,
+    /// The natural frequency in Hz, one unit of the frequency ratio.
+    natural_hz: f64,
+}
+
+pub(super) async fn units(Query(machine): Query<MachineNumbers>) -> Result<Json<MachineUnits>, Refusal> {
+    let MachineNumbers { mass_kg, stiffness_n_per_m, force_n } = machine;
+    // the units do not depend on frequency, damping and stop
+    let machine = PhysicalOscillator {
+        mass_kg,
+        damping: Damping::Ratio(0.0),
+        stiffness_n_per_m,
+        force_n,
+        frequency: Frequency::Hz(1.0),
+        gap_m: 0.0,
+        restitution: 1.0,
+        second_stop: None,
+    };
+    let (_, scales) = machine.nondimensional().map_err(|error| Refusal::bad(error.to_string()))?;
+    Ok(Json(MachineUnits {
+        units: UnitsPlan::new(&scales, true, None),
+        velocity_m_per_s: scales.velocity_m_per_s(),
+        natural_hz: natural_hertz(&scales),
+    }))
+}
